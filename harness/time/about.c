@@ -1,5 +1,5 @@
-/* States during a motion about which other analyses compute small motions: each state and its
- * matrices. */
+/* States during a motion, and the matrices of small motions about these states, for other
+ * analyses. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -60,7 +60,7 @@ void abouts_free(abouts *a)
     instant_free(&a->room);
 }
 
-/* Returns the next such time; INFINITY: none. */
+/* Returns the time of the next state in the outcome [s]; INFINITY: none. */
 static double next_of(const abouts *a)
 {
     return a->next < a->out->abouts ? a->out->about[a->next].time : INFINITY;

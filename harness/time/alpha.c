@@ -17,8 +17,8 @@ typedef struct alpha {
     double *a0, *v0, *inc, *weight;  /* [free + driven] */
 } alpha;
 
-/* Returns the acceleration that the scheme averages, computed from the true acceleration at the
- * end of the step. */
+/* Returns a1 of the scheme (time_impl.h), for a at the start of the step and for the true
+ * accelerations at the start (`before`) and at the end (`now`). */
 static double averaged(const alpha *s, double a, double before, double now)
 {
     return ((1 - s->force) * now + s->force * before - s->mass * a) / (1 - s->mass);
@@ -53,8 +53,8 @@ static status error_of(alpha *s, const instant *from, const instant *to, double 
     return STATUS_OK;
 }
 
-/* Sets the relation between strain rates and strains of damped members, which is the same as for
- * positions. Computes the part of the rates that does not depend on the increment. */
+/* Sets the relation between strain rates and strains of damped members, which has the same form as
+ * for positions. Computes the part of the strain rates that does not depend on the increment. */
 static void relate_strains(alpha *s, const instant *from, double h, instant *to)
 {
     const double g = s->gamma / (s->beta * h), kept = 1 - s->gamma / s->beta,
@@ -64,7 +64,7 @@ static void relate_strains(alpha *s, const instant *from, double h, instant *to)
     damping_follow(&s->stage.c->eq, g, to->strain, from->state);
 }
 
-/* Returns the energy absorbed in a step by springs without a potential. */
+/* Returns the energy [J] absorbed in a step by springs without a potential. */
 static double circulated(const model *m, const model_state *from, const model_state *to)
 {
     double sum = 0;

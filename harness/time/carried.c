@@ -16,7 +16,8 @@ static void add_point(double mass, const double r[3], double tensor[9])
             tensor[3 * i + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
 }
 
-/* Moves the tensor of a mass by r. moment: first moment of the mass before the move. */
+/* Changes the tensor of a mass as if the mass moved by r. moment: first moment of the mass before
+ * the move. */
 static void shift(double mass, const double moment[3], const double r[3], double tensor[9])
 {
     add_point(mass, r, tensor);
@@ -110,7 +111,7 @@ static void add_body(const model *m, const mesh_discrete *d, carried_mass of[])
     take(m, d->el.vertex[0], b->mass, moment, tensor, of);
 }
 
-/* Removes frames without mass and without moment of inertia, and computes the total mass. */
+/* Keeps the frames that have mass or moments of inertia, and computes the total mass. */
 static void keep_heavy(const model *m, carried_mass of[], carried_masses *out)
 {
     for (int i = 0; i < model_vertices(m); i++) {
@@ -159,7 +160,8 @@ status carried_alloc_spread(const model *m, carried_masses *out, fault *f)
     return alloc(m, 1, out, f);
 }
 
-/* Adds the mass of a node to the master of its diaphragm. */
+/* Adds the mass of a node to the master of its diaphragm. In translation along the normal, however,
+ * the mass remains at the node. */
 static void lead(const model *m, const carried_mass *one, carried_mass of[])
 {
     const mesh_vertex *v = model_vertex(m, one->frame);
@@ -328,7 +330,7 @@ double account_size(const account *a)
 
 /* Returns 1 if the request explains a loss of energy: fixed steps, or generalized-alpha with more
  * damping than rho_inf = 0.9. For all parameters of generalized-alpha, alpha_f - alpha_m = (1 -
- * rho)/(1 + rho), where rho is the spectral radius. */
+ * rho)/(1 + rho), where rho is the spectral radius at infinite frequency. */
 static int account_loses(const scene_motion *how)
 {
     const double usual = 0.9, most = (1 - usual) / (1 + usual) * (1 + 1e-9);

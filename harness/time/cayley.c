@@ -208,7 +208,7 @@ static void spin_of(const cayley_step *s, cayley_slopes *d)
         d->spin[i] += part * ratio * ratio / 2 * g[i];
 }
 
-/* Returns the factor f in d psi = f c^ . d c^. */
+/* Returns the factor f in d psi = f c^ . d c^, where x = |c^|. */
 static double arc_change(double x, double psi)
 {
     return x < 0.02 ? -1 / 6.0 + x * x / 20 : (1 / (1 + x * x / 4) - psi) / (x * x);
@@ -260,7 +260,8 @@ void cayley_slopes_of(const cayley_step *s, cayley_slopes *d)
         node_slopes(s, j, d);
 }
 
-/* Derivatives of r(s) and R(s) of a node with respect to its dphi and to the mean c. */
+/* Derivatives of r(s) and R(s) of a node: of R with respect to c_j, and of both with respect to the
+ * mean c. */
 typedef struct node_columns {
     double by_phi[9], r_common[9], phi_common[9];
 } node_columns;
@@ -327,7 +328,7 @@ void cayley_slopes_columns(const cayley_step *s, const cayley_slopes *d, const c
     }
 }
 
-/* Adds A to K[n x n] at (row, column). */
+/* Adds A multiplied by `factor` to K[n x n] at (row, column). */
 static void add_block(int n, int row, int column, double factor, const double A[9], double K[])
 {
     for (int i = 0; i < 3; i++)
@@ -335,8 +336,8 @@ static void add_block(int n, int row, int column, double factor, const double A[
             K[(row + i) * n + column + j] += factor * A[3 * i + j];
 }
 
-/* Derivatives of the force and the moment on a node with respect to the mean c, and of the moment
- * with respect to c_j. */
+/* Force F on a node, derivatives of force and moment with respect to the mean c, and derivative of
+ * the moment with respect to c_j (own). */
 typedef struct node_forces {
     double F[3], force[9], moment[9], own[9];
 } node_forces;

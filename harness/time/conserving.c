@@ -13,8 +13,8 @@
 /* Functions of conserving.c. */
 /* Finds rotations without inertia. REFUSED: no rotation has inertia. */
 static status conserving_massless(conserving *, fault *);
-/* Returns the work of the impulses on prescribed masses. They change the velocities of the masses
- * from the rates during the step to the rates at its end. */
+/* Returns the work [J] of the impulses on prescribed masses. The impulses change the velocities of
+ * the masses from the rates during the step to the rates at its end. */
 static double conserving_impulses(const conserving *, const instant *from, double h,
                                   const instant *to);
 /* Sets the rates at the end of a step. */
@@ -418,9 +418,9 @@ static void angle_rates(const model *m, int vertex, instant *to, const double w[
     }
 }
 
-/* Replaces rates of rotations without inertia by the mean rates of the step, because they would
- * otherwise change sign in every step. N[9]: projection onto these rotations; NULL: the frame has
- * no mass. */
+/* Replaces rates of motions without inertia by the mean rates of the step, because they would
+ * otherwise change sign in every step. N[9]: projection onto the rotations without inertia; NULL:
+ * no rotation has inertia. */
 static void without_inertia(const carried_mass *one, const double N[9], carried_step *p)
 {
     double mean[3], back[3];
@@ -436,7 +436,8 @@ static void without_inertia(const carried_mass *one, const double N[9], carried_
         p->W1[i] += back[i];
 }
 
-/* Finds the released coordinates of an end that move its mass. */
+/* Finds the released coordinates of an end that move its mass: three shifts, then three rotations.
+ * heavy 1: the coordinate moves the mass. */
 static void heavy_ones(const model *m, const carried_mass *one, const carried_step *p,
                        const model_state *s, int heavy[6])
 {
@@ -455,9 +456,10 @@ static void heavy_ones(const model *m, const carried_mass *one, const carried_st
     }
 }
 
-/* Computes the velocities of the masses at released ends. They are integrated separately, so these
- * masses conserve energy and momenta like the masses of nodes. They differ from the rates of the
- * coordinates by terms of second order in the step size. */
+/* Computes the velocities of the masses at released ends, and the rates of the released
+ * coordinates. The velocities are integrated separately, so these masses conserve energy and
+ * momenta like the masses of nodes. The velocities differ from the rates by terms of second order
+ * in the step size. */
 static void conserving_released_rates(const conserving *s, const instant *from, double h,
                                       instant *to)
 {
@@ -532,8 +534,9 @@ static void massless_together(const conserving *s, int vertex, double N[9])
         N[i] = i % 4 == 0 && !(about > 1e-12 * all);
 }
 
-/* Sets the rates of translations in constraints from the masses of all nodes that these
- * translations move. Those of a diaphragm follow from its centre of mass. */
+/* Sets the rates of translations in constraints. Without mass at the nodes that a translation
+ * moves, the rate is the mean rate of the step. In-plane translations of a diaphragm are excluded:
+ * they follow from its centre of mass. */
 static void rates_together(const conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;
@@ -551,8 +554,8 @@ static void rates_together(const conserving *s, const instant *from, double h, i
         }
 }
 
-/* Sets the rates after a step. If a frame has a mass, they follow from the motion of the centre of
- * mass, otherwise from the motion of the frame. */
+/* Sets the rates after a step. The rates of a frame follow from the motion of its centre of mass
+ * if it has mass, otherwise from the motion of the frame. */
 static void conserving_rates(conserving *s, const instant *from, double h, instant *to)
 {
     const model *m = s->of.c->model;

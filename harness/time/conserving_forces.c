@@ -28,8 +28,9 @@ static void middle_of(const conserving *s, evaluation *v)
         v->middle[k] += of->damping / s->h * Wd[k];
 }
 
-/* Computes the gaps and sigma_m, which includes the contribution of the gaps. Returns the
- * incompatibility. */
+/* Computes the gaps and sigma_m, which includes the contribution of the gaps unless they are
+ * rounding errors. Returns the incompatibility: the largest gap of the strains, divided by the
+ * reference length. */
 static double gaps_of(const conserving *s, const double J[], evaluation *v, double sigma[])
 {
     const deformable *of = &v->of;
@@ -55,8 +56,9 @@ static double gaps_of(const conserving *s, const double J[], evaluation *v, doub
     return largest;
 }
 
-/* Adds to out[n x n] the sum of H and half of the effect of the spin on moments, multiplied by the
- * derivative of x(s). */
+/* Adds to out[n x n] the geometric stiffness at point g, multiplied by the derivative of x(s). H is
+ * in the exponential chart. The derivative of a moment m with respect to spatial increments is less
+ * by m~/2. */
 static void add_curved_strains(const cayley_slopes *by, int g, evaluation *v, double out[])
 {
     const deformable *of = &v->of;
@@ -124,7 +126,7 @@ static void to_coordinates(const conserving *s, const instant *from, const model
     }
 }
 
-/* Adds the equations of the evaluated elements. Returns the incompatibility of these elements. */
+/* Computes the equations of one evaluated element or spring. Returns its incompatibility. */
 static double equations_of(conserving *s, const instant *from, const model_state *now,
                            evaluation *v)
 {
@@ -201,7 +203,8 @@ typedef struct loaded {
     double *out; /* [free + driven] */
 } loaded;
 
-/* Computes the mean (v_n + v)/2 and its derivative with respect to c of the step, -1/2 v~ T_c. */
+/* Computes the mean (v_n + v)/2 and its derivative with respect to c of the step, -1/2 v~ T_c.
+ * back: v_n = back v. */
 static void mean_of(const double back[9], const double T[9], const double v[3], double mean[3],
                     double change[9])
 {
@@ -267,7 +270,7 @@ static void loads_middle_of(const loaded *of, const applied *what, const double 
         F[3 + i] += levered[i];
 }
 
-/* Transforms forces and tangent to the coordinates that move the vertex. */
+/* Adds a load and its tangent in the coordinates that move the vertex. */
 static void take(void *context, const applied *what)
 {
     const loaded *of = context;
@@ -291,7 +294,7 @@ void conserving_loads(conserving *s, const instant *from, const model_state *now
 
 /* Updates the strains at the end of the step and inside the step with Newton's corrections. */
 
-/* Computes the increments dr, dc, da of the nodes of an element. */
+/* Computes the corrections of dr, c and da of the nodes of an element: local[7 nodes]. */
 static void own_increments(const conserving *s, const instant *from, const model_state *now,
                            const mesh_element *el, double local[])
 {
@@ -375,7 +378,8 @@ static int moves_by_drivers(const conserving *s)
     return 0;
 }
 
-/* Returns the energy that the damping stresses dissipate in the step, the sum of eta d . S0 d/h. */
+/* Returns the energy [J] that the damping stresses dissipate in the step: the sum of eta d . S0
+ * d/h. */
 static double dissipated(const conserving *s, const instant *from, model_state *now)
 {
     double sum = 0;

@@ -16,7 +16,7 @@ static const double *inner_of(const model *m, const model_state *s, int i)
     return model_inner(m) > 0 ? s->inner + (size_t)i * (size_t)model_inner(m) : none;
 }
 
-/* Computes the mean stresses of elements of the same kind. */
+/* Evaluates the stresses of elements of the same kind at the strains e. */
 static status middle_stress_of(const equations *eq, int count, const int index[],
                                const double *const e[], const model_state *s, stress_output out[],
                                fault *f)
@@ -86,7 +86,7 @@ status conserving_begin(conserving *s, const instant *from, fault *f)
     return STATUS_OK;
 }
 
-/* Numerator and denominator of k. */
+/* Numerator (lacking) and denominator (square) of k, and the sum of e . W e (size). */
 typedef struct scalar_parts {
     double lacking, square, size;
 } scalar_parts;
@@ -254,7 +254,7 @@ void carried_step_of(const conserving *s, const instant *from, const model_state
     carried_step_follow(one, out);
 }
 
-/* Computes the force and moment on the frame. */
+/* Computes the mean force and moment F[6] on the frame that accelerate the mass in the step. */
 static void forces_of(const carried_mass *one, const carried_step *p, double h, double F[6])
 {
     double H0[3], H1[3], spun0[3], spun1[3], lever[3];
@@ -391,8 +391,9 @@ static void predict_turn(conserving *s, const frame_rates *r, const int at[3], d
     put_vector(c, at, s->step);
 }
 
-/* Computes dr = h/2 (v + cay(c) v), for which the velocity rotates with its node. cay(c) v - v = (c
- * x v + c x (c x v)/2)/(1 + c.c/4). */
+/* For a node that rotates freely, computes dr = h/2 (v + cay(c) v): the velocity rotates with the
+ * node. cay(c) v - v = (c x v + c x (c x v)/2)/(1 + c.c/4). Increments of other free coordinates
+ * are h v. */
 void conserving_predict(conserving *s, const instant *from, double h)
 {
     const model *m = s->of.c->model;

@@ -178,7 +178,8 @@ static void add_at(const double rho[3], const double F[6], double out[6])
         out[i] += F[i] + (i < 3 ? 0 : moment[i - 3]);
 }
 
-/* Adds the inertia of elements with consistent mass at the nodes that a body moves. */
+/* Adds to F[6] the inertia forces of elements with consistent mass at the nodes that the body
+ * `node` moves, with moments about `place`. */
 static void add_spread(const model *m, const model_state *s, const shares_motion *motion, int node,
                        const double place[3], double F[6])
 {
@@ -222,8 +223,8 @@ status shares_node(const model *m, const model_state *s, const shares_motion *mo
     return STATUS_OK;
 }
 
-/* Computes the inertia force on node k of an element, including warping. *share: fraction of the
- * mass at the node. */
+/* Computes the inertia force on node k of an element, including warping. *share: part of the
+ * element's mass that is lumped at the node. */
 static void force_of(const model *m, const model_state *s, const shares_motion *motion, int element,
                      int k, double F[7], carried_mass *share)
 {
@@ -255,7 +256,7 @@ void shares_along(const model *m, const model_state *s, const shares_motion *mot
     }
 }
 
-/* Corrects the moments of mass along a member that is lumped at its nodes. The effect of
+/* Corrects the forces at the ends of an element whose mass is lumped at its nodes. The effect of
  * translations is then exact, and so are resultants except inside an element. F: for each node, the
  * force on the mass of the whole element if it has the motion of the node. */
 static void add_couple(const model *m, const model_state *s, int element, double F[2][7],

@@ -221,7 +221,7 @@ static status explicit_accelerate(const model *m, const carried_masses *masses,
     return STATUS_OK;
 }
 
-/* Returns 1 if every motion of the coordinates has kinetic energy. */
+/* Returns 1 if every motion of the coordinates has kinetic energy. M[n x n] is overwritten. */
 static int is_heavy(int n, double M[])
 {
     const double rounding = 1e-13;
@@ -267,8 +267,8 @@ static status check_vertex(const model *m, int index, const int heavy[], fault *
     return STATUS_OK;
 }
 
-/* Marks the free coordinates of a frame that have inertia independently of its other coordinates.
- * */
+/* Marks the free coordinates that have inertia independently of the previous coordinates of their
+ * frame. */
 static void mark(const model *m, const carried_masses *masses, const double rest[], int heavy[])
 {
     for (int k = 0; k < masses->masses; k++) {
@@ -277,8 +277,8 @@ static void mark(const model *m, const carried_masses *masses, const double rest
         const int n = block(m, masses, k, kinematics_rest(m), rest, of, M);
         for (int i = 0; i < n; i++) {
             double some[36];
-            /* This is the rank of the first i + 1 coordinates. A coordinate that does not increase
-             * the rank has no inertia. */
+            /* mass matrix of the first i + 1 coordinates; if it is singular, coordinate i does not
+             * increase the rank and has no inertia */
             for (int r = 0; r <= i; r++)
                 memcpy(&some[(i + 1) * r], &M[n * r], (size_t)(i + 1) * sizeof *some);
             heavy[of[i]] = is_heavy(i + 1, some);
@@ -344,7 +344,8 @@ static status explicit_check(const model *m, const carried_masses *masses, fault
     return outcome;
 }
 
-/* Computes inc' = v, except for rotations in the axes of the frame. */
+/* Computes inc' = X v, where X is turning_inverse for rotations in the axes of the frame, and 1
+ * otherwise. */
 static void turn_rates(const explicit_scheme *s, const double inc[], const double v[],
                        double rate[])
 {
@@ -486,8 +487,9 @@ void work_free(outer_work *w)
     free(w->element);
 }
 
-/* Returns the sum over the coordinates. Moments on frames with rates in rotating axes are given in
- * global axes. */
+/* Returns the sum of force times `along` over all coordinates. Moments are in global axes.
+ * Therefore rotations that `along` gives in the axes of a frame are first transformed to global
+ * axes. */
 static double product(const outer_work *w, const model_state *s, const double along[])
 {
     const model *m = w->m;
@@ -510,7 +512,7 @@ static double product(const outer_work *w, const model_state *s, const double al
 }
 
 /* Computes the external forces on prescribed coordinates, including loads. They are the sum of
- * internal and inertia forces. */
+ * internal forces, forces of dashpots and inertia forces. */
 static void hold(outer_work *w, const model_state *s, const double v[], const double a[])
 {
     const model *m = w->m;

@@ -25,8 +25,8 @@ int feedback_count(const equations *eq)
     return eq->run->feedback != NULL ? model_scene(eq->m)->loads : 0;
 }
 
-/* Computes the derivative of component k of the rotation vector with respect to spatial
- * increments. */
+/* Computes the derivative of component k of the rotation vector of a node with respect to its
+ * spatial rotation increments. */
 static void turn_row(const model *m, const model_state *s, int node, int k, double row[3])
 {
     double t[3], inverse[9];
@@ -57,7 +57,7 @@ static double component_at(const model *m, const model_state *s, int node, int c
     return node == SCENE_NONE ? 0 : kinematics_component(m, s, node, component);
 }
 
-/* Computes the reference value of the controller and its rate. */
+/* Computes the reference value of the controller (out[0]) and its rate (out[1]). */
 static void reference_of(const scene_load *load, double time, double out[3])
 {
     out[0] = out[1] = 0;
@@ -137,7 +137,7 @@ static int measure(const model *m, const model_state *s, int node, int component
     return n;
 }
 
-/* Receives the sum of the generalised loads on the nodes of the load for a factor of 1. */
+/* Generalised forces of a load with a factor of 1 on the coordinates of its nodes. */
 typedef struct feedback_push {
     const model *m;
     const model_state *s;

@@ -12,7 +12,7 @@ static void three(const mesh_vertex *v, const double of[], double out[3])
         out[i] = of[v->coordinate[SCENE_RX + i]];
 }
 
-/* Moves a vertex by inc. The global rotation vector is R_n inc. */
+/* Moves a vertex by inc. Its orientation becomes R_n exp(inc). */
 static void apply_vertex(const model *m, const model_state *from, int index, const double inc[],
                          model_state *to)
 {
@@ -68,7 +68,8 @@ void increment_apply(const model *m, const model_state *from, const double inc[]
     to->path = time;
 }
 
-/* Adds a rotation to the increment of a frame whose rates are in rotating axes. */
+/* Composes the increment of a frame whose rates are in rotating axes with the spatial rotation in
+ * dx. */
 static void add_turn(const model_state *now, int index, const mesh_vertex *v, const double dx[],
                      double inc[])
 {

@@ -159,7 +159,7 @@ void inertia_frame(const model *m, const carried_masses *all, int index, const m
     inertia_swing_of(m, s, one->frame, v, a, &out->swing);
 }
 
-/* Computes A[6 x 6] <- A diag(1, B). */
+/* Computes out[6 x 6] = A diag(translation 1, B). */
 void inertia_times(const double A[36], const double translation, const double B[9], double out[36])
 {
     for (int i = 0; i < 6; i++)
@@ -343,7 +343,7 @@ status balance_of(const equations *eq, const carried_masses *masses, const insta
 /* relative rounding error of coordinates that are computed from equations */
 static const double coordinate_rounding = 32 * DBL_EPSILON;
 
-/* Returns the strain energy of an element due to rounding errors of its coordinates. */
+/* Returns the strain energy [J] of an element due to rounding errors of its coordinates. */
 static double rounding_of(const model *m, const mesh_element *el, int index)
 {
     enum { E = ELEMENT_MAX_STRAINS };

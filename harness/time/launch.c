@@ -16,8 +16,9 @@
  * acceleration, relative to h^2; so small that the positions hardly move */
 static const double softness = 1e-12;
 
-/* Sets the rates of the angles of a sequence such that their sum is the angular velocity. Fixed and
- * prescribed angles, and those of another node, keep their rates. */
+/* Sets the rates of a sequence of angles. The sum of these rates times their axes is then closest
+ * to the angular velocity `spin`. Fixed and prescribed angles, and angles of another node, keep
+ * their rates. */
 static void start_angles(const model *m, const model_state *s, int index, const double spin[3],
                          double v[])
 {
@@ -250,7 +251,7 @@ status launch_turning(analysis_context *c, const carried_masses *masses, const s
         TRY(set_field(m, now->state, &field, now->v, f));
         TRY(check_field(m, now->state, &field, now->v, f));
     }
-    /* This is the sum of both fields. */
+    /* initial velocities of the scene plus the rotation of the axes, with the origin as centre */
     double own[3], of_frame[3];
     vec3_cross(how->start.spin, how->start.centre, own);
     vec3_cross(frame->omega, frame->centre, of_frame);
@@ -276,7 +277,8 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
     return STATUS_OK;
 }
 
-/* Checks the mass. REFUSED: consistent mass is not possible for this scene. */
+/* Checks the mass. REFUSED: the integrator or the formulation does not support consistent mass, or
+ * the motion continues a motion with the other kind of mass. */
 static status check_mass(const analysis_context *c, int analysis, fault *f)
 {
     const scene_analysis *one = &c->scene->analysis[analysis];

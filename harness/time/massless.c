@@ -21,7 +21,8 @@ typedef struct wish {
     double stiffest;
 } wish;
 
-/* Projects x[free] onto the null space of M, whose basis vectors are the columns of g->M. */
+/* Projects x[free] onto the null space of M. Its basis vectors are the columns of g->M with
+ * eigenvalues up to `none`. forces 1: x contains forces; 0: increments. */
 static void project(const body_mass *g, double none, int forces, double x[])
 {
     const int n = g->count;
@@ -157,7 +158,8 @@ static status massless_stiffest(const model *m, const carried_masses *all, const
     return STATUS_OK;
 }
 
-/* Converts rotations of bodies from global axes to the axes of the bodies, or back. */
+/* Transforms rotations of bodies. own_to_space 1: from the axes of the bodies to global axes; 0:
+ * from global axes to the axes of the bodies. */
 static void turn_axes(const model *m, const model_state *s, int own_to_space, double a[])
 {
     for (int i = 0; i < model_vertices(m); i++) {
@@ -214,8 +216,8 @@ status massless_accelerate(const model *m, const carried_masses *all, const mode
 
 enum { BLOCK = 9, BLOCKS = 2 };
 
-/* Returns 1 if all three coordinates of a rotation (or translation) are free and belong to one
- * body, or to bodies that move together. */
+/* Returns 1 if all three translations (block 0, in global axes) or rotations (block 1) of a body
+ * are free. Bodies that constraints join to it must have the same coordinates. */
 static int is_whole(const model *m, int i, int block)
 {
     const int *at = model_vertex(m, i)->coordinate + 3 * block, first = model_first_joined(m, i);
@@ -378,8 +380,9 @@ double massive_norm(const massive *h, const model *m, const double weight[], dou
  * motions (massless_forces). A large stiffness that is added to the masses in the tangent fixes all
  * other motions. */
 
-/* Stiffness that fixes coordinates with inertia, relative to the largest stiffness. It reduces the
- * accuracy, and the order of convergence of Newton's method, by at most this factor. */
+/* Stiffness that fixes coordinates with inertia, relative to the largest stiffness. It multiplies
+ * rounding errors by at most this factor. Newton's method converges linearly, with corrections that
+ * decrease by about this factor. */
 static const double firm = 1e6;
 
 static double *diagonal_of(const sparse *S, double out[])
@@ -470,8 +473,8 @@ static int mark(const model *m, const mesh_element *el, unsigned char of[])
     return count;
 }
 
-/* Marks the coordinates without inertia that relax slowly in of[free]. They belong to nodes of
- * elements and springs whose damping time is long compared with a step h. Returns their number. */
+/* Marks in of[free] the coordinates that relax slowly: those of elements and springs whose damping
+ * time is at least 1e-3 h, where h is the size of a step. Returns their number. */
 static int creeping(const model *m, const model_state *state, double h, unsigned char of[])
 {
     const double part = 1e-3;

@@ -49,7 +49,7 @@ static double integrand(const watched *one, double value)
     return one->largest > 0 ? pow(value / one->largest, 2) : 0;
 }
 
-/* Changes the scale of the integrals if a value is the largest so far. */
+/* Changes the scale of the integrals of a root mean square if a value is the largest so far. */
 static void rescale(watched *one, double value)
 {
     if (!is_square(one) || !(fabs(value) > one->largest))

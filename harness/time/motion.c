@@ -61,7 +61,7 @@ static status balance_at(motion_course *w, const instant *at, double balance[SCE
     return STATUS_OK;
 }
 
-/* Records the present state, which is at the end of a step. */
+/* Records the step that ends at `now`, with its energy balance. */
 static status record_step(motion_course *w, const step_record *record, double error, fault *f)
 {
     outcome_step one = {.time = w->now.time,

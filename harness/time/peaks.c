@@ -85,8 +85,9 @@ static double cubic(const peaks *s, const peak *one, double time)
     return p[0];
 }
 
-/* Returns the maximum of the cubic between two ends of steps, found by golden-section search. If a
- * cubic has two maxima in one step, the steps do not resolve the motion. */
+/* Returns the time between a and b at which the cubic is largest (sign 1) or smallest (sign -1),
+ * found by golden-section search. If a cubic has two maxima in one step, the steps do not resolve
+ * the motion. */
 static double top_of(const peaks *s, const peak *one, double a, double b)
 {
     const double golden = (sqrt(5) - 1) / 2;
@@ -120,7 +121,7 @@ static status look_between(peaks *s, peak *one, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Handles a window that starts or ends inside the last step. */
+/* Adds the values at the start and at the end of the window if they are inside the last step. */
 static status look_at_edges(peaks *s, peak *one, fault *f)
 {
     const instant *from = &s->last[PEAKS_ENDS - 2], *to = &s->last[PEAKS_ENDS - 1];

@@ -152,7 +152,7 @@ static void direction(const double before[3], const double after[3], const place
         change[i] += swept[i] / 2 + more[i];
 }
 
-/* Computes the shift of an end due to its slides: the mean of the shift, and its columns. */
+/* Computes the mean shift of an end due to its slides, and the columns of the slides. */
 static void slides(const double step[], place_chain *by, frame_place *p)
 {
     const mesh_release *r = by->release;
@@ -179,8 +179,8 @@ static void slides(const double step[], place_chain *by, frame_place *p)
     }
 }
 
-/* Computes columns of `work`, starting with `column`: forces at a lever on a part that rotates by
- * A, and moments. */
+/* Adds forces at a lever to three columns of `work`, starting with `column`. Columns of A: rotation
+ * of the lever per unit of each coordinate. moments 1: also adds moments. */
 static void work_on(const double lever[3], const double A[9], int moments, int column, int columns,
                     frame_place *p)
 {
@@ -205,7 +205,8 @@ static void add_curved(const double A[9], const double B[], int row, int columns
 
 static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* Computes the rows x . M' of single rotations. */
+/* Computes the columns of `work` and the rows of `curved` of single released rotations. Their force
+ * is x . (M + sigma x F); moment: M + sigma x F. */
 static void turning_rows(const place_chain *by, const double moment[3], const double dmoment[],
                          frame_place *p)
 {
@@ -224,8 +225,8 @@ static void turning_rows(const place_chain *by, const double moment[3], const do
     }
 }
 
-/* Computes the rows a' . M of the body's angles, whose mean axes rotate with the previous angles.
- * */
+/* Adds da . moment to the rows of `curved` of the body's angles. Their mean axes a rotate with the
+ * previous angles. */
 static void angle_rows(const place_chain *by, const double moment[3], frame_place *p)
 {
     const int n = p->columns,
@@ -252,7 +253,7 @@ static void swing(const place_chain *by, int at, frame_place *p)
     p->curved[SCENE_RX * n + SCENE_RX] += vec3_dot(by->F, inward) / 2;
 }
 
-/* Computes all rows from the complete chain. */
+/* Computes `work`, `moved` and `curved` from the complete chain. */
 static void finish(const place_chain *by, frame_place *p)
 {
     const int n = p->columns, ball = by->release != NULL && by->release->turns == BALL;

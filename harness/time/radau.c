@@ -62,7 +62,8 @@ static void prepare(void *of, int iteration, double correction)
         complement_strains(r->stage[i].complement, r->stage[i].state, iteration, correction);
 }
 
-/* Returns the work in the step, computed from the stages with the quadrature of the scheme. */
+/* Returns the work [J] of external forces in the step, by the quadrature of the scheme over the
+ * stages. */
 static double work_of_stages(radau *r, const instant *from, double h, const step_record *record)
 {
     double sum = 0;

@@ -15,7 +15,8 @@ static void radau_spread(radau *, double h);
 /* Adds the damping of members to the residual and, if fresh is 1, to S. */
 static void radau_damp(radau *, int fresh, const instant *from, double h);
 
-/* Adds the blocks (i, k) of a frame for all k. */
+/* Adds the derivatives of the inertia forces on a frame in stage i to the blocks (i, k) for all k.
+ * */
 static void add_frame(radau *r, int index, double h, int i)
 {
     const model *m = r->of.c->model;
@@ -328,7 +329,8 @@ static void take(radau *r, const instant *from, int stage, int element, damped *
     }
 }
 
-/* Adds eta S0 e' of a stage to the linearised stress of its element, and to its forces. */
+/* Adds eta S0 e' in a stage to the linearised stress of the element, and subtracts its forces from
+ * the residual. */
 static void add_stress(radau *r, const damped all[STAGES], double h, double eta, const double S[],
                        int stage, int element)
 {
@@ -349,7 +351,7 @@ static void add_stress(radau *r, const damped all[STAGES], double h, double eta,
             r->residual[(size_t)stage * (size_t)r->free + (size_t)el->index[c]] -= force[c];
 }
 
-/* Adds J_i^T S0 J_k to all blocks. */
+/* Adds eta B_ik/h J_i^T S0 J_k to all blocks (i, k). */
 static void add_blocks(radau *r, const damped all[STAGES], double h, double eta, const double S[],
                        int element)
 {
@@ -371,8 +373,8 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, double eta,
     }
 }
 
-/* Like add_stress and add_blocks, for a dashpot, whose stress is not stored in a slot. Includes the
- * rotation of its axes. */
+/* Like add_stress and add_blocks, for a dashpot, whose stress is not stored in a slot. The tangent
+ * includes the effect of the rotation of its axes on its force. */
 static void damp_spring(radau *r, int fresh, const instant *from, double h, int spring)
 {
     enum { SIX = SPRING_STRAINS, X = ELEMENT_MAX_COORDINATES };
@@ -433,7 +435,8 @@ static void radau_damp(radau *r, int fresh, const instant *from, double h)
             damp_spring(r, fresh, from, h, i);
 }
 
-/* Computes out = sum_j weight_j (e_j - e_0). */
+/* Computes out = sum_j weight_j (e_j - e_0) for the strains of elements and the deformations of
+ * springs. */
 static void sum_strains(const radau *r, const instant *from, const double weight[STAGES],
                         double out[])
 {
@@ -458,7 +461,7 @@ static void sum_strains(const radau *r, const instant *from, const double weight
     }
 }
 
-/* Returns the energy absorbed in a step by springs without a potential. */
+/* Returns the energy [J] absorbed in a step by springs without a potential. */
 static double circulated(const radau *r, const instant *from)
 {
     enum { SIX = SPRING_STRAINS };

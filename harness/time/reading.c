@@ -16,7 +16,7 @@ typedef struct read_state {
     const reading *from;
     shares_motion motion;
     internal_state section;
-    status *outcome; /* first status of a force that is not OK */
+    status *outcome; /* status of the first force that could not be computed; OK: none */
     fault *f;
 } read_state;
 
@@ -48,8 +48,8 @@ static void frame_of(const quantity_state *s, int node, double place[3], double 
     rotation_matrix(turn, R);
 }
 
-/* Returns the velocity of a node, or its angular velocity in the axes of the node. A body may move
- * the node. */
+/* Returns a component of the velocity of a node, or of its angular velocity in the axes of the body
+ * that moves the node. */
 static double rate_of(const quantity_state *s, int node, int component)
 {
     const model *m = model_of(s);
@@ -90,7 +90,7 @@ static double released_of(const quantity_state *s, int member, int end, int comp
     return release_value(model_of(s), of(s)->from->state, member, end, component);
 }
 
-/* Returns the displacement in linear statics. */
+/* Returns a displacement or rotation of a node in linear statics. */
 static double linear_component(const quantity_state *s, int node, int component)
 {
     const double *x = of(s)->from->x;
@@ -254,8 +254,9 @@ int reading_is_slope(const scene_quantity *q)
     return q->what.kind == SCENE_RATE && q->what.of.rated.rate == SCENE_JERK;
 }
 
-/* Returns the size of the positions of a node whose rounding errors enter its rates: displacements
- * [m], or rotations with the arm from the frame that moves the node. */
+/* Returns the size of the positions of a node whose rounding errors enter its rates. turns 1:
+ * rotation [rad]; 0: displacement of the frame that moves the node, plus its rotation times the arm
+ * [m]. */
 static double place_size(const model *m, const model_state *s, int node, int turns)
 {
     const int body = model_body(m, node);
@@ -280,7 +281,8 @@ double reading_rounding(const model *m, const scene_quantity *q, const model_sta
         return 0;
     const scene_component *of = scene_component_of(q);
     const int third = q->what.of.rated.rate == SCENE_JERK;
-    /* derivatives of the polynomial by the increment: at most 6/h^2 and 60/h^3 */
+    /* derivatives of the polynomial's rates with respect to the increment: at most 6/h^2 and
+     * 60/h^3 */
     return (third ? 60 : 6) * DBL_EPSILON * place_size(m, s, of->node, of->component >= SCENE_RX) /
            pow(h, third ? 3 : 2);
 }

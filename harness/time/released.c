@@ -1,9 +1,10 @@
 /* Masses of ends that are released from their nodes. The body has the velocities v and w, and the
  * node has the offset p from the body. With released rotations t about axes b, shifts s along d,
- * and q = sum d s: w_end = w + sum b t',  w_end' = w' + sum b t'' + sum t' (rotation before it) x
- * b, v_end = v + w x p + w_end x q + sum d s', a_end = a + w' x p + w x (w x p) + w_end' x q +
- * w_end x (w_end x q) + 2 w_end x sum d s'
- *           + sum d s''.
+ * and q = sum d s:
+ *     w_end = w + sum b t',   v_end = v + w x p + w_end x q + sum d s',
+ *     w_end' = w' + sum b t'' + sum t' (angular velocity before this rotation) x b,
+ *     a_end = a + w' x p + w x (w x p) + w_end' x q + w_end x (w_end x q)
+ *             + 2 w_end x sum d s' + sum d s''.
  * The rates of three released rotations are the angular velocity in the axes of the end. */
 #include "harness/time/time_impl.h"
 
@@ -42,7 +43,7 @@ void released_columns(const model *m, const model_state *s, int vertex, released
     out->ball = r != NULL && r->turns == BALL ? out->own : NONE;
 }
 
-/* Computes the column of T for a released rotation or shift. */
+/* Copies the translations (turn 0) or the rotations (turn 1) of a column of T. */
 static void column_of(const released_masses *of, int column, int turn, double out[3])
 {
     for (int i = 0; i < 3; i++)
@@ -193,7 +194,8 @@ static size_t of_members(const model *m)
     return (size_t)model_elements(m) * (size_t)model_strains(m);
 }
 
-/* Gathers the data. members 1: also computes the stiffnesses of the elements. */
+/* Allocates the data of damping for the run. members 1: also computes the stiffnesses of the
+ * elements in the undeformed state. */
 static status begin(const equations *eq, int members, run_damping *d, fault *f)
 {
     const model *m = eq->m;

@@ -139,7 +139,7 @@ static void add_forces(small_motions *s, int c, int rate, double h, double scale
 }
 
 /* Computes the derivative of the inertia forces with respect to a coordinate, or to its rate. The
- * forces are quadratic in the rate. */
+ * forces are quadratic in the rate, so one central difference is exact. */
 static void differentiate(small_motions *s, int c, int rate, double out[])
 {
     const double h = rate ? 1 : turn_by;

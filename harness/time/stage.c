@@ -243,7 +243,8 @@ static int evaluate(complement_way *w)
                                     &(stress_output){.sigma = w->sigma, .C = w->C}) == STATUS_OK;
 }
 
-/* Computes e += C^-1 gap. Strains without stiffness, such as warping strains, do not change. */
+/* Computes e += C^-1 gap. Strains without stiffness, such as warping strains, do not change.
+ * Returns 0 if C is singular. */
 static int move(complement_way *w, double gap[])
 {
     const int n = model_strains(w->m);
@@ -265,7 +266,7 @@ static int move(complement_way *w, double gap[])
     return 1;
 }
 
-/* Runs Newton's method as long as the corrections decrease. */
+/* Runs Newton's method as long as the gap decreases. Returns 1 if the stresses reach the goal. */
 static int arrive(complement_way *w, const double goal[])
 {
     enum { MOST_ITERATIONS = 8 };
@@ -283,7 +284,8 @@ static int arrive(complement_way *w, const double goal[])
     return 0;
 }
 
-/* Follows the path from the present stresses to the target stresses. */
+/* Moves the stresses in steps from their present values to the target stresses. Returns 1 if they
+ * reach the target. */
 static int follow(complement_way *w, const double goal[])
 {
     const int n = model_strains(w->m);

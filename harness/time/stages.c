@@ -141,7 +141,7 @@ void stages_add(stages_matrix *s, int i, int k, int row, int column, double valu
     assemble_subtract(&s->whole, i * s->n + row, k * s->n + column, -value);
 }
 
-/* Returns the rank of the positive semidefinite A[n x n], which is overwritten. Values up to `none`
+/* Returns the rank of the positive semidefinite A[n x n], which is overwritten. Pivots up to `none`
  * count as zero. */
 static int rank(int n, double A[], int used[], double none)
 {

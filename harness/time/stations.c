@@ -73,8 +73,8 @@ static void vector_rates(const double t[3], const double W[3], const double Wd[3
     mat3_mul_vec(inverse, more, second);
 }
 
-/* Computes the rotation vector during the step, in the axes of the vertex at the start of the
- * step. */
+/* Computes the rotation vector of a vertex from the start to the end of the step, in its axes at
+ * the start. */
 static void turn_of(const step_between *b, int vertex, double t[3])
 {
     double back[4], q[4];
@@ -358,7 +358,7 @@ static int reads_forces(const stations *s, double time)
     return 0;
 }
 
-/* Makes a side step from the start of the step of the motion. */
+/* Writes a station from a side step that starts at the start of the step of the motion. */
 static status step_to(stations *s, const instant *from, double time, fault *f)
 {
     double balance[SCENE_BALANCES];

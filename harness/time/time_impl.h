@@ -16,8 +16,9 @@
 #include "harness/newton/newton.h"
 #include "harness/time/time.h"
 
-/* Newton's convergence history is part of the state of a motion, so a rejected step has no effect
- * on it. Call instant_recall before a step, and instant_remember with the state at its end. */
+/* Each instant of a motion contains the convergence history of Newton's method, so a rejected step
+ * does not change the history. Call instant_recall before a step, and instant_remember after the
+ * step. */
 void instant_recall(const instant *from, arrival *);
 void instant_remember(const arrival *, instant *to);
 
@@ -29,14 +30,14 @@ void between_take(step_between *, between_degree, const instant *from, const ins
  * a polynomial of fourth degree through five accelerations of the step. */
 double between_reading(const step_between *, const scene_quantity *, double time, instant *at);
 
-/* Returns the power [W] if `along` contains the rates v, or the work [J] if `along` contains
- * increments, with rotation vectors in the axes of the frames. The forces are those in the state
- * with rates v and accelerations a at `time`. */
+/* Returns the power [W] of external forces if `along` contains the rates v, or their work [J] if
+ * `along` contains increments, with rotation vectors in the axes of the frames. The forces are
+ * those in the state with rates v and accelerations a at `time`. */
 double work_power(outer_work *, const model_state *, const double v[], const double a[],
                   double time, const double along[]);
-/* Returns the work of a step: the mean of the forces at the start and at the end, times the
- * increment inc[free + driven]. The result is exact for constant forces, and of second order
- * otherwise. */
+/* Returns the work [J] of external forces in a step: the mean of the forces at the start and at the
+ * end of the step, times the increment inc[free + driven]. The result is exact for constant forces,
+ * and of second order otherwise. */
 double work_trapezoid(outer_work *, const instant *from, const instant *to, const double inc[]);
 
 /* Returns the allowed energy-balance error [J]: the given fraction of account_size, plus
@@ -123,8 +124,8 @@ typedef struct asides {
 status asides_alloc(asides *, fault *);
 void asides_free(asides *);
 void asides_take(asides *, const instant *from, const instant *to);
-/* Returns the value at a time of the step, before factor and offset; NAN: no solution was found,
- * and `outcome` contains the status. */
+/* Returns the value at a time of the step, before the factor and offset of the quantity are
+ * applied. NAN: no solution was found, and `outcome` contains the status. */
 double asides_reading(asides *, const scene_quantity *, double time);
 
 /* Energies and momenta during a motion. */
@@ -149,7 +150,7 @@ typedef struct body_mass {
     /* [count] scale of a coordinate: 1 for a translation, 1/length of the model [rad/m] for a
      * rotation */
     double *unit;
-    int *used;            /* capacity; [count] */
+    int *used;            /* [count] work space */
     double *rest, *value; /* work space: [count x count] and [count] */
     double *zero;         /* [free + driven] rates */
 } body_mass;
@@ -158,7 +159,7 @@ typedef struct body_mass {
 status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
 /* Computes the mass matrix of a body in a state. For the first of several joined bodies, computes
- * the mass matrix of all of them. Returns the largest mass of the matrix [kg]. */
+ * the mass matrix of all of them. Returns the largest mass of a frame or of a node [kg]. */
 double body_mass_of(const model *, const carried_masses *, int body, const model_state *,
                     body_mass *);
 /* Returns the mass of a warping amplitude [kg m^4]. */
@@ -234,9 +235,10 @@ void complement_free(complement *);
 /* Call before advance_state. Does nothing for NULL. */
 void complement_keep(complement *, const model_state *);
 /* Sets e of every element so that its stresses become sigma, which does not change. Call this
- * function after advance_state. An element does not change if its stresses already agree to a
- * tenth, or if no strains with these stresses are found. iteration: starts at 1. After all elements
- * agree, smaller corrections are not checked again in the same step. Does nothing for NULL. */
+ * function after advance_state. An element does not change if its stresses already agree to 10 %,
+ * or if no strains with these stresses are found. iteration: starts at 1. correction: size of
+ * Newton's correction. Once all elements agree, no element is checked after a smaller correction in
+ * the same step. Does nothing for NULL. */
 void complement_strains(complement *, model_state *, int iteration, double correction);
 
 /* Derivatives of increments and rates with respect to the state. */
@@ -310,7 +312,7 @@ void inertia_subtract(const model *, const carried_masses *, const model_state *
 void inertia_add_tangent(const equations *, const carried_masses *, const model_state *,
                          const double v[], const double a[], const inertia_relation *, sparse *S);
 
-/* Frame on the arm of a diaphragm, which turns with the first angle of the frame: v = v_master +
+/* Frame on the arm of a diaphragm. The arm rotates by the first angle of the frame: v = v_master +
  * moved angle', a = a_master + moved angle'' + inward angle'^2. */
 typedef struct inertia_swing {
     int led;          /* 0: there is no arm, and the other members are not set */
@@ -589,8 +591,9 @@ struct evaluation {
     cayley_step step;
     cayley_point point[DEFORMABLE_POINTS];
     node_state first[ELEMENT_MAX_NODES], last[ELEMENT_MAX_NODES];
-    double turn[DEFORMABLE_POINTS + 1][3]; /* rotation vectors of a spring at the points */
-    double middle[DEFORMABLE_STRAINS];     /* (sigma_n + P'(e))/2 + k W d */
+    /* rotation vectors of a spring at the points and at the end of the step */
+    double turn[DEFORMABLE_POINTS + 1][3];
+    double middle[DEFORMABLE_STRAINS]; /* (sigma_n + P'(e))/2 + k W d */
     double D[DEFORMABLE_STRAINS];
     double J[DEFORMABLE_POINTS][DEFORMABLE_STRAINS * ELEMENT_MAX_COORDINATES];
     /* second derivatives at the points between the ends */
@@ -603,7 +606,7 @@ struct evaluation {
 };
 
 /* Evaluates the strains and their derivatives of `count` deformables. If there are several, they
- * are elements of the same kind (evaluation.c). */
+ * are elements of the same kind (deformable.c). */
 void deformable_evaluate(const conserving *, const instant *from, const model_state *now, int count,
                          evaluation[]);
 
@@ -738,9 +741,9 @@ double kinks_before(const model *, double time);
 
 /* Returns 1 if the last factors may be used again. They cause an error that is the product of two
  * successive corrections. In stiff members, the corrections of the stresses (newton.h) show this
- * error. The limit was measured with members that are 1e6 times stiffer in elongation. Above 2e-4,
- * corrections stop decreasing and steps of 0.2 s fail. Below 2e-4, the number of iterations is the
- * same as with new factors. */
+ * error. Corrections must be below 1e-4. The largest possible limit was measured with members that
+ * are 1e6 times stiffer in elongation. If the limit exceeds 2e-4, corrections stop decreasing and
+ * steps of 0.2 s fail. Below 2e-4, the number of iterations is the same as with new factors. */
 int stage_stands(const arrival *);
 
 typedef struct motion_stage {
@@ -822,8 +825,9 @@ status massless_accelerate(const model *, const carried_masses *, const model_st
 /* Extrema of reactions, resultants, stresses, energies and momenta during a motion. The values at
  * the ends of steps are those of the scheme. Between the ends, a cubic through four consecutive
  * ends (order 4) shows where a value may be larger, and a side step computes the value at this
- * time. The side step counts only if its value differs from the cubic by less than the gain. An
- * extremum that the steps do not resolve is therefore rejected. */
+ * time. An extremum of the cubic counts only if the side step differs from it by less than it
+ * exceeds the values at both ends. An extremum that the steps do not resolve is therefore rejected.
+ */
 
 enum { PEAKS_ENDS = 4 }; /* number of consecutive ends of steps */
 
@@ -885,9 +889,9 @@ typedef struct frame_place {
     double measure[PLACE_MOST];
 } frame_place;
 
-/* Returns 1 if dr and c of the frame are coordinates; no other output is then set. F[6]: force on
- * the frame; NULL: zero. */
+/* Returns 1 if dr and c of the frame are coordinates. */
 int place_plain(const model *, int vertex);
+/* Computes the transformations of any frame. F[6]: force on the frame; NULL: zero. */
 void place_of(const conserving *, const model_state *from, const model_state *now, int vertex,
               const double F[6], frame_place *);
 /* Computes dr and c of a frame. */
@@ -913,8 +917,8 @@ void place_add(conserving *, const model_state *from, const model_state *now, in
  * order 3. */
 status radau_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* Matrix of the three stages of a step, with 3 x 3 blocks [n x n]. Off-diagonal blocks contain only
- * masses. */
+/* Matrix of the three stages of a step, with 3 x 3 blocks [n x n]. Off-diagonal blocks contain
+ * masses, damping and feedback, but no stiffness. */
 
 enum { STAGES = 3 };
 
@@ -1114,7 +1118,7 @@ typedef struct spread_parts {
     const model_state *state;
     int columns; /* number of coordinates of the element: 7 per node, then those of released ends */
     int wide;    /* 1: the element has a released end, which may have no coordinates */
-    double place[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], /* as inertia_parts */
+    double place[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], /* as in inertia_parts */
         velocity[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
         acceleration[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     double turn[ELEMENT_MAX_NODES][9], rate[ELEMENT_MAX_NODES][9];

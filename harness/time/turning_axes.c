@@ -42,7 +42,8 @@ static void in_own(const mesh_vertex *v, double A[9])
             A[3 * i + k] = vec3_dot(&half[3 * i], &along[3 * k]);
 }
 
-/* Finds such a vector of a vertex. Returns 0 if there is none. */
+/* Finds the vector of the translations (turns 0) or of the rotations (turns 1) of a vertex. Returns
+ * 0 if there is none. */
 static int vector_of(const turning_axes *t, int vertex, int turns, turning_vector *out)
 {
     const model *m = t->m;
@@ -110,7 +111,7 @@ static int is_tied(const turning_axes *t, int vertex, int turns, const turning_v
     return 0;
 }
 
-/* Adds A W multiplied by `times` to `out`. */
+/* Adds A W multiplied by `times` to the columns `at` of `out`. */
 static void add_product(const sparse *A, const int at[3], const double W[9], double times,
                         sparse *out)
 {

@@ -65,8 +65,8 @@ void watches_free(watches *s)
         asides_free(&s->asides);
 }
 
-/* Returns the slope of this value. The slope is exact if the quantity is a polynomial of fourth
- * degree in the step. */
+/* Returns the slope of a quantity at a time. The slope is exact if the quantity is a polynomial of
+ * fourth degree in the step. */
 static double slope_at(watches *s, const watched *one, double time)
 {
     const double d = (s->inside.to->time - s->inside.from->time) / 64;
@@ -83,8 +83,8 @@ static double above_level(watches *s, const watched *one, double time)
 }
 
 /* Returns the root between a and b, where the values fa and fb of f have opposite signs. Uses
- * secant steps, and bisection if these converge slowly. If values come from side steps, their
- * rounding errors and 1e-10 of the step end the search. */
+ * secant steps, and bisection in every third iteration. If values come from side steps, the search
+ * ends when the value is a rounding error or when the interval is 1e-10 of the step. */
 static double root(watches *s, const watched *one, along *f, double a, double fa, double b,
                    double fb)
 {
@@ -143,8 +143,8 @@ static int counts(const watched *one, int side)
     return way == SCENE_EITHER || side == (way == SCENE_RISING ? 1 : -1);
 }
 
-/* Returns 1 for positions. A jump of a position is not a crossing. Forces and accelerations jump
- * with the loads. */
+/* Returns 1 for positions. A jump of a position is not a crossing. Forces and accelerations, in
+ * contrast, can jump with the loads. */
 static int turns_back(const watched *one)
 {
     return !one->aside && one->q->what.kind != SCENE_RATE;
