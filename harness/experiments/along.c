@@ -1,6 +1,6 @@
-/* Loads along one element in linear theory. The element must be as exact for such loads as it is
- * for forces and moments at its ends. The stiffness is that of the element for loads at its ends
- * (Timoshenko's beam: Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 5 and 10). */
+/* Checks of loads along one element in linear theory. The expected values are those of Timoshenko's
+ * beam (Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 5 and 10). Its
+ * flexibilities are measured with loads at the end of the element. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -14,26 +14,30 @@
 enum { SIX = 6, END = 1 };
 
 static const double L = 0.7, force = 3, moment = 2; /* [m, N/m, N m/m] */
-static const double rounding = 1e-8; /* rounding error, relative to the value of a cantilever */
+static const double rounding =
+    1e-8; /* allowed rounding error, relative to the value of a cantilever */
 
 typedef enum support { CANTILEVER, CLAMPED, PROPPED, HINGED, SUPPORTS } support;
 static const char *const support_name[SUPPORTS] = {
     "held at its first node", "clamped at both nodes",
     "clamped at one node and propped at the other", "hinged at both nodes"};
-/* Fixed components of the two nodes, one bit for each component. */
+/* Fixed components of the two nodes for each support, one bit for each component. */
 static const unsigned held[SUPPORTS][2] = {{63, 0}, {63, 63}, {63, 15}, {15, 7}};
 
-/* Displacement and rotation in each plane, and the sign of the rotation. */
+/* For each bending plane: index of the displacement, index of the rotation, and sign of the
+ * rotation for a positive slope. */
 static const struct {
     int shift, turn, sign;
 } planes[2] = {{1, 5, 1}, {2, 4, -1}};
 
-/* Flexibilities at the end: 1/EA, 1/GIt, and for each plane 1/EI and the shear flexibility. */
+/* Flexibilities of the section: axial 1/EA [1/N], twist 1/GIt [1/(N m^2)] and, for each bending
+ * plane, bend 1/EI [1/(N m^2)] and shear 1/GA_s [1/N]. */
 typedef struct softness {
     double axial, twist, bend[2], shear[2];
 } softness;
 
-/* Displacements of both nodes, or reactions for fixed components. */
+/* For each node and component: the displacement or rotation, or the reaction if the component is
+ * fixed. */
 typedef struct ends {
     double of[2][SIX];
 } ends;
@@ -44,7 +48,7 @@ static void make_scene(support of, scene *s)
     section_spec spec = section_spec_rectangle(70e3, 27e3, 0.3, 0.2);
     spec.given.Iw = 0;
     spec.shear_factor[0] = 5.0 / 6;
-    spec.shear_factor[1] = 0.4; /* the values differ, so that exchanged factors are detected */
+    spec.shear_factor[1] = 0.4; /* the two factors differ, so exchanged factors are detected */
     scene_init(s, "along");
     const int profile = scene_add_section(s, &spec), from = scene_add_node(s, 0, 0, 0),
               to = scene_add_node(s, L, 0, 0);
@@ -82,7 +86,8 @@ static status solve(const formulation *chosen, const scene *s, double value[], f
     return outcome;
 }
 
-/* Returns the shear flexibility of the displacement field between the nodes (elements/field). */
+/* Returns the shear flexibility of the section in a plane [1/N]; 0: the formulation has no shear
+ * deformation in this plane. */
 static double shear_of(const formulation *chosen, const section *c, int plane)
 {
     const int rigid = !(chosen->type->offers & FEATURE_SHEAR) ||
@@ -90,8 +95,8 @@ static double shear_of(const formulation *chosen, const section *c, int plane)
     return rigid ? 0 : c->F[4 * plane] / c->shear_modulus;
 }
 
-/* Measures the flexibility of one element. REFUSED: the element is not exact for forces and moments
- * at its end. In this case, no rule for loads along the element can be exact. */
+/* Measures the flexibilities of one element as a cantilever. REFUSED: the element is not exact for
+ * forces and moments at its end. In this case, no rule for loads along the element can be exact. */
 static status measure(const formulation *chosen, softness *out, fault *f)
 {
     double C[SIX * SIX];
@@ -123,7 +128,8 @@ static status measure(const formulation *chosen, softness *out, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the stretch or twist (component c) due to a load along the beam. */
+/* Computes the exact displacements and reactions in the axial or torsional component c due to a
+ * uniform load. */
 static void exact_along(support of, double soft, double load, int c, ends *out)
 {
     const int both = held[of][END] >> c & 1;
@@ -131,8 +137,10 @@ static void exact_along(support of, double soft, double load, int c, ends *out)
     out->of[0][c] = both ? -load * L / 2 : -load * L;
 }
 
-/* Computes bending in a plane due to a force and a moment along the beam, by the force method. R
- * and M are the force and the moment on the end of a cantilever, whose root may be hinged. */
+/* Computes the exact displacements and reactions in bending plane k by the force method. along,
+ * turning: uniform force [N/m] and moment [N m/m]. R and M are the force and the moment of the
+ * support at the end of a cantilever. If both ends are hinged, the root of the cantilever rotates
+ * as well. */
 static void exact_across(support of, const softness *soft, int k, double along, double turning,
                          ends *out)
 {
@@ -161,7 +169,7 @@ static void exact_across(support of, const softness *soft, int k, double along, 
     end[z] = sign * (of == CLAMPED ? M : t + vt * R + root);
 }
 
-/* Computes the exact values. q: force and moment per unit length. */
+/* Computes the exact displacements and reactions. q: uniform forces [N/m] and moments [N m/m]. */
 static ends exact_ends(support of, const softness *soft, const double q[SIX])
 {
     ends out;
@@ -189,7 +197,8 @@ static status found_ends(const formulation *chosen, support of, const double q[S
     return outcome;
 }
 
-/* Returns the corresponding value of a cantilever, which is used as a scale. */
+/* Returns the magnitude of a displacement or reaction of a cantilever under the loads `force` and
+ * `moment`. Errors are relative to this magnitude. */
 static double size_of(const softness *soft, int component, int reaction)
 {
     const ends of =
@@ -224,18 +233,20 @@ static void compare(const formulation *chosen, support of, const softness *soft,
     }
 }
 
-/* Loads that the element includes in its own equilibrium. */
+/* Checks of `along`, the function of types that include the load in the equilibrium of the
+ * element. */
 enum { X = ELEMENT_ALONG_COORDINATES, M = SPECIMEN_STRAINS, SETTLING = 40, FINER = 50 };
 
 typedef struct taken {
     const specimen *s;
     const node_state *x;
     double q[3 * ELEMENT_ALONG_POINTS];
-    /* inner unknowns of x, from which the iteration for neighbouring states starts */
+    /* inner unknowns of the state x, from which the iteration for a neighbouring state starts */
     double *inner;
 } taken;
 
-/* Computes the forces with converged inner unknowns, and K if requested. */
+/* Computes the forces on the nodes with converged inner unknowns. K not NULL: also computes the
+ * stiffness, and stores the inner unknowns in of->inner. */
 static status forces_under(const taken *of, const node_state x[], double F[X], double K[X * X])
 {
     const specimen *s = of->s;
@@ -321,7 +332,8 @@ static void check_taken(const specimen *s, claims *c)
         "along: a state under a small load is outside the range that the element can evaluate%s",
         s->words);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
-        for (int b = 0; b < X; b++) { /* the symmetric part of K is that of the exponential chart */
+        for (int b = 0; b < X;
+             b++) { /* differences along the exponential chart give the symmetric part of K */
             const double ua = chart_unit(a, l), ub = chart_unit(b, l),
                          change = (found[a][b] * ub + found[b][a] * ua) * FINER / 2,
                          scale = sqrt(fabs(K[a * (X + 1)] * K[b * (X + 1)]));

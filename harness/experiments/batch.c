@@ -62,8 +62,8 @@ static int write_label(FILE *to, const batch_label *b, size_t size)
     return bad ? -1 : 0;
 }
 
-/* Assembles the label, the bytes and the last line of the file. The caller frees *out. Returns 0,
- * or -1 if out of memory. */
+/* Assembles the contents of the file: the label, the bytes and the last line. The caller frees
+ * *out. Returns 0, or -1 if out of memory. */
 static int assemble(const batch_label *b, const void *bytes, size_t size, char **out,
                     size_t *length)
 {
@@ -81,8 +81,8 @@ static int assemble(const batch_label *b, const void *bytes, size_t size, char *
     return fclose(to) != 0 || bad ? -1 : 0;
 }
 
-/* Ensures that written names survive a power failure. A folder that cannot be synchronised is not
- * an error. */
+/* Writes the names of the files in the folder to the disk, so they survive a power failure. A
+ * folder that cannot be synchronised is not an error. */
 static void keep_names(const char *folder)
 {
     const int there = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -92,8 +92,8 @@ static void keep_names(const char *folder)
     }
 }
 
-/* Writes the file under a lock, which shows that the writer is running. The lock ends with the
- * process. */
+/* Writes the file under a lock, which shows other processes that the writer is running. The lock
+ * ends when the file is closed or the process ends. */
 static status write_locked(const char *path, const char *bytes, size_t length, fault *f)
 {
     output file;
@@ -127,9 +127,9 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
     return outcome;
 }
 
-/* Returns 1 if the writer of a temporary file has ended. The file is then not locked. An empty file
- * may not be locked yet. Such a file counts only if its writer has certainly ended or the file is
- * old. */
+/* Returns 1 if the writer of a temporary file has ended, which means that the file is not locked.
+ * An empty file may not be locked yet. For such a file, returns 1 only if gone_for_sure is 1 or the
+ * file is older than OLD. */
 static int is_orphan(const char *path, int gone_for_sure)
 {
     enum { OLD = 60 }; /* [s] */
@@ -158,8 +158,6 @@ void batch_clean(const char *folder, const char *name, int gone)
     if (d != NULL)
         closedir(d);
 }
-
-/* Reports that the file does not have the header of a batch. */
 
 static status no_batch(const char *path, fault *f)
 {
@@ -239,7 +237,8 @@ status batch_read_label(const char *path, batch_label *out, fault *f)
     return outcome;
 }
 
-/* Checks that the file contains only the results between the first and the last line. */
+/* Checks that exactly `size` bytes of results lie between the first and the last line. The stream
+ * then is at the first of these bytes. */
 static status check_size(FILE *from, const char *path, long size, fault *f)
 {
     const long begin = ftell(from);

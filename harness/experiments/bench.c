@@ -10,12 +10,11 @@
 #include "harness/numerics/numerics.h"
 #include "harness/terminal/terminal.h"
 
-/* Measures the times of a sweep. floor: minimum processor time [s] of a round for one cell. Only
- * the default point is measured completely if there are several points: with the parts of an
- * iteration and, on the middle mesh of each formulation, the run without elimination. At other
- * points, rounds are short, and long cells keep the time of their single run. Crashed cells are not
- * run again. dense 1: the published algorithm is also timed. to: stream for the progress, or NULL.
- * */
+/* Measures the times of a sweep. floor: minimum processor time [s] of a round for one cell. At the
+ * default point, the parts of an iteration and, on one mesh of each formulation, the run without
+ * elimination are also measured. At other points of a sweep, rounds are short, and long cells keep
+ * the time of their single run. Crashed cells are not run again. dense 1: the published algorithm
+ * is also timed. to: stream for the progress, or NULL. */
 static status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f);
 
 enum { MOST = 64 };                        /* largest number of formulations */
@@ -90,7 +89,8 @@ static status run(const void *asked, void *found, fault *f)
     return run_sweep(&r->cells, &b->sweep, f);
 }
 
-/* Determines the verdicts, which select the points where times are measured. */
+/* Adds the derived reference values of named cases, determines the verdicts, and measures the
+ * times. */
 static status judge(const void *asked, void *found, fault *f)
 {
     const bench_request *r = asked;
@@ -182,7 +182,7 @@ static void sample(const cell_request *dense, dense_reference *out)
     if (cell_run(&one, &cell, &f) == STATUS_OK)
         for (int k = 0; k < PHASE_REST; k++)
             seconds += cell.solve.phase[k];
-    if (seconds > 0) { /* continued paths have no dense form, so there is no sample */
+    if (seconds > 0) { /* paths by continuation have no dense form, so there is no sample */
         out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
         out->unknowns = unknowns_of(&cell);
     }
@@ -222,7 +222,8 @@ static int can_run(const sweep *s, const series *one, int mesh)
             r->seconds_setup + r->seconds_solve < longest_elsewhere);
 }
 
-/* Returns the index of the middle one of the meshes that have a solution; -1: none. */
+/* Returns the index of the middle mesh or, if it has no solution, of the next coarser mesh with a
+ * solution. -1: there is none, or the point is not the default point. */
 static int mesh_kept_whole(const sweep *s, const series *one)
 {
     if (!at_defaults(s, one))
@@ -233,8 +234,8 @@ static int mesh_kept_whole(const sweep *s, const series *one)
     return one->meshes > 0 && one->cell[mesh].solve.status == STATUS_OK ? mesh : -1;
 }
 
-/* Runs both variants alternately. The difference of their times is the time saved by elimination.
- * */
+/* Runs one round without elimination. The difference from the time of the usual run is the time
+ * saved by elimination. */
 static void round_kept_whole(const cell_request *as_is, double floor, cell_timing *out)
 {
     cell_request whole = *as_is;
@@ -336,7 +337,7 @@ void rounds_single_thread(char **arguments)
         setenv(threads[i], "1", 1);
     }
     if (!single)
-        /* This point is reached only if /proc is missing. Libraries then choose the number of
+        /* execv returns only if /proc is missing. The libraries then choose the number of
          * threads. */
         execv("/proc/self/exe", arguments);
 }
@@ -483,7 +484,6 @@ status profiles_section(profiles_form form, double unit, section *out, fault *f)
         spec.density = 7850 * unit * unit * unit;
     TRY(section_compute(&spec, out, f));
     if (form == PROFILES_UNSYMMETRIC)
-        /* Iw is of the same size as the value with which it is compared */
         out->Iw = out->A * pow(0.2 / unit, 4);
     return STATUS_OK;
 }

@@ -288,8 +288,8 @@ static void same(const call_account *a, const call_account *b, const char *after
                 other, after, s->words);
 }
 
-/* Prepares an element of another length, in separate memory or in the memory of the first element,
- * which is then prepared again. Both elements must give the same results as without these calls. */
+/* Checks that calls of a second, longer element do not change the results of the first element. The
+ * second element must give the same results as in a new process. */
 static void other_element(const specimen *s, const call_account *before, const node_state x[],
                           const call_account *first, claim *one)
 {
@@ -307,7 +307,9 @@ static void other_element(const specimen *s, const call_account *before, const n
     specimen_free(&other);
 }
 
-/* Prepares the element again in its memory. Returns 0 after a failure, which is reported. */
+/* Prepares a longer element in the memory of the element, then prepares the element again, and
+ * checks that its results are unchanged. Returns 0 if memory is exhausted or if the second
+ * preparation fails. The failure is then recorded. */
 static int in_its_place(const specimen *s, const call_account *before, const node_state x[],
                         claim *one)
 {
@@ -352,7 +354,8 @@ static void alone(const specimen *s, const call_account *before, const node_stat
     s->type.stress(s->data, a.e, inner, &(stress_output){.C = a.C});
     s->type.stress(s->data, a.e, inner, &(stress_output){.sigma = a.sigma});
     s->type.stress(s->data, a.e, inner, &(stress_output){.energy = &a.energy});
-    if (s->inner > 0) { /* the last correction is not repeated */
+    if (s->inner >
+        0) { /* not compared, because the last correction of the inner unknowns is not repeated */
         memcpy(a.sigma, before->sigma, sizeof a.sigma);
         memcpy(a.C, before->C, sizeof a.C);
         a.energy = before->energy;

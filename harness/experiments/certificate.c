@@ -15,7 +15,8 @@
 
 enum {
     MOST_CHILDREN = 64,
-    LOOK = 100 /* largest number of processes, and time [ms] between checks of the clocks */
+    LOOK = 100 /* MOST_CHILDREN: largest number of processes; LOOK: time between checks of time
+                  limits [ms] */
 };
 
 /* A process that runs a part. Its pipe closes when the process ends. */
@@ -104,8 +105,8 @@ static status start(tester *t, certificate *of, int part, int time_limit, fault 
     return STATUS_OK;
 }
 
-/* Records that the process of a part has ended. If the part was not complete, a requirement is
- * violated. */
+/* Records that the process of a part has ended. An incomplete part is recorded as a violated
+ * requirement. */
 static void bury(tester *t, int time_limit)
 {
     char words[100];
@@ -131,7 +132,7 @@ static void stop_late(tester *t, int time_limit)
     kill(t->process, SIGKILL);
 }
 
-/* Skips the parts after a part that exceeded the time limit. */
+/* Records that a part is not checked, because another part has exceeded the time limit. */
 static void pass_over(certificate *of, int part)
 {
     char why[CLAIM_SENTENCE];
@@ -139,7 +140,8 @@ static void pass_over(certificate *of, int part)
     claims_not_made(&of->part[part].claims, certificate_part_name(part), why);
 }
 
-/* Waits until a process ends. Returns the number of processes that have ended. */
+/* Waits at most LOOK for the end of a process, and stops processes that exceed the time limit.
+ * Returns the number of processes that have ended. */
 static int attend(tester all[], int jobs, int time_limit)
 {
     struct pollfd ends[MOST_CHILDREN];
@@ -315,7 +317,8 @@ static int nothing(const element_measure *one)
     return 1;
 }
 
-/* path 1: the words are a verdict, which is always printed. */
+/* Writes a measurement in one line. path 1: the words of the measurement are a verdict, which is
+ * always printed. */
 static void write_measure(FILE *to, const element_measure *one, int path, int verbose)
 {
     const int at = fprintf(to, "    %-*s", MEASURE - 4, one->name);

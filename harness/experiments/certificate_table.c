@@ -88,7 +88,7 @@ static void head(paper_table *t, int column, const char *text)
 }
 
 /* Returns the check with the largest ratio of the deviation to the allowed deviation; NULL: no
- * deviation is finite. */
+ * finite deviation is compared with an allowed deviation. */
 static const claim *worst_of(const claims *c)
 {
     const claim *found = NULL;
@@ -134,7 +134,8 @@ static void fill_requirements(paper_table *t, const certificate *c)
     }
 }
 
-/* Returns "correct" or "wrong" for a linear state, according to the check of its limit. */
+/* Returns "correct" or "wrong" for a linear state, according to the check of its limit. Returns
+ * `none` if the limit was not checked. */
 static const char *state_limit(const claims *c, const char *state, const char *none)
 {
     char name[CLAIM_NAME];
@@ -366,7 +367,7 @@ static void put_value(FILE *to, double value)
         fprintf(to, "%.17g", value);
 }
 
-/* Writes the columns that are equal in all lines. */
+/* Writes the first columns of a line: formulation, version, commit, hash, part and name. */
 static void csv_begin(FILE *to, const certificate *c, int part, const char *name)
 {
     const environment now = environment_now(1);

@@ -68,8 +68,9 @@ static status energy_of(const specimen *s, const node_state x[], double *energy)
     return specimen_settled(s, e, inner, &(stress_output){.energy = energy});
 }
 
-/* Checks the reversed element, which is rotated by pi about y and has the same warping amplitudes.
- * Curved elements are not checked, because their reversal gives a different element. */
+/* Checks that exchanging the nodes does not change the energy. The sections of the reversed element
+ * are rotated by pi about y, and the warping amplitudes are unchanged. Curved elements are not
+ * checked, because their reversal gives a different element. */
 static void node_order(const specimen *s, double size, claim *one)
 {
     static const double half_turn[9] = {-1, 0, 0, 0, 1, 0, 0, 0, -1};
@@ -145,7 +146,7 @@ static void check(const specimen *s, claims *c)
         if (s->type.offers & FEATURE_LARGE)
             node_order(s, 0.05,
                        claims_open(c, "exchanging the nodes does not change the energy", 1e-9));
-        else /* optional higher-order terms are as large as the strains */
+        else /* relative to the energy, second-order terms are as large as the strains */
             node_order(s, 1e-5,
                        claims_open(c, "exchanging the nodes does not change the energy", 5e-5));
     }
@@ -170,7 +171,7 @@ void checks_motion(const formulation *chosen, claims *out)
 }
 
 /* States with NaN or Inf, as in a diverging iteration. The element must report them by a status or
- * by NaN values, and must never ignore them. */
+ * by values that are not finite. */
 
 enum { UNSOUND_M = SPECIMEN_STRAINS };
 

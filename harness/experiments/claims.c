@@ -213,7 +213,7 @@ status beam_section(const beam_request *r, section *out)
     return section_compute(&spec, out, NULL);
 }
 
-/* the values differ, so that exchanged factors are detected */
+/* Computes the position [m] of the point at arc length s [m] of the beam. */
 static void place(const beam_request *r, double s, double at[3])
 {
     const double radius = 2 / PI;

@@ -38,7 +38,7 @@ static double largest(int n, const double a[])
 }
 
 /* Compares an entry with its finite-difference value. Both are multiplied by the unit of the
- * coordinate. */
+ * coordinate. size: largest entry for the same strain. */
 static void compare_J(const specimen *s, int strain, int c, double given, double found, double size,
                       claim *one)
 {
@@ -51,7 +51,8 @@ static void compare_J(const specimen *s, int strain, int c, double given, double
                    s->words);
 }
 
-/* Compares J [strains x n] row by row, multiplied by the units of the coordinates. */
+/* Compares J row by row with finite differences of the strains. The entries are multiplied by the
+ * units of the coordinates. */
 static void check_J(const specimen *s, const node_state x[], claim *one)
 {
     const specimen_place at = {s, x};
@@ -72,8 +73,8 @@ static void check_J(const specimen *s, const node_state x[], claim *one)
     }
 }
 
-/* Compares H with the symmetric part of the change of J, which corresponds to the exponential
- * chart. change[c]: change of J along coordinate c, per unit of the coordinate. */
+/* Compares H with the symmetric part of the derivative of J. The symmetric part corresponds to the
+ * exponential chart. change[c]: change of J along coordinate c, per unit of the coordinate. */
 static void compare_H(const specimen *s, int strain, const double H[], const double change[][M * N],
                       double size, claim *one)
 {
@@ -217,7 +218,8 @@ static stress_output many_stress_of(const many_batch *b, many_answers *a)
     return out;
 }
 
-/* Records the difference of two numbers of an element, relative to their size. */
+/* Records the difference between a value from a single call and the value from a call for many
+ * elements, relative to `size`. */
 static void differ(const many_batch *b, int k, const char *what, const char *entry, double alone,
                    double together, double size, claim *one)
 {

@@ -50,7 +50,7 @@ static status check_box(const design *d, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the next point of the sequence; 0 <= share < 1. */
+/* Computes the next point share[axes] of the sequence, with 0 <= share < 1. */
 static void next(const design *d, const design_mark *m, double share[])
 {
     if (m->quasi != NULL)
@@ -94,7 +94,7 @@ static void end(design_mark *m)
     *m = (design_mark){NULL, NULL};
 }
 
-/* Stores the state of the sequence at every stride. */
+/* Stores the state of the sequence at the first point of every stride. */
 static status set_marks(design *d, fault *f)
 {
     const long least = (d->points + DESIGN_MARKS - 1) / DESIGN_MARKS;
@@ -307,7 +307,7 @@ static status check_ends(const case_type *type, const sweep_axis *a, fault *f)
     return check(type, a, a->count > 2 || a->count == 0 ? axis_at(a, 0.5) : a->to, f);
 }
 
-/* Reads the part after the name: "A..B/N:log". */
+/* Reads a range "A..B/N:log", in which "/N" and ":log" are optional. dots: position of "..". */
 static status read_range(const case_type *type, const char *text, const char *dots, sweep_axis *a,
                          fault *f)
 {

@@ -1,5 +1,5 @@
-/* Compares stress, stiffness and geometric stiffness with finite differences of the energy, of
- * the stress and of the stiffness. */
+/* Compares the stress with finite differences of the energy, and the stiffness with finite
+ * differences of the stress. Also checks the geometric stiffness. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -23,7 +23,8 @@ static double unit_of(const specimen *s)
     return s->request.length / 20;
 }
 
-/* Computes the state in which strains i and j are changed by si and sj units. */
+/* Computes the stress after changes of strains i and j by si and sj units. The inner unknowns are
+ * converged. */
 static status at_place(const energy_place *at, int i, double si, int j, double sj,
                        stress_output *out)
 {
@@ -45,7 +46,8 @@ static int stress_at(const void *context, int i, double si, int j, double sj, do
     return (int)at_place(context, i, si, j, sj, &(stress_output){.sigma = values});
 }
 
-/* Returns a scale for C[i][j], from the stiffnesses of the two strains. */
+/* Returns the scale of C[i][j]: the geometric mean of C[i][i] and C[j][j]. Each is at least 1e-9 of
+ * the largest diagonal entry. */
 static double size_of(const specimen *s, const double C[], int i, int j)
 {
     const int m = s->strains;
@@ -101,8 +103,7 @@ static void check_stiffness(const energy_place *at, const double C[], claims *c)
     }
 }
 
-/* Checks that energy and stress are zero if the strains are zero. Curved elements that are
- * straightened are not checked. */
+/* Checks that energy and stress are zero if the strains are zero. */
 static void check_rest(const specimen *s, claims *c)
 {
     const double none[ENERGY_M] = {0};
@@ -201,8 +202,8 @@ void checks_energy(const formulation *chosen, claims *out)
 }
 
 /* Inertia in a rotating frame. The centrifugal force and stiffness derive from a potential, and the
- * gyroscopic matrix is skew-symmetric. The energy of the motion of the frame is minus the
- * centrifugal potential. */
+ * gyroscopic matrix is skew-symmetric. The kinetic energy of an element that rotates with the frame
+ * is minus the centrifugal potential. */
 
 enum { N = SPECIMEN_COORDINATES };
 
@@ -369,7 +370,9 @@ static double twisted_energy(const specimen *s, double angle)
 }
 
 /* Checks the effect of warping: warping moves fibres along the beam, which changes their distances
- * from the axis of rotation. Potential: -1/2 int rho (omega a)^2 |Omega x e_x|^2 dV. */
+ * from the axis of rotation. The potential of this effect is -1/2 int rho (omega a)^2 |Omega x
+ * e_x|^2 dV, with the warping function omega, the warping amplitude a and the angular velocity
+ * Omega. */
 static void warping(const specimen *s, claim *one)
 {
     const double angle = 0.005, *w = turning.omega;
@@ -400,8 +403,8 @@ static void rotating_check(const specimen *s, claims *c)
         warping(s, claims_open(c, "centrifugal energy of warping", 2e-4));
 }
 
-/* Makes all checks. The checks of the rotating frame are repeated without some physics, so the
- * remaining terms are tested alone. */
+/* Makes all checks. The checks of the rotating frame are repeated without rotary inertia, without
+ * warping, and without warping and shear. Thus the remaining terms are tested alone. */
 static void check_all(const specimen *s, claims *c)
 {
     static const unsigned without[] = {FEATURE_ROTARY_INERTIA, FEATURE_WARPING,

@@ -178,7 +178,8 @@ status experiment_do(const experiment_type *e, const void *asked, const experime
     return experiment_run(e, asked, to, found, f);
 }
 
-/* Records describe parts of a certificate. The index counts these parts. */
+/* Returns the certificate to which the part of a record belongs. The index of the subject is the
+ * index of the part. */
 static const certificate *certificate_of(const subject *s)
 {
     return s->owner;

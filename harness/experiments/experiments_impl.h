@@ -12,7 +12,7 @@
 #include "harness/study/study.h"
 #include "harness/terminal/terminal.h"
 
-/* Evaluates given times [s] of `pairs` laps. Tests supply the times. */
+/* Compares the times [s] of `pairs` pairs of laps. */
 contest_clock against_judge(int pairs, const double a[], const double b[]);
 
 /* Varied parameter: a parameter of a case, and its values. */
@@ -27,8 +27,8 @@ status axis_read(const case_type *type, const char *text, sweep_axis *out, fault
 void axis_free(sweep_axis *);
 /* Returns value number i, counted from 0. */
 double axis_value(const sweep_axis *, int i);
-/* Returns the value at a fraction of the axis, 0 <= share < 1. For a list, this is the value at the
- * fraction of the list. */
+/* Returns the value at a fraction of the axis, 0 <= share < 1. For a list, returns the entry at
+ * this fraction of the length of the list. */
 double axis_at(const sweep_axis *, double share);
 /* Returns "linear", "log", "list" or "words". */
 const char *axis_kind_name(axis_kind);
@@ -36,8 +36,8 @@ void axis_text(const sweep_axis *, double value, char *text, int size);
 
 machine node_here(void);
 
-/* Batch files. A file contains a line of JSON with the label, the bytes of the results, and a
- * line with length and checksum. The file appears complete or not at all. */
+/* Batch files. A file contains a line of JSON with the label, the bytes of the results, and a line
+ * with a checksum. The file appears complete or not at all. */
 
 /* Writes the common start of the names of all batches of one work: "verify-0123456789ab". */
 void batch_stem(const shard_work *w, char out[BATCH_STEM]);
@@ -72,7 +72,8 @@ void measures_point(element_measure *one, double at, double error);
 /* Returns the number of measures with a wrong limit. */
 int measures_astray(const measures *m);
 
-/* Returns the check of the given name. A new check passes until a deviation is added. */
+/* Returns the check with the given name, and adds it if necessary. allowed: largest allowed
+ * deviation. A new check passes until a larger deviation is added. */
 claim *claims_open(claims *c, const char *name, double allowed);
 /* Records that the type does not declare this property, and the reason. */
 void claims_not_made(claims *c, const char *name, const char *why);
@@ -102,8 +103,8 @@ unsigned specimen_features(const element_type *t, unsigned without);
 
 /* Computes pseudo-random numbers in (-1/2, 1/2) that are determined by the seed. */
 void specimen_numbers(int count, unsigned seed, double out[]);
-/* Rotates the whole element about the origin by a rotation vector, then shifts it by the given
- * number of lengths. */
+/* Rotates the whole element about the origin by a rotation vector, then shifts it by a fixed
+ * multiple of its length. */
 void specimen_carry(const specimen *s, const double turn[3], const node_state x[],
                     node_state out[]);
 
@@ -224,7 +225,7 @@ status pace_method_read(const char *text, int length, pace_method *out, fault *f
 /* Appends the methods of a list "NAME,NAME,...". Each method may occur once. */
 status pace_method_read_list(const char *text, int most, pace_method list[], int *count, fault *f);
 
-/* Tolerances of the reference and of its checks. radau computes them on the same mesh. */
+/* Tolerances of the reference and of its checks. All are computed with radau on the same mesh. */
 enum { PACE_CHECKS = 2 };
 extern const double pace_reference[1 + PACE_CHECKS];
 /* Limits of E/E0 - 1, of the relative change of energy, and of the relative change of momenta. */
@@ -348,21 +349,17 @@ void certificate_paper(FILE *to, int latex, const certificate *all, int count);
 /* Writes one line for each check and each measured error. */
 void certificate_csv(FILE *to, const certificate *all, int count);
 
-/* Checks that results depend on each supported feature. */
-
 /* Expected outcomes of a sweep of extremes (reference/extreme_findings.csv), and their counts. */
 
 /* Sets finding and as_expected of every outcome, and the counts. whole: 1 if no selection was made;
  * an unobserved deviation is then a failure. */
 void extreme_expect(extreme_sweep *s, int whole);
 
-/* Classifies the number of an outcome as accurate, under-resolved or wrong. */
-
 /* Classifies an outcome from the first mesh: as accurate, as a failure, or as wrong until other
  * meshes are known. */
 status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outcome *o, fault *f);
-/* Decides if the error decreases towards the finest mesh with an order of at least 0.5, like a
- * discretisation error. */
+/* Decides whether an outcome is under-resolved instead of wrong. It is, if its error decreases
+ * towards the finest mesh with an order of at least 0.5, as a discretisation error does. */
 void extreme_judge_neighbours(const extreme_sweep *s, const truths *t, extreme_outcome *o);
 
 /* Record types of extremes, of outcomes, and of the counts of a formulation. */
@@ -379,9 +376,9 @@ typedef struct known_truths {
     int borrowed; /* 1: the rows of `stored` belong to the request */
 } known_truths;
 
-/* Finds the stored reference values of the point. If there are none and --compute-references was
- * given, a program of reference/derive computes them. If this program fails, there are no reference
- * values. FAULT: out of memory. */
+/* Finds the stored reference values of the point. If a requested quantity has none and
+ * --compute-references was given, a program of reference/derive computes them. If this program
+ * fails, there are no reference values. FAULT: out of memory. */
 status known_at(const parameter_ranges *r, const sweep_point *p, known_truths *out, fault *f);
 void known_free(known_truths *);
 
@@ -412,8 +409,6 @@ typedef struct labour_notice {
 
 /* Computes batches until none is left or a batch fails. to: pipe for the messages. */
 _Noreturn void labour_work(const labour *, int self, int to);
-
-/* Time from which no load acts on a structure. Energy and momenta are constant from then on. */
 
 /* Distance between two motions that are computed on the same mesh. */
 
@@ -509,7 +504,7 @@ typedef struct pace_reach {
     double cost;
 } pace_reach;
 
-/* Finds this run for an integrator in a group. */
+/* Finds the run of an integrator in a group, and its cost, for an error level. */
 pace_reach pace_reach_of(const pace *, int group, const char *method, double level);
 /* Lists the names of the integrators of all groups without repetition, and returns their number. */
 enum { PACE_METHODS_MOST = 32 };
@@ -526,8 +521,6 @@ extern const record_type *const pace_records[]; /* all record types except the f
 /* runs 1: prints a line for each motion, in addition to the verdicts. */
 void pace_table(FILE *to, const pace *, const pace_verdicts *, int runs);
 
-/* A sweep as CSV: one row for each point, formulation, mesh and quantity. */
-
 /* Data that the group of a sweep contains once. */
 
 /* Writes the request, before any point. */
@@ -542,8 +535,6 @@ void ranges_points_values(const parameter_ranges *, const double at[],
                           double value[CASE_MAX_PARAMETERS]);
 /* Writes "NAME=VALUE, NAME=VALUE" for the axes. The numbers have as many digits as necessary. */
 void ranges_points_text(const parameter_ranges *, const double at[], char *text, int size);
-
-/* Solves and measures the cells of some points of a sweep. */
 
 /* Internals of the table of a sweep. */
 
@@ -578,9 +569,6 @@ typedef struct point_reference {
 point_reference reference_of(const sweep *s, int series_index, int quantity, const truths *stored,
                              const truths *derived, double tolerance);
 
-/* The part of a scene on which a continued motion depends: everything except stations and
- * quantities. */
-
 /* Elements of a formulation under test. The default element has everything that the formulation
  * supports. Other elements have each section and each choice of each option. Elements are straight
  * and curved. */
@@ -598,9 +586,8 @@ void specimens_each(const formulation *chosen, claims *c, specimens_check *check
  * points, no formulation runs, or the selection has an unknown word or selects nothing. */
 status survey(parameter_ranges *r, fault *f);
 
-/* Stores the worst points of a sweep as scene files. */
-
-/* Makes the work. FAULT: out of memory. ranges_work_free frees the result. */
+/* Allocates the data for the batches of a sweep. FAULT: out of memory. ranges_work_free frees the
+ * result. */
 status ranges_work_make(const parameter_ranges *r, ranges_work *out, fault *f);
 void ranges_work_free(ranges_work *);
 /* Returns the shard work of the sweep. The caller sets its identity. */

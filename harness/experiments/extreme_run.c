@@ -11,7 +11,8 @@ static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f
 
 enum {
     enough_elements = 16
-}; /* neighbours before this index are finer meshes, the others are coarser */
+}; /* from this number of elements on, the neighbouring meshes are coarser; below it, they are finer
+    */
 
 /* Adds a series with the neighbouring meshes for the cell of an outcome, unless the series exists.
  * */
@@ -175,7 +176,8 @@ static void count_cell(outcome_kind worst, extreme_count *c)
     c->faults += worst == OUTCOME_FAULT;
 }
 
-/* Counts cells. The outcomes of a cell are consecutive. The cell counts as its worst outcome. */
+/* Counts the cells of each formulation by their worst outcomes. The outcomes of a cell are
+ * consecutive. */
 static void count_cells(extreme_sweep *s)
 {
     outcome_kind worst = OUTCOME_SKIP;
@@ -347,7 +349,7 @@ static const schema_field key_of_count[] = {
 const record_type record_extreme_count = {
     "count", "formulations", "results of a formulation", {key_of_count, fields_of_count}};
 
-/* Keys of an extreme: x, or the name of a quantity. */
+/* Tables of an extreme: the values of x, and the quantities. The key is the name of the extreme. */
 static const schema_field key_of_extreme[] = {
     {"extreme", "", FIELD_TEXT, "name of the extreme", .get = get_owner, .key = KEY}, {0}};
 static const schema_field field_of_x[] = {{"x", "1", FIELD_DOUBLE, "extreme value", .get = get_x},

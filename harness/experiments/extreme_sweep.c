@@ -4,8 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Return the cell of an outcome, its quantity in the scene, and its value (NAN: none) on the first
- * mesh (refinement 0) or on a neighbouring mesh. */
+/* Return the cell of an outcome on the first mesh, its quantity in the scene, the result of the
+ * quantity in a cell, and its value (NAN: none). refinement: 0: first mesh; k: neighbouring mesh k
+ * - 1. */
 static const cell_result *extreme_sweep_cell(const extreme_sweep *s, const extreme_outcome *o)
 {
     return &s->first.series[o->series].cell[0];
@@ -103,7 +104,8 @@ static int has_other_theory(const extreme_sweep *s, const truths *t, const extre
     return exact_value(s, t, o) == NULL && truth_of(t, p->type, p->parameter, name, "same") != NULL;
 }
 
-/* Returns the reference value and its relative uncertainty. */
+/* Returns the reference value and its relative uncertainty. The reference value is an exact value
+ * or, for EXTREME_SAME, the value at the base x multiplied by a power of x/same_as. */
 static double extreme_reference_of(const extreme_sweep *s, const truths *t,
                                    const extreme_outcome *o, int refinement, double *uncertainty)
 {
@@ -256,8 +258,8 @@ static const struct {
                              [OUTCOME_NO_VALUE] = {'V', "no value"},
                              [OUTCOME_FAULT] = {'F', "fault"}};
 
-/* Writes an error [%] as "0.22" or "2e-7", or a letter for a failure. Signs before an error are ~
- * (under-resolved), ! (wrong) and ? (not expected). */
+/* Writes an error [%] as "0.22" or "2e-7", or a letter for a failure. A sign after it means: ~
+ * under-resolved, ! wrong, ? not expected. */
 static void cell_text(const extreme_outcome *o, char *text, size_t size)
 {
     static const char *const mark[OUTCOME_KINDS] = {[OUTCOME_COARSE] = "~", [OUTCOME_WRONG] = "!"};
@@ -312,7 +314,7 @@ static void print_head(FILE *to, const extreme *e)
     fprintf(to, "%*s\n", CONDITION_WIDTH, "cond.");
 }
 
-/* Prints the errors of a formulation and quantity at all values of x, and the worst condition
+/* Prints the errors of a formulation and quantity at all values of x, and the largest condition
  * number. */
 static void print_line(FILE *to, const extreme_sweep *s, const extreme_outcome *o)
 {

@@ -9,8 +9,8 @@
 #include "elements/math/rotation.h"
 #include "harness/model/model.h"
 
-/* Checks that each declared feature of the section changes a result of the element. The feature
- * warping must change the amplitudes. */
+/* Checks that each declared feature of the section changes a result of the element. For warping, a
+ * result must depend on the warping amplitudes of the nodes. */
 static void effects_check(const formulation *chosen, claims *c);
 
 typedef enum feature_outcome { FINITE, REFUSED, BAD, FEATURE_OUTCOMES } feature_outcome;
@@ -103,8 +103,9 @@ static void features_of_cases(const formulation *chosen, claims *c)
                     "features, limits: the formulation supports none of the built-in cases");
 }
 
-/* Checks that a type rejects at most half of the other subsets, and that the message of a rejection
- * names a feature. A rejection is allowed because one feature may require another. */
+/* Checks that a type gives a finite stiffness for subsets of its features, or rejects a subset
+ * with a reason. At most half of the subsets may be rejected, because one feature may require
+ * another. */
 static void feature_subsets(const formulation *chosen, claims *c)
 {
     enum { OPTIONAL = 7 };
@@ -180,7 +181,7 @@ static int differ(const effects_answers *a, const effects_answers *b)
            other(EFFECTS_M * EFFECTS_M, a->C, b->C) || other(EFFECTS_M * EFFECTS_M, a->G, b->G);
 }
 
-/* An element with the features, and the same element with one feature removed. */
+/* An element with some features, and the same element without one of them. */
 typedef struct pair {
     specimen with, without;
 } pair;
@@ -196,8 +197,8 @@ static int makes(const formulation *chosen, unsigned features, profiles_form for
     return specimen_make(&what, out, &f) == STATUS_OK;
 }
 
-/* Returns 1 if a result changes, 0 if none changes, and -1 if the type rejects one of the two
- * elements. */
+/* Returns 1 if a feature changes a result, 0 if it changes none, and -1 if the type rejects or
+ * cannot evaluate one of the two elements. */
 static int changes(const formulation *chosen, unsigned features, unsigned bit, profiles_form form)
 {
     pair p;
@@ -218,7 +219,8 @@ static int changes(const formulation *chosen, unsigned features, unsigned bit, p
     return found;
 }
 
-/* Returns 1 if the feature changes the warping amplitudes of the nodes. */
+/* Returns 1 if a result depends on the warping amplitudes of the nodes, 0 if none does, and -1 if
+ * the element cannot be evaluated. */
 static int warps(const formulation *chosen, unsigned features, profiles_form form)
 {
     specimen s;
@@ -238,7 +240,8 @@ static int warps(const formulation *chosen, unsigned features, profiles_form for
 }
 
 /* Returns 1 if the feature changes a result for a rectangular section or, if the type supports it,
- * for an unsymmetric section. */
+ * for an unsymmetric section. Returns 0 if no result changes, and -1 if no element can be
+ * evaluated. bit 0: the warping amplitudes instead of a feature. */
 static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
 {
     const element_type *t = chosen->type;
@@ -333,7 +336,7 @@ static void positive(const specimen *s, const double A[], claim *one)
                 pivot, specimen_coordinate(pivot > 0 ? pivot - 1 : 0, where), s->words);
 }
 
-/* Returns v^T M v for the velocity field omega x r + shift. */
+/* Returns v^T M v, twice the kinetic energy, for the velocity field omega x r + shift. */
 static double energy(const specimen *s, const node_state x[], const double M[],
                      const double omega[3], const double shift[3])
 {

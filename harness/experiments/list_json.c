@@ -35,7 +35,7 @@ static json_t *bound_of(const parameter_type *p, double value)
     return none ? json_null() : json_real(value);
 }
 
-/* Returns a table of parameters. value NULL: the default values are used. */
+/* Returns the parameters as a list. value NULL: the default values are used. */
 static json_t *parameters_of(const assignment_list *all, const double value[])
 {
     json_t *list = json_array();

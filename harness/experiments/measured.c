@@ -19,8 +19,9 @@ const measured_group measured_groups[MEASURED_GROUPS] = {
 
 enum { THICKNESSES = 7, ELEMENTS = 8 };
 
-/* Returns the exact displacement of a straight cantilever due to a force, or of a quarter ring due
- * to a force towards its centre. */
+/* Returns the exact displacement of the end of a cantilever due to a force of 1 N, or of a quarter
+ * ring due to such a force towards its centre. For BEAM_LARGE, returns the displacement of a beam
+ * that an end moment bends to a quarter circle. */
 static double exact_of(const beam_request *r, const section *c)
 {
     const double EI = c->young * c->Iz, EA = c->young * c->A,
@@ -32,8 +33,8 @@ static double exact_of(const beam_request *r, const section *c)
     return 1 / (3 * EI) + shear;
 }
 
-/* Draws a conclusion: the element locks if the error of the thin structure is much larger than the
- * error of the thick structure. */
+/* Concludes that the element locks if the error of the thin structure is much larger than the error
+ * of the thick structure. */
 static void conclude(element_measure *one)
 {
     const double thick = fabs(one->error[0]), thin = fabs(one->error[one->points - 1]);
@@ -124,7 +125,7 @@ static const state states[] = {
     {"torsion, warping held", 0, 0, 1, 0, BEAM_LINEAR, SCENE_MOMENT, 0, SCENE_RX, "G It, E Iw?"},
 };
 
-/* Returns the exact value of the load's component. */
+/* Returns the exact displacement or rotation of the end in the measured component. */
 static double states_exact_of(const state *s, const section *c, double load)
 {
     const double EIz = c->young * c->Iz, EIy = c->young * c->Iy, GI = c->shear_modulus * c->It;
@@ -142,8 +143,8 @@ static double states_exact_of(const state *s, const section *c, double load)
     return s->direction == 0 ? load / GI : s->direction == 1 ? -load / (2 * EIy) : load / (2 * EIz);
 }
 
-/* Draws a conclusion: an error that does not depend on the number of elements is due to the section
- * and not to the mesh. */
+/* Concludes that the limit is wrong if the error with four elements is not much smaller than with
+ * one element. Such an error is due to the section or the element, and not to the mesh. */
 static void states_conclude(const state *s, element_measure *one)
 {
     const double coarse = fabs(one->error[0]), fine = fabs(one->error[1]);
@@ -209,7 +210,8 @@ static void compare_units(measures *out)
              fmax(times, 1 / times), times > 1 ? "soft" : "stiff");
 }
 
-/* Reports wrong limits as violated requirements, for each state or for all states together. */
+/* Reports wrong limits as violated requirements, one for each linear state, or a single one for
+ * wrong units. */
 static void hold_limits(claims *c, const measures *m)
 {
     if (m->words[0] != '\0') {
@@ -277,7 +279,7 @@ static void elastica(double angle, double *load, double *deflection)
             root;
 }
 
-/* Returns the applied load, and the exact result for this load. */
+/* Sets the applied load, and returns the exact result for this load. */
 static double orders_exact_of(const orders_question *q, const section *c, beam_request *r)
 {
     const double EI = c->young * (q->plane == 1 ? c->Iz : c->Iy), lambda = 1.8751040687119611;

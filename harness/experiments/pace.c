@@ -65,8 +65,8 @@ static int first_alone(const track *t, double from)
     return i;
 }
 
-/* Computes the energies relative to the energy of the first step. The run may have stopped before
- * the last step. */
+/* Computes the energies relative to the energy of step `first`. The run may have stopped before the
+ * last step. */
 static void take_energy(const track *t, int first, pace_run *r)
 {
     const double before = balance_at(t, first, SCENE_ENERGY);
@@ -79,7 +79,8 @@ static void take_energy(const track *t, int first, pace_run *r)
     }
 }
 
-/* Returns the magnitude of a momentum, or of its change since step `first`. */
+/* Returns the magnitude of a momentum at step `first`, or the magnitude of its change from step
+ * `first` to another step i. */
 static double vector_at(const track *t, scene_balance x, int i, int first)
 {
     double square = 0;
@@ -91,8 +92,8 @@ static double vector_at(const track *t, scene_balance x, int i, int first)
     return sqrt(square);
 }
 
-/* Returns the largest change of both momenta relative to their initial magnitudes, or 0 for a
- * structure at rest. */
+/* Returns the largest relative change of momentum and angular momentum since step `first`. A
+ * momentum that is zero at step `first` is ignored. */
 static double momentum_drift(const track *t, int first)
 {
     static const scene_balance both[] = {SCENE_PX, SCENE_LX};
@@ -105,7 +106,8 @@ static double momentum_drift(const track *t, int first)
     return largest;
 }
 
-/* Returns the largest difference between energy and work, relative to the largest energy. */
+/* Returns the largest difference between energy and work, relative to the largest energy. NAN: a
+ * difference is unknown, or all energies are zero. */
 static double unexplained(const track *t)
 {
     double most = 0, size = 0;
@@ -146,7 +148,8 @@ void pace_drift(const pace *p, pace_run *r)
 
 const double pace_order_slack = 0.3;
 
-/* Factors of the uncertainty of the reference and of rounding. Smaller errors are not reliable. */
+/* Errors are reliable only above floor_of_reference times the uncertainty of the reference, and
+ * above floor_of_rounding. */
 static const double floor_of_reference = 10, floor_of_rounding = 1e-11;
 
 const char *pace_order_name(pace_order_kind kind)
@@ -174,7 +177,8 @@ void pace_order_fill(pace *p)
                               : NAN;
 }
 
-/* Returns the verdict for two orders. If they differ much, the order is not known yet. */
+/* Returns the verdict on two consecutive orders. It is PASS if both reach the nominal order except
+ * for pace_order_slack, LOW if neither does, and UNDECIDED otherwise. */
 static pace_order_kind judge(const pace_ladder *l)
 {
     const double least = l->method->order - pace_order_slack;
@@ -337,7 +341,7 @@ static void print_run(FILE *to, const pace_run *r)
     fputc('\n', to);
 }
 
-/* Prints the reasons why runs ended prematurely, without repetition. */
+/* Prints the reasons why runs ended prematurely. Consecutive equal reasons are printed once. */
 static void print_reasons(FILE *to, const pace *p, const pace_group *g)
 {
     const char *last = "";
@@ -366,7 +370,7 @@ static void print_orders(FILE *to, const pace *p, const pace_group *g)
 }
 
 /* Prints the integrators for which the error of a quantity does not decrease with the step size,
- * and returns the number of these integrators. */
+ * and returns the number of these integrators. text NULL: nothing is printed. */
 static int write_standing(FILE *text, const pace *p, const pace_group *g, int quantity)
 {
     int count = 0;

@@ -8,8 +8,8 @@
 
 /* Returns the list first, first/ratio, first/ratio^2, ... */
 static pace_list pace_list_divided(double first, double ratio, int count);
-/* Returns the time [s] from which no load acts; INFINITY: the structure is fixed, prescribed, or
- * always loaded. */
+/* Returns the time [s] from which no load acts; INFINITY: there are supports, or a load or a
+ * prescribed motion does not end. */
 static double pace_alone_from(const scene *s);
 
 enum {
@@ -54,7 +54,7 @@ status pace_plan_usual(pace_plan_request *r, fault *f)
     return outcome;
 }
 
-/* Sets the stations, which are the multiples of `spacing` before the end, and the end. Steps of all
+/* Sets the stations: the multiples of `spacing` before the end, and the end itself. Steps of all
  * runs end at the stations. */
 static status stations_of(double spacing, double end, scene_path *out, fault *f)
 {
@@ -70,7 +70,7 @@ static status stations_of(double spacing, double end, scene_path *out, fault *f)
     return STATUS_OK;
 }
 
-/* Replaces the motion of the last point of the sweep. */
+/* Replaces the settings of the motion at the last point of the sweep. */
 static status set_motion(pace *p, const pace_group *g, const pace_run *r, double spacing, fault *f)
 {
     sweep_point *at = &p->sweep.point[p->sweep.points - 1];
@@ -110,8 +110,8 @@ static status add_motion(pace *p, const pace_group *g, const pace_plan_request *
     return STATUS_OK;
 }
 
-/* Returns the spacing of the times at which errors are examined between stations. Steps of all runs
- * must end at these times, so the spacing is a whole number of the coarsest steps. */
+/* Returns the spacing of the stations [s], at which errors are examined. Steps of all runs must end
+ * at the stations, so the spacing is a multiple of the coarsest step. */
 static double spacing_of(const pace_group *g, const pace_plan_request *q)
 {
     const double coarsest = q->steps.count > 0 ? q->steps.value[0] : g->step,
@@ -142,8 +142,8 @@ static status add_run(pace *p, const pace_plan_request *q, const pace_run *what,
     return STATUS_OK;
 }
 
-/* If energies are read, requests that steps end at every station, because the reference must not be
- * interpolated between steps. */
+/* Adds the energy at all stations as a quantity. The steps of the reference then end at every
+ * station, so its energies are not interpolated between steps. */
 static void read_exactly(scene *s, int analysis)
 {
     scene_set_curve(scene_add_quantity(s, "energy at all stations", "J", analysis,
@@ -250,7 +250,8 @@ static status refuse(const char *name, fault *f)
     return fault_set(f, STATUS_REFUSED, "--integrator '%.31s': give one of " PACE_METHODS, name);
 }
 
-/* Reads "KEY=NUMBER" of a scheme. *value is the default value if the key is missing. */
+/* Reads "KEY=NUMBER" of a scheme. *value is unchanged if the text is empty. Returns 1, or 0 if the
+ * text is invalid. */
 static int read_value(const char *text, const char *key, double most, double *value)
 {
     const size_t length = key != NULL ? strlen(key) : 0;

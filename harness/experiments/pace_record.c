@@ -64,7 +64,8 @@ static const schema_field fields_of_run[] = {
 const record_type record_pace_run = {
     "run", "runs", "a motion by one integrator with one step or tolerance", {KEYS, fields_of_run}};
 
-/* Returns the error of a quantity of a run. The quantity is given by its index. */
+/* Returns the error of a quantity of a run. The index of the subject is the index of the
+ * quantity. */
 static void get_quantity_error(const subject *s, field_value *out)
 {
     out->numbers = &((const pace_run *)s->record)->values[s->index];
@@ -173,7 +174,7 @@ static const schema_field fields_of_ladder[] = {
 static const record_type record_pace_ladder = {
     "order", "orders", "an integrator with successively halved steps", {KEYS, fields_of_ladder}};
 
-/* An error level, and the integrators that reach it. */
+/* An error level, an integrator, and the run with which the integrator reaches the level. */
 typedef struct record_reached {
     double error;
     const char *integrator;
@@ -329,7 +330,7 @@ static void gather_group(const pace *p, const pace_group *g, const record_type *
         gather_reached(p, g, out);
 }
 
-/* found: the motions. */
+/* Adds the subjects of a record type. found: the motions. */
 static void pace_gather(const void *found, const record_type *type, subjects *out)
 {
     const motions *m = found;

@@ -6,7 +6,8 @@
 
 #include "elements/shared/choice.h"
 
-/* Allowed difference of decimal logarithms, which corresponds to a factor of two. */
+/* Allowed difference between the decimal logarithms of two ratios of error to tolerance. The value
+ * corresponds to a factor of two. */
 static const double same_decade = 0.3;
 
 static void say(pace_verdict *v, const char *word)
@@ -76,7 +77,7 @@ static void reach_one(const pace *p, pace_verdict *v)
             say(v, r[i].fate != PACE_UNJUDGED ? pace_fate_name(r[i].fate) : "unjudged");
 }
 
-/* Returns 1 if two lists have the same length and nearly equal numbers. */
+/* Returns 1 if two lists have the same length, and their numbers differ by at most same_decade. */
 static int is_near(const char *a, const char *b)
 {
     while (*a != '\0' && *b != '\0') {
@@ -182,8 +183,8 @@ static status read_row(const own_table_row *row, pace_verdict *v, planned *out, 
     return STATUS_OK;
 }
 
-/* Returns 1 if the rows differ only in the integrator. Such rows are consecutive and share a
- * reference. */
+/* Returns 1 if two rows can share their runs and their reference: they have the same structure,
+ * mesh and steps or tolerances. Such rows are consecutive in the table. */
 static int is_same(const pace_verdict *a, const pace_verdict *b)
 {
     return (a->kind == PACE_FATE) == (b->kind == PACE_FATE) &&
@@ -224,7 +225,7 @@ static status plan_block(pace *p, pace_verdicts *all, planned row[], int first, 
     return STATUS_OK;
 }
 
-/* Returns REFUSED for an invalid row. The message contains the line of the row. */
+/* Returns the status `outcome` for an invalid row. The message contains the line of the row. */
 static status refuse(const char *path, const own_table_row *row, status outcome, const fault *why,
                      fault *f)
 {
@@ -282,9 +283,9 @@ static double order_of_reference(const pace *p, const pace_group *g, double near
     return steps > 1 && near > 0 ? log(far / near) / log(steps) : NAN;
 }
 
-/* Sets the uncertainty and the order of the reference. The errors of the two checks have a ratio.
- * The error of the reference is assumed to decrease by the same ratio, with a safety factor of
- * three. The uncertainty is at most the distance from the nearer check. */
+/* Sets the uncertainty and the order of the reference. near, far: distances of the two checks from
+ * the reference. The error of the reference is assumed to be smaller than `near` by the factor
+ * near/far, with a safety factor of three. The uncertainty is at most `near`. */
 static void judge_reference(const pace *p, pace_group *g)
 {
     static const double safety = 3;
@@ -321,7 +322,7 @@ static status errors_of(const pace *p, const pace_group *g, pace_run *r, fault *
     return STATUS_OK;
 }
 
-/* Returns the end of the last accepted step [s]. */
+/* Returns the end time of the last accepted step [s]; 0: there is none. */
 static double last_instant(const solve_result *r)
 {
     return r->steps > 0 ? r->step[r->steps - 1].path : 0;

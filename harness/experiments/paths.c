@@ -16,7 +16,7 @@ static const char *const claim_continues = "commit does not change the strains",
                          *const claim_twice = "a second commit changes nothing",
                          *const claim_same = "commit gives the same bits again";
 
-/* Values that `commit` has computed, with its input. */
+/* A committed state, and the history before and after the call of `commit`. */
 typedef struct committed {
     node_state x[ELEMENT_MAX_NODES];
     double before[ELEMENT_MAX_HISTORY], after[ELEMENT_MAX_HISTORY];
@@ -129,7 +129,7 @@ static void cycle_state(const specimen *s, double phase, node_state x[])
     chart_move(rest, s->nodes, step, x);
 }
 
-/* Returns NAN if a value is NAN. */
+/* Returns the largest absolute value, or NAN if a value is NAN. */
 static double largest(int count, const double v[])
 {
     double out = 0;
@@ -138,8 +138,8 @@ static double largest(int count, const double v[])
     return out;
 }
 
-/* Returns 1 if step k is in the first cycle, or in a cycle that ends at a mark. Without a history,
- * other steps have no effect. */
+/* Returns 1 if step k is evaluated. With a history, all steps are evaluated. Otherwise only the
+ * steps of the first cycle and of the cycles that end at a mark are evaluated. */
 static int matters(const specimen *s, int k)
 {
     int is = s->values > 0 || k <= STEPS;
@@ -189,8 +189,8 @@ static void conclude(element_measure *one, const char *holds, const char *fails)
     snprintf(one->words, sizeof one->words, "%s", worst <= exact ? holds : fails);
 }
 
-/* Compares the element in cycles with the same element under an additional rotation of the whole
- * element. */
+/* Follows closed cycles with and without an additional rotation of the whole element, and compares
+ * the strains. For elements without strains, compares the energies. */
 static void superposed(const specimen *s, measures *out)
 {
     static const double axis[3] = {0.36, 0.48, 0.8};
@@ -255,7 +255,8 @@ static void cycles(const specimen *s, measures *out)
     conclude(forces, "path-independent", "path-dependent");
 }
 
-/* Requires that a formulation with a history declares the measured properties. */
+/* Checks that errors after superposed rotations and closed cycles are at most `exact`, unless the
+ * formulation declares LIMIT_NOT_OBJECTIVE or LIMIT_PATH_DEPENDENT. */
 static void hold_against_declared(const formulation *chosen, const measures *out, claims *c)
 {
     static const struct {

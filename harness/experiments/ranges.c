@@ -7,17 +7,18 @@
 #include "harness/model/model.h"
 
 /* Writes the names of the columns: the varied parameters, then formulation, elements, quantity,
- * unit, value, reference, reference_kind, error, status, cost, seconds. Missing values are empty.
- * */
+ * unit, value, reference, reference_kind, error, status, cost, seconds, not_modelled. Missing
+ * values are empty. */
 static void ranges_csv_head(FILE *to, const parameter_ranges *r);
-/* Adds the results of points from `first` on. FAULT: out of memory. */
+/* Writes the results of a batch of points, of which `first` is the first. FAULT: out of memory. */
 static status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *,
                              fault *f);
 
 static const double batch_cost = 0.5; /* [s] largest estimated cost of a batch */
 enum { MOST_POINTS_IN_BATCH = 8192, MOST_BATCHES = 100000000 };
 
-/* Rejects parameters that are given twice, as an axis or by --set. */
+/* Adds a varied parameter. REFUSED: the text is invalid, the parameter is given twice, or there are
+ * too many varied parameters. */
 static status add_axis(parameter_ranges *r, const char *text, fault *f)
 {
     if (r->design.axes == CASE_MAX_PARAMETERS)
@@ -187,8 +188,8 @@ static void fill_cells(const making *m, int at, int which)
     }
 }
 
-/* Computes the errors of a formulation with respect to the reference, and the coarsest mesh within
- * the tolerance. */
+/* Computes the errors of a formulation with respect to the reference, and finds the coarsest mesh
+ * within the tolerance. */
 static void fill_errors(const making *m, int at, int which, int q, int quantity,
                         const point_reference *against)
 {
@@ -210,8 +211,8 @@ static int is_known(const point_reference *r)
     return r->kind != ROWS_NONE && r->kind != ROWS_DISPUTED;
 }
 
-/* Computes one quantity at one point. The reference is that of the first formulation that has a
- * reference. */
+/* Computes the errors of one quantity at one point. The recorded reference is that of the first
+ * formulation that has a reference. */
 static void fill_quantity(const making *m, int at, int q, const known_truths *k)
 {
     const sweep_point *p = &m->s->point[at];
@@ -382,7 +383,8 @@ static void put(FILE *to, double value)
     fputc(',', to);
 }
 
-/* Writes a cell of the table. Commas separate the options of a formulation. */
+/* Writes the lines of a cell, one for each quantity. The formulation is quoted, because its options
+ * are separated by commas. */
 static void put_cell(FILE *to, const parameter_ranges *r, const rows *w, const char *where, int at,
                      int which, int mesh)
 {

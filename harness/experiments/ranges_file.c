@@ -183,7 +183,8 @@ static void write_piece(record_file *r, hid_t set, const file_column *c, long fi
     H5Sclose(file);
 }
 
-/* Returns the index of the word in the list. */
+/* Returns the number stored for a value of an axis: the index of a word in the list, or the
+ * value. */
 static double place_of(const sweep_axis *a, double value)
 {
     int i = 0;

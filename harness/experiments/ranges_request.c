@@ -5,7 +5,7 @@
 
 enum { TEXT = 64, LONG_TEXT = 128 };
 
-/* A table of strings and numbers. */
+/* Rows of the tables of axes and of worst points. */
 typedef struct axis_row {
     char name[TEXT], unit[16], kind[8], scale[8];
     int count;
@@ -155,10 +155,10 @@ void ranges_points_text(const parameter_ranges *r, const double at[], char *text
     }
 }
 
-enum { LAST_KNOWN = 2 /* kind of reference */ };
+enum { LAST_KNOWN = 2 /* index of the last kind that has a reference value */ };
 
-/* Names the formulations to which the reference does not apply, and prints the number of such
- * points. */
+/* Names the formulations to which the reference does not apply at some points, and writes the
+ * numbers of these points. */
 static void say_unmeasured(const tally *t, int q, char *text, size_t size)
 {
     enum { NAMED = 3 };
@@ -211,7 +211,8 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
     say_unmeasured(t, q, text + used, RANGES_TABLE_LINE - used);
 }
 
-/* Writes the kinds of references. Quantities with the same kind are written together. */
+/* Writes the kinds of references of a quantity. Later quantities with the same text are written in
+ * the same paragraph and are marked in told. */
 static void write_reference(FILE *to, const tally *t, int q, char told[])
 {
     char text[RANGES_TABLE_LINE], other[RANGES_TABLE_LINE];
@@ -230,7 +231,7 @@ static void write_reference(FILE *to, const tally *t, int q, char told[])
     paragraph_end(&words, begun, 6);
 }
 
-/* Prints the reason why a point has no scene, for the first such point. */
+/* Prints the number of points without a scene, and the reason at the first of these points. */
 static void write_without_scene(FILE *to, const tally *t)
 {
     const parameter_ranges *r = t->of;

@@ -21,7 +21,7 @@ static status beside(const char *path, const char *ending, char out[PATH_MAX], f
                : fault_set(f, STATUS_REFUSED, "%.200s: the name is too long", path);
 }
 
-/* Returns 1 if worst_write writes files with such a name. */
+/* Returns 1 if the name is "." or "..", or that of a file written by worst_write. */
 static int is_ours(const char *name)
 {
     int end = 0;
@@ -94,7 +94,8 @@ static status place_output(const range_sweep_request *r, range_sweep *s, fault *
 static status hold_batches(const char *folder, fault *f)
 {
     struct stat there = {.st_nlink = 0};
-    while (there.st_nlink == 0) { /* the previous owner of the lock has removed the folder */
+    while (there.st_nlink ==
+           0) { /* no links: the previous owner of the lock has removed the folder */
         const int made = mkdir(folder, 0777),
                   held = made == 0 || errno == EEXIST
                              ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
@@ -184,7 +185,8 @@ static status end(range_sweep *s, status taken, fault *f)
     return taken;
 }
 
-/* Reads the batches of the stock. stock NULL: reads the batches that the caller supplies. */
+/* Reads the batches of the stock `there`. there NULL: reads the batches that the caller
+ * supplies. */
 static status take_all(range_sweep *s, const stock *there, fault *f)
 {
     const range_sweep_request *r = s->asked;
@@ -208,8 +210,8 @@ static status remove_batches(const stock *there, const char *folder, fault *f)
     return STATUS_OK;
 }
 
-/* Reads the batches that this process has computed, unless some are missing, and removes them. If
- * batches are missing, a folder next to the output is kept. */
+/* Reads the computed batches and removes them. If batches are missing, none is read, and a folder
+ * next to the output is kept. */
 static status collect(range_sweep *s, fault *f)
 {
     const char *const folder[] = {s->batches};

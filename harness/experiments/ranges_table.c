@@ -99,7 +99,8 @@ static void write_line(FILE *to, const tally *t, int which, int q)
     fprintf(to, s->asked < t->points ? ", %ld points\n" : "\n", s->asked);
 }
 
-/* Prints the shares for a quantity, with a line for each formulation. */
+/* Prints the percentages of points within the tolerance for a quantity, with a line for each
+ * formulation. */
 static void write_shares(FILE *to, const tally *t, int q)
 {
     const parameter_ranges *r = t->of;
@@ -131,7 +132,7 @@ static void write_least(FILE *to, const tally *t, int which, int q, int width)
         fprintf(to, "%*d", width, s->everywhere);
 }
 
-/* Prints a few formulations per line. */
+/* Prints the sufficient numbers of elements, with up to BESIDE formulations per line. */
 static void write_leasts(FILE *to, const tally *t)
 {
     enum { BESIDE = 3, WIDTH = 24 };
@@ -177,7 +178,8 @@ static void write_all_shares(FILE *to, const tally *t, int every)
     }
 }
 
-/* Prints the physics that formulations omit and that lead to another model. */
+/* Names the formulations that solve another model at some points, with the physics that they
+ * omit. */
 static void write_others(FILE *to, const tally *t)
 {
     for (int i = 0; i < t->of->formulations; i++) {
@@ -237,7 +239,7 @@ static void write_worst(FILE *to, const parameter_ranges *r, int which, const ta
             where, w->scene[0] != '\0' ? "  " : "", w->scene);
 }
 
-/* Prints a command that examines the worst point of the first formulation. */
+/* Prints a command that examines the worst point `w` of a formulation. */
 static void write_command(FILE *to, const parameter_ranges *r, int which, const tally_worst *w,
                           const char *folder, fault *f)
 {

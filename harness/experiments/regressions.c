@@ -11,10 +11,12 @@
 static const double LARGER = 0.02;
 
 /* Allowed relative change of a limit, unless a reference value checks the limit as closely. With
- * 1e-5, a fault of 1e-3 is detected if a limit changes by a hundredth of the fault. */
+ * 1e-5, a stiffness with an error of 1e-3 is detected if the relative change of the limit is at
+ * least a hundredth of this error. */
 static const double MOVED = 1e-5;
 
-/* Writes the run to a file and reads the file, so both runs are treated in the same way. */
+/* Writes the run to a temporary file and reads this file, so the run is compared with a former run
+ * in the same form. */
 static status read_back(const sweep *s, const judgement *j, stored_results *out, fault *f)
 {
     const char *folder = getenv("TMPDIR");
@@ -35,7 +37,8 @@ static status read_back(const sweep *s, const judgement *j, stored_results *out,
     return outcome;
 }
 
-/* Adds a line to the comparison: "worse    NAME n=4: WHY". */
+/* Adds a regression for a line of the comparison, such as "worse NAME n=4: WHY". Lines of other
+ * kinds are ignored. */
 static status add_line(const char *line, judgement *j, fault *f)
 {
     static const comparison_kind counted[] = {CHANGE_WORSE, CHANGE_GONE};
@@ -105,9 +108,9 @@ static const result_limit *limit_of_former(const stored_results *former, const s
     return NULL;
 }
 
-/* Returns 1 if a reference value checks the limit as closely. Returns 0 if the reference value is
- * an estimate, if the limit has a larger uncertainty, or if a known deviation allows the limit to
- * differ. */
+/* Returns 1 if a reference value checks the limit to within `slack`. Returns 0 if the reference
+ * value is an estimate, if the limit has a larger uncertainty, or if a known deviation allows the
+ * limit to differ. */
 static int is_judged_closely(const verdict *v, double slack)
 {
     return (v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED_AS_PREDICTED ||

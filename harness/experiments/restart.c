@@ -53,7 +53,7 @@ static status check_chosen(const restart *r, const solution_request *of, fault *
     return STATUS_OK;
 }
 
-/* Removes the stations before the stored state. */
+/* Removes the stations up to the time of the stored state. REFUSED: no station remains. */
 static status drop_stations(const outcome_end *e, scene *s, fault *f)
 {
     const double same_instant = 1e-9;
@@ -308,7 +308,7 @@ status restart_read(const char *path, restart *out, fault *f)
     return outcome;
 }
 
-/* Replaces the stations of all motions by one common station. */
+/* Replaces the stations of all motions by the single station *zero. */
 static void equal_stations(scene *plain, double *zero)
 {
     for (int i = 0; i < plain->analyses; i++)

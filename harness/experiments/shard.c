@@ -64,7 +64,8 @@ static status hire(crew *c, int self, fault *f)
     return STATUS_OK;
 }
 
-/* Waits for the end of a process, or kills it. Returns its status from waitpid. */
+/* Closes the pipe of a process and waits for its end. A process that does not end is killed.
+ * Returns the status from waitpid. */
 static int dismiss(crew *c, int self)
 {
     close(c->hand[self].from);

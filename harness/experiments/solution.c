@@ -36,8 +36,8 @@ static void take(solution_request *r, preference *p, solution_choice *why)
     p->change = NULL;
 }
 
-/* Chooses the formulation and the elements. The caller solution_choose() frees the scene, even
- * after a failure. */
+/* Chooses the formulation and the number of elements. The caller solution_choose() frees the scene,
+ * even after a failure. */
 static status choose(solution_request *r, const rule *rules, int count, int elements, scene *s,
                      solution_choice *why, fault *f)
 {
@@ -226,13 +226,14 @@ static status find_stored(const parameter_ranges *r, const sweep_point *p, known
         return STATUS_OK;
     if (scene_truths_add(q->file, p->parameter, &out->stored, &why) == STATUS_OK)
         return STATUS_OK;
-    /* removes reference values whose expressions have no value at this point */
+    /* an expression has no value at this point, so the reference values of the file are not used */
     truths_free(&out->stored);
     out->stored = (truths){0};
     return STATUS_OK;
 }
 
-/* Returns the shear theory that the scene requires for critical loads. */
+/* Returns the shear theory that the scene requires for a critical load; "": none, or the quantity
+ * is not a critical load. */
 static const char *theory_of(const scene *s, const char *quantity)
 {
     const unsigned both = FEATURE_ENGESSER | FEATURE_HARINGX, needs = features_needed(s) & both;
@@ -375,7 +376,6 @@ static int running(const sweep *s)
     return count;
 }
 
-/* Prints the conclusion. */
 static void write_answer(FILE *to, double level, const sweep *s, const truths *t)
 {
     paragraph words;

@@ -15,7 +15,7 @@ static int fits(const specimen *s)
     return s->inner <= SPECIMEN_INNER && s->memory <= SPECIMEN_MEMORY;
 }
 
-/* Computes the undeformed state: nodes along the arc of the initial curvature. */
+/* Computes the undeformed state, with the nodes along the arc of the initial curvature. */
 static void at_rest(const specimen *s, node_state x[])
 {
     static const double ahead[3] = {1, 0, 0};
@@ -95,8 +95,8 @@ unsigned specimen_features(const element_type *t, unsigned without)
     return t->offers & ~(unsigned)(FEATURE_CURVATURE | FEATURE_COUPLED) & ~without;
 }
 
-/* Returns the next pseudo-random number of the generator splitmix64 (Steele, Lea, Flood, OOPSLA
- * 2014). */
+/* Returns the next pseudo-random number in [-1/2, 1/2) of the generator splitmix64 (Steele, Lea,
+ * Flood, OOPSLA 2014). */
 static double number(unsigned long long *state)
 {
     unsigned long long z = (*state += 0x9e3779b97f4a7c15ULL);

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Returns 1 if processor and BLAS library are the same. Host names may differ. */
+/* Returns 1 if the processor and the BLAS library are the same. Host names may differ. */
 static int node_same_kind(const machine *, const machine *);
 
 static status path_of(const char *folder, const char *name, char out[PATH_MAX], fault *f)
@@ -71,7 +71,7 @@ static status add(stock *s, const batch_label *label, const char *path, int fold
     return add_kind(s, &label->node, f);
 }
 
-/* Reads a file whose name is that of a batch of this work. */
+/* Reads a file whose name is that of a batch of this work. A damaged file counts as missing. */
 static status look_inside(stock *s, const shard_work *w, const char *path, int batch, int folder,
                           FILE *tell, fault *f)
 {
@@ -165,7 +165,8 @@ void stock_free(stock *s)
     *s = (stock){.batches = 0};
 }
 
-/* Writes the ranges of missing batches. A long list ends with dots. */
+/* Writes the ranges of missing batches. A list of more than MOST ranges is cut and ends with
+ * dots. */
 static void write_ranges(FILE *to, const stock *s)
 {
     enum { MOST = 20 };

@@ -28,7 +28,7 @@ static status add_point(const parameter_ranges *r, long index, sweep *s, fault *
     return plan_extend(s, r->formulation, r->formulations, f);
 }
 
-/* Adds a quantity of a scene that has a single value. */
+/* Adds a quantity to the list, unless the list contains it. REFUSED: the list is full. */
 static status add_quantity(parameter_ranges *r, const scene_quantity *q, fault *f)
 {
     for (int i = 0; i < r->quantities; i++)
@@ -43,7 +43,7 @@ static status add_quantity(parameter_ranges *r, const scene_quantity *q, fault *
     return STATUS_OK;
 }
 
-/* Records the selected quantities of a series, and records if the series runs. */
+/* Records the selected quantities of a series, and whether the series runs. */
 static status look_at(parameter_ranges *r, const sweep *s, int index, survey_wanted *w, fault *f)
 {
     const series *one = &s->series[index];
@@ -86,7 +86,8 @@ static status check_words(const survey_wanted *w, const sweep_point *p, fault *f
                      word, near);
 }
 
-/* Removes formulations that cannot run. REFUSED: the user named a formulation that cannot run. */
+/* Removes formulations that cannot run or have no selected quantity. REFUSED: the user named a
+ * formulation that cannot run, or no formulation or quantity remains. */
 static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f)
 {
     int kept = 0, told = 0;
@@ -147,7 +148,8 @@ static status judge(parameter_ranges *r, const sweep *s, fault *f)
     return keep_running(r, &w, f);
 }
 
-/* Includes all formulations. Formulations that do not run are removed later. */
+/* Lists the requested formulations or, if none was requested, all formulations. Formulations that
+ * do not run are removed later. */
 static void take_formulations(parameter_ranges *r)
 {
     const ranges_request *q = &r->request;
@@ -163,7 +165,7 @@ static void take_formulations(parameter_ranges *r)
  * reference value for a case; deriving a reference value for a scene */
 static const double scene_cost = 5e-5, derive_cost = 0.5, derive_scene_cost = 4;
 
-/* Returns the estimated cost [s] of all cells. */
+/* Returns the estimated time [s] for the scenes and all cells. */
 static double cost_of(const sweep *s)
 {
     double all = scene_cost * s->points;
@@ -196,7 +198,7 @@ status survey(parameter_ranges *r, fault *f)
     return outcome;
 }
 
-/* Rounds a value to 15 decimal digits, as in the tables of reference values. */
+/* Rounds a value to 15 significant digits, as in the tables of reference values. */
 static double to_15_digits(double value)
 {
     char text[32];

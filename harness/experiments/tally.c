@@ -171,7 +171,9 @@ static void join(const tally *t, seen *all, const seen *one)
         all->least = one->least;
 }
 
-/* Completes the counts. Undecided points may or may not be within the tolerance. */
+/* Completes the result for all quantities together. A point at which some quantity has no reference
+ * counts only if another quantity is outside the tolerance. The point is then not within the
+ * tolerance on any mesh. */
 static void close_counts(seen *all)
 {
     if (!all->open)

@@ -53,7 +53,8 @@ static status judge_to(judging *v, const sweep *s, int end, fault *f)
     return STATUS_OK;
 }
 
-/* Evaluates the series of a point together, because agreements depend on all of them. */
+/* Evaluates the series of a point together, because the agreement of formulations depends on all of
+ * them. */
 static status whole(void *context, const sweep *s, int series_index, fault *f)
 {
     judging *v = context;
@@ -125,7 +126,8 @@ static status begin(judging *v, const sweep *s, int jobs, int time_limit, fault 
     return hold_contracts(s, jobs, time_limit, v->judgement, f);
 }
 
-/* Evaluates the remaining series of a point that an interrupted run did not complete. */
+/* Evaluates the remaining series, which an interrupted run may leave, and completes the
+ * judgement. */
 static status end(judging *v, const sweep *s, int everything, fault *f)
 {
     TRY(judge_to(v, s, s->seriess, f));
@@ -351,14 +353,14 @@ static status judge(const void *asked, void *found, fault *f)
     return overview_make(&v->sweep, &v->judgement, &v->overview, f);
 }
 
-/* Returns 1 if all limits are shown: with --verbose, or if cases or formulations were selected. */
+/* Returns 1 if all limits are shown: with --verbose, with -k, or if the overview has a single
+ * row. */
 static int shows_limits(const verification *v)
 {
     return v->asked->verbose || v->asked->cells.select != NULL || v->overview.rows == 1;
 }
 
-/* Prints the matrix, the counts, unexpected results and the conclusion. The output fits on one
- * screen. */
+/* Prints the matrix, the counts, unexpected results and the conclusion. */
 static void print(FILE *to, const verification *v)
 {
     const screen look = screen_of(to);
