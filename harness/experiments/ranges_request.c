@@ -212,7 +212,7 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
 }
 
 /* Writes the kinds of references of a quantity. Later quantities with the same text are written in
- * the same paragraph and are marked in told. */
+ * the same paragraph and are marked in the last argument. */
 static void write_reference(FILE *to, const tally *t, int q, char told[])
 {
     char text[RANGES_TABLE_LINE], other[RANGES_TABLE_LINE];
