@@ -65,7 +65,8 @@ static along_subject subject_of(int stages, int matrices, const double curvature
     return s;
 }
 
-/* Places the nodes in the undeformed state, with the middle axes along the global axes. */
+/* Places the nodes in the undeformed state, with the axes of the middle of the element along the
+ * global axes. */
 static void rest_nodes(const along_subject *s, node_state x[2])
 {
     const double along[3] = {1, 0, 0};
@@ -243,8 +244,8 @@ static void rate(int stages)
     free(s.data);
 }
 
-/* The work along a closed path of node states must be zero. The work is integrated with Gauss
- * points along each side of the path. */
+/* The work of the load along a closed path of node states must be zero. Each side of the path is
+ * integrated with Gauss points. */
 static void closed_path(int stages, const double curvature[3])
 {
     enum { SIDES = 3, RULE = 12 };
@@ -254,7 +255,7 @@ static void closed_path(int stages, const double curvature[3])
     quadrature_points(RULE, at, weight);
     double corner[SIDES][N];
     for (int c = 0; c < SIDES;
-         c++) { /* one node rotates about one axis on each side, so that the path closes */
+         c++) { /* on each side, one node rotates about one axis, so that the path closes */
         memset(corner[c], 0, sizeof corner[c]);
         corner[c][0] = c == 1 ? 0.0005 : 0;
         corner[c][8] = c == 2 ? 0.0005 : 0;
@@ -299,8 +300,8 @@ static void resultants(int stages, const double curvature[3])
     free(s.data);
 }
 
-/* Returns the moment of the load and of the nodal forces about the first node, in the undeformed
- * geometry. */
+/* Returns the magnitude of the sum of the moments of the load and of the nodal forces about the
+ * first node, in the undeformed geometry. */
 static double moment_left(const along_subject *s, const double q[], const double F[],
                           const node_state x[])
 {

@@ -1,6 +1,7 @@
 /* Written by reference/derive/bimoment_coefficients.py: torsional coefficients of the third-order
- * potential for L = GJ = 1 and EIw = 1/lambda^2. The order is A of the unit torques M, PP, PQ, QP,
- * QQ (lower triangle by rows), b of each torque with px, Wp, Wq, and P0 of Wp^2, Wp Wq, Wq^2. */
+ * potential for L = GJ = 1 and EIw = 1/lambda^2. The coefficients are A of the unit torques M, PP,
+ * PQ, QP, QQ (lower triangle by rows), b of each torque with px, Wp, Wq, and P0 of Wp^2, Wp Wq,
+ * Wq^2. */
 #ifndef BEAMWORK_TEST_BIMOMENT_VALUES_H
 #define BEAMWORK_TEST_BIMOMENT_VALUES_H
 

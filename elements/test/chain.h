@@ -152,8 +152,9 @@ static void chain_advance(chain *c, chain_linearised *w, const double dx[])
 }
 
 /* Solves by the mixed Newton iteration (N section 4). Prescribed coordinates of the tip move by
- * `step` [7]. A dead load [7], with moments about fixed axes, acts on the other coordinates.
- * Returns the size of the last correction, or INFINITY if an element or the tangent failed. */
+ * `step` [7]. A dead load [7], with moments about fixed axes, acts on the coordinates that are not
+ * prescribed. Returns the size of the last correction, or INFINITY if an element or the tangent
+ * failed. */
 static double chain_solve(chain *c, const double step[7], const double load[7])
 {
     const int n = NODE_COORDINATES * (c->nodes - 1), tip = n - NODE_COORDINATES;
@@ -192,8 +193,7 @@ static double chain_solve(chain *c, const double step[7], const double load[7])
     return failures > 0 ? INFINITY : size;
 }
 
-/* Computes the compliance of the tip [6 x 6] with all six components released, for spatial
- * moments. */
+/* Computes the compliance of the tip [6 x 6] with no component prescribed, for spatial moments. */
 static inline void chain_compliance(chain *c, double C[36])
 {
     const int n = NODE_COORDINATES * (c->nodes - 1), tip = n - NODE_COORDINATES;

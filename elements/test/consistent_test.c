@@ -1,6 +1,6 @@
-/* beamw_consistent: uniform strains of any size, and derivatives at large rotations. To second
- * order, the strains must agree with J Eq. 66 without shear, and with those of the sheet element
- * that is consistent with shear. */
+/* Tests beamw_consistent with uniform strains of any size, and its derivatives at large rotations.
+ * To second order, the strains must agree with J Eq. 66 without shear, and with those of the sheet
+ * element that is consistent with shear. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -26,7 +26,6 @@ static const element_data *data_of(const pair_subject *s)
     return (const element_data *)s->store.bytes;
 }
 
-/* Starts an element with one option different from the default. */
 static void start_with(pair_subject *s, const element_type *type, const section *c, double l0,
                        unsigned features, const char *option, double value)
 {
@@ -50,8 +49,8 @@ static void start(pair_subject *s, const element_type *type, const section *c, d
     start_with(s, type, c, l0, features, "", 0);
 }
 
-/* Returns a sheet without warping shear, which N does not include. The length is 0.1 m, so the
- * sheet is stocky enough in both directions that Phi matters. */
+/* Returns a sheet without warping shear, which N neglects. The element is only 0.1 m long, so that
+ * shear affects bending in both directions. */
 static section sheet(void)
 {
     section_spec spec = section_spec_rectangle(2e11, 7.7e10, 0.06, 0.02);
@@ -106,8 +105,8 @@ static void state(double l0, double small, int planar, node_state x[2])
     }
 }
 
-/* If the state is halved, the difference between the strains of two elements must decrease by a
- * factor of eight, because they are equal to second order. */
+/* Halving the state must reduce the difference between the strains of two elements by a factor of
+ * eight, because the strains are equal to second order. */
 static void equal_to_second_order(const char *what, const pair_subject *a, const pair_subject *b,
                                   double l0, int planar, int strains)
 {
@@ -193,8 +192,8 @@ static void uniform_strains(double size)
         gsl_test_abs(e[k], expected[k], 1e-14 * l0, "uniform strains, turn %.2f: e%d", t, k + 1);
 }
 
-/* Pure bending of an element by less than half a revolution involves only bending energy, so any
- * number of elements must roll up exactly. */
+/* Pure bending of an element by less than half a revolution involves only bending energy. A
+ * cantilever must therefore roll up exactly with any number of elements. */
 static void pure_bending(void)
 {
     const double l0 = 1.3, turn = 2.9;
@@ -237,7 +236,7 @@ static void derivatives(double size)
 }
 
 /* Internal modes that depend on the stress reduce the energy by terms of fourth order, so halving
- * the state must divide the reduction by sixteen. */
+ * the displacements must divide the reduction by sixteen. */
 static void inside_follows(void)
 {
     const double l0 = 0.1;
@@ -266,8 +265,8 @@ static void inside_follows(void)
     }
 }
 
-/* Checks stiffness and stresses under a compression for which the bending stiffness hardly
- * contributes to the Hessian of the internal modes. The Hessian is then factorised with pivots. */
+/* Checks stiffness and stresses under a compression that outweighs the bending stiffness in
+ * the Hessian of the internal modes. The Hessian is then factorised with pivots. */
 static void inside_compressed(void)
 {
     static const double v[STRAINS] = {0.1, -0.7, 0.6, 0.5, -0.9, 0.4, 0.3, 0.8};
@@ -313,13 +312,12 @@ static void consistent_tests(void)
         derivatives(turns[i]);
 }
 
-/* Hyperbolic twist of beamw_consistent: one element is exact in linear theory for any coupling. The
- * twist functions and quadrature points are accurate from zero Saint-Venant torsion to thin
- * boundary layers. */
+/* With hyperbolic twist functions, one element of beamw_consistent must be exact in linear theory
+ * for any coupling of the strains. The twist functions and quadrature points are accurate from zero
+ * Saint-Venant torsion to thin boundary layers. */
 
 extern const element_type element_beamw_consistent;
 
-/* Returns a branched, unsymmetric section, in which all strains are coupled. */
 static section unsymmetric(void)
 {
     static const double point[5][2] = {{0, 0}, {0.05, 0}, {0.05, 0.08}, {0.02, 0.08}, {0.05, 0.1}};
@@ -444,9 +442,9 @@ static void middle_of(const section *c, double l0, beamw_twist_kind torsion, con
 }
 
 /* Returns the difference of the third-order energies of two halves and of the whole, relative to
- * their sizes. The difference is zero if and only if the geometric stiffness is integrated over the
- * exact linear solution. The middle node is in equilibrium, so its displacement is needed only to
- * first order. */
+ * their magnitude. The difference is zero if and only if the geometric stiffness is integrated over
+ * the exact linear solution. The middle node is in equilibrium, so its displacement is needed only
+ * to first order. */
 static double third_order_apart(const section *c, double l0, beamw_twist_kind torsion,
                                 unsigned features, unsigned seed)
 {

@@ -6,8 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Returns the signal that ends a process which calls the function, or 0 if the process ends without
- * a signal. */
+/* Returns the signal that ends a process which calls the function, or otherwise the exit status of
+ * the process, which is 0 if the function returns. */
 static inline int ended_by(void (*call)(const void *), const void *given)
 {
     int how = -1;

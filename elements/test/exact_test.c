@@ -17,7 +17,7 @@ static section steel(double width, double height)
 {
     section_spec spec = section_spec_rectangle(200e9, 200e9 / 2.6, width, height);
     spec.given.Iw =
-        pow(width * height, 3) / 144; /* thin-rectangle value, as in the reference values */
+        pow(width * height, 3) / 144; /* value of a thin rectangle, as in the expected values */
     spec.shear_factor[0] = spec.shear_factor[1] = 13.0 / 15.3; /* 10 (1 + nu)/(12 + 11 nu) */
     return sections_computed(&spec);
 }
@@ -78,7 +78,7 @@ static void shear_elastica(const element_type *type, const double option[], doub
     u[1] = c.x[c.nodes - 1].u[1];
 }
 
-/* Checks the error of the finest mesh, and the order of convergence from the two finest meshes. */
+/* Checks the value of the finer mesh, and the order of convergence of both meshes. */
 static void judge(const element_type *type, const char *what, const double value[2], double exact,
                   double error, double order)
 {
@@ -100,8 +100,8 @@ static void shear_elastica_converges(const element_type *type, const double opti
           order);
 }
 
-/* Sheet flexure of N section 4.1. The tip is displaced transversely without rotation, and warping
- * is restrained at both ends. */
+/* Solves the sheet flexure of N section 4.1. The tip is displaced transversely without rotation,
+ * and warping is restrained at both ends. */
 static void sheet(const element_type *type, const double option[], int n, double deflection,
                   double C[2])
 {
@@ -204,8 +204,7 @@ static void exact_tests(void)
     collocation();
 }
 
-/* One element compared with an independent prototype, and properties of one element that hold
- * exactly. */
+/* Properties that hold exactly for one element, and values of an independent prototype. */
 
 extern const element_type element_beamw_first, element_beamw, element_beamw_vlasov,
     element_beamw_consistent;
@@ -293,9 +292,9 @@ static void linear_stiffness(const element_type *type, const section *c, double 
     type->stress(data, e, NULL, &(stress_output){.C = S});
 }
 
-/* Cantilever of one element under tip forces and moments with It = 0, for which the coupled
- * stiffness is exact at the nodes. In the exact beam, the resultants at the shear centre cause
- * bending (with torsion and warping) and the constant shear strains F Q/G. */
+/* Cantilever of one element under tip forces and moments with It = 0, for which the stiffness of
+ * beamw with coupled strains is exact at the nodes. In the exact beam, the resultants at the shear
+ * centre cause bending (with torsion and warping) and the constant shear strains F Q/G. */
 static void one_element_is_exact(void)
 {
     section c = check_section();

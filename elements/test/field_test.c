@@ -174,8 +174,8 @@ static void closed_path(const displacement_field *f, int kind, const char *name)
     for (int step = 0; step < STEPS; step++) {
         const double pi = acos(-1), t = 2 * pi * (step + 0.5) / STEPS, h = 2 * pi / STEPS;
         double at[N], F[N];
-        /* Translations and warping follow a circle. Rotations alternate about one axis per node,
-         * because increments about different axes do not add up. */
+        /* Translations and warping follow a closed path. Each node rotates back and forth about one
+         * axis, because rotations about different axes would not return to the initial rotation. */
         for (int i = 0; i < N; i++)
             at[i] = cos(t) * d[i] +
                     (i % NODE_COORDINATES >= 3 && i % NODE_COORDINATES < 6 ? 0 : sin(t) * more[i]);
@@ -193,9 +193,9 @@ static void closed_path(const displacement_field *f, int kind, const char *name)
              kind, work, size);
 }
 
-/* Fixed-end forces of a straight element with shear deformation, under a uniform and a linearly
- * increasing load: q l/2, q l^2/12; q l (3/20 + Phi/6)/(1 + Phi) ... (Przemieniecki, Theory of
- * Matrix Structural Analysis, 1968, sec. 10). */
+/* Fixed-end forces of a straight element with shear deformation under a uniform load (force q l/2,
+ * moment q l^2/12) and under a linearly increasing load (force q l (3/20 + Phi/6)/(1 + Phi) at the
+ * start): Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 10. */
 static void fixed_ends(void)
 {
     const section c = {.young = 1,
@@ -257,9 +257,6 @@ static void field_tests(void)
     fixed_ends();
 }
 
-/* Contribution of the mass inside an element to frequencies (elements/field/field.h). Every entry
- * is compared with the exact dynamic stiffness of uniform beams. */
-
 static const double inner_l0 = 0.8;
 
 static void add_inner(int i, int j, double value, double B[FIELD_INNER * FIELD_INNER])
@@ -313,8 +310,8 @@ static void field_inner_tests(void)
         }
 }
 
-/* Compares the coefficients of the third-order potential with values computed with 120 digits, and
- * checks the limits of the stress functions. */
+/* Compares the coefficients of the third-order sheet element's potential with values computed with
+ * 120 digits, and checks the limits of the stress functions. */
 
 extern const element_type element_sheet_second, element_sheet_third, element_sheet_third_printed;
 
@@ -411,8 +408,8 @@ static void coefficients(void)
              worst);
 }
 
-/* Without warping stiffness, the torque causes the twist rate t/GJ, which is the limit lambda ->
- * inf. The difference from the limit decreases as 1/lambda. */
+/* Without warping stiffness, the torque t causes the uniform twist rate t/GJ. This is the limit
+ * lambda -> inf, from which the coefficients differ by terms of order 1/lambda. */
 static void uniform_torsion(void)
 {
     static const double torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
@@ -465,7 +462,8 @@ static void second_order_limit(void)
                 printed ? &element_sheet_third_printed : &element_sheet_third;
             stiffness_at_rest(&element_sheet_second, &c, features, second);
             stiffness_at_rest(type, &c, features, third);
-            /* without amplitudes, e7 = e8 = e2, and only the sum of their stiffnesses matters */
+            /* without amplitudes, the strains e7, e8 and e2 are equal, and only the sum of their
+             * stiffnesses matters */
             if (!warping)
                 for (int pass = 0; pass < 2; pass++) {
                     double *C = pass == 0 ? second : third;

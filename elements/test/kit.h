@@ -10,7 +10,7 @@
 /* Returns 64 bits of splitmix64 (Steele, Lea, Flood, OOPSLA 2014), the same sequence on every
  * machine. Seeds may be small and adjacent. */
 uint64_t random_bits(uint64_t *seed);
-/* Returns a number from a uniform distribution on [-1, 1), a multiple of 2^-52. */
+/* Returns a random multiple of 2^-52, uniformly distributed in [-1, 1). */
 double random_number(uint64_t *seed);
 /* Returns an integer from 0 to count - 1. */
 int random_below(uint64_t *seed, int count);
@@ -21,8 +21,8 @@ static inline double worst_of(double a, double b)
     return isnan(a) || a > b ? a : b;
 }
 
-/* Returns the constants of a section. If the section is invalid, the test fails and the constants
- * are zero. */
+/* Returns the computed constants of a section. If the section is invalid, the test fails and all
+ * constants are zero. */
 section sections_computed(const section_spec *);
 /* Returns a section of this kind with the moduli of steel, E = 200 GPa and G = 80 GPa. */
 section_spec sections_steel(section_kind);
@@ -30,19 +30,19 @@ section_spec sections_steel(section_kind);
  * Iy + Iz. */
 section_spec sections_of(double A, double Iy, double Iz, double It);
 
-/* Nodes of one element placed by a test, and derivatives of its strains by finite differences.
- * Increments d [7 nodes] contain the displacement [m], the spatial rotation vector and the warping
- * amplitude [rad/m]. */
+/* The next functions place the nodes of one element and compare derivatives of its strains with
+ * finite differences. Increments d [7 nodes] contain the displacement [m], the spatial rotation
+ * vector and the warping amplitude [rad/m]. */
 
 void nodes_straight(int nodes, double length, node_state x[]);
-/* Rotates R by a rotation vector in fixed axes, in addition to its present rotation. */
+/* Rotates R further, by a rotation vector in fixed axes. */
 void nodes_turn(double R[9], const double turn[3]);
 /* Moves every node by `times` its increments in d. */
 void nodes_move(int nodes, double times, const double d[], node_state x[]);
-/* Places the straight element and moves it by d. */
+/* Places the nodes of a straight element of this length and moves them by d. */
 void nodes_place(int nodes, double length, const double d[], node_state x[]);
-/* Sets random increments that are uniform in (-size/2, size/2), in units of lengths, radians and
- * 1/lengths. */
+/* Sets random increments that are uniform in (-size/2, size/2), for displacements relative to the
+ * length, in radians for rotations, and times 1/length for warping. */
 void nodes_increments(int nodes, double length, double size, unsigned seed, double d[]);
 
 /* Compares J and H at x with fourth-order central differences of e and of J^T s along the path that

@@ -1,7 +1,7 @@
 /* The points of the Gauss rule must be the roots of the Legendre polynomials, and its weights must
- * agree with their slopes, to the last digit. The rule must integrate monomials up to its degree
- * exactly. Threads and forked processes that request tables simultaneously must receive the same
- * tables. */
+ * follow from the slopes of the polynomials at these roots, to the last digit. The rule must
+ * integrate monomials up to its degree exactly. Threads and forked processes that request tables
+ * simultaneously must receive the same tables. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

@@ -1,5 +1,5 @@
-/* Compares rotations with their definition: rotation matrices, products, the logarithm of the
- * shorter rotation, and angles near 0 and pi. */
+/* Compares rotation matrices, products of rotations and the logarithm with their definitions, also
+ * for angles near 0 and pi. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -87,7 +87,6 @@ static void batch_free(batch *b)
     free(b->kind[1]);
 }
 
-/* Number of sets of features with which batches are set up. */
 enum { BATCH_FEATURES = 3 };
 static unsigned batch_features(int turn)
 {
@@ -97,8 +96,8 @@ static unsigned batch_features(int turn)
                               all | FEATURE_WAGNER_TORQUE}[turn];
 }
 
-/* Returns a batch. `options` is the number of entries in option[]; all other options have their
- * defaults. */
+/* Returns a batch of elements of this type. The first `options` options are given in option[]; all
+ * other options have their defaults. */
 static batch batch_of(const element_type *type, const double option[], int options, int turn)
 {
     batch b = {.type = type, .name = type->name};
@@ -168,7 +167,7 @@ static void one_angle(double angle)
         minus[i] = -q[i];
     const double allowed = fabs(fabs(shorter) - PI) < 1e-15
                                ? 2 * PI + 1
-                               : 8 * eps; /* at pi, both rotations are equally short */
+                               : 8 * eps; /* at pi, both senses of rotation are equally short */
     rotation_log(q, phi);
     gsl_test(!(largest_difference(3, phi, expected) < allowed), "angle %g: its vector", angle);
     rotation_log(minus, phi);
@@ -250,9 +249,9 @@ static void rotation_tests(void)
 
 enum { POINTS = 16 };
 
-/* Integrates r = int exp(turn s) e ds from 0 to x. r minus x e is the integral of the change of e
- * by the rotation, so there is no cancellation. The integrand is (sin w)/w t x e + (1 - cos w)/w^2
- * t x (t x e), where t = turn s and w = |t|. */
+/* Integrates r = int exp(turn s) e ds from 0 to x. The difference r - x e is integrated instead of
+ * r, so there is no cancellation. The integrand is (sin w)/w t x e + (1 - cos w)/w^2 t x (t x e),
+ * where t = turn s and w = |t|. */
 static void integrate(const double turn[3], const double e[3], double x, double across[3])
 {
     double at[POINTS], weight[POINTS];
@@ -321,7 +320,6 @@ static const struct {
               {&element_sheet_third, sheet_lanes_third_equations_plain},
               {&element_sheet_third_printed, sheet_lanes_third_equations_plain}};
 
-/* Equations of one element. */
 typedef struct whole {
     double J[S * X], C[S * S], incompatibility[S], sigma[S], force[X], present[X], K[X * X];
     status outcome;
@@ -432,7 +430,7 @@ static const struct {
     const element_type *type;
     strains_function *strain;
     stresses_function *stress;
-    double option[3]; /* values of the first options */
+    double option[3]; /* values of the first options of the type */
 } lanes_family[] = {
     {&element_beamw, beamw_lanes_modes_plain, beamw_lanes_modified_plain, {0}},
     {&element_beamw_vlasov, beamw_lanes_modes_plain, beamw_lanes_modified_plain, {0}},

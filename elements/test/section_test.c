@@ -35,7 +35,7 @@ static section rectangle(double width, double height, double ky, double kz)
     return sections_computed(&spec);
 }
 
-/* Without given shear factors, a wall has the shear and warping shear of the rectangle. The long
+/* If no shear factors are given, a wall has the shear and warping shear of the rectangle. The long
  * side of the wall is along y; that of a wide rectangle is along z. */
 static void rectangle_is_a_wall(double h, double t)
 {
@@ -79,8 +79,8 @@ static void turned_wall(void)
     }
 }
 
-/* Computes int (y, z, 1)(y, z, 1)^T dA over walls with their thickness, by quadrature, in the
- * coordinates of the walls. */
+/* Computes int (y, z, 1)(y, z, 1)^T dA over the areas of the walls, by quadrature, with y and z as
+ * in the input. */
 static void area_moments(const section_spec *s, double sum[3][3])
 {
     enum { N = 4 };
@@ -135,8 +135,9 @@ static void thick_walls(void)
     gsl_test_rel(c.Iz, about_y, 1e-12, "Iz belongs to the y axis that was found");
 }
 
-/* Compares with Prandtl's stress function as a double series: 256/pi^6 sum over odd m, n of (a
- * b)/(m^2 n^2 (m^2/a^2 + n^2/b^2)). The terms beyond M are less than a third of 1/M^3. */
+/* Compares the torsion constant with Prandtl's stress function as a double series: 256/pi^6 sum
+ * over odd m, n of (a b)/(m^2 n^2 (m^2/a^2 + n^2/b^2)). The terms beyond M add less than a third of
+ * 1/M^3. */
 static void torsion_of_a_rectangle(double a, double b)
 {
     double sum = 0;
@@ -148,8 +149,7 @@ static void torsion_of_a_rectangle(double a, double b)
     gsl_test_rel(rectangle(b, a, 0, 0).It, rectangle(a, b, 0, 0).It, 1e-14, "the sides exchanged");
 }
 
-/* Returns Saint-Venant's warping function over a quarter of a rectangle, from the series of its
- * stress. */
+/* Returns Saint-Venant's warping function in a quarter of a rectangle, by its series. */
 static double warping_at(double y, double z, double a, double b)
 {
     double omega = y * z;
@@ -161,7 +161,8 @@ static double warping_at(double y, double z, double a, double b)
     return omega;
 }
 
-/* Compares with int omega^2 dA and, for thin rectangles, with the thin-rectangle value. */
+/* Compares the warping constant with int omega^2 dA and, for thin rectangles, with its limit for
+ * zero thickness. */
 static void warping_constant(double width, double height)
 {
     enum { N = 20 };
@@ -177,8 +178,8 @@ static void warping_constant(double width, double height)
     gsl_test_rel(rectangle(1e-4, 1, 0, 0).Iw, 1e-12 / 144, 1e-6, "of a thin one");
 }
 
-/* The constant of the torque that is cubic in the twist rate is 1/8 int (r^2 - mean)^2 dA for any
- * rectangle. It is w^5 t/1440 for a thin rectangle (N Eq. 46), and twice this value for a
+/* The constant of the torque that is cubic in the twist rate is 1/8 int (r^2 - mean of r^2)^2 dA
+ * for any rectangle. It is w^5 t/1440 for a thin rectangle (N Eq. 46), and twice this value for a
  * square. */
 static void wagner_torque(double width, double height)
 {
@@ -283,16 +284,16 @@ static void box(void)
                  1e-13, "box: Bredt");
     gsl_test_rel(c.Iw, c.A * corner * corner / 3, 1e-12, "box: warping");
     gsl_test_abs(hypot(c.ys, c.zs), 0, 1e-15, "box: shear centre in the middle");
-    /* first moment, which is tf s h/2 in a flange, from its middle, and tf b h/4 + tw (h^2/4 -
-     * z^2)/2 in a web */
+    /* first moment of area at s: tf s h/2 in a flange, where s is measured from its middle, and tf
+     * b h/4 + tw (h^2/4 - z^2)/2 in a web */
     const double top = tf * b * h / 4, bow = tw * h * h / 8,
                  square = 4 * tf * h * h / 4 * b * b * b / 24 +
                           2 * h / tw * (top * top + 4.0 / 3 * top * bow + 8.0 / 15 * bow * bow);
     gsl_test_rel(c.F[4], square / (c.Iy * c.Iy), 1e-13, "box: shear along the webs");
 }
 
-/* The constants of a regular polygon must tend to those of a thin ring, with errors of order
- * 1/n^2. */
+/* The constants of a regular polygon must tend to those of a thin circular ring, with errors of
+ * order 1/n^2. */
 static void ring(void)
 {
     enum { N = 32 };
@@ -314,7 +315,6 @@ static void ring(void)
     gsl_test_rel(c.Iy, d.Iy, 0.02, "ring: bending");
     gsl_test_rel(c.F[0], d.F[0], 0.02, "ring: shear");
     gsl_test(c.Iw != 0, "ring: no warping");
-    /* for the polygon: area a = N/2 R^2 sin(2 pi/N), length l = 2 N R sin(pi/N) */
     const double a = N / 2.0 * R * R * sin(2 * PI / N), l = 2 * N * R * sin(PI / N);
     gsl_test_rel(c.It, 4 * a * a * t / l + l * t * t * t / 3, 1e-12, "polygon: Bredt");
 }
@@ -340,8 +340,8 @@ static void tube_closed_forms(void)
     gsl_test_rel(c.F[0], PI / 8 * up / (c.Iz * c.Iz), 1e-13, "tube: shear");
 }
 
-/* Returns two cells of equal size with a common web. In torsion, the flow in the web is zero, and
- * the outer wall has the Bredt flow. */
+/* Returns two cells of equal size with a common web. In torsion, the shear flow in the web is zero,
+ * and Bredt's formula holds for the outer walls. */
 static section_spec two_cells(int swapped, double skew)
 {
     static const double point[6][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};
@@ -350,8 +350,8 @@ static section_spec two_cells(int swapped, double skew)
     spec.points = 6;
     spec.walls = 7;
     spec.cells = 2;
-    for (int i = 0; i < 6;
-         i++) { /* swapped walls have another root, reversed directions, and the opposite order */
+    for (int i = 0; i < 6; i++) { /* swapped: the walls have another root, reversed directions, and
+                                     the opposite order */
         const int p = swapped ? 5 - i : i;
         spec.point[p][0] = b * point[i][0] + (i == 1 || i == 4 ? skew : 0);
         spec.point[p][1] = h * point[i][1];
@@ -374,8 +374,8 @@ static void cells(void)
     gsl_test_rel(c.It, 4 * area * area / round + open, 1e-12, "two equal cells: Bredt");
     const section_spec skew = two_cells(0, 0.02), other = two_cells(1, 0.02);
     const section d = sections_computed(&skew), e = sections_computed(&other);
-    /* cells of widths p, q: (2 (p + .)/tw + h/tf) x1 - h/tf x2 = 2 p h, and correspondingly for
-     * x2 */
+    /* flows x1, x2 in cells of widths p, q: (2 (p + .)/tw + h/tf) x1 - h/tf x2 = 2 p h, and
+     * correspondingly for x2 */
     const double p = b + 0.02, q = b - 0.02, m11 = (2 * p + h) / tw + h / tf,
                  m22 = (2 * q + h) / tw + h / tf, m12 = -h / tf, det = m11 * m22 - m12 * m12;
     const double x1 = (m22 * 2 * p * h - m12 * 2 * q * h) / det,
@@ -393,8 +393,8 @@ static void cells(void)
                      "two cells, other order: shear %d", i);
 }
 
-/* Additional points within walls must not change the constants: a fin on a box, and walls that are
- * cut in two. */
+/* Additional points within walls must not change the constants. The sections are a fin on a box,
+ * and walls that are cut in two. */
 static void points_between(void)
 {
     section_spec one = box_spec();

@@ -25,7 +25,7 @@ typedef struct cantilever {
     element_data *data;
     int n, reversed; /* 1 if node p of every element is towards the tip */
     node_state node[MOST + 1];
-    double e[MOST][N], sigma[MOST][N]; /* unknowns condensed in each element */
+    double e[MOST][N], sigma[MOST][N]; /* [element][strain] unknowns that each element eliminates */
 } cantilever;
 
 /* Adds the contribution of one element: K += J^T C J + H, force += J^T [P'(e) + C (D(x) - e)] (N
@@ -149,8 +149,8 @@ static int step(cantilever *c, double deflection, double *K, double *right)
     return ITERATIONS + 1;
 }
 
-/* Computes the compliance. A dead spatial moment m at the tip adds -1/2 m~ to the Hessian in the
- * exponential chart. */
+/* Computes the compliances of the tip about x and z. A dead spatial moment m at the tip adds -1/2
+ * m~ to the Hessian in the exponential chart. */
 static void compliance(const cantilever *c, double *K, double *right, double *C_xx, double *C_zz)
 {
     const int size = NODE * c->n, tip = NODE * (c->n - 1);
@@ -178,7 +178,7 @@ static void solve(const element_type *type, int n, int reversed, double *C_xx, d
     double *K = malloc(sizeof(double) * SIZE * SIZE), *right = malloc(sizeof(double) * SIZE);
     int most = 0;
     section_spec spec = section_spec_rectangle(200e9, 200e9 / (2 * (1 + nu)), 0.1, 0.00225);
-    spec.given.Iw = pow(0.1 * 0.00225, 3) / 144; /* value of a thin rectangle */
+    spec.given.Iw = pow(0.1 * 0.00225, 3) / 144;
     spec.shear_factor[0] = spec.shear_factor[1] = 10 * (1 + nu) / (12 + 11 * nu);
     const section s = sections_computed(&spec);
     const element_request request = {.section = &s,
@@ -222,8 +222,8 @@ static void sheet_cantilever_tests(void)
         {&element_sheet_third, 2, 3.9673504e-7, 2.632057e-8},
         {&element_sheet_third_printed, 1, 3.9472445e-7, 2.470177e-8},
     };
-    /* Errors of C_zz with shear included in the strains, relative to the geometrically exact beam,
-     * in percent, and half a unit of their last digit. */
+    /* Errors of C_zz in percent, relative to the geometrically exact beam, of elements that include
+     * shear in the strains. `rounding` is half a unit of the last digit. */
     static const struct {
         int n;
         double percent, rounding;
@@ -290,8 +290,8 @@ static double scaled_difference(int n, const double a[], const double b[])
     return worst / largest;
 }
 
-/* Computes N Eq. 37 as printed, except that L replaces L^2 in the last term of e1, because e1 is a
- * length. */
+/* Computes the strains of N Eq. 37 as printed, except that L replaces L^2 in the last term of e1,
+ * because e1 is a length. */
 static void printed_strains(double L, double Ite, const double q[SHEET_N], double e[SHEET_N])
 {
     const double u = q[SHEET_LOCAL_U], px = q[SHEET_LOCAL_PX], yp = q[SHEET_LOCAL_YP],

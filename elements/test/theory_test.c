@@ -1,4 +1,5 @@
-/* The energies of the elements must be those stated in elements/NAME.md. */
+/* The energies of the elements must be those stated in the Markdown files in elements/, such as
+ * elements/beamw.md. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -35,7 +36,7 @@ static double energy_of(const element_type *type, const section *c, double l, un
     return energy;
 }
 
-/* Computes J Eq. 66 with e[1] to e[8] as in the text. ebar[7] and ebar[8] are not modified. */
+/* Computes J Eq. 66 with the indices 1 to 8 of the paper. ebar[7] and ebar[8] are not modified. */
 static void modified(const section *c, double l, const double e[E + 1], double ebar[E + 1])
 {
     const double A = (e[7] - e[8]) / 2, t = e[2] - (e[7] + e[8]) / 2, l3 = l * l * l;
@@ -54,7 +55,8 @@ static void modified(const section *c, double l, const double e[E + 1], double e
     ebar[6] += (e[2] * (e[3] / 5 + e[4] / 10) - (e[3] + e[4]) * e[7] / 30 + e[4] * e[8] / 10) / l;
 }
 
-/* Returns the energy as the sum of squares in elements/beamw.md, with Phi[3] for y, z and w. */
+/* Returns the energy of elements/beamw.md as a sum of squares. Phi[3] are the shear parameters for
+ * y, z and w. */
 static double squares(const section *c, double l, const double Phi[3], const double b[E + 1])
 {
     const double l2 = l * l, l3 = l2 * l, A = (b[7] - b[8]) / 2, G = c->shear_modulus;
@@ -100,7 +102,7 @@ static void beamw(void)
     }
 }
 
-/* Returns the energy of elements/sheet_second.md, with P_x and the Wagner torque. */
+/* Returns the energy of elements/sheet_second.md, including P_x and the Wagner torque. */
 static double sheet_energy(const section *c, double l, const double e[E + 1])
 {
     const double l3 = l * l * l, G = c->shear_modulus, sum = e[7] + e[8],
@@ -153,8 +155,8 @@ static void theory_tests(void)
     sheets();
 }
 
-/* Elimination inside a collocation element must need no row exchange for suitable matrices, and
- * must be correct for all other matrices. */
+/* Elimination inside a collocation element must need no row exchange for matrices with positive
+ * pivots, and must be correct for all other matrices. */
 
 extern const element_type element_collocation;
 
@@ -172,8 +174,8 @@ static exact_stages strip(int stages, unsigned features)
     return s;
 }
 
-/* Returns the largest difference of two matrices C, relative to the diagonal entries of the same
- * strains. */
+/* Returns the largest difference between two stiffnesses C, relative to the diagonal entries of the
+ * same strains. */
 static double departure(const double a[], const double b[])
 {
     double worst = 0;
@@ -195,7 +197,7 @@ static status stress(const exact_stages *s, const double e[], const double inner
     return outcome;
 }
 
-/* Eliminates the same equations with and without row exchange. */
+/* Compares eliminations of the same equations with and without row exchange. */
 static void both(int stages, unsigned features)
 {
     const exact_stages s = strip(stages, features);
@@ -238,7 +240,7 @@ static void both(int stages, unsigned features)
 }
 
 /* A straight element under more compression than its inner nodes can carry between fixed ends. The
- * compression makes the first non-positive pivot as small as possible. */
+ * compression is chosen to make the first non-positive pivot as small as possible. */
 static void compressed(int stages)
 {
     const exact_stages s = strip(stages, FEATURE_SHEAR | FEATURE_LARGE);
@@ -285,7 +287,6 @@ enum { W = CONGRUENCE_WIDEST };
 
 typedef void add_function(int m, int n, const double *J, const double *S, double *K);
 
-/* Adds the terms in order to the values in K. */
 static void plain_loops(int m, int n, const double *J, const double *S, double *K)
 {
     double SJ[W * W];
@@ -341,7 +342,7 @@ static void congruence_tests(void)
 
 enum { WARPING_MOST = EXACT_WARPING_MAX_STAGES };
 
-/* Coefficients of x^k in p, and the amplitudes of both layers. */
+/* Coefficients of x^k in p, and the amplitudes A and B of the two boundary layers. */
 typedef struct amplitude {
     int stages;
     double lambda, p[WARPING_MOST], layer[2];
@@ -365,8 +366,8 @@ static double layers(const amplitude *a, double x, double rest)
     return a->layer[0] * exp(-a->lambda * x) + a->layer[1] * exp(-a->lambda * rest);
 }
 
-/* Computes the means of the layers with the Lagrange polynomials of the points, over intervals that
- * double from 1/1000 of the layer thickness at each end. */
+/* Computes the means of the layers, weighted by the Lagrange polynomials of the points. The
+ * intervals of integration double from 1/1000 of the layer thickness at each end. */
 static void layer_means(const amplitude *a, const double x[], const double w[], double mean[])
 {
     gsl_integration_glfixed_table *t = gsl_integration_glfixed_table_alloc(12);
@@ -416,7 +417,8 @@ static double warping_departure(const beam_constants *c, const amplitude *a)
     return worst / size;
 }
 
-/* Compares one layer or polynomial term at a time, so no error is hidden by a larger term. */
+/* Compares one layer or one polynomial term at a time, so that a large term cannot hide the error
+ * of another. */
 static void warping_compare(int stages, double lambda, double shear)
 {
     const beam_constants c = {.GJ = 0.7, .EIw = 0.7 / (lambda * lambda), .F = {[8] = shear}};
@@ -430,8 +432,8 @@ static void warping_compare(int stages, double lambda, double shear)
     for (int k = 0; k < stages; k++) {
         amplitude a = {.stages = stages, .lambda = lambda};
         a.p[k] = 1;
-        if (k > 0) /* a constant needs no torque and no bimoment, and is checked together with all
-                      other terms */
+        if (k > 0) /* a constant amplitude needs no torque and no bimoment, and is checked together
+                      with all other terms */
             smooth = worst_of(smooth, warping_departure(&c, &a));
     }
     amplitude a = {.stages = stages, .lambda = lambda};

@@ -85,7 +85,7 @@ static section_spec spec_of(const wagner_shape *s, int thick, double size, doubl
     return spec;
 }
 
-/* Adds int g g^T dA of one wall, where g = (1, y, z, y^2 + z^2) relative to `about`. */
+/* Adds int g g^T dA of one wall, where g = (1, y, z, y^2 + z^2), relative to `about`. */
 static void add_wall(const section_spec *s, int wall, const double about[2], double sum[4][4])
 {
     enum { N = 4 };
@@ -104,8 +104,8 @@ static void add_wall(const section_spec *s, int wall, const double about[2], dou
     }
 }
 
-/* Returns the integral of the square of the fourth function after its projection on the first three
- * functions is removed. */
+/* Returns the integral of the square of that part of the fourth function of g which is orthogonal
+ * to the first three. */
 static double left_of(double m[4][4])
 {
     for (int k = 0; k < 3; k++)
@@ -173,8 +173,9 @@ static void cruciform(void)
     gsl_test_rel(c.wagner_torque, 2 * 4e-3 * pow(0.1, 5) / 45, 1e-13, "cruciform, by hand");
 }
 
-/* An equal-leg angle with legs of length b and thickness t. At the distance s from the corner, r^2
- * = s^2. The mean b^2/3 and the part due to bending in the plane of symmetry are subtracted. */
+/* Closed form for an equal-leg angle with legs of length b and thickness t. At the distance s from
+ * the corner, r^2 = s^2. The mean b^2/3 and the part due to bending in the plane of symmetry are
+ * subtracted. */
 static void equal_angle(void)
 {
     const double b = 0.08, t = 3e-3, A = 2 * b * t;
@@ -190,8 +191,7 @@ static void equal_angle(void)
                  "equal angle, by hand: int r^4, shortening, bending");
 }
 
-/* A thick wall has the constant of its rectangle, which is w^5 t/1440 for a thin wall, plus the
- * corresponding term of the short side. */
+/* The constant of a wall with its thickness terms is that of a rectangle, (w^5 t + w t^5)/1440. */
 static void strip(double w, double t)
 {
     for (int i = 0; i < 4; i++) {
@@ -242,8 +242,8 @@ static void wagner_tests(void)
     ring();
 }
 
-/* Stresses at the points of sections. The integrals of the stresses over the walls must equal the
- * resultants. In torsion of a rectangle, the stresses must have the coefficients published by
+/* Tests stresses at the points of sections. The integrals of the stresses over the walls must equal
+ * the resultants. In torsion of a rectangle, the stresses must have the coefficients published by
  * Timoshenko (Theory of Elasticity, 1970, section 109). */
 
 static stress_points points_of(const section_spec *spec, const section *c)
@@ -267,7 +267,8 @@ static section_spec rectangle_spec(double width, double height)
     return spec;
 }
 
-/* Compares k1 of T = k1 (2a)^2 2b tau with Timoshenko's table for b/a. */
+/* Compares the largest shear stress tau due to a torque T = k (2a)^2 (2b) tau with Timoshenko's
+ * table of k for the sides 2b/2a. */
 static void torsion(double ratio, double coefficient, int flat)
 {
     const double t = 0.01, w = ratio * t;
@@ -281,15 +282,16 @@ static void torsion(double ratio, double coefficient, int flat)
                  "torsion of 1 : %g, flat %d", ratio, flat);
 }
 
-/* Compares the stresses at the middles of the sides with the slope of the stress function, from its
- * double sine series. */
+/* Compares the stresses at the middles of the sides with the slope of Prandtl's stress function,
+ * from its double sine series. */
 static void torsion_exact(void)
 {
     const double t = 0.02, w = 0.03;
     const section_spec spec = rectangle_spec(w, t);
     const section c = sections_computed(&spec);
     const stress_points p = points_of(&spec, &c);
-    double shorter = 0; /* single series in 1/cosh of the other coordinate */
+    double shorter =
+        0; /* the stress function as a single series, in 1/cosh of the other coordinate */
     for (int n = 1; n < 200; n += 2)
         shorter += 1 / (n * n * cosh(n * PI * t / (2 * w)));
     for (int i = 0; i < p.count; i++) /* tau_xy at z = w/2 */
@@ -327,8 +329,8 @@ static void rectangle(void)
                  1e-12, "lying and standing");
 }
 
-/* The stresses in walls due to resultants must integrate to the same resultants. Simpson's rule is
- * exact, because all stresses are quadratic along a wall. */
+/* The integrals over the walls of the stresses due to resultants must equal these resultants.
+ * Simpson's rule is exact, because all stresses are at most quadratic along a wall. */
 static void integrated(const char *name, const section_spec *spec)
 {
     static const double by[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -337,12 +339,13 @@ static void integrated(const char *name, const section_spec *spec)
     for (int k = 0; k < 4; k++) {
         double Q[2] = {0}, torque = 0;
         int from = 0;
-        for (int wall = 0; wall < spec->walls; wall++) { /* the ends and the middle of a wall on
-                                                            both surfaces, then its other points */
+        for (int wall = 0; wall < spec->walls;
+             wall++) { /* points of a wall: its ends and its middle on both surfaces, then others */
             const stress_point *at = &p.point[from];
             const double length = hypot(at[4].y - at[0].y, at[4].z - at[0].z);
             double t = 0;
-            for (int w = 0; w < spec->walls; w++) { /* the walls in these tests differ in length */
+            for (int w = 0; w < spec->walls; w++) { /* identifies the wall by its length, because
+                                                       the walls in these tests differ in length */
                 const double *a = spec->point[spec->wall[w].from],
                              *b = spec->point[spec->wall[w].to];
                 if (fabs(hypot(b[0] - a[0], b[1] - a[1]) - length) < 1e-9)
@@ -534,8 +537,7 @@ static void walls(void)
     gsl_test(checked(&p, &wide, &f) != STATUS_REFUSED, "walls that hang together otherwise");
 }
 
-/* Walls along z, or at an angle near the shear centre: the web is along an axis rotated by
- * `angle`. */
+/* Walls may taper only within their planes. The web is along the z axis rotated by `angle`. */
 static void turned_walls(double angle)
 {
     const double c = cos(angle), d = sin(angle);
