@@ -1,5 +1,5 @@
-/* Edits of a scene for each field: some fields change their sign, side or position, and others do
- * not change. */
+/* Edits of a scene, such as reversing or splitting members: some fields must change their sign,
+ * side or position, and all others must not change. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -91,13 +91,14 @@ static void reversed_section(void)
     scene_free(&s);
 }
 
-/* Loads on parts of a member of length 2 along x that is reversed or split in two. */
+/* Loads on parts of a member of length 2 along x, which is then reversed, or split at 0.25. */
 static const struct {
     scene_load_kind kind;
-    double from, to, last; /* range of the load, and its value at the end relative to the start (0
-                              if the load does not vary) */
-    double turned[3];      /* expected range and value at its start */
-    double first[4], second[4]; /* split at 0.25: expected range and values at its start and end */
+    double from, to, last; /* range of the load, and its value at the end relative to the start (0:
+                              the load does not vary) */
+    double turned[3];      /* reversed member: expected range, and value at its start */
+    double first[4],
+        second[4]; /* parts of the split member: expected range, and values at its start and end */
 } on_part[] = {
     {SCENE_DISTRIBUTED, 0, 1, 0, {0, 1, 1}, {0, 1, 1, 1}, {0, 1, 1, 1}},
     {SCENE_DISTRIBUTED, 0, 1, 5, {0, 1, 5}, {0, 1, 1, 2}, {0, 1, 2, 5}},
@@ -422,7 +423,7 @@ static void entry_tests(void)
     is_mirrored();
 }
 
-/* Functions of time in pieces: values at the boundaries of pieces, smoothness, and finiteness. */
+/* Returns a function of time made of pieces, each until the given time. */
 
 static scene_function pieces(int count, const double until[], const char *const text[])
 {
@@ -495,7 +496,7 @@ static void check_joints(void)
     check_joint("t^2", "2*t - 1", 2, -1);
     check_joint("t^2", "2*t - 1.1", 2, 0);
     check_joint("t^2", "t", 2, 1);
-    check_joint("t^2", "t", 1, -1); /* no piece follows the boundary within `end` */
+    check_joint("t^2", "t", 1, -1); /* the boundary is at `end`, so no piece follows */
     check_joint("t^2", "7", 0.5, -1);
 }
 
@@ -520,7 +521,7 @@ static void check_poles(void)
     check_finite("sqrt(t)", "1", 0, 4, NAN);
     check_finite("sqrt(t)", "1", 1, 4, 0);
     check_finite("t^1.5", "1", 2, 4, 0);
-    check_finite("1/(t - 1)", "0", 0, 4, 1); /* at the end of the piece, where steps end */
+    check_finite("1/(t - 1)", "0", 0, 4, 1);
     check_finite("1", "1/(t - 2.5)", 0, 4, 2.5);
     check_finite("1", "1/(t - 2.5)", 0, 2, NAN);
     check_finite("1", "log(2 - t)", 0, 4, 1 + 22 * 3. / 64);

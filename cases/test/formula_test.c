@@ -214,7 +214,8 @@ static void constants_tests(void)
     constants_follow();
 }
 
-/* Data of one kind of analysis or quantity cannot be read from another kind: the program ends. */
+/* Data of one kind of analysis or quantity cannot be read as those of another kind: the program
+ * aborts. */
 
 typedef void kinds_reader(const void *analysis_or_quantity);
 
@@ -299,7 +300,7 @@ static void kinds_tests(void)
     static const struct {
         const char *name;
         kinds_reader *read;
-        unsigned analyses, quantities; /* kinds that have these data, or 0 if not applicable */
+        unsigned analyses, quantities; /* kinds that have these data; 0: none */
     } row[] = {
         {"walk", read_walk, 1 << SCENE_STATIC | 1 << SCENE_ROTATION, 0},
         {"compliance", read_compliance, 1 << SCENE_COMPLIANCE, 0},

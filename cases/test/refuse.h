@@ -1,4 +1,4 @@
-/* Invalid scenes, made from a valid scene. */
+/* Scenes that must be rejected. Each is a valid scene with one change. */
 #ifndef BEAMWORK_TEST_REFUSE_H
 #define BEAMWORK_TEST_REFUSE_H
 

@@ -21,7 +21,7 @@ static scene_motion *moves(scene *s)
     return moves_from(s, 0);
 }
 
-/* Moves the driver by a function of time and, from 1 s on, by another function, which may be
+/* Drives the tip by a function of time. From 1 s on, another function applies, unless `then` is
  * NULL. */
 static void drives(scene *s, const char *first, const char *then)
 {

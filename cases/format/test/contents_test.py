@@ -1,4 +1,4 @@
-"""Contents of scene files: data as read, the examples, and scenes with closed-form solutions."""
+"""Contents of scene files: material read from files, the examples, and scenes with closed-form solutions."""
 import json
 import pathlib
 import re
@@ -137,7 +137,7 @@ quantities:
                     inside = {"Qy": 0.7, "Qz": 0.3 + 0.2*b, "Mx": 1, "My": -0.3*b - 0.1*b*b}
                     for name, value in inside.items():
                         self.assertAlmostEqual(got[f"{name}_at_{place}"], value, delta=1e-10)
-                    # the parts of the torque about the shear centre
+                    # the torque about the shear centre is the sum of its Saint-Venant part and its warping part
                     self.assertAlmostEqual(got[f"Mx_saint_venant_at_{place}"] + got[f"Mx_warping_at_{place}"] +
                                            got["ys"]*inside["Qz"] - got["zs"]*inside["Qy"], 1, delta=1e-9)
                 for name, value in {"My_max": 0, "My_min": -1, "My_largest": 1, "Qz_max": 0.7, "Qz_min": 0.3}.items():
@@ -167,8 +167,8 @@ quantities:
 """
 
     def test_stress(self):
-        """The stress in a box that is free to warp, under tension and torsion, contains Bredt's flow and the part that
-        varies through the thinnest wall."""
+        """In a box that is free to warp, under tension and torsion, the shear stress is the sum of Bredt's uniform flow
+        and a part that varies linearly through the thinnest wall."""
         area, swept, perimeter = 2*(0.1*3e-3 + 0.06*2e-3), 2*0.1*0.06, 2*(0.1/3e-3 + 0.06/2e-3)
         It = swept**2/perimeter + 2*(0.1*3e-3**3 + 0.06*2e-3**3)/3
         tau = max(300/It*(swept/perimeter/t + t) for t in (2e-3, 3e-3))
@@ -197,7 +197,7 @@ quantities:
             written = [re.sub("p[0-9]+", "p", self.answered("scene", "--scene", path).stdout)
                        for path in (EXAMPLES / f"{name}.yaml", self.scene(short))]
             self.assertEqual(*written)
-        # an I-section that is rigid in shear, under a tip force along its web: P L^3/3 E I
+        # an I-section that is rigid in shear, under a tip force along its web: P L^3/(3 E I)
         text = LEAF.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}",
                              "i: {depth: 0.2, flange: 0.1, flange_thickness: 8e-3, "
                              "web_thickness: 5e-3}")
@@ -215,7 +215,8 @@ quantities:
         self.assertEqual(*written)
 
     def test_weight_of_a_body(self):
-        """A weight at a centre of mass that rotates with its body gives P L^3/3 E I + P a L^2/2 E I."""
+        """The weight P of a body, at the distance a of its centre of mass from the tip, causes the tip deflection P
+        L^3/(3 E I) + P a L^2/(2 E I)."""
         heavy = LEAF.replace("  push: {force: [0, 1, 0], on: tip}", "  weight: {gravity: [0, -9.81, 0], on: tip}")
         body = heavy.replace("tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}")
         self.assertNotIn("push", body)
@@ -296,7 +297,8 @@ class ExamplesTest(SceneCase):
         self.refused(2, "would overwrite", "verify", "--scene", self.folder, "-o", taken)
 
     def test_leaf_spring_guide(self):
-        """Stiffnesses in the undeformed state have closed forms. Those of the displaced stage are values of the reference program."""
+        """Stiffnesses in the undeformed state are compared with closed forms, and those in the displaced state with the
+        values of the reference program."""
         path = EXAMPLES / "leaf_spring_guide.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 4))
         self.assertAlmostEqual(got["k_drive"] / 2624.536778, 1, delta=1e-9)
@@ -324,7 +326,8 @@ class ExamplesTest(SceneCase):
             self.assertAlmostEqual(got[name] / value, 1, delta=1e-6)
 
     def test_folded_leaf_stage(self):
-        """Three instances at 120 degrees must have equal stiffness in all directions in their plane."""
+        """Three folded leaves at angles of 120 degrees give the stage the same stiffness in all directions in their
+        plane."""
         path = EXAMPLES / "folded_leaf_stage.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 2))
         self.assertAlmostEqual(got["k_x"] / got["k_y"], 1, delta=1e-12)
@@ -347,7 +350,6 @@ class ExamplesTest(SceneCase):
 # The formulation that solve selects, and formulations with all physics, must give these values. A wrong value must
 # never have status ok.
 SCENES = sorted((ROOT / "cases" / "textbook").glob("*.yaml"))
-# Relative tolerance of a value on the mesh that solve selects.
 CLOSE = 2e-3
 
 # Scenes in which the elements of this formulation are too long for their axial force, for any number of elements. The

@@ -8,7 +8,7 @@
 #include "cases/format/format_impl.h"
 #include "elements/math/scalar.h"
 
-/* Returns a node with the text as a value that starts in line 3, column 10. */
+/* Returns a text node as if it stood in line 3, column 10 of a file. */
 static document_node text_node(const char *text)
 {
     return (document_node){.kind = DOCUMENT_TEXT, .line = 3, .column = 10, .text = text};
@@ -57,7 +57,7 @@ static void check_mistakes(const scope *names)
 {
     static const struct {
         const char *text;
-        int column; /* from 10 */
+        int column; /* counted as in text_node, from column 10 */
         const char *says;
     } all[] = {{"", 10, "ends"},
                {"1+", 12, "ends"},
@@ -305,8 +305,8 @@ static void document_tests(void)
     check_many();
 }
 
-/* Units of scene files: SI units are accepted. For other units, the remedy must give the correct
- * factor and an accepted unit. */
+/* SI units are accepted in scene files. For other units, the error message must state the SI unit
+ * to use and the conversion factor. */
 
 static const char *said(const char *unit, mistakes *m)
 {
@@ -347,8 +347,8 @@ static const struct {
                {"kHz", "Hz", 1e3},
                {"rpm", "rad/s", PI / 30}};
 
-/* The remedy "write 20 mm as 20e-3 with unit: m" is correct if 20 mm are 20 times the factor of
- * m. */
+/* Checks the conversion in a remedy such as "write 20 mm as 20e-3 with unit: m". The value must be
+ * `factor` times the amount, and the unit must be `si`. */
 static void remedy_of(const char *unit, const char *si, double factor)
 {
     mistakes m;

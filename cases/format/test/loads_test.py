@@ -42,7 +42,7 @@ KINDS = {
 FORCES, MOMENTS = ("force", "force within", "distributed"), ("moment", "moment within", "distributed moment")
 ON_MEMBERS = ("force within", "moment within", "distributed", "distributed moment")
 SPREAD = ("distributed", "distributed moment")
-# for each key, the kinds of loads that can have it, except that a force or a moment within a member already has `where`
+# keys that each kind of load can have, except that a force or a moment within a member already has `where`
 KEYS = {
     "where: 0.75": (),
     "from: 0.25": SPREAD,
@@ -54,7 +54,7 @@ KEYS = {
     "follower: true": FORCES + MOMENTS,
     "path: [0, 1], factor: [0, 2]": tuple(KINDS)
 }
-# explicit defaults
+# explicit defaults, which must have no effect
 NOTHING = ("from: 0, to: 1", "lumped: no", "at: [0, 0, 0]", "axes: fixed", "follower: no")
 ANALYSES = {
     "linear": "{linear: {}}",
@@ -126,7 +126,6 @@ class LoadsTest(SceneCase):
             self.assertRegex(done.stderr, r"\bl0 \(moments? .*\): it has no potential")
 
     def test_nothing(self):
-        """An explicit default must be equivalent to a missing key."""
         for kind, said in KINDS.items():
             for key in NOTHING:
                 if kind not in SPREAD and key.startswith("from"):
@@ -149,7 +148,8 @@ class LoadsTest(SceneCase):
             self.assertRegex(done.stderr, r":11:3: l0: it (acts|rotates) out of the plane, .*; remove this, or remove plane: xy\n$")
 
     def test_units(self):
-        """In mm and N, fractions of a length have no unit, and vectors at both ends have the unit of their kind of load."""
+        """In a file in mm and N, positions given as fractions of the length have no unit, and vectors at both ends of a
+        load have the unit of its kind."""
         def loads(millimetre):
             force, moment, line, moments, arm = (f"[{x}, {2*x}, {3*x}]" for x in (1, 0.5*millimetre, 2/millimetre, 0.25, 0.125*millimetre))
             more = [f"distributed: {line}, on: bar, from: 0.25, to: 0.5, at: {arm}, to_value: [0, {8/millimetre}, 0]",
@@ -196,7 +196,7 @@ class MotionTest(SceneCase):
         return values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1, *more))
 
     def test_constant_push(self):
-        """A load without a function acts fully from the start: u = F/k (1 - cos w t)."""
+        """A load without a function of time acts fully from the start: u = F/k (1 - cos w t)."""
         k = self.stiffness()
         exact = PUSH * (1 - math.cos(math.sqrt(k / 0.1) * 0.5)) / k
         self.assertAlmostEqual(self.moved("")["u"] / exact, 1, delta=1e-4)
@@ -204,7 +204,7 @@ class MotionTest(SceneCase):
         self.assertAlmostEqual(doubled / exact, 2, delta=1e-3)
 
     def stiffness(self):
-        """Returns the stiffness of the spring and the wire [N/m], from a static force."""
+        """Returns the stiffness of the spring and the wire together [N/m], from the displacement under a static force."""
         text = BLOCK.replace(", TIME", "").replace(", at: 0.5", "")
         path = self.scene(text.replace("ANALYSES", "swing: {linear: {}}"))
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1))
@@ -246,8 +246,8 @@ class MotionTest(SceneCase):
         self.assertNotEqual(got[0], got[1])
 
     def test_mass(self):
-        """By default and on request, mass is distributed along members. Lumped mass is less accurate. Elements with three
-        nodes and integrators without support must be named in the rejection of consistent mass."""
+        """Mass is distributed along members by default. Lumped mass is less accurate. Elements with three nodes and
+        integrators that do not support consistent mass must be named when it is rejected."""
         text = reader_file("howto/dynamics.md", "swing.yaml")
         lumped = self.scene(text.replace("0..1/100", "0..1/100, mass: lumped"), "lumped.yaml")
         usual = self.scene(text, "usual.yaml")
@@ -347,7 +347,8 @@ class MotionTest(SceneCase):
         self.assertRegex(text, r"v +- the path does not reach this station\nw +- likewise\n")
 
 
-# Stability at each station of a path in tables and records, and its effect on the choice of a mesh.
+# Critical load of a column in a plane, clamped at the bottom and free at the top. The column remains straight and
+# buckles at the path parameter 1. Tables and records must show its stability at each station.
 
 # Critical load of a column in a plane, clamped at the bottom and free at the top. The column remains straight and
 # buckles at the path parameter 1.
@@ -393,7 +394,8 @@ class StabilityTest(SceneCase):
                          ["yes", "yes", "no", "no"])
 
     def test_meshes(self):
-        """converge reports where the stability changes. solve refines to the finest mesh, because coarser meshes might miss the change."""
+        """converge reports the path parameter at which the stability changes. solve refines to the finest mesh, because
+        coarser meshes might miss the change."""
         text = self.answered("converge", "--scene", self.scene(COLUMN), "-f", "collocation", "-f", "beamw").stdout
         self.assertIn("collocation met unstable states:\n  n = 1: stable up to 0.95", text)
         line = self.answered("solve", "--scene", self.scene(COLUMN), "-f", "collocation").stdout

@@ -15,8 +15,7 @@
 enum { MOST = 128, KEY = 400, KINDS = SCENE_READING + 1 };
 static int seen[KINDS], asked;
 
-/* Writes a key for the quantity: its extracted value in the written scene, its factor and its
- * offset. */
+/* Writes a text that identifies the quantity: its extracted value, its factor and its offset. */
 static void key_of(const char *text, const scene_quantity *q, char key[KEY])
 {
     char start[SCENE_NAME + 8];
@@ -106,7 +105,6 @@ static void check_examples(void)
 
 extern const quantity_type quantity_envelope_of;
 
-/* Makes two nodes, a member, a static path of two stations and a compliance. */
 static void check_words(void)
 {
     static const double path[] = {0.5, 1}, y[] = {0, 1, 0};
@@ -203,8 +201,8 @@ static void meaning_tests(void)
     printf("%d quantities\n", asked);
 }
 
-/* Cases that the build makes from scene files must equal the files in their parameters, in the
- * names of the entries and, bit for bit, in the scene. */
+/* Cases that the build generates from scene files must have the same parameters, the same names of
+ * entries and, bit for bit, the same scene as these files. */
 
 static void compare_parameters(const char *name, const parameter_type *packed,
                                const parameter_type *read)

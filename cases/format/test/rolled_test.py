@@ -136,7 +136,8 @@ CONSTANTS = ("A", "Iy", "Iz", "It", "Iw", "ys")
 
 
 def half_unit(printed):
-    """Returns half a unit of the last printed digit. Integers with five or more digits are printed with four significant digits."""
+    """Returns half a unit of the last significant digit of a printed number. Integers with five or more digits are
+    printed with four significant digits."""
     digits = len(printed.replace(".", "").lstrip("0"))
     if "." in printed:
         return 0.5 * 10**-len(printed.split(".")[1])
@@ -144,7 +145,8 @@ def half_unit(printed):
 
 
 def scene(sections, material="young: 210e9, shear_modulus: 81e9, density: 7850", loads=None):
-    """Returns a scene file with these sections and `loads`. The default loads are forces that contain the constants of each section."""
+    """Returns a scene file with these sections and `loads`. By default, the loads are forces, each 1e12 times a section
+    constant, from which the constants are read."""
     loads = loads or {
         f"{name}_{k}": f"[{name}.{k}*1e12, 0, 0]" for name in sections for k in CONSTANTS
     }
@@ -178,7 +180,8 @@ class ProfilesTest(SceneCase):
                             half_unit(printed) * 1.001, f"{constant} of {name}: {got[constant]}")
 
     def test_channels(self):
-        """The printed constants of channels must be close to those of their walls, so that no misprint was copied."""
+        """The printed constants of channels must be close to those of channels made of walls. A misprint in the table
+        would show as a large difference."""
         sections = {name: f"profile: {name}" for name in UPN}
         got = self.constants(sections)
         written = self.answered("scene", "--scene", self.scene(scene(sections))).stdout
@@ -208,7 +211,8 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["given"]["A"], 28.48e-4, delta=5e-7)
 
     def test_angles(self):
-        """The shear centre of equal legs is the intersection of their centre lines. Exchanged legs rotate the section."""
+        """The shear centre of an angle is at the intersection of the mid-lines of its legs. If the legs are exchanged,
+        the section is rotated."""
         sections = {f"s{i}": f"profile: {name}" for i, name in enumerate(ANGLES)}
         got = self.constants(sections)
         for key, printed in zip(sections, ANGLES.values()):
@@ -226,7 +230,7 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(l[0] + m[0], 0, delta=1e-3)
         self.assertAlmostEqual(l[2], m[2], delta=1e-12)
         self.assertAlmostEqual(e[0], -math.pi / 4 * 1e9, delta=1e-3)
-        self.assertAlmostEqual(e[1], -23.22e-3, delta=1e-5)  # 28.22 mm minus 5 mm
+        self.assertAlmostEqual(e[1], -23.22e-3, delta=1e-5)  # 28.22 mm from the heel to the centroid, minus 5 mm
         self.assertAlmostEqual(e[2], -23.22e-3, delta=1e-5)
 
     def test_angle_bends_askew(self):
@@ -272,8 +276,8 @@ class ProfilesTest(SceneCase):
             self.assertEqual(max(stress), stress[0])
 
     def test_stresses_of_mid_lines(self):
-        """Stresses are at the outer surfaces and corners even for sections given by mid-lines: M_y z/Iy + M_z y/Iz with
-        the outer box and the inertias of the mid-lines."""
+        """Stresses in a section given by mid-lines are computed at its outer surfaces and corners: M_y z/Iy + M_z y/Iz,
+        with y and z on the outer surface and the inertias of the mid-lines."""
         h, b, t = 0.2, 0.1, 0.01
         Iy, Iz = t * h**3 / 6 + b * t * h**2 / 2, t * b**3 / 6 + h * t * b**2 / 2
         box = f"box: {{depth: {h}, flange: {b}, flange_thickness: {t}, web_thickness: {t}}}"
@@ -284,7 +288,8 @@ class ProfilesTest(SceneCase):
             self.assertAlmostEqual(got / (My * (h + t) / 2 / Iy + Mz * (b + t) / 2 / Iz), 1, delta=1e-9, msg=(My, Mz))
 
     def test_beam(self):
-        """The printed constants determine the deflection and stress of a cantilever: P L^3/(3 E Iy) and P L/Wel with Wel = 194.3 cm^3."""
+        """The deflection and the stress of a cantilever follow from the printed constants: P L^3/(3 E Iy) and P L/Wel
+        with Wel = 194.3 cm^3."""
         text = scene({"beam": "profile: ipe 200"}, loads={"p": "[0, 0, 1000]"})
         text += "omit: {shear: yes}\n"
         for formulation in ("beamw_consistent", "geometrically_exact", "collocation"):
@@ -300,7 +305,7 @@ class ProfilesTest(SceneCase):
             "210e9, shear_modulus: 81e9, density: 7850", "210e3, shear_modulus: 81e3").replace(
                 "at: [1, 0, 0]", "at: [1000, 0, 0]")
         other = values(self.record("solve", "--scene", self.scene(text), "-n", 2))["uz"]
-        self.assertAlmostEqual(other / ours, 1000, delta=1e-6)  # in mm
+        self.assertAlmostEqual(other / ours, 1000, delta=1e-6)  # the factor between m and mm
 
     def test_refused(self):
         for text, part in (

@@ -1,5 +1,5 @@
-/* For every case at every point with a reference value, writing a scene file and reading it must
- * give the same scene bit for bit. */
+/* For every case and every parameter point with a reference value, writing the scene to a file and
+ * reading it must give the same scene bit for bit. */
 #include <gsl/gsl_test.h>
 #include <stdio.h>
 #include <stdlib.h>

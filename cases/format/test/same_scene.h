@@ -34,8 +34,8 @@ static inline int same_node(const scene_node *a, const scene_node *b)
             same_numbers(9, a->axis[0], b->axis[0]));
 }
 
-/* Returns 1 if the same ends share a warping name in both scenes. The names themselves may
- * differ. */
+/* Returns 1 if the same ends of members share a warping coordinate in both scenes. The names of the
+ * coordinates may differ. */
 static inline int same_sharing(const scene *a, const scene *b)
 {
     for (int i = 0; i < 2 * a->members; i++)
@@ -159,8 +159,8 @@ static inline int same_quantity(const scene_quantity *a, const scene_quantity *b
            (one == NULL) == (two == NULL) && (one == NULL || strcmp(one, two) == 0);
 }
 
-/* Returns the name of the first list that differs, and sets *index to the entry that differs.
- * Returns NULL if the scenes are equal. */
+/* Returns the name of the first list of the scenes that differs, and sets *index to the first entry
+ * that differs. Returns NULL if the scenes are equal. */
 static inline const char *differing(const scene *a, const scene *b, int *index)
 {
     *index = 0;

@@ -1,4 +1,4 @@
-"""Form, names and choices of scene files, and parts with their instances."""
+"""Form of scene files: names, parameters, errors, and parts with their instances."""
 import csv
 import json
 import math
@@ -13,7 +13,7 @@ from harness.tools.kit.scenes import LEAF, bad_scenes
 
 
 GOOD = ROOT / "cases/format/test/good"
-# only a part of the motion with twelve joints, because the whole motion takes as long as many other cases together
+# the whole motion of the machine with twelve joints takes too long for a test
 PART = {"hexapod_motion": ("--set", "time=0.05")}
 
 
@@ -47,7 +47,7 @@ class SceneTest(SceneCase):
         self.answered("list", "--scene", path)
 
     def test_first_scene(self):
-        """A scene of ten lines gives P L^3/3EI + P L/(k G A) at the tip."""
+        """A scene of ten lines gives the tip deflection P L^3/(3 E I) + P L/(k G A)."""
         path = self.scene(LEAF)
         record = self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)
         area, inertia = 50e-3 * 0.5e-3, 50e-3 * 0.5e-3 ** 3 / 12
@@ -55,7 +55,7 @@ class SceneTest(SceneCase):
         self.assertAlmostEqual(values(record)["tip_uy"] / exact, 1, delta=1e-9)
 
     def test_bytes(self):
-        """Line endings and byte order marks of other editors, and letters of other languages, must not change the results."""
+        """Different line endings, byte order marks and non-ASCII letters must not change the results."""
         own = self.answered("scene", "--scene", self.scene(LEAF)).stdout
         for name, text in (("ends", LEAF.replace(
                 "\n", "\r\n")), ("mark", "\ufeff" + LEAF), ("letters", LEAF + "# Größe – 大きさ\n")):
@@ -96,7 +96,8 @@ class SceneTest(SceneCase):
             self.assertEqual(again, written)
 
     def test_needs_of_earlier_versions(self):
-        """Physics that `needs` does not list is omitted, except warping, and one line states the replacement of this key."""
+        """A file of an earlier version has `needs`. Physics that it does not list is omitted, except warping, and one
+        line states which key replaces it."""
         rest = ["shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia"]
         buckles = LEAF + ("analyses:\n  run: {buckling: {}}\nquantities:\n"
                           "  P: {critical_factor: {analysis: run}, unit: \"1\"}\n")
@@ -123,7 +124,7 @@ class SceneTest(SceneCase):
         self.refused(2, "did you mean 'width'", *where, "--set", "wdth=0.1")
 
     def test_truths_of_a_point(self):
-        """A reference value that names parameters applies only at this parameter point, and `verify` runs this point."""
+        """A reference value with parameters applies only at this parameter point, at which `verify` computes the case."""
         path = self.scene(
             LEAF.replace("width: 50e-3", "width: width").replace(
                 "sections:", "parameters:\n  width: {value: 50e-3, unit: m}\nsections:") +
@@ -166,12 +167,12 @@ class SceneTest(SceneCase):
             self.assertLessEqual(used, set(schema["properties"]))
 
     def test_summaries_say_more_than_keys(self):
-        """A summary must not only repeat the key: "'node' is missing (node)" would not state what is required."""
+        """The summary of a key must not only repeat its name: "'node' is missing (node)" would not state what is
+        required."""
         self.assertEqual(re.findall(r"^ *(\w+) +(?:NAME|TEXT|EXPR|\.\.\.) +\1(?: \[| \*|$)",
                                     self.answered("scene", "--keys").stdout, re.M), [])
 
 
-# User-defined names are used in messages, tables, folders, records and files.
 NUMBERED = re.compile(r"\b(node|member|section|spring|load|analysis|motion)[ _][0-9]")
 
 GUIDE = """beamwork: 1
@@ -207,7 +208,7 @@ quantities:
   moment: {internal: {analysis: travel, member: left.leaf, end: from, resultant: Mz}, unit: "N m"}
 """
 
-# Changes that make the guide invalid, and the message after the position in the file.
+# Changes that make the guide invalid, and the message, which follows the position in the file.
 WRONG = [
     ("hold: all}\n      top: {at: [0, 0.08, 0]", "hold: all}\n      top: {at: [0, 0, 0]",
      "left.leaf: its ends coincide"),
@@ -227,7 +228,7 @@ class NamesTest(SceneCase):
         self.assertIsNone(NUMBERED.search(text), (what, NUMBERED.search(text)))
 
     def line(self, code, words, *arguments):
-        """Returns the only line of a rejection, after checking that it contains the words."""
+        """Checks that the rejection is one line that contains the words, and returns this line."""
         done = run(*arguments)
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertIn(words, done.stderr)
@@ -334,7 +335,7 @@ meshes: {shear: {0: [1, 2], 1: [1, 2, 4]}}
 class ChoicesTest(SceneCase):
 
     def written(self, *assignments):
-        """Returns the lines of the written scene at these parameter values that contain loads, omit and meshes."""
+        """Returns the loads and the lines `omit` and `meshes` of the scene written at these parameter values."""
         given = [word for one in assignments for word in ("--set", one)]
         text = self.answered("scene", "--scene", self.scene(CHOSEN), *given).stdout
         loads = text[text.index("loads:"):text.index("analyses:")].split()[1:]
@@ -358,7 +359,7 @@ class ChoicesTest(SceneCase):
         self.refused(2, "shear", "solve", "--scene", path, "--set", "shear=0.5")
 
 
-# An instance of a part must equal its members, springs and supports written explicitly.
+# An instance of a part, and the same members, springs and supports written explicitly.
 
 PLACED = """\
 beamwork: 1
@@ -388,7 +389,7 @@ class PartsTest(SceneCase):
         self.assertAlmostEqual(abs(got["tip_ux"]) / own["tip_uy"], 1, delta=1e-12)
 
     def test_springs_of_a_part(self):
-        """The spring of a rotated part has the rotated matrix T K T^T, both at a port and between nodes of the part."""
+        """The stiffness of a spring in a rotated part is T K T^T, both at a port and between nodes of the part."""
         turn, a = 0.4, [3e3, 1e3, 2e3, 4.0, 5.0, 6.0]
         c, s = math.cos(turn), math.sin(turn)
         R = np.kron(np.eye(2), [[c, -s, 0], [s, c, 0], [0, 0, 1]])

@@ -1,4 +1,4 @@
-"""Tables from CSV files."""
+"""Tables of springs, motions and loads in CSV files."""
 import json
 import unittest
 

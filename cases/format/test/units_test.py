@@ -88,7 +88,7 @@ quantities:
 
 
 def tables(schema):
-    """Returns the maps of the schema by name, each with its path and its properties."""
+    """Yields the path, the properties and the required keys of every map that the schema describes."""
 
     def below(node, place):
         if "properties" in node:
@@ -103,7 +103,7 @@ def tables(schema):
 
 
 def maps(scene, schema, place=()):
-    """Returns every map of a scene that the schema describes, with its path."""
+    """Yields the path, the entries and the schema properties of every map of a scene that the schema describes."""
     if isinstance(scene, dict) and "properties" in schema:
         yield place, scene, schema["properties"]
         for key, value in scene.items():
@@ -191,7 +191,7 @@ class KeysTest(SceneCase):
                     if done.returncode == 0:
                         self.assertEqual(done.stdout, written, (place, key, entry))
                         tried.add((place, key))
-        # keys of parts are those of the scene itself
+        # maps below `parts` have the same keys as those of the scene, which are tested
         self.assertEqual({one for one in wanted - tried if one[0][:1] != ("parts",)}, set())
 
 
@@ -201,7 +201,7 @@ SYSTEMS = (("mm, N, MPa", 1e-3, 1), ("[mm, N]", 1e-3, 1), ("m, kN, kPa", 1, 1e3)
 
 
 def scene(units, metre, newton):
-    """Returns a scene with entries of all kinds, whose numbers are in these units."""
+    """Returns a scene with entries of all kinds, with numbers in these units."""
     def u(value, length=0, force=0):
         return repr(value/metre**length/newton**force)
 
@@ -355,7 +355,7 @@ class UnitsTest(SceneCase):
             self.assertAlmostEqual(found[name]/1e3/exact[name], 1, delta=1e-6, msg=name)
 
     def test_continued(self):
-        """Stations of a continuation are lengths, even for a compliance about the continuation."""
+        """Stations of a continuation are lengths, also for a compliance about states of the continuation."""
         si, mm = [self.solved(filled(CONTINUED, UNITS=units, NEAR=near, FAR=4*near, **numbers))
                   for units, near, numbers in (("", 1e-3, METRES), ("units: mm, N, MPa", 1, MILLIMETRES))]
         exact, found = values(si), values(mm)
@@ -452,7 +452,7 @@ class Doubtful(SceneCase):
                       "densities are in t/mm^3", self.told("7850", "1").stderr)
 
     def test_larger_than_the_structure(self):
-        """EA/l = 84000 N/mm gives 2000 mm at 168 MN."""
+        """EA/l = 84000 N/mm, so the displacement reaches the size of the structure, 2000 mm, at 168 MN."""
         self.assertEqual(self.told("7.85e-9", "167e6").stderr, "")
         self.assertIn("ux: a linear analysis gives a displacement of 1.01 times the size of the structure",
                       self.told("7.85e-9", "169e6").stderr)

@@ -1,4 +1,4 @@
-"""Warping at member ends in scene files, and curves."""
+"""Warping at member ends in scene files, and curved members."""
 import csv
 import io
 import json
@@ -15,7 +15,7 @@ K = math.sqrt(G * IT / (E * IW))  # [1/m], for which K*LENGTH is 1.2
 SAINT_VENANT = TORQUE * LENGTH / (G * IT)
 ONE_HELD = TORQUE / (G * IT) * (LENGTH - math.tanh(K * LENGTH) / K)
 BOTH_HELD = TORQUE / (G * IT) * (LENGTH - 2 * math.tanh(K * LENGTH / 2) / K)
-# Rotation of a beam on fork supports under a torque in the middle.
+# Rotation at midspan of a beam on fork supports under a torque at midspan.
 SPAN = TORQUE / (2 * G * IT) * (LENGTH / 2 - math.tanh(K * LENGTH / 2) / K)
 
 HEAD = f"""beamwork: 1
@@ -40,7 +40,8 @@ TIP = f"  tip: {{at: [{LENGTH}, 0, 0]"
 class WarpingTest(SceneCase):
 
     def words(self, scene):
-        """Returns the warping words at both ends of the members, in order. Shared coordinates are numbers."""
+        """Returns the warping conditions at both ends of each member, in the order of the members. Shared coordinates
+        are numbered."""
         text = self.answered("scene", "--scene", self.scene(HEAD + scene)).stdout
         return [
             re.sub(r"\{shared: (w\d+)\}", r"\1", word)
@@ -59,7 +60,7 @@ class WarpingTest(SceneCase):
             self.twist(scene, "-f", "collocation") / expected, 1, delta=1e-6, msg="collocation")
 
     def test_numbers(self):
-        """The closed-form values must differ sufficiently to distinguish the conditions."""
+        """The closed-form values of the warping conditions must differ enough to be distinguished."""
         self.assertGreater(SAINT_VENANT, 1.5 * ONE_HELD)
         self.assertGreater(ONE_HELD, 1.5 * BOTH_HELD)
 
@@ -102,7 +103,6 @@ class WarpingTest(SceneCase):
                 self.is_twisted(said + TWIST, expected)
 
     def test_released(self):
-        """A released rotation leaves the warping free. A released translation does not."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  tip: {at: [3, 0, 0], hold: all}\n"
         for word, told in (("rz", "free"), ("[rx]", "free"), ("[rx, ry, rz]", "free"),
                            ("[ux, ry]", "free"), ("ux", "fixed"), ("[uy, uz]", "fixed")):
@@ -112,13 +112,13 @@ class WarpingTest(SceneCase):
                     [f"fixed, {told}"])
 
     def test_tied(self):
-        """Warping is restrained at the attached nodes of a body, and at the node of the body if other entries are
-        joined to the body elsewhere."""
+        """Warping is restrained at nodes attached to a body. It is also restrained at the node of the body if other
+        springs or members are joined to attached nodes."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         part = base + "  body: {at: [4, 0, 0]}\n" + TIP + ", part_of: body}\n" + CANTILEVER
         self.assertEqual(self.words(part), ["fixed, fixed"])
         self.is_twisted(part + TWIST.replace("on: tip", "on: body"), BOTH_HELD)
-        # an observed or loaded position does not change the warping
+        # a node at which only the position is observed or loaded does not change the warping
         looked = base + TIP + "}\n  eye: {at: [3, 0.1, 0], part_of: tip}\n" + CANTILEVER
         self.assertEqual(self.words(looked), ["fixed, free"])
         self.is_twisted(looked + TWIST, ONE_HELD)
@@ -130,8 +130,8 @@ class WarpingTest(SceneCase):
         self.assertEqual(self.words(both), ["fixed, fixed", "fixed, fixed"])
 
     def test_guide(self):
-        """A guide consists of two leaves between clamped bases and a stage. One base is driven. The transverse stiffness
-        is compared at the end of the stroke."""
+        """A guide consists of two leaves between clamped bases and a stage. One base is driven. The transverse
+        stiffness at the end of the stroke is compared with a reference value."""
         guide = """nodes:
   base_a: {at: [0, 0, 0], hold: all}
   base_b: {at: [0.06, 0, 0], hold: [ux, uy, uz, ry, rz], drive: {rx: tilt}}
@@ -188,7 +188,7 @@ instances:
         beam = two.replace("SECTION", "beam")
         self.assertEqual(self.words(beam), ["fixed, w0", "w0, free"])
         self.is_twisted(beam + TWIST, ONE_HELD)
-        # over a fork support, and between fork supports
+        # a fork support between two members, and two fork supports at the ends of two members
         fork = "hold: [ux, uy, uz], fork: {axis: [1, 0, 0], web: [0, 0, 1]}"
         span = f"nodes:\n  left: {{at: [0, 0, 0], {fork}}}\n  tip: {{at: [{LENGTH / 2}, 0, 0]}}\n" + \
             f"  right: {{at: [{LENGTH}, 0, 0], {fork.replace('ux, ', '')}}}\nmembers:\n" + \
@@ -249,7 +249,7 @@ instances:
         self.assertEqual(done.stderr, "")
         record = json.loads(run("solve", "--scene", scene, "--format", "json").stdout)
         self.assertEqual(record["cell"]["warping"], ends)
-        # no list if the word is given, if it does not change the result, or if the section does not warp
+        # no warning if the warping is given, if it does not change the result, or if the section does not warp
         for text, words in ((torsion.replace("]}", "], warping: [fixed, free]}", 3) + TWIST, ends),
                             (torsion + TWIST.replace(f"[{TORQUE}, 0, 0]", "[0, 0, 0]"), ends),
                             (torsion + TWIST.replace("moment", "force"), ends),

@@ -1,4 +1,4 @@
-"""Quantities along members: exact values, pieces between loads, and errors of the discretisation."""
+"""Quantities along members: exact values, results between loads within a member, and errors of the discretisation."""
 import json
 import math
 import unittest
@@ -125,8 +125,8 @@ class AlongMembers(ProgramTest):
                         self.check(formulation, support, kind)
 
 
-# Loads that begin, end or act within a member add nodes to the mesh. The resultants on both sides of a jump follow from
-# statics. The orders of convergence are the same as without such loads.
+# Loads that begin, end or act within a member add nodes to the mesh. The resultants on both sides of such a load follow
+# from statics. The orders of convergence are the same as without such loads.
 SECTION = """sections: {s: {constants: {A: 0.04, Iy: 3e-4, Iz: 2e-4, It: 4e-4,
                F: [0.001, 0, 0, 0, 0.001, 0, 0, 0, 0]}, young: 70e3, shear_modulus: 27e3}}
 """
@@ -215,7 +215,7 @@ class DividedMember(ProgramTest):
                 step = [values[i + 1][name] - values[i][name] for i in range(3)]
                 for i in range(2):
                     if abs(step[i + 1]) < 1e-11 * abs(values[0][name]):
-                        continue  # only rounding, because collocation includes loads in its equilibrium
+                        continue  # only rounding errors, because collocation includes loads in its equilibrium
                     order = math.log2(abs(step[i] / step[i + 1]))
                     self.assertGreater(order, 3.6, f"{formulation}, {name}")
 
@@ -310,8 +310,8 @@ class Discretised(ProgramTest):
         return done.returncode, values, said
 
     def test_arcs(self):
-        """An arc is accepted if EA l^4 k^2/EI of one element, which is 64 rise^2 with the rise in radii of gyration, is
-        below the limit for a rise of 2 radii of gyration."""
+        """An arc is accepted if EA l^4 k^2/EI of one element, which is 64 (rise/radius of gyration)^2, is below its
+        value for a rise of 2 radii of gyration."""
         for n in (1, 2, 4, 8):
             turn = math.pi / 2 / n
             for side in (0.25, 0.98, 1.02, 30):
@@ -343,8 +343,8 @@ class Discretised(ProgramTest):
                 self.assertGreater(values["compression"], 0, (formulation, n))
 
     def test_tension_of_states(self):
-        """The limits of N l^2/EI for one element are 12, 60 and 30 + sqrt(1620). Beyond the limit, the tip displacement
-        may have either sign."""
+        """The largest N l^2/EI of one element is 12, 60 or 30 + sqrt(1620), depending on the formulation. Beyond the
+        limit, the tip displacement could have either sign, so it must be rejected."""
         for formulation, most in (("geometrically_exact:nodes=2", 12), ("geometrically_exact", 60),
                                   ("sheet_third", 30 + math.sqrt(1620)), ("sheet_third_printed", 30 + math.sqrt(1620))):
             for n in (1, 2, 16):
@@ -374,8 +374,8 @@ class Discretised(ProgramTest):
         self.assertNotIn("so long that its axial force", " ".join(run("list", "collocation").stdout.split()))
 
     def test_tension_with_shear(self):
-        """In elements with three nodes, bending does not replace the shear. In elements with two nodes, it acts in
-        addition to the shear."""
+        """An element with three nodes accepts a tension N close to GA. In an element with two nodes, the flexibilities
+        due to bending and shear add up, so its limit is lower."""
         shear = ", F: [%r, 0, 0, 0, %r, 0, 0, 0, 0]" % (8e10 * 1e-4, 8e10 * 1e-4)  # 1/GA = 1e-4
         for formulation, N, status in (("geometrically_exact", 9000.0, 0), ("geometrically_exact:nodes=2", 1900.0, 0),
                                        ("geometrically_exact:nodes=2", 1990.0, 1)):

@@ -31,7 +31,7 @@ static inline int bar_section(scene *s)
     return scene_add_section(s, &spec);
 }
 
-/* Critical loads of one scene, where value[sign][order] is NAN if there is no such load. */
+/* Critical loads of one scene. value[sign][order] is NAN if there is no such load. */
 typedef struct loads {
     char why[2][WANTED][FAULT_TEXT];
     double value[2][WANTED];
@@ -51,7 +51,8 @@ static inline void bar_ask(scene *s, int signs)
         }
 }
 
-/* Finds only the positive loads, or those of both signs. Returns 1 if the formulation answered. */
+/* Finds the critical loads that are positive (signs 1), or those of both signs (signs 2). Returns 1
+ * if the formulation answered. */
 static inline int bar_find_signs(const element_type *e, ask_tally *tally, build *make,
                                  const double direction[3], int n, int signs, loads *out)
 {

@@ -1,5 +1,5 @@
-/* Limit points, bifurcations and branch jumps of continuations, compared with closed forms and with
- * each other. */
+/* Limit points, bifurcations and branch switching of continuations, compared with closed forms and
+ * with each other. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -46,7 +46,8 @@ static void limit_points(void)
         for (int k = 0; k < 2 && k < r.solve.events; k++) {
             const path_event *e = &r.solve.event[k];
             gsl_test_int((int)e->kind, EVENT_LIMIT_POINT, "%s: a limit point", control[i]);
-            /* a trial may end a correction early if its tangent is singular */
+            /* the tolerance allows for a correction that ends early because its tangent is singular
+             */
             gsl_test_rel(e->factor, k == 0 ? exact : -exact, 1e-11, "%s: its load", control[i]);
             gsl_test_int(e->negative_after - e->negative_before, k == 0 ? 1 : -1,
                          "%s: one pivot changes its sign", control[i]);
@@ -71,7 +72,7 @@ static status build_column(const double value[], scene *s, fault *f)
     scene_hold_all(s, root);
     scene_add_member(s, root, tip, scene_add_section(s, &spec), across[value[1] != 0]);
     scene_add_load(s, SCENE_FORCE, tip, -t[0], -t[1], -t[2]);
-    if (value[0] != 0) /* an unsymmetric pattern */
+    if (value[0] != 0) /* a zero moment, which makes the pattern of the matrix unsymmetric */
         scene_add_load(s, SCENE_MOMENT, tip, 0, 0, 0);
     const int path = scene_add_continuation(
         s, 1, &end,
@@ -183,9 +184,9 @@ static status build_long_arcs(const double value[], scene *s, fault *f)
     return outcome;
 }
 
-/* Steps in which the path rotates too far are repeated in smaller steps, which usually lead to the
- * same branch. Arcs of 0.5 meet another branch, on which the loaded point has swayed by 35 m
- * instead of 94 m at the same deflection. */
+/* Steps in which the direction of the path changes too much are repeated in smaller steps, which
+ * usually lead to the same branch. Arcs of 0.5 meet another branch, on which the loaded point has
+ * swayed by 35 m instead of 94 m at the same deflection. */
 static void long_arcs(void)
 {
     static const char *const step[] = {"step=0.02", "step=0.05", "step=0.15", "step=0.2"};
@@ -263,8 +264,8 @@ static double value_of(const char *case_name, const char *chosen, int n,
     return value;
 }
 
-/* Strong-axis bending is 1e6 times as stiff as weak-axis bending. The critical load is that of
- * linear prestress, 4.012599344, plus a first-order term in 1/ratio. */
+/* Bending about the strong axis is 1e6 times as stiff as about the weak axis. The critical load is
+ * that of linear prestress, 4.012599344, plus a first-order term in 1/ratio. */
 static void stiff_before_buckling(void)
 {
     const char *const included[] = {"prebuckling=included", "ratio=1e6", NULL};
@@ -275,7 +276,6 @@ static void stiff_before_buckling(void)
                  "critical load, hardly any deflection before it");
 }
 
-/* The expected critical load is that of derive/equilibrium.py. */
 static void deflected_before_buckling(void)
 {
     static const struct {
@@ -379,8 +379,8 @@ static status run(const char *case_name, const char *key, int n, const char *con
     return cell_run(&request, out, &f);
 }
 
-/* N section 4: with coordinates, strains and stresses as unknowns, 15 degrees are reached from rest
- * in one step. */
+/* N section 4: if coordinates, strains and stresses are unknowns, Newton's method reaches a
+ * rotation of 15 degrees from rest in one load step. */
 static void from_rest_in_one_step(void)
 {
     const char *const once[] = {"steps=1", "wagner=0", NULL};
@@ -426,8 +426,8 @@ static void few_iterations(void)
     }
 }
 
-/* Predicting the next state saves iterations but must not change results: they do not depend on the
- * number of steps between stations. */
+/* Predicting the next state saves iterations but must not change results. The results must not
+ * depend on the number of steps between stations. */
 static void guesses_change_nothing(void)
 {
     const char *const defaults[] = {NULL};
@@ -474,8 +474,8 @@ static void directions(void)
     }
 }
 
-/* The largest stiffnesses with one element per sheet must agree with those of an independent
- * prototype: 9.37, 9.720, 9.92 x 10^5 N/m. */
+/* The largest stiffnesses of the case with one element per sheet must agree with those of an
+ * independent prototype: 9.37, 9.720, 9.92 x 10^5 N/m. */
 static void fold_warping(void)
 {
     static const char *const choice[3] = {"fold_warping=fixed", "fold_warping=shared",

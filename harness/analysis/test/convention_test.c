@@ -66,7 +66,7 @@ static void inverse(void)
     gsl_test(worst > 1e-12, "stiffness times compliance is the unit matrix: %.1e", worst);
 }
 
-/* Effect of the convention in the cases of N 4.1. */
+/* Effect of the convention of moments in the cases of N section 4.1. */
 static void sheets(void)
 {
     const convention_matrices near =
@@ -233,8 +233,8 @@ static double block_difference(const double A[36], const double B[36])
     return worst;
 }
 
-/* Partly free rotations span a plane, which may be oblique because of the axes or because the state
- * is tilted. */
+/* If a node can rotate about two axes only, these axes span a plane, which may be oblique because
+ * of the axes of the scene or because the state is tilted. */
 static void partly_free_turns(void)
 {
     static const char *const rotation[] = {"rotation=hinge", "rotation=first", "rotation=last",
@@ -300,8 +300,9 @@ static void prediction_solve(const char *const assignment[], cell_result *out)
     gsl_test(cell_run(&request, out, &f) != STATUS_OK, "solved: %s", f.text);
 }
 
-/* In the plane, the inverse of N Eq. 37 in the element is accurate enough for all digits to agree.
- * Out of the plane, the two differ by fourth-order terms, whose size for C_zz is `apart`. */
+/* For quantities in the plane, all digits must agree, because the element inverts N Eq. 37
+ * accurately. Out of the plane, the closed form and the element differ by fourth-order terms, whose
+ * size for C_zz is `apart`. */
 static void beside_the_element(const char *const assignment[], double in_plane, double apart)
 {
     cell_result r;
@@ -322,7 +323,7 @@ static void beside_the_element(const char *const assignment[], double in_plane, 
     cell_result_free(&r);
 }
 
-/* The compliance of the undeformed sheet is L^3/3EIy + L/kGA. */
+/* C_zz of the undeformed sheet is L^3/(3 E Iy) + L/(k G A). */
 static void undeformed(void)
 {
     const char *const straight[] = {"tip_deflection=1e-9", NULL};
@@ -377,7 +378,8 @@ static double worst_difference(const cell_result *a, const cell_result *b)
     return worst;
 }
 
-/* The uncondensed Newton method has no tangent that a compliance could reuse. */
+/* In the uncondensed Newton method, each compliance needs a new factorisation. The condensed method
+ * can use the last factorisation of Newton's method. */
 static void compliances(void)
 {
     cell_result taken, own;
@@ -394,8 +396,8 @@ static void compliances(void)
     cell_result_free(&own);
 }
 
-/* The axis of the tilt of the joint makes one revolution, so each of its components has two
- * extrema. */
+/* The axis of the tilt of the joint makes one revolution, so each component of the tilt has two
+ * extrema. Steps near the extrema must not need more iterations. */
 static void turning_back(void)
 {
     enum { BEGINNING = 10 };

@@ -38,8 +38,8 @@ static void half_and_half(scene *s, const double direction[3])
     bar_push(s, b, direction, 1);
 }
 
-/* A bar with the force on a rigid arm that has the length of the bar and points outwards or inwards
- * from the tip. */
+/* A bar with the force on a rigid arm, as long as the bar, that points outwards or inwards from the
+ * tip. */
 static void with_arm(scene *s, const double direction[3], double arm)
 {
     const int tip = bar_cantilever(s, direction);
@@ -86,7 +86,7 @@ static void expect_none(const element_type *e, const char *what, const loads *l,
                  "%s, %s: %g, %s", e->name, what, l->value[sign][i], l->why[sign][i]);
 }
 
-/* Every critical load occurs twice, about y and about z. */
+/* Each critical load of a column occurs twice, about y and about z. */
 static void columns(const element_type *e, ask_tally *tally, const double direction[3])
 {
     const double first = bar_euler() / 4, exact[WANTED] = {first, first, 9 * first, 9 * first};
@@ -133,8 +133,8 @@ static void critical_tests(void)
     }
 }
 
-/* States in which one element, or none, can buckle. A critical load that is reported must not be
- * due to rounding. */
+/* In the next states, no element or only one element can buckle. A critical load that is reported
+ * must not be due to round-off. */
 static void bent_between_forks(scene *s, const double direction[3], int component)
 {
     const int a = scene_add_node(s, 0, 0, 0), b = bar_end(s, direction, length);
@@ -161,7 +161,6 @@ static void pushed_across(scene *s, const double direction[3])
     bar_push(s, bar_cantilever(s, direction), across, 1);
 }
 
-/* Displaced ends without a load, for which no stress depends on a load factor. */
 static void bent_in_a_frame(scene *s, const double direction[3])
 {
     const int tip = bar_cantilever(s, direction), low = bar_end(s, direction, length / 2);
@@ -212,7 +211,8 @@ static void one_side_alone(const element_type *e, ask_tally *tally)
 {
     for (int n = 2; n <= 64; n *= 2) {
         loads both, alone;
-        ask_tally any = {0}; /* negative loads may not be found */
+        ask_tally any = {0}; /* the tally of requests for negative loads, which some formulations do
+                                not support */
         if (!bar_find_signs(e, tally, angle_compressed, along_x, n, 1, &alone))
             return;
         bar_find_signs(e, &any, angle_compressed, along_x, n, 2, &both);
@@ -227,8 +227,8 @@ static void one_side_alone(const element_type *e, ask_tally *tally)
     }
 }
 
-/* A critical load of this bar on this mesh is at most n^2 times Euler's load, with a margin. Loads
- * due to rounding are of the order of 1e16. */
+/* Critical loads must be at most 1e9 times Euler's load. Loads due to round-off are of the order of
+ * 1e16. */
 static void no_rounding(const element_type *e, ask_tally *tally)
 {
     static build *const state[] = {angle_bent, bent_about_y, bent_about_z, pushed_across,

@@ -47,14 +47,14 @@ SPRINGS = {"SP": cross(100, 0.2), "DP": cross(4, 0.2), "SC": cross(80, 0.2), "DC
 
 
 def shift(arm):
-    """Returns the motion [6] of a point due to the motion of its body."""
+    """Returns the matrix [6 x 6] of the motion of a point at `arm` due to the motion of its body."""
     T = numpy.eye(6)
     T[:3, 3:] = -numpy.array([[0, -arm[2], arm[1]], [arm[2], 0, -arm[0]], [-arm[1], arm[0], 0]])
     return T
 
 
 def beam_end(release):
-    """Returns the stiffness [6 x 6] of the end of the clamped beam, in the axes of the scene."""
+    """Returns the stiffness [6 x 6] of the free end of a clamped beam, in the axes of the scene."""
     along = numpy.array([1, 0.15, 0.12])
     length = numpy.linalg.norm(along)
     x = along / length
@@ -72,7 +72,8 @@ def beam_end(release):
 
 
 def matrices(release):
-    """Returns K, C, M for the motions of b [6], c along z and e [6], and the motions of b, p, c, e due to these."""
+    """Returns K, C and M for the 13 coordinates, which are the motions of b [6], of c along z [1] and of e [6], and the
+    matrices [6 x 13] of the motions of b, p, c and e due to these."""
     G = {"b": numpy.eye(13)[:6], "p": shift((0.1, 0.15, -0.05)) @ numpy.eye(13)[:6], "e": numpy.eye(13)[7:], "c": numpy.zeros((6, 13))}
     G["c"][0, 0], G["c"][2, 6] = -2, 1
     end, apart = shift((0, -0.05, 0.02)) @ G["b"], G["e"] - G["b"]

@@ -1,7 +1,7 @@
-/* An element must be stress-free along any arc of constant torsion and curvature, including initial
- * elongation and shear. About such an arc, the stress must be the derivative of the energy. The
- * geometric stiffness must be the derivative of the tangent if it is for a straight element; other
- * formulations neglect the strains of the prestressed state. */
+/* An element must be free of stress in its initial shape, an arc of any constant torsion and
+ * curvature, also with initial elongation and shear. About such an arc, the stress must be the
+ * derivative of the energy. The geometric stiffness must be the derivative of the tangent if it is
+ * for a straight element; other formulations neglect the strains of the prestressed state. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -113,7 +113,7 @@ static status stress_at(element_subject *s, const double e[], stress_output *out
     return type->stress(s->data, e, s->inner, out);
 }
 
-/* Returns the largest stress, relative to the stress due to a unit strain. */
+/* Returns the largest stress in the initial shape, relative to the stress due to a unit strain. */
 static double stress_of_arc(element_subject *s, const double motion[6])
 {
     node_state x[ELEMENT_MAX_NODES];
@@ -196,7 +196,8 @@ static void arcs(const formulation *chosen, const section *c)
         if (outcome == STATUS_OK) {
             stress =
                 worst_of(stress, worst_of(stress_of_arc(&s, still), stress_of_arc(&s, motion)));
-            if (chosen->type->inner == NULL) { /* inner unknowns belong to a different state */
+            if (chosen->type->inner == NULL) { /* not for elements with inner unknowns, whose values
+                                                  belong to a different state */
                 derived = worst_of(derived, error_of_stress(&s));
                 geometric = whole ? worst_of(geometric, error_of_geometric(&s)) : 0;
             }
@@ -308,12 +309,13 @@ static void large_rotations(void)
         const char *name;
         form shape;
         acting what;
-        double least[2], error[2]; /* values for 3 and 4 stages, n = 4 */
+        double least[2],
+            error[2]; /* smallest order and largest error, for 3 and 4 stages; errors for n = 4 */
     } scenes[] = {
         {"a uniform load", STRAIGHT, UNIFORM, {5.7, 7.5}, {1e-5, 2e-7}},
         {"a linear one", STRAIGHT, LINEAR, {5.7, 7.5}, {1e-5, 2e-7}},
         {"one along a curved member", CURVED, LINEAR, {5.5, 7}, {1e-5, 2e-7}},
-        /* loads with the displacement field that all types share */
+        /* these loads act on the displacement field that all types of elements share */
         {"one that follows", STRAIGHT, FOLLOWER, {3.6, 3.6}, {1e-2, 1e-2}},
         {"a moment along", STRAIGHT, MOMENT, {3.6, 3.6}, {1e-2, 1e-2}},
     };
@@ -328,9 +330,9 @@ static void large_rotations(void)
     }
 }
 
-/* Castigliano's theorem for an arc of 1 rad with EI = 1, R = 1 and a downward load of 1 per length.
- * The moment at t is due to the load beyond t, and the displacement of the tip is int M m, without
- * axial strain. */
+/* Uses Castigliano's theorem for an arc of 1 rad with EI = 1, R = 1 and a downward load of 1 per
+ * length. The moment at t is due to the load beyond t, and the displacement of the tip is int M m,
+ * without axial strain. */
 static void arc_by_castigliano(void)
 {
     enum { POINTS = 20 };
@@ -354,8 +356,8 @@ static void arc_by_castigliano(void)
     scene_free(&s);
 }
 
-/* A column under its own weight, with the critical load about a loaded state: q L^3/EI = 7.837347
- * (Greenhill). */
+/* A column under its own weight buckles at q L^3/EI = 7.837347 (Greenhill). The critical load is
+ * computed about a loaded state. */
 static void own_weight(void)
 {
     const double stations[1] = {1}, option[ELEMENT_MAX_OPTIONS] = {0}, right = 7.83734744;

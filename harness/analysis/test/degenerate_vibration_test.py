@@ -41,7 +41,7 @@ def cross(a, b):
 
 
 def turned(v):
-    """Rotates a vector by a quaternion with a general direction."""
+    """Rotates a vector by a fixed quaternion, so that it is along no axis."""
     size = math.sqrt(0.7**2 + 0.4**2 + 0.3**2 + 0.5**2)
     w, *r = (q / size for q in (0.7, 0.4, -0.3, 0.5))
     half = [c + w * x for c, x in zip(cross(r, v), v)]
@@ -73,8 +73,8 @@ class Degenerate(ProgramTest):
                                      (found, right, *what))
 
     def test_two_of_each(self):
-        """If a section has equal stiffness in all directions, the frequencies occur in pairs. The frequencies of a free
-        bar follow six zeros."""
+        """If a section has equal stiffness in all directions, the frequencies occur in pairs. A free bar has six zero
+        frequencies first."""
         for formulation in self.each():
             within = 3e-2 if formulation.endswith("lumped") else 1e-3 if "exact" in formulation else 2e-4
             found = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=4, n=8)
@@ -102,8 +102,8 @@ class Degenerate(ProgramTest):
             self.refused(1, words, "solve", "--scene", self.scene(*scene), "-f", "collocation", "-n", 2, silent=False)
 
     def test_zeros(self):
-        """There are as many zero frequencies as there are motions that the supports allow: in space, in a plane, for two
-        separate bars, for a hinge."""
+        """There are as many zero frequencies as there are motions that the supports allow: in space, in a plane, for
+        two separate bars, and for a bar on a hinge."""
         apart = f"{FREE}, {tip()}, c: {{at: [0, 3, 0]}}, d: {{at: [1, 3, 0]}}"
         two = f"{bar()}, n: {{from: c, to: d, section: s, y: [0, 1, 0]}}"
         hinge = f"{bar()}, {BEYOND % ('s', ', release: {from: [rz]}')}"
@@ -119,8 +119,8 @@ class Degenerate(ProgramTest):
                                  (formulation, scene, found))
 
     def test_one_member_has_mass(self):
-        """A massless arm beyond the end of a cantilever changes nothing. A massless bar is exact with one element,
-        whatever the mesh of the heavy bar after it."""
+        """A massless arm beyond the end of a cantilever does not change its frequencies. A massless bar is exact with
+        one element, for any mesh of the heavy bar joined to it."""
         end = "c: {at: [1, 0, 0.5]}"
         arm = "arm: {from: b, to: c, section: light, y: [0, 1, 0]}"
         pair = f"{bar('light', ', divisions: %d')}, {BEYOND % ('s', ', divisions: 4')}"
@@ -132,8 +132,8 @@ class Degenerate(ProgramTest):
             self.same(one, many, 1e-8, formulation)
 
     def test_light_member_between_masses(self):
-        """A held bar has the frequency sqrt(3 EI/m L^3), and no modes other than those of the mass. A free bar acts as a
-        spring between two bodies."""
+        """A massless bar clamped at one end, with a mass at the other, has the frequency sqrt(3 EI/(m L^3))/(2 pi) and
+        only the modes of the mass. A free massless bar acts as a spring between two bodies."""
         stretch, twist, bend = YOUNG * AREA, SHEAR * TWIST, YOUNG * INERTIA
         for formulation in self.each():
             found = self.found(formulation, f"{HELD}, {tip(', mass: 2')}", bar("light"), wanted=5, n=2)
@@ -159,8 +159,8 @@ class Degenerate(ProgramTest):
             self.assertEqual(bare, none, formulation)
 
     def test_released_at_both_ends(self):
-        """A bar with hinges in both directions at both ends has the factors pi^2 and 4 pi^2 twice, like a bar whose
-        nodes rotate."""
+        """A bar with hinges in both directions at both ends has the frequency factors pi^2 and 4 pi^2, each twice, like
+        a bar whose nodes rotate."""
         ends = f"{HELD}, {tip(', hold: all')}"
         hinged = bar(more=", release: {from: [ry, rz], to: [ry, rz]}")
         turning = "a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, b: {at: [1, 0, 0], hold: [ux, uy, uz, rx]}"
@@ -188,7 +188,8 @@ class Degenerate(ProgramTest):
             self.same(alone[::2], alone[1::2], 1e-9, formulation)
 
     def test_springs_to_the_ground(self):
-        """A stiff bar on two soft springs has the transverse frequencies sqrt(2 k/m) and sqrt(6 k/m), each twice."""
+        """A stiff bar on two soft springs has the circular transverse frequencies sqrt(2 k/m) and sqrt(6 k/m), each
+        twice."""
         k = 0.02
         springs = (f"springs: {{p: {{to: a, stiffness: [0, {k}, {k}, 1, 0, 0]}}, "
                    f"q: {{to: b, stiffness: [{k}, {k}, {k}, 0, 0, 0]}}}}")
@@ -200,8 +201,8 @@ class Degenerate(ProgramTest):
             self.same(found, right, 1e-3, formulation)
 
     def test_offsets(self):
-        """A node at the end of a rigid arm is equivalent, as a support, to the clamped end and, as a body, to its mass at
-        the end of the arm."""
+        """For a support, a node at the end of a rigid arm is equivalent to a clamped end. For a body, it is equivalent
+        to a mass at the end of the arm."""
         for formulation in self.each():
             plain = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=6)
             beside = "z: {at: [0, 0.3, 0.2], hold: all}, a: {at: [0, 0, 0], part_of: z}"
@@ -265,8 +266,8 @@ def root(function, low, high):
 
 
 def timoshenko(section, wave, upper=False):
-    """Returns the frequency [Hz] of a hinged beam, whose deflection and rotation are a sine and a cosine of wave x (2 x 2
-    problem)."""
+    """Returns the frequency [Hz] of a hinged Timoshenko beam. Its deflection and rotation are a sine and a cosine of
+    wave x, so the frequency follows from a 2 x 2 problem."""
     area, inertia, shear = section["A"], section["Iz"], G / section["F"][0]
     k11, k12, k22 = shear * wave**2, -shear * wave, shear + E * inertia * wave**2
     m1, m2 = RHO * area, RHO * inertia
@@ -285,7 +286,7 @@ def warped(section):
         whole = math.sqrt(GIt**2 + 4 * EIw * square)
         b, a = math.sqrt((whole + GIt) / (2 * EIw)), math.sqrt((whole - GIt) / (2 * EIw))
         cos, sin, cosh, decay = math.cos(a), math.sin(a), math.cosh(b), math.exp(-b)
-        # phi of (cosh bx - cos ax)/cosh b, and cos ax - b/a sin ax - exp(-bx)
+        # derivatives at the tip of the rotations (cosh bx - cos ax)/cosh b, and cos ax - b/a sin ax - exp(-bx)
         slope = (b * math.tanh(b) + a * sin / cosh, b * decay - b * cos - a * sin)
         bend = (b**2 + a**2 * cos / cosh, -b**2 * decay + a * b * sin - a**2 * cos)
         third = (b**3 * math.tanh(b) - a**3 * sin / cosh,
@@ -324,11 +325,11 @@ class FrequencyOrder(ProgramTest):
         return factor * math.sqrt(E * SECTION["Iz"] / (RHO * SECTION["A"])) / (2 * math.pi)
 
     def test_slender_bending(self):
-        """The factors are 3.51602 and 22.0345 for a cantilever, and 22.3733 for the free bar."""
+        """The frequency factors are 3.51602 and 22.0345 for a cantilever, and 22.3733 for a free bar."""
         for formulation in ALL:
             for factor, held in ((3.5160152685, ", hold: all"), (22.034491565, ", hold: all"),
                                  (22.373285448, "")):
-                # Simpson's lumped masses at three nodes have a larger error than the displacement field
+                # lumped masses of Simpson's rule at three nodes have a larger error than the distributed mass
                 self.assertLess(self.near(self.bending(factor), formulation, 8, a=held),
                                 1e-4 if formulation == "geometrically_exact" else 5e-7,
                                 (formulation, factor))
@@ -337,7 +338,6 @@ class FrequencyOrder(ProgramTest):
                     a=", hold: all")
 
     def test_shear(self):
-        """The elements are as short as 3 radii of gyration."""
         section = {**SECTION, "Iz": 4e-6, "Iy": 9e-6, "It": 1.3e-5,
                    "F": [1.2 / 4e-4, 0, 0, 0, 1.2 / 4e-4, 0, 0, 0, 0]}
         held = {"a": ", hold: [ux, uy, uz, rx]", "b": ", hold: [uy, uz]"}
@@ -367,7 +367,7 @@ class FrequencyOrder(ProgramTest):
                     more=f"springs:\n  s: {{to: b, stiffness: [{stiffness!r}, 0, 0, 0, 0, 0]}}\n")
 
     def test_warping(self):
-        """The decay lengths are from 0.3 to 0.03."""
+        """The decay length of warping is 0.3 to 0.03 of the member length."""
         for decay in (3, 30):
             section = {**SECTION, "Iw": G * SECTION["It"] / E / decay**2}
             self.fourth(WARPING, warped(section), constants=section, least=3.4, meshes=(16, 32),

@@ -20,7 +20,8 @@ static void statics(const element_type *e, ask_tally *tally, int elements)
     if (!ask_count(tally, &a, "statics of %d elements", elements))
         return;
     const double b = 1.3, /* length beyond this position */
-        top = 0.5 / 0.9;  /* Mz' = 0: 0.4 - 0.9 b + 0.1 */
+        top = 0.5 / 0.9; /* position of the extreme of Mz, where its derivative is zero: 0.4 - 0.9 b
+                            + 0.1 */
     const double exact[] = {0.5 + 0.1 * b,
                             0.4 - 0.9 * b,
                             -0.3 + 0.3 * b,
@@ -37,7 +38,8 @@ static void statics(const element_type *e, ask_tally *tally, int elements)
 
 static double slope(double u, void *top)
 {
-    /* d s/d u at sin theta = top - u^2 for F/EI = 1: ds = d theta/sqrt(2 (top - sin theta)) */
+    /* Returns d s/d u at sin theta = top - u^2 for F/EI = 1: ds = d theta/sqrt(2 (top - sin theta))
+     */
     const double sine = *(double *)top - u * u;
     return sqrt(2) / sqrt(1 - sine * sine);
 }
@@ -137,7 +139,7 @@ static void flat_bar(const element_type *e, ask_tally *tally)
     if (!ask_count(tally, &a, "flat bar"))
         return;
     const double N = 200 / (w * h), M = 3 * l * 6 / (w * h * h),
-                 tau = 2 * h / c.It, /* long sides, w/h > 10 */
+                 tau = 2 * h / c.It, /* maximum shear stress on the long sides, for w/h > 10 */
         exact[] = {N + M, N - M, N + 0.75 * M, sqrt(N * N + 3 * tau * tau)};
     for (int i = 0; i < a.count; i++)
         gsl_test_rel(a.value[i], exact[i], 1e-7, "%s: stress %s of a flat bar", e->name, a.name[i]);
@@ -161,7 +163,8 @@ static void flanged(const element_type *e, ask_tally *tally)
              a.value[0]);
 }
 
-/* A rotating bar and a bar at rest, in either order: each quantity must belong to its analysis. */
+/* Analyses of a rotating bar and of a bar at rest, in either order: each quantity must belong to
+ * its analysis. */
 static void turns_beside_rest(const element_type *e, ask_tally *tally, int turning_first)
 {
     const double tension = 2; /* rho A Omega^2 l^2/2 */
@@ -239,9 +242,9 @@ static void channel(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[2], most, 3e-3, "%s: bending and bimoment together", e->name);
 }
 
-/* A bar that tapers from h to h/4 under a force at its thin tip. 6 F b/(w h(b)^2) is largest at a
- * third of the length from the tip, whatever the number of elements. Each element has the section
- * at its middle. */
+/* A bar that tapers from h to h/4 under a force at its thin tip. Its stress 6 F b/(w h(b)^2) at the
+ * distance b from the tip is largest at a third of the length from the tip. Each mesh must find
+ * this position. Each element has the section at its middle. */
 static void tapered(const element_type *e, ask_tally *tally, int elements)
 {
     const double w = 0.02, h = 0.04, l = 0.9, F = 50;
@@ -281,7 +284,7 @@ static void turning_axes(const element_type *e, ask_tally *tally, int elements)
     }
 }
 
-/* All quantities for a section without symmetry under every kind of load. */
+/* A section without symmetry under every kind of load, with all quantities. */
 static void everything(scene *s, int whole)
 {
     static const double y[3] = {0, 1, 0}, t[3] = {3e-3, 2e-3, 4e-3},

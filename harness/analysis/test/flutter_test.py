@@ -1,5 +1,5 @@
-"""Frequencies, growth and critical loads, by flutter or divergence, under loads without a potential, compared with closed
-forms."""
+"""Frequencies, growth rates and critical loads (flutter or divergence) under loads without a potential, compared with
+closed forms."""
 import json
 import math
 import unittest
@@ -118,7 +118,7 @@ class Flutter(ProgramTest):
             self.assertLess(abs(self.critical(tip_force(1), tip=f", mass: {mass}")/exact - 1), 2e-5, mass)
 
     def test_ziegler(self):
-        """The critical load differs from that of rigid bars by the order of 1/EI."""
+        """The critical load of almost rigid bars differs from that of rigid bars by terms of order 1/EI."""
         for EI, part in ((1e4, 1e-4), (1e5, 1e-5)):
             for formulation in FORMULATIONS[:2]:
                 found = self.values(ZIEGLER % {"EI": EI}, 1, formulation)[0][0]
@@ -136,7 +136,8 @@ class Flutter(ProgramTest):
         self.assertRegex(said, "no critical load from path 0 to .* no divergence, and flutter needs mass: add a density to a section")
 
     def test_of_the_mesh(self):
-        """Without mass, Beck's column has no critical load. On a coarse mesh, only its elements diverge."""
+        """Beck's column without mass has no critical load. If a coarse mesh has one, it must be reported as an artefact
+        of the mesh."""
         for formulation in ("collocation", "beamw", "geometrically_exact"):
             _, said = self.values(COLUMN % {**DEFAULT, "load": tip_force(1), "density": ""}, 4, formulation, status=1)
             self.assertRegex(said, "is an artefact of the mesh|no critical load from path 0 to", formulation)
@@ -178,7 +179,7 @@ class Flutter(ProgramTest):
             self.assertLess(abs(now/plain - 1), 1e-9)
 
     def test_dashpot_under_a_follower_load(self):
-        """Even a weak dashpot affects growth, but not the frequencies."""
+        """A weak dashpot must change the growth rates, but not the frequencies."""
         for size in (10.0, 21.0):
             scene = COLUMN % {**DEFAULT, "load": tip_force(size), "quantities": MOTIONS}
             plain = self.values(scene)[0]
@@ -191,7 +192,8 @@ class Flutter(ProgramTest):
                     self.assertGreater(abs(found[2]/plain[2] - 1), damping/100)
 
     def test_growth(self):
-        """The sum and the product of the squares are smooth through flutter, where the two frequencies coincide."""
+        """The sum and the product of the squares of the two frequencies are smooth through flutter, where the two
+        frequencies coincide."""
         sums = []
         for size in (20.0, 20.04, 20.06, 20.1):
             (f0, f1, growth), _ = self.values(COLUMN % {**DEFAULT, "load": tip_force(size), "quantities": MOTIONS, "Iy": 100.0})
@@ -210,7 +212,8 @@ class Flutter(ProgramTest):
             self.assertEqual(self.values(COLUMN % {**DEFAULT, **dead, "more": zero})[0], plain, zero)
 
     def test_arch(self):
-        """The assembled tangent of the arch is symmetric only in the limit of fine meshes."""
+        """The assembled tangent of the arch is symmetric only in the limit of fine meshes. The critical pressure must
+        be found on coarse meshes too."""
         for density in ("", ", density: 1e-6"):
             for formulation in FORMULATIONS[:2]:
                 found = [self.values(arch(n, 3.0, density), 1, formulation)[0][0]*3 for n in (8, 16)]

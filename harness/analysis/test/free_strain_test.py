@@ -62,7 +62,8 @@ loads: {{{loads}}}
 class FreeStrains(ProgramTest):
 
     def test_cantilever(self):
-        """A free member expands and bends to an exact arc without stress. In linear analyses, it does so to first order."""
+        """A cantilever with uniform free strains expands and bends to an exact arc without stress. In linear analyses,
+        it does so to first order."""
         kappa, warm = -ALPHA * 50e3, ALPHA * 100
         text = beam("[]", loads="t: {temperature: 100, gradient: [50e3, 0], on: m}", more="""
 analyses: {li: {linear: {}}, st: {static: {stations: [0.5, 1]}}}
@@ -107,8 +108,8 @@ quantities:
                     self.assertIn("can move along", quantity["reason"])
 
     def test_prestressed_mechanism(self):
-        """Ties that only pretension or cooling makes stiff: forces, deflections, frequencies. Linear statics and buckling
-        must reject them and name the static path."""
+        """Ties that are stiff only because of pretension or cooling: forces, deflections, frequencies. Linear statics
+        and buckling must be rejected, and the message must name the static path."""
         for pretension, heat in ((8000, 0), (8000, -20), (0, -20)):
             text = TIES % (f", pretension: {pretension}" * (pretension > 0), heat)
             u, forces, frequency = self.ties(pretension, heat)
@@ -127,7 +128,8 @@ quantities:
                     self.assertIn("; if pretension or temperatures make it stiff, use a static path", got[name]["reason"])
 
     def ties(self, pretension, heat):
-        """Returns the displacement, the forces and the lowest frequency of two hinged bars with a mass between them."""
+        """Returns the displacement, the forces and the lowest frequency of a mass between two hinged bars, in closed
+        form."""
         def forces(u):
             a, b = math.hypot(0.4 + u[0], u[1]), math.hypot(0.6 - u[0], u[1])
             return pretension + E * A * (a / 0.4 - 1), E * A * (b / 0.6 - 1 - ALPHA * heat), a, b
@@ -142,7 +144,7 @@ quantities:
         return u, forces(u), math.sqrt(numpy.linalg.eigvalsh((K + K.T) / 2)[0] / 20) / (2 * math.pi)
 
     def test_where_the_path_begins(self):
-        """At station 0, pretension and constant loads act, even in analyses that follow this state."""
+        """At station 0 of a static path, pretension and constant loads act. They also act in analyses about this state."""
         for keys, loads, force in ((", pretension: 10000", "", 10000),
                                    (f", unstressed_length: {L * (1 - 1e-4)}", "", E * A * 1e-4),
                                    ("", "t: {temperature: -50, on: m, path: [0], factor: [1]}", E * A * ALPHA * 50)):
@@ -179,7 +181,7 @@ quantities:
             self.assertIn(words, solve.stderr)
 
     def test_clamped(self):
-        """A member held at both ends has N = -EA alpha T and M = EI alpha g, about both axes, without moving."""
+        """A member held at both ends has N = -EA alpha T and M = EI alpha g, about both axes, without displacement."""
         text = beam("all", loads="t: {temperature: 20, gradient: [300, 500], on: m}", more="""
 analyses: {li: {linear: {}}, st: {static: {stations: [1]}}}
 quantities:
@@ -214,8 +216,8 @@ quantities: {{li: {{internal: {{analysis: li, member: n, end: to, resultant: N}}
                         self.assertAlmostEqual(got[name], force / 2, delta=1e-5 * force)
 
     def test_bent(self):
-        """A straight blank mounted along an arc between two clamps has the moment -EI k, and a bent blank mounted
-        straight has EI k. If one end is released, both blanks have their stress-free shape."""
+        """A straight member mounted along an arc between two clamps has the moment -EI k. An initially curved member
+        mounted straight has the moment EI k. If one end is released, both have their stress-free shape."""
         k = 0.5
         for formulation in ("collocation", "geometrically_exact", "sheet_second_consistent"):
             for own, free in ((k, -k), (0, k)):
@@ -282,7 +284,7 @@ quantities:
                     self.assertAlmostEqual(got["drift"] / work, 0, delta=2e-4)
 
     def test_part(self):
-        """A third of the member, starting at a fifth, is heated."""
+        """The heated part has a third of the member's length and starts at a fifth of it."""
         text = beam("[]", loads=f"t: {{temperature: 90, gradient: [900, 0], on: m, from: 0.2, to: {0.2 + 1 / 3}}}", more="""
 analyses: {li: {linear: {}}}
 quantities:

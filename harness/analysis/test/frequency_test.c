@@ -11,16 +11,16 @@
 
 enum { MODES = 10, ELEMENTS = 24, RIGID = 6 };
 
-/* A square bar along an oblique direction, so slender that the theories of shear and rotary inertia
- * agree. */
+/* A square bar along an oblique direction, so slender that shear and rotary inertia are negligible.
+ */
 static const double young = 2e11, density = 7800, side = 0.01, length = 1;
 static const double direction[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3}, y_axis[3] = {0.1, 1, 0.05};
 
 typedef struct request {
     int held;            /* 1 if held at one end, 0 if free */
-    double force;        /* force at the free end, along the bar ... */
-    double arm;          /* ... or on a rigid arm beyond it [m] */
-    scene_family family; /* family of all requested modes */
+    double force;        /* force on the free end, along the bar */
+    double arm;          /* distance of the point of action beyond the free end [m] */
+    scene_family family; /* family of the requested modes */
 } request;
 
 static void make(scene *s, const request *what)
@@ -73,7 +73,7 @@ static const double clamped[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.99
 static const double loose[] = {4.7300407449, 7.8532046241};
 
 /* Bending frequencies occur in pairs. The axial frequency c/(4 L) and the torsional frequency lie
- * between them and are counted only if requested. */
+ * between them and must be counted only if they are requested. */
 static void cantilever(const element_type *e, ask_tally *tally)
 {
     static answer any, axial, across;
@@ -115,10 +115,10 @@ static void nothing_held(const element_type *e, ask_tally *tally)
                      "%s: frequency %d of the free bar", e->name, i + 1 - RIGID);
 }
 
-/* Returns the determinant of a bar in tension with t = T/(EI): w = A (cosh ax - cos bx) + B (sinh
- * ax/a - sin bx/b), a^2 - b^2 = t, a^2 b^2 = k^4. At the free end there is no moment, and no force
- * across the initial direction of the bar. The determinant is zero where k^2 sqrt(EI/(rho A)) is a
- * circular frequency. */
+/* Returns the characteristic determinant of a bar in tension T = t EI. The deflection is w = A
+ * (cosh ax - cos bx) + B (sinh ax/a - sin bx/b) with a^2 - b^2 = t, a^2 b^2 = k^4. At the free end
+ * there is no moment, and no force across the initial direction of the bar. The determinant is zero
+ * if k^2 sqrt(EI/(rho A)) is a circular frequency. */
 static double determinant(double t, double k)
 {
     const double root = sqrt(t * t / 4 + k * k * k * k), a = sqrt(root + t / 2),
@@ -143,8 +143,8 @@ static double first_root(double t)
     return low;
 }
 
-/* Compression close to Euler's load and at half of it. Tension at half of Euler's load and at
- * twenty times this load. */
+/* The loads are compression close to Euler's load and half of it, and tension of half of Euler's
+ * load and twenty times this load. */
 static void loaded(const element_type *e, ask_tally *tally)
 {
     static const double part[] = {-0.999, -0.5, 0.5, 20};

@@ -1,5 +1,5 @@
-"""Critical loads above the first critical load, about static paths: single, double, triple and almost equal loads, and
-loads near which round-off hinders Newton's method."""
+"""Critical loads beyond the first, about static paths: single, double, triple and almost equal loads, and loads near
+which round-off hinders Newton's method."""
 import json
 import math
 import unittest
@@ -9,8 +9,8 @@ import scipy.optimize
 from harness.tools.kit.program import ProgramTest, run
 
 PLAIN = "omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]\n"
-# Three columns with equal sections below a floor that moves and rotates in its plane. M breaks the symmetry of the
-# unknowns, not that of the structure.
+# Three columns with equal sections below a floor that moves and rotates in its plane. The moment M makes the pattern of
+# the matrix unsymmetric, not the structure.
 STOREY = """beamwork: 1
 sections: {s: {constants: {A: 1e-3, Iy: 1e-7, Iz: 1e-7, It: 4e-8}, young: 2e11, shear_modulus: 8e10}}
 nodes:
@@ -35,7 +35,7 @@ quantities:
 
 
 def columns(second_moments, wanted):
-    """Returns a scene of cantilevers side by side, with E A = 1e6, E Iz = 1 and E Iy as given."""
+    """Returns a scene of separate cantilevers with E A = 1e6, E Iz = 1 and the given E Iy."""
     each = list(enumerate(second_moments))
     lines = ["beamwork: 1", "sections:"]
     lines += [f"  s{k}: {{constants: {{A: 1e6, Iy: {Iy!r}, Iz: 1, It: 1}}, young: 1, shear_modulus: 1}}" for k, Iy in each]
@@ -48,8 +48,8 @@ def columns(second_moments, wanted):
 
 
 def shortened(load, stiffness):
-    """Returns the critical load of a column that is shortened before it buckles. `load` is that of a column of fixed
-    length."""
+    """Returns the critical load of a column that shortens before it buckles. `load` is the critical load without
+    shortening."""
     return scipy.optimize.brentq(lambda P: P*(1 - P/stiffness) - load, load, 2*load, xtol=1e-13*load)
 
 
@@ -71,7 +71,8 @@ class FurtherLoads(ProgramTest):
                     self.assertAlmostEqual(value, right, delta=3e-9*right)
 
     def test_storey(self):
-        """The two sway loads coincide, and the twist load follows. Newton's method fails within 1e-9 of the twist load."""
+        """The two critical loads of sway are equal, and that of twist is the third. Newton's method fails at loads
+        within 1e-9 of the critical load of twist."""
         EI, EA, GJ, L, r = 2e4, 2e8, 3.2e3, 2, 0.5
 
         def twist(P):

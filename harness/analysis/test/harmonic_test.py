@@ -40,9 +40,9 @@ SHAKEN = reading("u", component="uy", drive="shake") + reading("r", component="u
 
 
 def beam(hertz, tension, length, by_mass=0.0, by_stiffness=0.0):
-    """Solves EI v'''' - N v'' - mu w^2 v = 0 by its four exponentials and returns the roots, and EI. The mass does not
-    change with the length, and moments are proportional to the rotation per initial length. Proportional damping
-    replaces EI by EI (1 + i w b) and mu by mu (1 - i a/w)."""
+    """Solves EI v'''' - N v'' - mu w^2 v = 0 by its four exponentials and returns the roots, and EI. The total mass is
+    independent of the length. Moments are proportional to the derivative of the rotation with respect to the initial
+    length. Proportional damping replaces EI by EI (1 + i w b) and mu by mu (1 - i a/w)."""
     w = 2*math.pi*hertz
     stiff = EI*length*(1 + 1j*w*by_stiffness)
     s = cmath.sqrt((tension/(2*stiff))**2 + MU/length*w*(w - 1j*by_mass)/stiff)
@@ -81,7 +81,7 @@ def waves(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
     return amplitude, roots, at, sum(a*(stiff*length*k**3 - tension*k) for a, k in zip(amplitude, roots))
 
 
-# Point masses on springs and dashpots along y, each at a massless post, and the modes of these masses.
+# Point masses on springs and dashpots along y, each at the end of a massless member.
 MASSES = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 2e11, shear_modulus: 8e10}}
 nodes:
@@ -105,7 +105,7 @@ def modes(count):
 class DampedModesTest(ProgramTest):
 
     def found(self, text, formulation="collocation", n=1):
-        """Returns the eigenvalues s, and the damping ratios."""
+        """Returns the eigenvalues s = -d + i w and the damping ratios."""
         path = self.folder/"scene.yaml"
         path.write_text(text, encoding="utf-8")
         record = self.record("solve", "--scene", path, "-f", formulation, "-n", n)
@@ -142,7 +142,7 @@ class DampedModesTest(ProgramTest):
         self.same(ratios, [0.1]*2)
 
     def test_proportional(self):
-        """Every mode of a beam has the ratio (a/w + b w)/2, and its frequency is the undamped frequency."""
+        """Every mode of a beam has the damping ratio (a/w + b w)/2, and its frequency is the undamped frequency."""
         scene = BEAM.replace("c: 15", "c: 0").replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {%s}}")
         for formulation in ("collocation", "geometrically_exact", "sheet_third"):
             plain = self.record("solve", "--scene", self.write(scene % ("hold: all", "", "", "", "".join(
@@ -244,7 +244,8 @@ class ByModesTest(ProgramTest):
                 self.close(text, ", solution: modal", formulation, n=4)
 
     def test_few_modes(self):
-        """The error must be within the stated bound, which must not be much larger than the error."""
+        """The error due to omitted modes must be within the stated bound. The bound must not be much larger than the
+        error."""
         for text in self.scenes():
             for damping in ("", ", damping: {mass: 7, stiffness: 1e-3}"):
                 for modes, most in ((5, 1e-3), (8, 1e-5), (14, 1e-6)):
@@ -255,8 +256,8 @@ class ByModesTest(ProgramTest):
             self.close(lambda k: text(damping + k), ", solution: modal", most=1e-4, least=1e-9)
 
     def test_loops(self):
-        """Closed loops of feedback with all modes and with few modes, also without damping, with an integral, and with
-        a loop that drives a component that it does not measure."""
+        """Closed feedback loops are solved with all modes and with few modes. Some have no damping, some an integral,
+        and one drives a component that it does not measure."""
         acts = "path: [0, 1], factor: [0, 0], feedback: {node: tip, component:"
         for loops, commanded in ((f"servo: {{force: [0, 1, 0], on: tip, {acts} uy, proportional: 2000, derivative: 20, integral: 3000}}}}", 1),
                                  (f"servo: {{moment: [0, 0, 1], on: tip, {acts} uy, proportional: 9, derivative: 0.05}}}}, "
@@ -404,8 +405,8 @@ quantities:
 """
 
     def test_what_is_not_excited(self):
-        """Neither undamped modes of another part nor a mode that a force in the middle does not excite may make the
-        response unbounded."""
+        """Modes without damping that are not excited must not make the response unbounded. These are modes of another
+        part, and a mode with a node at the force."""
         w = 2*math.pi*numpy.linspace(0.5, 9, 850001)
         k, own = 700/3, 800/3 - w*w
         exact = {"middle": own/(own*(2j*w + 2*k) - 2*k*k), "left": k/(own*(2j*w + 2*k) - 2*k*k)}
@@ -496,7 +497,7 @@ class HarmonicTest(ProgramTest):
                 self.assertRegex(done.stdout + done.stderr, words)
 
     def test_proportional_damping(self):
-        """With a shaking base, the mass is damped by its absolute velocity."""
+        """On a shaking base, damping proportional to mass depends on the absolute velocity."""
         damping = {"by_mass": 7, "by_stiffness": 2e-3}
         keys = ", damping: {mass: 7, stiffness: 2e-3}"
         forced = BEAM % ("hold: all", "", "", keys, FORCED)
@@ -521,7 +522,7 @@ class HarmonicTest(ProgramTest):
         self.near(one, other, 1e-12, "all")
 
     def test_stiffness_of_tables(self):
-        """Proportional damping uses the segment of a table in which the state lies."""
+        """Proportional damping uses the stiffness of the segment of a table in which the state lies."""
         text = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e9, shear_modulus: 4e8}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 2}}
@@ -543,8 +544,8 @@ quantities:
         self.assertAlmostEqual(got["im"] / exact.imag, 1, delta=1e-9)
 
     def test_about_a_state(self):
-        """Responses under tension are exact about a static path, along which the beam elongates, and about a linear
-        analysis."""
+        """Responses of a beam under tension must equal the closed form, both about a static path, with the elongation
+        of the beam, and about a linear analysis, without it."""
         loads = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
         stretched = 1 + 2000/(210e9*0.02*0.01)
         for kind, length in (("{static: {stations: [1]}}", stretched), ("{linear: {}}", 1)):
@@ -560,7 +561,7 @@ quantities:
             self.assertLess(abs(a - b), 1e-9*abs(b))
 
     def test_reciprocity(self):
-        """The rotation due to a force equals the displacement due to a moment."""
+        """The rotation due to a unit force equals the displacement due to a unit moment."""
         crossed = reading("a", component="rz", force="tip", along="uy") + reading("b", component="uy", force="tip", along="rz")
         found = self.curves(BEAM % ("hold: all", "", "", "", crossed), "sheet_third", 3)
         for one, other in zip(found["a"], found["b"]):

@@ -1,7 +1,7 @@
 /* Structures with hinges compared with closed forms: a beam with an inner hinge, a three-hinged
- * frame, columns, vibration, and a truss that snaps through. Released ends have the axes in which
- * the section is described, whatever its principal axes. For a curved member, they are the axes at
- * its end. */
+ * frame, columns, vibration, and a truss that snaps through. Ends are released about the axes in
+ * which the section is described, not about its principal axes. For a curved member, these are the
+ * axes at the released end. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -15,7 +15,7 @@
 
 #define HINGES "harness/analysis/test/hinges.yaml"
 
-/* Checks value i. `scale` is the magnitude for a value that is zero. */
+/* Compares quantity i with `exact`. If `exact` is zero, the error is relative to `scale`. */
 static void check(const cell_result *r, int i, double exact, double allowed, double scale,
                   const char *chosen)
 {
@@ -80,7 +80,6 @@ static void eigenvalues(const char *chosen, int n, double allowed)
     cell_result_free(&r);
 }
 
-/* Bars of a truss, with only axial deformation. */
 static void roof(const char *chosen)
 {
     cell_result r;
@@ -94,8 +93,9 @@ static void roof(const char *chosen)
 
 enum { REACTIONS = 3 };
 
-/* The nodes are clamped, and their reactions have no component along the axes of the hinges. The
- * test lists which of the six components are zero. The other components are clamping moments. */
+/* The members are clamped at their outer ends and joined by hinges. A moment reaction about the
+ * axis of a hinge must be zero. The bits of `released` are the reactions that must be zero, and no
+ * other reaction may be zero. */
 static void axes(const char *of, const char *chosen, int n, unsigned released, double least)
 {
     cell_result r;
@@ -166,7 +166,7 @@ static void hinge_support_tests(void)
         for (int k = 0; k < 3; k++) {
             char chosen[80];
             snprintf(chosen, sizeof chosen, "%s%s", registry_formulations[i]->name, newton[k]);
-            supported(chosen, k == 2); /* without analyses that follow a factored tangent */
+            supported(chosen, k == 2); /* dense: without analyses that need a factored tangent */
         }
 }
 

@@ -6,7 +6,8 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# A mass on a spring with an eccentric point: pushed from rest, with an initial velocity, and twisted.
+# A mass on a spring, with a point at a distance from its centre. It is pushed from rest, has an initial velocity, or is
+# twisted.
 PUSHED = """beamwork: 1
 let: {m: 2, k: 200, J: 1, c: 100}
 sections:
@@ -32,7 +33,7 @@ JERKS = """  j: {rate: {analysis: go, node: mass, component: uy, of: jerk, take:
   y: {rate: {analysis: go, node: aside, component: uy, of: jerk, take: curve}}
   rms: {rate: {analysis: go, node: mass, component: uy, of: jerk, take: rms}}
 """
-# Two sines and a constant, over a whole number of their periods.
+# A motion that is the sum of two sines and a constant, over a whole number of periods of both sines.
 SHAKEN = """beamwork: 1
 sections:
   post: {tube: {diameter: 40e-3, thickness: 2e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}

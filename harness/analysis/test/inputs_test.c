@@ -25,7 +25,7 @@ static double apart(const answer *a, const answer *b)
     return largest;
 }
 
-/* Twice the input must have twice the effect on the answer. */
+/* Doubling the input must double its effect on the answer. */
 static void superposition(const scene_input *in, const element_type *e, const answer *without,
                           const answer *with)
 {
@@ -39,8 +39,9 @@ static void superposition(const scene_input *in, const element_type *e, const an
                      "%s: linear, %s: superposition of %s", e->name, in->name, with->name[i]);
 }
 
-/* Computes the force, and the moment about x, of the load on the second member, from 0.5 to 1,
- * beyond `place`. Simpson's rule is exact, because the load is linear in this range. */
+/* Computes the resultant of the load on the second member, from x = 0.5 to 1, beyond `place`: the
+ * force, and the moment about `x`. Simpson's rule is exact, because the load is linear in this
+ * range. */
 static void resultants(const scene_load *load, double place, double x, double out[6])
 {
     static const double weight[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
@@ -63,7 +64,8 @@ static void resultants(const scene_load *load, double place, double x, double ou
     }
 }
 
-/* Builds the scene of a row with its load alone. Returns 1 if the load acts on a member. */
+/* Builds the scene of a row of the table, with the input as the only load. Returns 1 if the load
+ * acts on a member. */
 static int load_alone(const scene_input *in, posed *p, scene *s, scene_load *load)
 {
     *p = pose(in->name, SCENE_OF_LINEAR, 1);
@@ -134,7 +136,7 @@ static void sections(const scene_input *in, const element_type *e)
 
 static int is_load(const scene_input *in)
 {
-    return in - scene_inputs <= 21; /* includes initial strains of members */
+    return in - scene_inputs <= 21;
 }
 
 static int is_called(const scene_input *in, const char *name)
@@ -147,8 +149,8 @@ static int is_motion(const scene_input *in)
     return is_called(in, "motion of a node") || is_called(in, "motion of a case");
 }
 
-/* Returns the largest difference between values with the same names, starting with value `first`,
- * relative to the largest value. */
+/* Returns the largest difference between the values of these names, relative to the largest value.
+ * Returns INFINITY if a value exists in one answer only. */
 static double largest_apart(const answer *a, const answer *b, const char *const name[])
 {
     double largest = 0, size = 1e-12;
@@ -165,7 +167,6 @@ static double largest_apart(const answer *a, const answer *b, const char *const 
 static const char *const places[] = {"u_0", "u_1", "u_2", "v_0", "v_1", "v_2", NULL},
                          *const modes[] = {"f0", "f1", "f2", NULL};
 
-/* Under small loads, the path must agree with the linear solution. */
 static void law_of_linear(const scene_input *in, const element_type *e)
 {
     static answer linear, path;
@@ -186,7 +187,7 @@ static void law_of_continuation(const scene_input *in, const element_type *e, co
     static answer path;
     posed p = pose(in->name, SCENE_OF_STATIC, 1);
     p.end = answer_of(with, "factor");
-    if (!(p.end > 0)) /* because a path only increases */
+    if (!(p.end > 0)) /* a static path only increases its parameter */
         return;
     solve(&p, e, &path);
     gsl_test_rel(answer_of(&path, "v_1"), end_of_continuation, 1e-7,
@@ -221,8 +222,8 @@ static void law_of_compliance(const scene_input *in, scene_column column, const 
     }
 }
 
-/* Frequencies of the unloaded structure must be those at the start of any path, where two-node
- * elements lack their internal motions. */
+/* Frequencies of the unloaded structure must be those at the start of any path, within the error of
+ * two-node elements, whose internal motions are missing about a path. */
 static void law_of_modal(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer about;
@@ -240,7 +241,8 @@ static void law_of_modal(const scene_input *in, const element_type *e, const ans
              in->name, off);
 }
 
-/* Under small loads, the stresses of a linear analysis must have the same effect as the path. */
+/* Under small loads, the changes of frequencies due to the stresses of a linear analysis must equal
+ * those due to the stresses of the path. */
 static void law_of_modal_linear(const scene_input *in, const element_type *e)
 {
     static answer rest, linear, path;
@@ -254,8 +256,8 @@ static void law_of_modal_linear(const scene_input *in, const element_type *e)
     p.end = 1e-9;
     p.size = 1e-9;
     solve(&p, e, &rest);
-    /* the bending of a closed frame changes the frequency as much, and a linear analysis neglects
-     * this bending */
+    /* bending of a closed frame, which a linear analysis neglects, changes its frequencies as much
+     * as the stresses do */
     if (linear.values == 0 || path.values == 0 || is_called(in, "node attached to another") ||
         is_called(in, "imperfection by shifts"))
         return;
@@ -270,8 +272,8 @@ static void law_of_modal_linear(const scene_input *in, const element_type *e)
              in->name, off, largest);
 }
 
-/* A frame that does not rotate must have the frequencies of the path, which a different solver
- * computes. */
+/* The modal analysis about a path must have the same frequencies as a rotation analysis with speed
+ * zero, which uses a different solver. */
 static void law_of_modal_about(const scene_input *in, const element_type *e)
 {
     static answer a;
@@ -293,8 +295,8 @@ static void law_of_modal_about(const scene_input *in, const element_type *e)
     }
 }
 
-/* The square of a frequency about the stresses of a linear analysis must vanish at the critical
- * load. */
+/* The smallest frequency about the stresses of a linear analysis must vanish at the critical load.
+ */
 static void law_of_buckling(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer near, nearer;
@@ -361,7 +363,8 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
         gsl_test(!(off <= 1e-7), "%s: %s, %s: at 0 Hz the compliance (%g)", e->name,
                  scene_column_name[column], in->name, off);
     }
-    if (is_called(in, "rotating axes")) /* modes are rejected */
+    if (is_called(in,
+                  "rotating axes")) /* harmonic solutions by modes are rejected in rotating axes */
         return;
     p.column = column;
     structure(&p, &s);
@@ -377,8 +380,8 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
              scene_column_name[column], in->name, off, by_modes.reason);
 }
 
-/* About the start of a motion from equilibrium, the response must equal that about the equilibrium
- * state. */
+/* About the start of a motion from equilibrium, the harmonic response must equal that about the
+ * equilibrium state. */
 static void law_of_harmonic_instant(const scene_input *in, const element_type *e)
 {
     static answer state, instant;
@@ -387,7 +390,7 @@ static void law_of_harmonic_instant(const scene_input *in, const element_type *e
     for (int about = 0; about < 2; about++) {
         scene s;
         structure(&p, &s);
-        s.lumped = 1; /* as some formulations have in motions */
+        s.lumped = 1; /* because some formulations support only lumped mass in motions */
         int of = scene_add_static(&s, 1, &p.end, 2);
         of = about ? move(&s, of, p.column) : of;
         const int harmonic = scene_add_harmonic(&s, of, 2, (const double[]){0, shaking});
@@ -402,7 +405,7 @@ static void law_of_harmonic_instant(const scene_input *in, const element_type *e
              e->name, in->name, off, instant.reason);
 }
 
-/* A path in rotating axes must end in the same state as the rotation. */
+/* A static path in rotating axes must end in the same state as a rotation analysis. */
 static void law_of_rotation(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer path;
@@ -415,7 +418,7 @@ static void law_of_rotation(const scene_input *in, const element_type *e, const 
 }
 
 /* Successive motions, the first of which starts from equilibrium, must remain in this equilibrium.
- * Inputs without a function of time are held. */
+ * Inputs without a function of time keep their values. */
 static void law_of_motion(const scene_input *in, const element_type *e, int continued)
 {
     static answer path, motion;
@@ -494,8 +497,8 @@ static void obey(const scene_input *in, scene_column column, const element_type 
     }
 }
 
-/* An input that has an effect in rotating axes, or without a potential, must have this effect in
- * the analysis. */
+/* The table states whether an input has an effect in rotating axes or under loads without a
+ * potential. In this case the input must change the answer of the analysis. */
 static void part_of_inertia(const scene_input *in, scene_column column, const element_type *e)
 {
     static answer with, without;
@@ -507,7 +510,8 @@ static void part_of_inertia(const scene_input *in, scene_column column, const el
     p.times = 0;
     solve(&p, e, &without);
     const double change = apart(&with, &without);
-    if (column == SCENE_OF_MODAL_ABOUT && /* damping changes the growth, but no frequency */
+    if (column ==
+            SCENE_OF_MODAL_ABOUT && /* damping changes the growth rate, but no undamped frequency */
         (is_called(in, "damping") || strstr(in->name, "dashpot") != NULL))
         return;
     gsl_test(with.values == 0 || !(change > 1e-6), "%s: %s, %s: changes the answer there (%g; %s)",
@@ -519,11 +523,12 @@ static void cell(const scene_input *in, scene_column column, const element_type 
     static answer with, without;
     const char part = in->part[column];
     const char *where = scene_column_name[column];
-    /* a motion needs loads over time, and the structure rotates with its support */
+    /* a constant load has no function of time, and the support already moves */
     if ((column == SCENE_OF_MOTION || is_instant(column)) &&
         (is_called(in, "constant load") || is_motion(in) || is_called(in, "rotating axes")))
         return;
-    posed p = pose(in->name, column, is_motion(in) /* or is held there */ || divides(in->name));
+    posed p = pose(in->name, column,
+                   is_motion(in) /* with the factor 0, the node is held */ || divides(in->name));
     p.times = 0;
     solve(&p, e, &without);
     p = pose(in->name, column, 1);
@@ -576,7 +581,6 @@ static void cell(const scene_input *in, scene_column column, const element_type 
         obey(in, column, e, &with);
 }
 
-/* Two equivalent descriptions must have the same answer. */
 static void alike(const char *name, const char *other, scene_column column, const element_type *e)
 {
     static answer one, two;

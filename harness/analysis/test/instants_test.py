@@ -105,7 +105,8 @@ class Instants(ProgramTest):
         self.assertLess(abs(value / right - 1), tolerance, (value, right))
 
     def test_pendulum(self):
-        """A pendulum obeys theta'' = -(g/l) cos(theta) dtheta at the start, between steps, at the end and above the pin."""
+        """A pendulum obeys theta'' = -(g/l) cos(theta) dtheta for small deviations dtheta. The instants are the start,
+        a time between two steps, the end, and a position above the pin."""
         for formulation in FORMULATIONS:
             for integrator in ("radau", "alpha"):
                 for time in (0, 0.31, 0.7):
@@ -125,7 +126,7 @@ class Instants(ProgramTest):
         self.near(found["decay"]**2, -square)
 
     def test_rotor(self):
-        """A disc spinning between bearings obeys (I s^2 - i J w s + c s + k) x = 0."""
+        """A disc spinning between bearings has eigenvalues s with I s^2 - i J w s + c s + k = 0."""
         found = self.solved(ROTOR)
         exact = [abs(numpy.roots([0.02, 0.1 + sign * 0.03j * 300, 400]).imag) for sign in (1, -1)]
         bounce = math.sqrt(1600 / 2 - (0.4 / 4)**2)

@@ -14,8 +14,8 @@
 
 static const scene_edit unchanged = {SCENE_EDIT_NONE, 0};
 
-/* Compares all values that exist, by their largest relative difference. A frequency that the mesh
- * does not have is missing in both answers. */
+/* Returns the difference of two values relative to `scale`. A frequency that the mesh does not have
+ * is missing in both answers, and then the difference is zero. */
 static double apart_of(double a, double b, double scale)
 {
     const double size = fmax(fmax(fabs(a), fabs(b)), scale);
@@ -48,15 +48,14 @@ static double difference(const answer *a, const answer *b, const char **whose)
     return worst;
 }
 
-/* Returns the parameter of this name, or NULL if the case has none. */
 static const parameter_type *parameter_of(const case_type *type, const char *name)
 {
     const int i = parameter_index(type->parameters, name);
     return i < 0 ? NULL : parameter_at(type->parameters, i);
 }
 
-/* Requests few stations, if the case has such a parameter, and few constant steps of a motion,
- * because error control depends on the size of the members. */
+/* Writes parameters for few stations, if the case has such a parameter, or for constant steps of a
+ * motion. Adaptive steps would depend on the size of the members. */
 static void short_path(const case_type *type, int size, char words[])
 {
     const parameter_type *step = parameter_of(type, "step"), *steps = parameter_of(type, "steps");
@@ -67,13 +66,11 @@ static void short_path(const case_type *type, int size, char words[])
         snprintf(words, (size_t)size, "steps=3");
 }
 
-/* One formulation on one case. */
 typedef struct invariants_subject {
     const case_type *type;
     const element_type *formulation;
     ask_tally *tally;
-    int coarse; /* number of elements per member that the case needs, or 2 if two can follow the
-                   path */
+    int coarse; /* number of elements per member of the coarsest mesh with an answer */
 } invariants_subject;
 
 static void ask_about(const invariants_subject *s, int n, int keep_all, scene_edit edit,
@@ -90,8 +87,9 @@ static int found(const invariants_subject *s, int n, int keep_all, scene_edit ed
     return ask_count(s->tally, out, "%s, n = %d", s->type->name, n);
 }
 
-/* Finds the coarsest mesh that can follow the path, the next mesh, and the answers on both. Two
- * elements cannot follow every path, for example a circle. Returns 0 if no mesh has an answer. */
+/* Finds the coarsest mesh that can follow the path, and the answers on this mesh and on the next.
+ * Two elements cannot follow every path, for example a circle. Returns 0 if no mesh has an answer.
+ */
 static int found_coarsest(invariants_subject *s, answer *out, answer *next)
 {
     for (s->coarse = 2; s->coarse <= 32; s->coarse *= 2) {
@@ -116,9 +114,9 @@ static void same(const invariants_subject *s, const char *what, const answer *be
              whose, apart);
 }
 
-/* Checks the retention of all coordinates. In some formulations, the twist is cubic if warping
- * coordinates are kept although nothing warps, which is a better mesh of the same continuum. Twice
- * the coarsest mesh must have an answer. */
+/* Checks that retaining all coordinates does not change the answer. In some formulations, retained
+ * warping coordinates make the twist cubic although nothing warps. The difference must then
+ * decrease by a factor of eight on a finer mesh. */
 static void keep_all(const invariants_subject *s, const answer *fine)
 {
     static answer finer, full;
@@ -148,8 +146,7 @@ static void one_case(const case_type *type, const element_type *e, ask_tally *ta
     const int both = ask_count(tally, &fine, "%s, n = %d", type->name, 2 * s.coarse);
     if (both)
         keep_all(&s, &fine);
-    /* other formulations depend on this order by a discretisation error, which the sweep of
-     * extremes shows */
+    /* the order of nodes is a discretisation error of the other formulations */
     if (!(e->limits & LIMIT_ORDER_DEPENDENT))
         same(&s, "the other order of nodes changes nothing", &coarse, s.coarse,
              (scene_edit){SCENE_EDIT_REVERSE, 0});

@@ -12,7 +12,8 @@
 
 static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10, share = 5.0 / 6;
 
-/* Builds a beam of one or more members whose tip slides only along `direction`. */
+/* Builds a beam of one or more members whose tip can only move along `direction`, without rotation.
+ */
 static void guided(scene *s, double across_y, double across_z, int direction, int members)
 {
     const double y_axis[3] = {0, 1, 0};

@@ -1,6 +1,7 @@
 /* Members that rotate freely against each other through large angles. A four-bar linkage and a
- * universal joint must follow their exact paths without internal forces. A bent linkage must give
- * the same result in all axes. A linkage without a drive must be named. */
+ * universal joint must follow their exact paths without internal forces. The results of a bent
+ * linkage must not depend on the axes of the scene. If nothing drives a linkage, it must be
+ * rejected by name. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -18,8 +19,8 @@ enum { STATIONS = 5, BARS = 3 };
 static const double straight[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const double crank = 1, coupler = 3.5, rocker = 3, ground = 4, begin = 0.4;
 
-/* Computes the position of the joint of coupler and rocker, above the line of the ground, for an
- * angle of the crank. */
+/* Computes the position of the joint between coupler and rocker for an angle of the crank. The
+ * joint is above the line through the fixed pivots. */
 static void fourth(double angle, double out[2])
 {
     const double x = crank * cos(angle), y = crank * sin(angle), dx = ground - x, dy = -y,
@@ -31,7 +32,7 @@ static void fourth(double angle, double out[2])
 
 static double Q[9]; /* axes in which the scene is written */
 static double linkage_turned,
-    pushed; /* angle of the crank [rad], and force [N] on the joint of coupler and rocker */
+    pushed; /* angle of the crank [rad], and force [N] on the joint between coupler and rocker */
 
 static int add_at(scene *s, double x, double y)
 {
@@ -113,7 +114,8 @@ static void solve_four_bar(const char *chosen, double angle, double force, const
     cells_solve(build_four_bar, chosen, 1, r);
 }
 
-/* Without a load, the bars are rigid. The crank rotates by more than half a revolution. */
+/* Without a load, the members must move like rigid bars. The crank rotates by more than half a
+ * revolution. */
 static void four_bar(const char *chosen)
 {
     cell_result r;
@@ -212,7 +214,8 @@ static void universal_joint(const char *chosen)
     cell_result_free(&r);
 }
 
-/* Builds four bars without a drive, which must be rejected in linear and nonlinear analyses. */
+/* Builds a four-bar linkage without a drive, which must be rejected in linear and nonlinear
+ * analyses. */
 static status build_loose(const double value[], scene *s, fault *f)
 {
     const double end = 1;
@@ -300,8 +303,8 @@ static void check(const cell_result *r, int i, double exact, double allowed, con
         gsl_test(1, "%s: quantity %d is there", chosen, i);
 }
 
-/* Checks the equilibrium of moments about the origin, of the forces and moments at two nodes and
- * the load. */
+/* Checks the equilibrium of moments about the origin, due to the load and to the forces and moments
+ * at two nodes. */
 static void equilibrium(const cell_result *r, const char *chosen)
 {
     const double load[3] = {0.3, 1, 0.2},
@@ -337,8 +340,8 @@ static void supported(const char *chosen)
     cell_result_free(&r);
 }
 
-/* Functions whose zeros u are half the wave number times the length: tan u = -2 u/kappa in
- * buckling, tan u + tanh u = -4 u/kappa in vibration. */
+/* The zeros u of the next two functions are half of the wave number times the length. tan u = -2
+ * u/kappa in buckling, tan u + tanh u = -4 u/kappa in vibration. */
 static double buckled(double u)
 {
     return sin(u) + 2 * u / kappa * cos(u);

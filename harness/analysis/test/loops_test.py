@@ -55,8 +55,8 @@ INPUTS = {"force": {"force": "tool", "along": "ux"}, "drive": {"drive": "shake"}
 
 
 class Plant:
-    """Equations of the cart and the tool with the loop u = (Kp + Kd s + Ki/s)(r - S x - S0 q), where q is the motion of
-    the base."""
+    """Equations of motion of the cart and the tool with the loop u = (Kp + Kd s + Ki/s)(r - S x - S0 q), where q is the
+    motion of the base."""
 
     def __init__(self, k1=300.0, c=4.0, at="cart", kp=0.0, kd=0.0, ki=0.0, relative=False):
         self.K = np.array([[k1 + K2, -K2], [-K2, K2]])
@@ -80,7 +80,7 @@ class Plant:
         return sorted((z for z in s if z.imag >= 0), key=abs)
 
     def response(self, hertz, what):
-        """Returns x of the cart and the tool, and the force on the base along the drive."""
+        """Returns the responses of the cart and the tool along x, and of the force on the base along the drive."""
         s = 2j*np.pi*hertz
         kp, kd, ki = self.gains
         D = self.K + s*self.C + s*s*M
@@ -113,8 +113,8 @@ class Loops(ProgramTest):
         return {q["quantity"]: q for q in record["quantities"]}
 
     def test_poles(self):
-        """The poles are those of a damper and a spring, the roots of a cubic, and those of a loop that drives a mode that
-        it does not measure."""
+        """The poles are compared for a loop that acts as a damper and a spring, a loop with an integral (roots of a
+        cubic), and a loop that drives a mode that it does not measure."""
         for at, gains in (("cart", {"kp": 150, "kd": 7}), ("cart", {"kp": 80, "kd": 12, "ki": 90}),
                           ("tool", {"kp": 3, "kd": 0.02, "ki": 2}), ("tool", {"kp": 60, "kd": 9}), ("cart", {"ki": 40}),
                           ("tool", {"kp": 40, "kd": 8, "ki": 100})):
@@ -188,8 +188,8 @@ loads:
             self.assertEqual("a mode grows at 3.754" in done.stderr, kd < 0, done.stderr)
 
     def test_integral_of_drive(self):
-        """The integral of a loop that pushes a driven component moves nothing. The loop has no pole, and the force of
-        the motor is its reaction."""
+        """A loop with an integral pushes a component whose motion is prescribed. The loop moves nothing and has no
+        pole, and the force of its motor is the reaction."""
         plant = Plant()
         (self.folder / "scene.yaml").write_text((SCENE % {
             "k1": 300, "c": 4, "at": "tool", "time": "", "still": "", "analyses": POLES + STEADY.replace("[0, ", "["),
@@ -260,7 +260,8 @@ quantities:
             A[n:2*n, n:2*n] = -(c*np.eye(n) + kd*S.T @ S)/m
             A[n:2*n, 2*n:] = S.T*gains/m
             A[2*n:, :n] = -S
-            # slow integrals: the 2 x 2 problem of the static stiffness at the carts, with gains far below it
+            # slow integrals: poles of the 2 x 2 problem for the static stiffness at the carts, with gains far below
+            # this stiffness
             C = S @ np.linalg.solve(K + kp*S.T @ S, S.T)
             static = sorted(np.linalg.eigvals(C*gains).real)[:slow]
             expected = sorted((s for s in np.linalg.eigvals(A) if s.imag >= 0), key=abs)[slow:5]
@@ -269,7 +270,7 @@ quantities:
                 self.assertLess(abs(one/s - 1), 1e-6, (n, gains, i, one, s))
 
     def test_responses(self):
-        """Responses are exact even at zero frequency, where an integral leaves no error."""
+        """Responses must be exact, also at zero frequency, at which an integral leaves no control error."""
         quantities = "".join(read(f"{node}_{name}", node=node, component="ux", **keys) for name, keys in INPUTS.items()
                              for node in ("cart", "tool")) + "".join(
             read(f"wall_{name}", node="base", component="ux", of="reaction", **keys) for name, keys in INPUTS.items())
@@ -287,7 +288,7 @@ quantities:
                             self.assertLess(abs(one - expected), 1e-9*max(abs(expected), 1e-3), (gains, key, hertz))
 
     def test_largest(self):
-        """The largest response is near the poles of the closed loop, between the frequencies."""
+        """The largest response is near a pole of the closed loop, between the frequencies of the analysis."""
         plant = Plant(kp=400, kd=1)
         most = max(abs(plant.response(f, "reference")[0]) for f in np.linspace(0.1, 20, 200001))
         for solution in ("", ", solution: modal"):
@@ -322,7 +323,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
             self.assertLess(abs(complex(found["re"]["value"], found["im"]["value"]) - expected), 1e-9*abs(expected) + found["re"]["rounding"])
 
     def test_unstable(self):
-        """An unstable closed loop has no steady-state vibration, but the open loop has one."""
+        """An unstable closed loop has no steady-state vibration. The same structure with the loop open has one."""
         plant = Plant(at="tool", kp=60, kd=9)
         quantities = read("r", node="cart", component="ux", force="cart", along="ux")
         done = self.solve(plant, STEADY, quantities, at="tool", code=1, kp=60, kd=9)
@@ -357,7 +358,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
             found = sorted((s for s in np.linalg.eigvals(A) if s.imag >= 0 and abs(s) > 1e-6), key=abs)
             for s, e in zip(found, plant.poles()):
                 self.assertAlmostEqual(s/e, 1, 8)
-            # the step occurs at 0 s: the reference, which is a state, is set at once, so e' has no impulse
+            # the reference steps at 0 s, when the motion begins, so e' has no impulse
             step = np.zeros(len(A))
             step[np.flatnonzero(B[:, reference] == 1)[-1]] = 0.01
             self.assertAlmostEqual((C @ expm(1.5*A) @ step)[0]/self.values(record)["end"]["value"], 1, 6)

@@ -1,5 +1,5 @@
-/* A structure for which only transient analyses are requested may be free, and then has no static
- * state. */
+/* Identifies scenes that have only transient analyses. Such a structure may be free, and then has
+ * no static state. */
 #ifndef BEAMWORK_TEST_MOVES_H
 #define BEAMWORK_TEST_MOVES_H
 

@@ -1,5 +1,5 @@
-"""Paths must find the first critical points even if several coincide, for any length of the steps and for any added zero
-loads."""
+"""Paths must find the first critical points even if several coincide, for any step size, and also with zero loads
+added."""
 import json
 import math
 import unittest
@@ -18,7 +18,7 @@ quantities:
   P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
-# Snap-through: stability is lost and regained, with as many negative pivots after it as before.
+# Snap-through: stability is lost and regained, so there are as many negative pivots before as after.
 ARCH = """beamwork: 1
 sections: {s: {constants: {A: 1e4, Iy: 10, Iz: 1, It: 1}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [-1, 0, 0], hold: [ux, uy, uz, rx, ry]}, t: {at: [0, 0.12, 0]},
@@ -48,8 +48,7 @@ quantities:
   P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
-# A stiff cantilever is bent in its plane while a thrust rises and falls. It withstands the thrust or buckles out of its
-# plane.
+# A stiff cantilever is bent in its plane while a thrust rises and falls. It remains stable or buckles out of its plane.
 PASSING = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: 1, Iz: 1000, It: 1000}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -110,7 +109,8 @@ class MultiplePoints(ProgramTest):
             self.assertLess(abs(value / right - 1), part, (found, about))
 
     def test_equal_and_almost_equal(self):
-        """Two points or one double point must be found, both in one step over all points and in many steps."""
+        """Two points, equal or almost equal, must be found both if one step passes all points and if there are many
+        steps."""
         for off in (0, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3):
             for step in (1e-6, 1e-5, 4.5e-5):
                 self.near(self.points(Iy=1 + off, step=step, to=4.5e-5, **PINNED),
@@ -132,7 +132,7 @@ class MultiplePoints(ProgramTest):
         self.near(self.points(Iy=3, step=1e-3, to=1e-3, **PINNED), (PI2, 3 * PI2, 4 * PI2), 1e-3)
 
     def test_lost_and_regained(self):
-        """The steps are a hundredth of the path, or the whole path."""
+        """The step is a hundredth of the path, or the whole path."""
         fine = self.points(n=4, scene=ARCH, step=0.0024, more="")
         self.near(fine, (2.15466, -0.612777, 2.99647, -0.620572), 1e-5)
         for step in (0.024, 0.08, 0.24):
@@ -159,8 +159,8 @@ class MultiplePoints(ProgramTest):
                           fine[:2], 1e-8, Iy, step)
 
     def test_partly_following(self):
-        """The fraction eta of a force on a free head follows the rotation. Stability is lost and regained at cos sqrt P =
-        -eta/(1 - eta). For eta above one half there is no such point."""
+        """A force on the free head of a column follows the rotation of the head by the fraction eta. Stability is lost
+        and regained at cos sqrt P = -eta/(1 - eta). For eta above one half there is no such load."""
         for eta in (0.2, 0.4, 0.49, 0.4999, 0.501, 1):
             self.follow(eta, 1, (1e-6, 3e-6, 1e-5))
         self.follow(0.4, 3, (1e-6, 3e-6, 1e-5, 3e-5))
@@ -176,8 +176,8 @@ class MultiplePoints(ProgramTest):
             self.assertEqual(found[len(exact):], [None] * (4 - len(exact)), (eta, step))
 
     def test_words_without_symmetry(self):
-        """Without mass, no divergence is reported up to the first point. With mass, the frequencies determine the
-        stability."""
+        """For an unsymmetric tangent, no divergence may be reported up to the first point without mass. With mass, the
+        frequencies determine the stability."""
         for density, said in ((0, ["no divergence"] * 3 + ["unstable (2)"] * 3),
                               (1e-9, ["stable"] * 3 + ["unstable: grows"] * 3)):
             path = self.folder / "scene.yaml"
@@ -188,7 +188,7 @@ class MultiplePoints(ProgramTest):
             self.assertEqual([step["stability"] for step in json.loads(done.stdout)["steps"]], said)
 
     def test_frequencies_judge_what_the_determinant_does_not(self):
-        """In Beck's column the determinant never changes its sign. Flutter begins at 20.05."""
+        """In Beck's column the determinant never changes its sign. It flutters above the load 20.05."""
         path = self.folder / "scene.yaml"
         for density, said in ((0, ["no divergence"] * 6), (1e-9, ["stable"] * 4 + ["unstable: grows"] * 2)):
             path.write_text((FOLLOWED % {"Iy": 2, "fixed": 0.0, "eta": -1.0, "to": 3e-5, "step": 5e-6})
@@ -197,7 +197,8 @@ class MultiplePoints(ProgramTest):
             self.assertEqual([step["stability"] for step in json.loads(done.stdout)["steps"]], said)
 
     def test_passing_thrust(self):
-        """One or two losses of stability over a fifth of the step must be found wherever they occur."""
+        """The unstable range is about a fifth of one step. One or two such losses of stability must be found wherever
+        they occur."""
         for middle in (0.21, 0.25, 0.28, 0.33, 0.42, 0.5, 0.58, 0.67, 0.75, 0.79):
             found = self.points(n=4, scene=PASSING, factor=[0, 0, 1, 0, 0], step=0.01,
                                 path=[0] + [30 * (middle + away) for away in (-0.2, 0, 0.2)] + [40])
@@ -209,7 +210,7 @@ class MultiplePoints(ProgramTest):
         self.near(whole, fine, 1e-7)
 
     def test_static_paths_are_looked_into(self):
-        """The same thrust is applied on a static path with one station, in steps that end in the unstable range."""
+        """The same thrust acts on a static path with one station. Each step ends in the unstable range."""
         path = self.folder / "scene.yaml"
         for more, well in (("", "stable"), (", z: {moment: [1e-3, 0, 0], on: b}", "no divergence")):
             for middle in (0.21, 0.3, 0.5, 0.66, 0.79):
@@ -223,8 +224,8 @@ class MultiplePoints(ProgramTest):
                 self.assertEqual(said[-1], well, (more, middle))
 
     def test_what_is_undecided_is_said(self):
-        """If half of the load follows the rotation, an eigenvalue touches zero at pi^2, and the stability is reported as
-        undecided."""
+        """If half of the load follows the rotation, an eigenvalue becomes zero at pi^2 without changing its sign. The
+        stability must be reported as undecided."""
         path = self.folder / "scene.yaml"
         for step in (2e-6, 1.2e-5):
             path.write_text(FOLLOWED % {"Iy": 3, "fixed": -0.5, "eta": -0.5, "to": 1.2e-5,
@@ -236,7 +237,7 @@ class MultiplePoints(ProgramTest):
                 self.assertRegex(q["reason"], "undecided: between load factors 9.8[67][0-9]* and 9.8[67]")
 
     def test_held_turn_under_torque(self):
-        """A pinned shaft under Greenhill's loads is held against twist at one end, which is free about the other axes.
+        """A pinned shaft under Greenhill's loads cannot twist at one end, which is free to rotate about the other axes.
         The support moment and the load keep their directions."""
         for step in (1.5e-5, 1.5e-6):
             path = self.folder / "scene.yaml"
@@ -249,8 +250,8 @@ class MultiplePoints(ProgramTest):
             self.assertEqual(found[2:], [None, None])
 
     def test_held_turn_in_linear_buckling(self):
-        """Forces on two arms cause a torque that one support carries, which must be rejected by name. Without the forces,
-        Euler's load is found twice."""
+        """Forces on two arms cause a torque that the rotational support at one end carries. This must be rejected by
+        name. Without the forces, Euler's load is found twice."""
         for arms, found in ((1, None), (0, [PI2, PI2])):
             path = self.folder / "scene.yaml"
             path.write_text(TWISTED_BY_ARMS % (arms, -arms))

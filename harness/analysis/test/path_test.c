@@ -1,7 +1,6 @@
-/* Abscissas of the points of a path, and limit points.
- *
- * At a limit point the load factor has an extremum; at a bifurcation it has none. Therefore the
- * points of the path determine the number of limit points. */
+/* Abscissas of the points of a path, and limit points. At a limit point the load factor has an
+ * extremum; at a bifurcation it has none. The number of limit points reported must therefore be the
+ * number of extrema of the load factor. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -18,7 +17,8 @@
 static const double times = -3, shift = 0.7; /* factor and offset of the abscissa */
 
 /* A cantilever bent by a force that rises, falls and rises again, with its largest deflection at
- * the station 0.4. Alternatively the path is continued in the deflection. */
+ * the station 0.4. If value[0] is not zero, the path is instead a continuation controlled by the
+ * deflection. */
 static status build(const double value[], scene *s, fault *f)
 {
     static const double station[] = {0.1, 0.4, 0.7, 1}, deflection[] = {0.1, 0.2, 0.3},
@@ -76,8 +76,8 @@ static status solve(const case_type *type, const element_type *formulation_type,
                         out);
 }
 
-/* Checks curves over the path or its control coordinate, without and with a factor and an
- * offset. */
+/* Checks the abscissas of curves over the path parameter or the controlled coordinate, with and
+ * without a factor and an offset. */
 static void abscissas(int continued)
 {
     cell_result r;
@@ -93,7 +93,7 @@ static void abscissas(int continued)
         gsl_test(moved->value[i] != plain->value[i], "%s: values of point %d", what, i);
         gsl_test_abs(moved->x[i], times * plain->x[i] + shift, 1e-15, "%s: abscissa of point %d",
                      what, i);
-        /* the plotted quantity is the control coordinate */
+        /* in a continuation, the plotted quantity is the controlled coordinate */
         gsl_test_abs(plain->x[i],
                      continued ? plain->value[i] : scene_path_of(&r.scene.analysis[0])->value[i],
                      1e-9, "%s: point %d itself", what, i);
@@ -123,8 +123,8 @@ static const curve *load_curve(const cell_result *r)
     return NULL;
 }
 
-/* Checks the kinds of critical points. The last step has no later points, so one extremum may be
- * missing. */
+/* Checks the kinds of critical points. An extremum within the last step may be missing, because no
+ * points follow it. */
 static void kinds_of(const char *name, const element_type *type, int n, const char *parameters,
                      int count[EVENT_KINDS])
 {
@@ -165,8 +165,8 @@ static void events(void)
              count[EVENT_BIFURCATION]);
 }
 
-/* If lengths are given in a different unit, the points and the fraction of the work of the load
- * must be the same. */
+/* The points of the path and the fraction of the work of the load must not depend on the unit of
+ * length. */
 static void units(const char *name, const char *parameters)
 {
     cell_result in_metres, r;
@@ -198,7 +198,6 @@ static void path_tests(void)
     units("lee_frame", "plane=0");
 }
 
-/* Solves a case on a mesh. Returns 1 if the formulation answered. */
 static int found(const char *name, const char *parameters, const element_type *e, int n,
                  ask_tally *tally, answer *out)
 {
@@ -250,7 +249,8 @@ static double curved(const element_type *e, double curvature, ask_tally *tally)
     return ask_count(tally, &a, "curvature %g", curvature) ? a.value[0] : NAN;
 }
 
-/* As the curvature tends to zero, the answer must change in proportion to it, down to round-off. */
+/* As the curvature tends to zero, the deflection must change in proportion to the curvature, down
+ * to round-off. */
 static void nearly_straight(const element_type *e)
 {
     ask_tally tally = {0};
@@ -267,7 +267,6 @@ static void nearly_straight(const element_type *e)
              "%s: an initial curvature matters (%.1e)", e->name, slope);
 }
 
-/* The shear-rigid form must equal the printed form without shear. */
 static void without_shear(const element_type *e, const element_type *rigid)
 {
     static answer a, b;
@@ -293,7 +292,8 @@ static void limits_tests(void)
 
 static const double length = 1;
 
-/* Checks that this sequence of corrections ends in the given state, at its last correction. */
+/* Checks when a sequence of corrections counts as converged, and that only the last correction
+ * does. */
 static void sequences(void)
 {
     static const struct {
@@ -353,7 +353,8 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
     bar(&s, side, direction);
     ask_scene(&s, e, NULL, n, &a);
     scene_free(&s);
-    if (slenderness > 2e4) { /* at the limit: within the effect of rounding, or rejected by name */
+    if (slenderness >
+        2e4) { /* near the limit of double precision: accurate to round-off, or rejected by name */
         if (a.status == STATUS_SINGULAR)
             gsl_test(strstr(a.reason, "round-off") == NULL,
                      "%s, slenderness %g, %d elements: the cause is named: %s", e->name,
@@ -363,7 +364,8 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
     } else if (!ask_count(tally, &a, "bar of slenderness %g, %d elements", slenderness, n)) {
         return;
     }
-    /* eps (L/side)^2 from the forces, with a margin, and rounding of the mesh */
+    /* largest error: eps (L/side)^2 from the forces, with a margin, and round-off of the node
+     * positions */
     const double settles = 64 * DBL_EPSILON * slenderness * slenderness + 1e-14 * n;
     for (int k = 0; k < 3; k++)
         gsl_test(!(fabs(a.value[k] / exact - direction[k]) <= settles),
@@ -371,8 +373,8 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
                  e->name, slenderness, n, k, a.value[k] / exact - direction[k]);
 }
 
-/* With one element, no correction reveals the error, because the forces of the element are rounded
- * in the same way each time. */
+/* A bar of one element is too slender. No correction reveals the error, because the forces of the
+ * element are rounded in the same way each time. */
 static void too_slender(const element_type *e)
 {
     static const double direction[3] = {0.8, 0.6, 0};
@@ -395,8 +397,9 @@ static void slender_bars(const element_type *e, ask_tally *tally)
                 pushed(e, tally, slenderness, direction[d], n);
 }
 
-/* If the factors have only two correct digits, the result must equal the result with fewer
- * elements, for which the refinement converges. */
+/* A model with so many elements that factors have only two correct digits. After refinement, the
+ * compliances must equal those of a model with fewer elements, for which the refinement converges.
+ */
 static void compliance_of_many(void)
 {
     static answer coarse, fine;

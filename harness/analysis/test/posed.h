@@ -37,7 +37,7 @@ static void base(scene *s)
     scene_add_load(s, SCENE_FORCE, TIP, -300, 90, 60);
 }
 
-/* Half of a shallow arch of the same members, which snaps through whatever other inputs act. */
+/* Half of a shallow arch of the same members. It snaps through with any other input. */
 static void arch(scene *s)
 {
     base(s);
@@ -54,7 +54,6 @@ static scene_load *follow(scene *s, int load)
     return scene_load_at(s, load);
 }
 
-/* A load along the second member, or along a part of it. */
 static scene_load *spread(scene *s, double from, double to)
 {
     scene_load *load = scene_load_at(s, scene_add_load(s, SCENE_DISTRIBUTED, 1, -70, 60, 50));
@@ -63,11 +62,13 @@ static scene_load *spread(scene *s, double from, double to)
     return load;
 }
 
-/* A section that warps, twisted by an eccentric force, which has a potential. */
+/* Makes the section warp and adds an eccentric force, which twists the cantilever and has a
+ * potential. */
 static void twist(scene *s)
 {
     s->section[0].constants.Iw = 5e-9;
-    scene_set_body(s, TIP, (scene_body){.inertia = {2, 1, 1, 0, 0, 0}}); /* acts first */
+    scene_set_body(s, TIP,
+                   (scene_body){.inertia = {2, 1, 1, 0, 0, 0}}); /* the body is added first */
     scene_add_load(s, SCENE_FORCE, scene_add_attached(s, TIP, 1, 0.2, 0), 0, 5, 40);
 }
 
@@ -147,7 +148,10 @@ static void add(scene *s, const char *name)
         scene_set_factor(s, scene_add_load(s, SCENE_FORCE, TIP, -300, 50, 20), 1, &from, &whole);
     else if (IS("temperature")) {
         scene_load *load = scene_load_at(s, scene_add_load(s, SCENE_TEMPERATURE, 1, 0, 0, 0));
-        load->temperature = s->node[TIP].position[1] > 0 ? -20 : 20; /* an arch would rise */
+        load->temperature =
+            s->node[TIP].position[1] > 0
+                ? -20
+                : 20; /* cooling, because a heated arch would rise and not snap through */
         load->gradient[0] = 80;
         load->gradient[1] = -50;
         hold_tip(s);
@@ -298,12 +302,12 @@ static void add(scene *s, const char *name)
         for (int i = 0; i < s->members; i++)
             scene_member_at(s, i)->damping = 1e-4;
     else if (!IS("velocity at the start") &&
-             !IS("rotating axes")) /* these belong to the analysis */
+             !IS("rotating axes")) /* these inputs are part of the analysis */
         s->name[0] = '\0';
 #undef IS
 }
 
-/* Adds the entries that the input requires, without the input. */
+/* Adds the entries that the input requires, without the input itself. */
 static void carry(scene *s, const char *name)
 {
     static const char *const held[] = {"temperature",       "strain of a member", "pretension",
@@ -321,19 +325,19 @@ static void carry(scene *s, const char *name)
 
 static const double end_of_continuation = 0.01;
 
-/* A scene of the table, with or without the input, and the changes that a law makes to the
- * scene. */
+/* A scene for one row and one column of the table, with or without the input, with the changes that
+ * a law makes. */
 typedef struct posed {
     const char *name;
     scene_column column;
     int with;
     double times; /* factor of the loads, strains and motions of the input */
-    double size;  /* factor of all loads, strains and motions ... */
-    double grown; /* ... and of the loads that are not constant */
+    double size;  /* factor of all loads, strains and motions */
+    double grown; /* further factor of the loads that have no function of the path */
     double end;   /* end of the static path */
     double pull;  /* force at the tip along y, from the start of the path [N] */
-    int turns;    /* 1 if the axes of the paths rotate */
-    int follows;  /* 1 if a force at the tip follows the tip */
+    int turns;    /* 1 if static paths are in rotating axes */
+    int follows;  /* 1 if a force that follows the tip is added */
 } posed;
 
 /* Returns 1 for loads without a potential, for which flutter is requested. */
@@ -529,7 +533,8 @@ static void strain(scene_member *m, double length, double times)
 static void structure(const posed *p, scene *s)
 {
     static const double from = 0, whole = 1;
-    if (p->column == SCENE_OF_BUCKLING_ABOUT && !p->follows) /* the structure then flutters */
+    if (p->column == SCENE_OF_BUCKLING_ABOUT &&
+        !p->follows) /* the cantilever flutters if p->follows */
         arch(s);
     else
         base(s);
@@ -538,7 +543,7 @@ static void structure(const posed *p, scene *s)
         add(s, p->name);
     else
         carry(s, p->name);
-    /* the preceding analysis rejects feedback */
+    /* the analysis before the harmonic analysis rejects feedback */
     if (p->with && strcmp(p->name, "feedback") == 0 &&
         (p->column == SCENE_OF_HARMONIC_LINEAR || p->column == SCENE_OF_HARMONIC_ABOUT))
         scene_set_factor(s, s->loads - 1, 2, (const double[]){0, 1}, (const double[]){0, 0});

@@ -13,8 +13,9 @@
 #include "harness/study/study.h"
 
 enum { COMPONENTS = 6, CHOICES = 64 };
-/* Limits relative to the size of the structure, to one radian, and to the largest EA of the
- * members. The limits allow for rounding of the curvature of arcs in slender members. */
+/* Limits for displacements, relative to the size of the structure and to one radian, and for
+ * forces, relative to the largest EA of the members. They allow for round-off in the curvature of
+ * arcs in slender members. */
 static const double still = 1e-10, unstressed = 1e-12;
 
 enum { FORMULATIONS = 64 };
@@ -89,7 +90,7 @@ static void ask_for_all(scene *s)
             }
 }
 
-/* Returns the largest value relative to its limit, and its quantity. */
+/* Returns the largest value relative to its limit, and the name of its quantity. */
 static double largest(const scene *s, const solve_result *r, const char **whose)
 {
     const double size = dimension(s), EA = stiffest(s);
