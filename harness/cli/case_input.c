@@ -9,7 +9,8 @@
 #include "harness/model/model.h"
 #include "harness/study/study.h"
 
-/* Tables are added to the packed reference values, which are in a single file. */
+/* Stores a value of --truths: a table (.csv), of which there may be several, or the file of packed
+ * reference values, which may be given once. */
 static status read_either(const verb_option *o, void *member, const char *value, fault *f)
 {
     static const verb_option table = {"truths", .traits = OPTION_REPEATS | OPTION_INPUT};
@@ -95,7 +96,7 @@ static void tell_mistakes(const command_line *l, const mistakes *m, status outco
         message_fail(STATUS_FAULT, unwritten.text);
 }
 
-/* Prints the `omit` that replaces the `needs` of earlier versions. */
+/* Prints the keys `omit` and `shear_theory` that replace the key `needs` of earlier versions. */
 static void tell_needs(const char *path, const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS];

@@ -36,7 +36,8 @@ static void add_quantity(digest *to, const quantity_result *q)
     add_numbers(to, q->curve.value, q->curve.points);
 }
 
-/* Adds values, their statuses and the counted work, but no times. */
+/* Adds the results of a cell to the digest: values, their statuses and the counted work, but no
+ * times. */
 static void add_cell(digest *to, const cell_result *cell)
 {
     const solve_result *r = &cell->solve;
@@ -56,7 +57,7 @@ static void add_cell(digest *to, const cell_result *cell)
     add_numbers(to, work, sizeof work / sizeof work[0]);
 }
 
-/* Writes an optional array. */
+/* Writes an array, which may be NULL, and whether it exists. */
 static int put_array(FILE *to, const void *array, size_t size)
 {
     const int there = array != NULL;
@@ -138,8 +139,8 @@ void cells_keep(sweep *s, const char keep[])
     s->partial = s->unfinished > 0;
 }
 
-/* [s] Estimated cost of a batch on the reference machine. If there is little work, the batches are
- * smaller, so that every process receives some. */
+/* The estimated cost of a batch on the reference machine is at most the share batch_share of all
+ * work, within the limits batch_least and batch_most [s]. */
 static const double batch_most = 0.5, batch_least = 0.02, batch_share = 1.0 / 32;
 
 /* The sweep, divided into batches. An item is a series that is run. */
@@ -222,7 +223,8 @@ static void sum_costs(int batches, const int first[], const double each[], doubl
     }
 }
 
-/* Like deal_cut, but also sets the cost of each batch. Returns the number of batches. */
+/* Divides the items into batches. Sets the first item of each batch (deal_cut) and the cost of each
+ * batch. Returns the number of batches. */
 static int cut_items(int items, const double each[], int first[], double cost[])
 {
     double all = 0;

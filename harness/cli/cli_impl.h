@@ -24,8 +24,8 @@ void cells_forget(series *one);
  * unfinished. */
 void cells_keep(sweep *s, const char keep[]);
 
-/* bench --against: alternates a cell with another formulation, or with the same cell in another
- * program. */
+/* bench --against: times two cells alternately. The second cell uses another formulation or another
+ * build of the program. */
 
 typedef struct bench_options {
     case_options of;
@@ -112,7 +112,7 @@ results_field results_field_of(const schema_field *f);
 void manual_write_program(FILE *to, const manual_program *p);
 /* Writes beamwork-VERB(1). */
 void manual_write_verb(FILE *to, const verb *v);
-/* Writes beamwork-scene-file(5), the page on the keys of scene files. */
+/* Writes beamwork-scene(5), the page on the keys of scene files. */
 void manual_write_scene(FILE *to);
 /* Writes beamwork-results(5), the page on the contents of results files. */
 void manual_write_results(FILE *to, const verb *const *verbs);
@@ -173,8 +173,6 @@ void identity_add_sweep(digest *plan, const sweep *s);
  * plan afterwards. */
 void identity_set(identity_texts *texts, const digest *plan, shard_work *w);
 void identity_free(identity_texts *);
-
-/* Computes `verify` as a shard, or reads its results from batches. */
 
 /* Computes a shard of a planned sweep, or reads the cells of --from. With --partial, missing cells
  * are removed and counted as unfinished. A batch contains consecutive series, and the cells that

@@ -10,7 +10,7 @@ typedef struct compare_request {
     int hash; /* 1: the hashes of stored runs are printed */
 } compare_request;
 
-/* Exit statuses, which are the same as for diff. */
+/* Exit statuses, as for diff. */
 enum { SAME = 0, DIFFERS = 1, TROUBLE = 2 };
 
 static int trouble(const fault *f)
@@ -95,7 +95,8 @@ static int compare(const command_line *l, const compare_request *r, const stored
     return trouble(f);
 }
 
-/* Checks that sweeps are compared only with sweeps. */
+/* Checks that a sweep is compared with another sweep. A single sweep is rejected, because it has no
+ * short table. */
 static status check_sweeps(const command_line *l, const stored_results *before,
                            const stored_results *after, fault *f)
 {
@@ -132,7 +133,8 @@ static status read_runs(const command_line *l, const compare_request *r, compari
     return l->argument[1] == NULL ? write_table(r->output, before, f) : STATUS_OK;
 }
 
-/* Prints a line for each run. For two runs, also prints if they are equal. */
+/* Prints the hash of each run in one line. Returns DIFFERS if two runs have different hashes, and
+ * TROUBLE after a failure. */
 static int print_hashes(const command_line *l, const compare_request *r)
 {
     results_hash h[2] = {{.values = 0}};

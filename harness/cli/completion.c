@@ -28,8 +28,8 @@ static void offer_choices(const offer *o, const char *choices)
     }
 }
 
-/* Returns the offer that starts after the last of the given characters in the word. If the word
- * contains none of them, returns the same offer. */
+/* Returns an offer that starts after the last character of the word that is one of `characters`. If
+ * the word contains none of them, returns the offer unchanged. */
 static offer offer_behind(const offer *o, const char *characters)
 {
     offer behind = *o;
@@ -52,7 +52,7 @@ static void names_formulations(const offer *o)
         offer_text(o, formulations_at(i)->name, formulations_at(i)->summary);
 }
 
-/* Offers "NAME=" of a table or, after "NAME=", the choices. */
+/* Offers "NAME=" for a parameter or, after "NAME=", its choices. */
 static void offer_assignment(const offer *o, const parameter_type *p)
 {
     char name[100];
@@ -104,7 +104,7 @@ static void names_parameters(const offer *o, const case_type *type)
         offer_assignment(o, p);
 }
 
-/* Offers "NAME=" only for numbers. */
+/* Offers "NAME=" for the parameters of the case that are numbers. */
 static void names_numbers(const offer *o, const case_type *type)
 {
     const parameter_type *p;

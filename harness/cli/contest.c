@@ -1,5 +1,5 @@
-/* bench --against: alternates a cell with another formulation, at equal error or with given meshes,
- * or with the same cell in another program. */
+/* bench --against: times two cells alternately. The second cell uses another formulation (at equal
+ * errors or on given meshes) or another build of the program. */
 #include "harness/cli/cli_impl.h"
 
 #include <math.h>
@@ -279,7 +279,8 @@ static void show_pair(const bench_options *r, const sweep_point *p, const contes
     json_decref(root);
 }
 
-/* Returns the parameter point at which both are run. The caller frees the scene of the point. */
+/* Returns the parameter point at which both cells are run. The caller frees the scene of the
+ * point. */
 static sweep_point point_of(const bench_options *r, const case_type *type, const scene *s)
 {
     sweep_point p = {.type = type, .scene = *s, .status = STATUS_OK};
@@ -287,8 +288,8 @@ static sweep_point point_of(const bench_options *r, const case_type *type, const
     return p;
 }
 
-/* Compares with another build for the same number of elements. Both are run as programs, so they
- * start in the same way. The caller against_meshes() frees the scene. */
+/* Compares this program with another build on the same mesh. Both are run as separate processes, so
+ * they start in the same way. The caller against_meshes() frees the scene. */
 static status against_program(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;
@@ -302,7 +303,7 @@ static status against_program(const bench_options *r, const case_type *type, sce
     return STATUS_OK;
 }
 
-/* Compares with another formulation. */
+/* Compares two formulations on the given meshes. The caller against_meshes() frees the scene. */
 static status compete(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     contestant a, b;
@@ -319,7 +320,7 @@ static status compete(const bench_options *r, const case_type *type, scene *s, f
     return STATUS_OK;
 }
 
-/* Compares A and B on given meshes. */
+/* Compares two formulations or two programs on given meshes. */
 static status against_meshes(bench_options *r, const case_type *type, int is_program, fault *f)
 {
     scene s = {0};

@@ -16,7 +16,7 @@
 enum { MOST_REPEATS = 10000, NAME = 40 };
 static const double budget_seconds = 3, lap_seconds = 0.002;
 
-/* Selects the dimensionless numbers in the record of a cell. */
+/* Selects the dimensionless numbers in the record of a cell, which describe its size and work. */
 static void set_counted(contestant *c)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -50,7 +50,7 @@ static status lap_here(contestant *c, double *seconds, fault *f)
             return outcome;
     }
     const double end = start + (1 + c->slowdown) * (clock_processor_seconds() - start);
-    do /* added work */
+    do /* runs for the additional time */
         *seconds = clock_processor_seconds() - start;
     while (start + *seconds < end);
     return STATUS_OK;
@@ -174,7 +174,7 @@ status contestant_compete(contestant *a, contestant *b, contest_clock *out, faul
     return against_run(lap, a, b, budget_seconds, out, f);
 }
 
-/* Prints the name and the time. A long name has a separate line. */
+/* Prints the name of a cell and the time of one solution. A long name has a separate line. */
 static void show_one(char letter, const contestant *c, double seconds)
 {
     int at = printf("%c  ", letter);

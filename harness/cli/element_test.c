@@ -11,7 +11,7 @@ typedef struct element_test_request {
     int jobs, verbose, quiet;
 } element_test_request;
 
-/* Returns an argument that is a file or a command and not a name; NULL: none. */
+/* Returns the first argument that is a file or a command and not a name; NULL: none. */
 static const char *file_among(const command_line *l)
 {
     for (int i = 0; i < l->arguments; i++) {
@@ -40,8 +40,9 @@ static status add_file(const void *context, const char *path, fault *f)
                : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
 }
 
-/* Computes the hash of a formulation. For a command, this is the hash of the files in the command,
- * in their order. */
+/* Computes the hash of the element file of a formulation. For a built-in formulation, this is
+ * the hash of the program. For a command, it is the hash of the files in the command, in their
+ * order. */
 static void hash_of(const element_type *t, char out[DIGEST_TEXT])
 {
     const char *from = formulations_element(t);

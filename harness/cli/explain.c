@@ -24,7 +24,7 @@ typedef struct dictionary {
     truths ledger;
 } dictionary;
 
-/* Prints a list such as "see also: a, b". */
+/* Prints a list such as "see also: a; b". */
 static void list_further(const char *head, const char *list)
 {
     char word[GLOSSARY_WORD], line[1024] = "";
@@ -137,7 +137,8 @@ static int explain_rule(const dictionary *d, const char *word)
     return 0;
 }
 
-/* Explains a quantity of a case. Returns 1 if the case has the quantity. */
+/* Explains a quantity of a case. Returns 1 if the case has the quantity. found: number of previous
+ * cases that have the quantity; after QUANTITY_PLACES cases, nothing is printed. */
 static int explain_quantity_of(const case_type *type, const char *word, int found)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -227,7 +228,8 @@ static const char *misspelt(const name_list *l, const char *word)
     return nearest;
 }
 
-/* Returns 1 if `text` contains `word` as a whole word. Ignores case. */
+/* Returns 1 if `text` contains `word` as a whole word, with or without a final s. Ignores the case
+ * of `text`. word: lowercase letters. */
 static int contains(const char *text, const char *word)
 {
     char all[2048];

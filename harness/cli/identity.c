@@ -52,7 +52,8 @@ static void add_path(json_t *to, const char *path, path_form form)
     json_array_append_new(to, json_string(path));
 }
 
-/* Adds the paths of files; commands have none. */
+/* Adds an option and its value. The path of an input file is written in the given form; the command
+ * of "exec:COMMAND" is not changed. */
 static void add_given(json_t *to, const given_option *g, path_form form)
 {
     char text[160];
@@ -91,7 +92,8 @@ static status add_file(const void *context, const char *path, fault *f)
                : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
 }
 
-/* Adds the files. Built-in reference values are included only for built-in cases. */
+/* Adds the contents of the input files to the digest. Built-in reference values are included only
+ * for built-in cases. */
 static status add_files(digest *plan, const command_line *l, fault *f)
 {
     const truths_options usual = {.packed = NULL};

@@ -1,5 +1,5 @@
-/* Verb list: cases and formulations. For a formulation, its supported features, limitations and
- * known deviations. */
+/* Verb list: lists cases and formulations. For a formulation, lists its supported features,
+ * limitations and known deviations. */
 #include <float.h>
 #include <stdio.h>
 #include <string.h>
@@ -98,7 +98,7 @@ static void show_options(const element_type *t)
         list_formulation_option(o);
 }
 
-/* Prints the cases to which the rule applies, and the resulting verdicts. */
+/* Prints the cases to which the rule applies, and the verdicts that result from the rule. */
 static void show_verdicts(const rule *r)
 {
     char line[LINE];
@@ -126,7 +126,8 @@ static void show_rules(const formulation *chosen, const rule *rules, int count)
         printf("known deviations: none\n");
 }
 
-/* Prints all entries of one kind with the same explanation as entry `first` in one group. */
+/* Prints the names of all entries with the explanation of entry `first`, in one paragraph. Prints
+ * nothing if a previous entry has this explanation. */
 static void show_alike(const runs_on all[], int count, int first, const char *head)
 {
     char line[LINE];
@@ -229,7 +230,7 @@ static void list_offer(const scene *s, const element_type *type)
         printf("runs\n");
 }
 
-/* Prints a description and a range: "description (range)". */
+/* Prints a parameter: name, default value, unit, and "description (range)". */
 static void list_parameter(const parameter_type *p)
 {
     char value[ASSIGNMENT_VALUE], text[400];

@@ -27,7 +27,8 @@ static int stack_suffices(void)
     return setrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur >= LEAST;
 }
 
-/* Writes without stdio, whose buffer for standard error is on the stack. */
+/* Reports that the stack is too small, and ends the process. Does not use stdio, whose buffer for
+ * standard error is on the stack. */
 static _Noreturn void refuse_stack(void)
 {
     static const char text[] = "beamwork: the stack is limited to less than 1 MB; allow more with "

@@ -27,7 +27,8 @@ static int write_escaped(FILE *to, const char *text, size_t length)
     return written;
 }
 
-/* Writes a word. A preceding "\&" prevents its interpretation as a request. */
+/* Writes a word. A word that starts with a period is preceded by "\&", which prevents its
+ * interpretation as a request. */
 static int write_word(FILE *to, const char *word, size_t length)
 {
     const int guard = length > 0 && word[0] == '.';

@@ -59,7 +59,7 @@ static void say(const char *text)
     }
 }
 
-/* Ends with the same signal, so that the parent process receives it. */
+/* Ends the process by the given signal, so that the parent process learns its reason. */
 static void end_by(int number)
 {
     signal(number, SIG_DFL);
@@ -267,7 +267,8 @@ static void report_former(const verb_option *o, const char *word)
                 was, o->name);
 }
 
-/* Checks a word. *more: 1 if the next argument is the value of its option. */
+/* Checks an option on the command line. last 1: no argument follows. *more: 1 if the next argument
+ * is the value of the option. */
 static status check_word(const verb *v, const verb *const *verbs, const char *word, int last,
                          int *more, fault *f)
 {
@@ -371,7 +372,8 @@ static error_t take(int key, char *value, struct argp_state *state)
     return 0;
 }
 
-/* Adds an option in the form of argp. Letters and former names are aliases of the option. */
+/* Adds the rows of an option for argp, starting with row n. Letters and former names are aliases of
+ * the option. Returns the number of rows so far. */
 static int add_row(struct argp_option row[], int n, const verb_option *o, int index)
 {
     const char *was = verb_former_name(o);

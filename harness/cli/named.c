@@ -15,7 +15,7 @@ void named_add(chosen_formulations *o, const char *text)
         message_refuse(f.text);
 }
 
-/* sets the default time limit: for element-test, that of a part */
+/* Sets the default time limit [s]. For element-test, the limit applies to each part of the test. */
 static void begin(void *group, command_line *l)
 {
     chosen_formulations *o = group;
@@ -29,7 +29,8 @@ static status load(const char *element, fault *f)
     return formulations_add(type, element, f);
 }
 
-/* Applies the time limit, which is known only now, to the first answer of a process. */
+/* Sets the time limit for the first answer of a process. Then loads the elements and adds the named
+ * formulations. */
 static status end(void *group, command_line *l, fault *f)
 {
     chosen_formulations *o = group;
@@ -91,7 +92,8 @@ static void add_note(char note[DEFAULTS_NOTE], const char *choice, const char *w
              option);
 }
 
-/* Copies the choice of formulation and mesh into the request. */
+/* Copies the choice of formulation and mesh into the request, and appends the reasons to the
+ * note. */
 static void take(const defaults *d, const solution_request *chosen, const solution_choice *why,
                  char note[DEFAULTS_NOTE])
 {

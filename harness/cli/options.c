@@ -453,7 +453,7 @@ status files_named(const char *input, file_visit *visit, const void *context, fa
                : visit(context, input, f);
 }
 
-/* Checks the arguments, which are files or names. */
+/* For verbs that read files: checks that no argument is an output. */
 static status check_arguments(const named_place *out, const command_line *l, fault *f)
 {
     const int read =

@@ -1,4 +1,4 @@
-/* Draws quantities as curves: solves, and passes the solutions to reports/graph.py. */
+/* Verb plot: solves, and draws quantities as curves with reports/graph.py. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -37,8 +37,8 @@ static int takes_stations(const scene *s, int analysis)
     return 0;
 }
 
-/* Replaces the stations of a path by the ends of equal parts from begin to end, with or without
- * begin. */
+/* Replaces the stations of a path by the ends of equal parts from begin to end. first: 0: begin is
+ * also a station; 1: it is not. */
 static status divide(scene_path *path, double begin, double end, int parts, int first, fault *f)
 {
     double *more = realloc(path->value, ((size_t)parts + 1) * sizeof *more);
@@ -225,7 +225,8 @@ static status solve_all(const plot_request *r, const case_type *type, FILE *to, 
                            "a temporary file cannot be written (is the disk full?)");
 }
 
-/* Replaces the child process by the plotting program. */
+/* Replaces the child process by the plotting program. from, to: descriptors of its input and
+ * output. */
 static void become(int from, int to, const char *folder, const char *form)
 {
     if (dup2(from, STDIN_FILENO) >= 0 && dup2(to, STDOUT_FILENO) >= 0)
@@ -262,7 +263,7 @@ static const char *form_of(const char *path, fault *f)
     return NULL;
 }
 
-/* Finds the folder of the package reports. */
+/* Finds the folder that contains the package `reports`. */
 static status find_reports(char folder[PATH_MAX], fault *f)
 {
     char script[PATH_MAX];

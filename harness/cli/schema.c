@@ -41,7 +41,8 @@ static const record_type *take(const record_type *const *list, int *i)
     return NULL;
 }
 
-/* Returns the records of the next experiment. */
+/* Returns table *i of the experiments of all verbs. If there is none, reduces *i by the number of
+ * these tables and returns a table with type NULL. */
 static results_record of_experiment(const verb *const *verbs, int *i)
 {
     results_record r = {"", NULL};

@@ -94,7 +94,8 @@ static status write_out(const solve_request *r, const char *note, const sweep *s
     return output_finish(&file, write_to(file.stream, r, note, s, t, f), f);
 }
 
-/* Reports what the state-space form of a harmonic analysis omits. */
+/* Reports the error of the state-space form of a harmonic analysis, which omits the mass inside
+ * elements. */
 static void tell_apart(const scene *s, const state_matrices *m)
 {
     if (m->model.apart > 0)
@@ -187,7 +188,7 @@ static status write_matrices(const solve_request *r, const sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Reads NAME=A..B/N. Both ends must be within the limits of the parameter. */
+/* Reads the value NAME=A..B/N of --follow. Both ends must be within the limits of the parameter. */
 static status range_of(const solve_request *r, const case_type *type, follow_request *out, fault *f)
 {
     const char *ends = strchr(r->follow, '='), *dots = ends != NULL ? strstr(ends, "..") : NULL,
@@ -261,8 +262,8 @@ static status follow_modes(solve_request *r, const case_type *type, fault *f)
     return written;
 }
 
-/* Reads the state from which a motion continues. The motion uses the formulation and the number of
- * elements of its first part. */
+/* Reads the state from which a motion continues. Its formulation and its number of elements are
+ * used if -f and -n are not given. */
 static status take_restart(solve_request *r, restart *from, fault *f)
 {
     TRY(restart_read(r->restart, from, f));
@@ -331,8 +332,9 @@ static status write_all(const solve_request *r, const solve_work *w, fault *f)
     return write_matrices(r, &w->s, f);
 }
 
-/* Reports a quantity without a value. Other quantities are still computed. If the mesh has no such
- * mode or the path has no such point, the missing value counts as a result. */
+/* Reports the first quantity without a value, and returns the exit status. Other quantities are
+ * still computed. If the mesh has no such mode or the path has no such point, the missing value
+ * counts as a result. */
 static int tell_missing(status solved, const cell_result *cell, const fault *f)
 {
     const int refused = cell_values(cell) > 0 && solved == STATUS_REFUSED;
@@ -364,7 +366,7 @@ static void tell_large(const scene *s, const solve_result *r)
     }
 }
 
-/* Solves in this process. */
+/* Solves, writes the results, and returns the exit status. */
 static int solve_and_write(const solve_request *r, solve_work *w)
 {
     fault f = {""}, unwritten = {""};

@@ -138,7 +138,8 @@ static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f
     return experiment_run(&experiment_sweep, &s->asked, &to, &s->sweep, f);
 }
 
-/* Reports missing points, which are computed if the command is repeated. */
+/* Reports missing batches, which are computed if the command is repeated. Returns the exit
+ * status. */
 static int tell(const sweep_options *r, const sweeping *s)
 {
     if (s->spread)
@@ -259,7 +260,7 @@ status spread_asked(const shard_options *r, int *asked, fault *f)
                      folder);
 }
 
-/* Reports the outcome of the shard in one line. */
+/* Reports the outcome of the shard in one line, and returns the exit status. */
 static int tell_shard(const shard_options *r, const shard_request *q, const shard_outcome *o)
 {
     const int left = o->mine - o->before - o->done;
@@ -291,7 +292,7 @@ static status compute(const shard_options *r, const shard_work *w, spread_end *o
     return output_flush(f);
 }
 
-/* Lists all processor types. */
+/* Lists the types of processors that computed the batches, each with a host. */
 static void name_processors(const stock *s, spread_end *out)
 {
     size_t at = 0;

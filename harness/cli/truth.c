@@ -97,8 +97,8 @@ static shown_value derived_as(const derived_value *v)
                          .uncertainty = v->uncertainty};
 }
 
-/* Shows the stored rows of this point. Returns the number of rows for the continuum and the same
- * model. */
+/* Shows the stored rows of this point. Returns the number of rows of the same model that do not
+ * belong to one formulation. */
 static int show_stored(json_t *list, const truths *t, const case_type *type,
                        const double parameter[])
 {
@@ -164,7 +164,7 @@ static void print_point(const case_type *type, const double parameter[])
     printf("%s", parameter_at(type->parameters, 0) != NULL ? "}" : "");
 }
 
-/* Prints a line for the scene file. */
+/* Prints a derived value as a line for `truths` of the scene file. */
 static void print_line(const derived_value *v, const case_type *type, const double parameter[])
 {
     printf("  - {quantity: %s, value: %.17g, uncertainty: %.1e, kind: exact, source: \"%s\"",
@@ -175,7 +175,8 @@ static void print_line(const derived_value *v, const case_type *type, const doub
     printf("}\n");
 }
 
-/* Shows the values. The caller show_scene() closes the file, even after a failure. */
+/* Writes the scene to the file `text`, and shows the reference values that are computed from it.
+ * The caller show_scene() closes the file, even after a failure. */
 static status show_scene_of(json_t *list, const case_type *type, const double parameter[],
                             FILE *text, fault *f)
 {
@@ -223,7 +224,8 @@ static status show_scene(json_t *list, const case_type *type, const double param
         why.text);
 }
 
-/* Shows stored values. If there are none, shows derived values. */
+/* Shows the stored values. For a scene, also shows derived values. For a case, shows derived values
+ * only if no stored value of the same model exists. */
 static status show_all(const truth_request *r, const case_type *type, const truths *t, json_t *list,
                        fault *f)
 {

@@ -24,7 +24,7 @@ typedef struct verify_request {
 
 enum { PICTURED_STATES = 5 };
 
-/* Prints details that the exit status does not show, and returns this status. */
+/* Reports cells that were not run, or that there is no verdict. Returns the exit status. */
 static int tell(const verify_request *r, const sweep *s, const judgement *j, const spread_end *e)
 {
     int first = 0;

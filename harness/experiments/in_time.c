@@ -71,7 +71,8 @@ static void compare(const specimen *s, const double found[], const double right[
             i + 1, specimen_coordinate(i, where), found[i], what, right[i], s->words);
 }
 
-/* Checks that the forces are quadratic in the rates, for which central differences are exact. */
+/* Checks that C is the derivative of the inertia forces with respect to the rates. These forces are
+ * quadratic in the rates, so central differences are exact. */
 static void check_rates(const specimen *s, const node_state x[], const double rate[],
                         const double C[], double size, claim *one)
 {
@@ -127,7 +128,7 @@ static void check_turned(const specimen *s, const node_state x[], const inertia_
 static void check_one(const specimen *s, claims *c)
 {
     const int n = s->coordinates;
-    if (n > 2 * NODE_COORDINATES) /* such elements are checked with other options */
+    if (n > 2 * NODE_COORDINATES) /* only elements with two nodes are checked */
         return;
     node_state x[ELEMENT_MAX_NODES];
     double numbers[2 * N], rate[N], acceleration[N], M[N * N], C[N * N], h[N], taken[N], right[N];
