@@ -10,7 +10,8 @@ from reports import data, paper
 
 
 def written(results, target):
-    """Writes a series of VTK files, and returns the exit status."""
+    """Writes the shapes of the results as a series of VTK files. Returns the exit status: 0, 2 if the series is not
+    possible, or 4 if a file cannot be read or written."""
     from reports import vtk_series
     try:
         count = vtk_series.write(results, target)

@@ -1,19 +1,19 @@
 """Finds the formulation and the number of elements that reach a tolerance at the lowest cost.
 
 The rule is that of harness/study/study.h. n is the number of elements of the coarsest mesh for which the errors of
-that mesh and of all finer meshes are within the level. Formulations are sorted by the cost of their counted work on
-that mesh, so two runs give the same order. Costs that differ by less than the uncertainty of the cost model tie. A
-formulation that does not pass in the requested quantity is listed but is never the cheapest. The pages show measured
-times. They omit variants that give the same results as the formulation without the options.
+that mesh and of all finer meshes are within the level (the tolerance). Formulations are sorted by the cost of their
+counted work on that mesh, so two runs give the same order. Costs that differ by less than the uncertainty of the cost
+model tie. A formulation that does not pass in the requested quantity is listed but is never the cheapest. Variants
+whose options change neither errors nor work are omitted.
 
     found = answers.answer(point, quantity, level) # quantity: a name, or ALL
     found.best [Way] the cheapest formulation and those whose costs tie with it; may be empty
-    `found.dearer` [Way] the other formulations that pass, by cost
+    `found.dearer` [Way] the other formulations that are within the level and pass, by cost
     found.defective [Way] formulations within the level but with a verdict other than pass, by cost
     found.faster [Way] formulations of `dearer` that were measured faster than the cheapest in every round
-    found.unranked [Way] formulations that pass but have no rank (Way.unranked gives the reason), by name
+    found.unranked [Way] formulations that are within the level and pass but have no rank (reason: Way.unranked), by name
     found.missed [key] formulations that are not within the level on these meshes
-    found.unjudged [key] formulations without a reference value of their theory for all requested quantities
+    found.unjudged [key] formulations whose theory has no reference value for at least one requested quantity
 """
 import math
 from dataclasses import dataclass, field
@@ -33,7 +33,7 @@ class Way:
     n: int
     cost: float  # cost of counted work, with the cost coefficients of the reference machine [s]
     clock: object  # data.Clock: measured time
-    error: float  # largest error of the requested quantities on the mesh
+    error: float  # error with the largest magnitude among the requested quantities on the mesh
     worst: object  # data.Verdict: the worst verdict on the requested quantities
     defects: list  # the verdicts other than pass
     priced: bool = True  # True if the formulation has separate cost coefficients, False for general ones
@@ -59,8 +59,8 @@ class Answer:
 
     @property
     def ways(self):
-        """Returns [(Way, rank, tie)] of all formulations within the level. The rank is 0 for defective and unranked
-        formulations."""
+        """Returns [(Way, rank, tie)] of all formulations within the level. `tie` is True for the formulations in `best`
+        if there are several. The rank is 0 for defective and unranked formulations."""
         ranked = self.best + self.dearer
         return [(w, i + 1, len(self.best) > 1 and i < len(self.best))
                 for i, w in enumerate(ranked)] + [(w, 0, False)
@@ -82,7 +82,7 @@ def verdict_of(series, quantity):
 
 
 def error_of(mesh, quantities):
-    """Returns the largest magnitude of the errors of the quantities, or NaN if an error is missing."""
+    """Returns the error of the largest magnitude among these quantities, with its sign, or NaN if an error is missing."""
     errors = [mesh.errors.get(q, math.nan) for q in quantities]
     return math.nan if any(not math.isfinite(e) for e in errors) else max(errors, key=abs)
 
@@ -99,15 +99,16 @@ def first_within(series, quantity, level):
 
 
 def reach(series, v, level):
-    """Returns the number of first_within as stored by the evaluation for its levels."""
+    """Returns the number of elements that first_within defines, or None. For the levels in data.REACH, it is read from
+    the stored verdict."""
     if not math.isfinite(v.truth):
         return None
     return v.reach.get(level) if level in data.REACH else first_within(series, v.quantity, level)
 
 
 def verdicts_on(series, quantities):
-    """Returns the verdicts on all quantities, or None if a quantity has no reference value of the theory of the
-    formulation."""
+    """Returns the verdicts on all these quantities, or None if the formulation was not run or one of the quantities has
+    no reference value for its theory."""
     found = [verdict_of(series, q) for q in quantities]
     known = not series.missing and found and all(v and math.isfinite(v.truth) for v in found)
     return found if known else None
@@ -181,7 +182,7 @@ def answer(point, quantity, level):
 
 
 def faster(a, b):
-    """Returns True if all rounds of clock a were faster than all rounds of clock b."""
+    """Returns True if all rounds of clock a were faster than all rounds of clock b. Returns False for single runs."""
     return a.repeats > 1 and b.repeats > 1 and a.most < b.least
 
 
@@ -194,8 +195,8 @@ def differ(a, b):
 
 
 def front(point, quantity):
-    """Returns [(series, mesh)] of the ranked meshes for which no other mesh is better in both time and error, sorted by
-    time."""
+    """Returns [(series, mesh)] of the meshes of ranked formulations for which no other mesh is better in both time and
+    error, sorted by time."""
     cells = [(s, m) for s in point.series if not s.missing and not s.other and not s.unranked
              for m in s.meshes
              if math.isfinite(m.errors.get(quantity, math.nan))]
@@ -208,7 +209,7 @@ def front(point, quantity):
 
 
 def failures(point):
-    """Returns [(series, mesh, reason)] of the runs without a solution."""
+    """Returns [(series, mesh, reason, quantities without a value)] of the runs that failed or lack a value."""
     out = []
     for series in point.series:
         for mesh in series.meshes if not series.missing else []:
@@ -222,16 +223,16 @@ def failures(point):
 
 
 def savings(point):
-    """Returns [(series, mesh)] of the runs measured with all degrees of freedom."""
+    """Returns [(series, mesh)] of the runs that were also timed without elimination of degrees of freedom."""
     return [(s, m) for s in point.series for m in s.meshes if m.kept is not None]
 
 
-# The lowest-cost mesh of every case for each level, for the heat map and the index.
+# Formulations of lowest cost in every case, for the heat map and the first page.
 
 
 @dataclass
 class CaseLine:
-    """A case at its defaults, with the verdicts on all its quantities together."""
+    """A case at its default parameters, with the answer for all its quantities together at each level."""
 
     case: object  # data.Case
     quantities: list  # the quantities with a reference value
@@ -239,7 +240,7 @@ class CaseLine:
 
 
 def line_of_case(case):
-    """Returns the CaseLine of a case, or None if there are no verdicts."""
+    """Returns the CaseLine of a case, or None if no quantity has a reference value at the default parameters."""
     point = case.points[0]
     names = judged(point)
     if not names:
@@ -249,5 +250,5 @@ def line_of_case(case):
 
 
 def lines_of_cases(cases):
-    """Returns a CaseLine for every case with a reference value at its defaults."""
+    """Returns a CaseLine for every case with a reference value at its default parameters."""
     return [found for found in map(line_of_case, cases) if found]

@@ -2,8 +2,8 @@
 
     python -m reports.answers_table RESULTS [--error 0.3%] [--format text|csv|json] [-k WORDS] [-o FILE]
 
-There is a row for each formulation within the tolerance, sorted by counted work. Rank 0 means that the formulation
-does not pass or has no rank. In the latter case, `unranked` gives the reason.
+CSV and JSON contain an entry for each formulation within the tolerance, sorted by the cost of counted work. Rank 0
+means that the formulation does not pass or has no rank. In the latter case, `unranked` gives the reason.
 """
 import argparse
 import csv
@@ -23,7 +23,7 @@ from reports.answers import LEVELS
 COLUMNS = ("case", "parameters", "quantity", "tolerance", "formulation", "n", "cost", "seconds",
            "error", "rank", "tie", "defect", "priced", "unranked")
 UNITS = {"cost": "s", "seconds": "s", "tolerance": "1", "error": "1"}
-ASKED = 4  # number of columns of the request, which the columns of the answers follow
+ASKED = 4  # number of leading columns that describe the request; the other columns describe an answer
 
 
 def asked_of(point):
@@ -33,7 +33,7 @@ def asked_of(point):
 
 
 def short(value):
-    """Returns a number rounded to its significant digits, or None if it is not finite."""
+    """Returns a number rounded to three significant digits, or None if it is not finite."""
     return float(f"{value:.3g}") if math.isfinite(value) else None
 
 
@@ -79,7 +79,8 @@ def as_json(found, about):
 
 
 def sentence(answer):
-    """Returns an answer in text form: the formulation with the lowest cost, ties, and formulations with a wrong limit."""
+    """Returns an answer in text form: the formulation with the lowest cost and those that tie with it, then the
+    formulations without a rank, with a verdict other than pass, or with shorter measured times."""
     def told(ways):
         return ", ".join(f"{w.key} n = {w.n}" for w in ways)
 
@@ -156,7 +157,8 @@ NAVIGATION = [("answers.html", "answers")]
 
 
 def outward(value):
-    """Returns an error rounded up to six digits, so that no mesh appears more accurate than it is."""
+    """Returns an error rounded up to six digits, so that no mesh appears more accurate than it is. Returns None for an
+    error that is not finite."""
     if not math.isfinite(value):
         return None
     near = float(f"{value:.6g}")
@@ -166,7 +168,8 @@ def outward(value):
 
 
 def staying(series, quantities):
-    """Returns for each mesh the largest error of this mesh and of all finer meshes, or None if a value is missing."""
+    """Returns for each mesh the largest error of this mesh and of all finer meshes, or None if one of these meshes lacks
+    a value."""
     out, worst = [], 0.0
     for mesh in reversed(series.meshes):
         worst = max([worst, *(abs(mesh.errors.get(q, math.nan)) for q in quantities)],
@@ -177,9 +180,9 @@ def staying(series, quantities):
 
 
 def points_of(case, keys):
-    """Returns the data of a case at its defaults for the script of the page. For each formulation, they contain its
-    meshes with cost and time. For each requested quantity, they contain the largest error of each mesh and of all
-    finer meshes."""
+    """Returns the data of a case at its default parameters for the script of the page. `meshes` contains the meshes of
+    each formulation, with cost and time. For each requested quantity and formulation, `asked` contains the worst
+    verdict and, for each mesh, the largest error of this mesh and of all finer meshes."""
     point, meshes, asked = case.points[0], {}, []
     for series in point.series:
         if series.meshes:
@@ -208,7 +211,7 @@ def short_seconds(value):
 
 
 def defect_of(verdicts):
-    """Describes the worst verdict. Returns an empty string if all verdicts are passes."""
+    """Describes the worst of these verdicts. Returns an empty string if all verdicts are passes."""
     bad = [v for v in verdicts if v.verdict not in answers.SOUND]
     return answers.words_of(answers.words.worst(bad)) if bad else ""
 

@@ -1,5 +1,5 @@
-"""Stationary rotation: frequencies against angular velocity (Campbell diagrams) and the rotating C-shaped
-cantilever."""
+"""Stationary rotation: frequencies against angular velocity (Campbell diagrams), and a rotating cantilever with a channel
+section."""
 import functools
 import math
 
@@ -27,7 +27,7 @@ def finest(look, case, parameters, key):
 
 
 def truth(look, case, parameters, quantity):
-    """Returns the stored exact value, or NaN."""
+    """Returns the stored exact value of a quantity, or NaN."""
     point = look.points.get((case, canonical(parameters)))
     return next((v.truth for s in (point.series if point else [])
                  for v in s.verdicts if v.quantity == quantity and v.truth_kind == "exact"),
@@ -68,8 +68,8 @@ def draw_across(site, look):
 
 
 def draw_along(site, look):
-    """Draws the frequencies of an unsymmetric shaft in the rotating frame, and the growth rate between the critical
-    speeds."""
+    """Draws the frequencies of an unsymmetric shaft in the rotating frame and, below them, its growth rate. The unstable
+    range between the critical speeds is shaded."""
     mesh = finest(look, CASE, ALONG, KEY)
     if mesh is None or "whirl_1_curve" not in mesh.curves:
         return None
@@ -114,7 +114,7 @@ def channel_at(speed, w=1.0):
 
 
 def draw_channel(site, look):
-    """Draws J Fig. 13: load against deflection at several angular velocities, with exact points where they are known."""
+    """Draws the load against the deflection at several angular velocities (J Fig. 13), with the known exact points."""
     figure, ax = plt.subplots(figsize=(7.2, 4.8))
     drawn = False
     for speed, shade in zip(SPEEDS, np.linspace(0.75, 0, len(SPEEDS))):
@@ -143,8 +143,8 @@ def draw_channel(site, look):
 
 
 def channel_rows(look):
-    """Returns [(angular velocity, w, printed form with lumped mass, consistent form, error of the consistent form, exact
-    value)]."""
+    """Yields (angular velocity [rad/s], deflection w [m], load of PROTOTYPE [N], load of KEY [N], relative error of KEY,
+    exact load [N])."""
     for speed in SPEEDS[1:]:
         for w in (0.25, 0.5, 1.0):
             at = channel_at(speed, w)

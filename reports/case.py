@@ -1,5 +1,5 @@
-"""Writes a page for each case with its scene, the quantities, the best formulations, one figure per question, and folded
-details."""
+"""Writes a page for each case with its scene, quantities, cheapest formulations, figures and verdicts, and a page of all
+cases for printing."""
 import functools
 import math
 from dataclasses import dataclass
@@ -15,8 +15,8 @@ from reports.verdicts import BY_NAME, UNJUDGED, percent, remarks
 
 @dataclass
 class Drawing:
-    """The drawing of a scene. `figure` and `sections` are images of the site, and `lines` are [(heading, lines)].
-    `sections` is None if no section has a shape."""
+    """The drawing of a scene. `figure` and `sections` are Images. `sections` is None if no section has a shape. `counts`
+    is a text with the numbers of parts. `lines` is [(heading, lines)], the description of the scene."""
     figure: object
     sections: object
     counts: str
@@ -41,8 +41,8 @@ MOST_DIGITS = 15
 
 @dataclass(frozen=True)
 class Truth:
-    """A reference value of a quantity, in the unit of the quantity. `of` lists the formulations to which the value
-    applies, if not all."""
+    """A reference value of a quantity, as text in the unit of the quantity. `digits` is the number of known significant
+    digits."""
     value: str
     digits: int
     kind: str
@@ -52,8 +52,8 @@ class Truth:
 
 @dataclass
 class Quantity:
-    """A quantity of a point. `meaning` is its description. `truths` are its reference values, or an empty list if the
-    quantity has no verdict."""
+    """A quantity of a point. `meaning` is its description. `truths` are its reference values, or an empty list if there
+    are none. `is_curve` is True if a run stored a curve of the quantity."""
     name: str
     unit: str
     meaning: str
@@ -62,7 +62,8 @@ class Quantity:
 
 
 def digits_of(value, uncertainty):
-    """Returns the number of known digits of a reference value."""
+    """Returns the number of significant digits of a reference value that its uncertainty permits, from 1 to
+    MOST_DIGITS."""
     if not value or not uncertainty:
         return MOST_DIGITS
     return max(1, min(MOST_DIGITS, math.floor(math.log10(abs(value) / uncertainty))))
@@ -92,14 +93,14 @@ def quantities(point):
 
 @dataclass
 class Cell:
-    """A verdict in the matrix, or an empty cell."""
+    """A cell of the matrix of verdicts. `look` is its class in the style sheet, which is `skip` without a verdict."""
     sign: str
     look: str
     words: str
 
 
 def away(v):
-    """Describes the distance between the limit of another model and the reference value."""
+    """Describes the relative deviation of a limit from the value of another model. Returns [] if it is unknown."""
     if not math.isfinite(v.model_error):
         return []
     return [f"{percent(v.model_error)} from the {v.model_truth_kind} value"]
@@ -118,7 +119,7 @@ def cell_of(series, name):
 
 
 def matrix(point):
-    """Returns (series, [(quantity, cells)]) of the formulations and quantities with verdicts."""
+    """Returns (series with verdicts, [(quantity, cells)]), with a cell for each of these series."""
     names = answers.judged(point)
     shown = [s for s in point.series if any(cell_of(s, n).look != "skip" for n in names)]
     return shown, [(name, [cell_of(s, name) for s in shown]) for name in names]
@@ -135,18 +136,19 @@ def tally_of(point):
 
 
 NAVIGATION = [("convergence.html", "to print")]
-MOST_POINTS = 3  # largest number of parameter points with a figure
-MOST_PANELS = 6  # largest number of small figures of the other quantities, and of model errors
+MOST_POINTS = 3  # number of first points with a figure; later points have one only with values of other programs
+MOST_PANELS = 6  # largest number of panels in the figure of the other quantities, and in that of model errors
 # Largest number of verdicts on one page. With more verdicts, the other parameter points have separate pages.
 MOST_ROWS = 1500
 
-# Figures about the first quantity, and the formulations that these figures do not show.
+# Result of question_of() without figures.
 NOTHING = {"elements": None, "time": None, "work": None, "further": None,
            "left_out": []}
 
 
 def question_of(site, point, quantity, name):
-    """Returns {figure: image} of the figures about the first quantity."""
+    """Returns the figures of one quantity, {figure: Image or None}. `left_out` contains the formulations that only the
+    figure `further` shows, or none."""
     shown, further = plots.leading(point, quantity)
 
     def draw(series, kind, *abscissae):
@@ -198,7 +200,7 @@ def figures_of(site, case, index):
 
 
 def cost_of(cell):
-    """Returns the cost of a cell for sorting. A cell without cost comes last."""
+    """Returns the cost of a cell of table_of() for sorting, which is infinite if the cost is unknown."""
     return cell[0].cost if math.isfinite(cell[0].cost) else math.inf
 
 
@@ -215,14 +217,14 @@ def table_of(point, quantity):
 
 
 def cheapest_of(point):
-    """Returns [(quantity, {level: answers.Answer})], with all quantities together first."""
+    """Returns [(quantity, {level: answers.Answer})]. If there are several quantities, all together come first."""
     names = answers.judged(point)
     wanted = ([answers.ALL] if len(names) > 1 else []) + names
     return [(q, {level: answers.answer(point, q, level) for level in LEVELS}) for q in wanted]
 
 
 def limits_of(point):
-    """Returns [(quantity, [(formulation, verdict)])] of quantities without a reference value."""
+    """Returns [(quantity, [(formulation, verdict)])] of quantities on which no formulation has a verdict."""
     rows = {}
     for s in point.series:
         for v in s.verdicts:
@@ -232,8 +234,8 @@ def limits_of(point):
 
 
 def verdicts_of(point, index):
-    """Returns [(series, verdicts)] for the table: all verdicts at the first parameter point, and only verdicts other
-    than pass at other points."""
+    """Returns [(series, verdicts)] for the table. Passes are listed only at the first parameter point (index 0). Records
+    without a reference value are listed only if another model has a value."""
     def told(v):
         own = v.verdict not in ("skip", "no truth", *(("pass",) if index else ()))
         return own or math.isfinite(v.model_truth) and v.verdict != "pass"
@@ -248,7 +250,7 @@ def causes_of(point):
 
 
 def parts_of(site, case, index):
-    """Returns the parts of the page for one parameter point."""
+    """Returns the variables of the template for one parameter point."""
     point = case.points[index]
     names = answers.judged(point)
     noise = [100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes
@@ -280,7 +282,7 @@ def own_pages(case):
 
 
 def page_of(case, index):
-    """Returns the page of a parameter point and its position on that page."""
+    """Returns the address of a parameter point: a separate page, or a position on the page of its case."""
     point = case.points[index]
     if index and own_pages(case):
         return f"{case.name}_{point.name}.html"
@@ -288,7 +290,7 @@ def page_of(case, index):
 
 
 def signs_of(parts):
-    """Returns the legend of the verdicts in matrices."""
+    """Returns the signs in the matrices of these parts, for the legend."""
     return {cell.sign for part in parts for _, cells in part["cells"] for cell in cells}
 
 
@@ -321,12 +323,12 @@ def tasks(site):
             *(functools.partial(write, site, case) for case in site.cases)]
 
 
-# A convergence report for printing, with every case on an A4 sheet (headless: chromium --print-to-pdf).
+# A convergence report for printing, with every case on an A4 sheet.
 
 
 def sheet(site, case):
-    """Returns the sheet of the first quantity with verdicts at the defaults: the figure and, for each formulation, the
-    limit, the order, the errors, and the time to every level."""
+    """Returns the sheet of the first quantity with a reference value at the default parameters, or None. It contains the
+    name of a figure and [(formulation, verdict, [answers.Way or None for each level])]."""
     point = case.points[0]
     names = answers.judged(point)
     if not names:

@@ -11,12 +11,13 @@ NAVIGATION = [("certificates.html", "certificates")]
 STATES, LOCKING, ORDERS = "states", "locking", "orders"
 LINES = ("-", "--", ":", "-.")
 FLOOR = 1e-16  # smallest drawn value
-EXACT = 1e-9  # bound below which an error is exact, as in the program
+EXACT = 1e-9  # errors below this bound are shown as exact, as in the program
 MARKS = {"holds": "✔", "broken": "✘", "not claimed": "–"}
 
 
 def part_of(record, formulation, family, points):
-    """Returns the group of a formulation, which contains its requirements and its measurements with their points."""
+    """Returns the row `family` of a group of checks with the requirements (claims) and the measurements of one
+    formulation. Each measurement contains its points, `at` and `error`."""
     def own(table):
         return [row for row in record[table]
                 if (row["formulation"], row["family"]) == (formulation, family["family"])]
@@ -67,7 +68,7 @@ def names(site):
 
 
 def percent(error):
-    """Formats an error as the program prints it."""
+    """Formats an error as `beamwork element-test` prints it."""
     if error is None:
         return "–"
     size = 100 * abs(error)
@@ -77,13 +78,14 @@ def percent(error):
 
 
 def standing(part):
-    """Returns the worst outcome of the requirements, and the number of requirements that are satisfied or violated."""
+    """Returns the worst outcome of the requirements in a group, and the number of requirements that are claimed."""
     made = [c["outcome"] for c in part["claims"] if c["outcome"] != "not claimed"]
     return "broken" if "broken" in made else made[0] if made else "not claimed", len(made)
 
 
 class Certificate:
-    """Certificate of one formulation, with the groups of checks, and the measured groups by name."""
+    """Certificate of one formulation. `parts` are all groups of checks, `families` the groups without measurements, and
+    `measured` the other groups by name. `claims` is the number of claimed requirements."""
 
     def __init__(self, record):
         self.key, self.summary, self.source = (record[k]
@@ -110,7 +112,8 @@ def curve(site, panel, certificate, one, line, columns):
 
 
 def draw(site, certificate):
-    """Draws locking against thickness, and errors against elements."""
+    """Draws the errors of locking tests against thickness / length, and those of convergence tests against the number of
+    elements."""
     chart = Chart(2, (330, 200), apart=True)
     thin = chart.panel("locking", "thickness / length", "relative error")
     fine = chart.panel("convergence", "elements", "", whole=True, like=thin)

@@ -1,5 +1,5 @@
-"""Charts of curves in panels, written directly in SVG. Most figures of the report are such charts. matplotlib takes a
-hundred times as long for their ticks.
+"""Charts of curves in panels, written directly in SVG. Most figures of the report are such charts, because matplotlib
+takes much longer to draw them.
 
 A chart has panels in rows. A panel contains curves with markers, levels, labels and shaded areas, in data coordinates.
 Sizes in the picture are in pixels. The attributes of a curve (colour, marker, line, formulation) are those that
@@ -35,7 +35,8 @@ def whole_ticks(low, high):
 
 
 def log_ticks(low, high):
-    """Returns at most six powers of ten as ticks."""
+    """Returns [(value, label)]: at most six powers of ten, or 1, 2 and 5 times powers of ten if only one power of ten is
+    in the range."""
     first, last = math.ceil(math.log10(low) - 1e-9), math.floor(math.log10(high) + 1e-9)
     every = max(1, math.ceil((last - first + 1) / 6))
     if last > first:
@@ -91,12 +92,12 @@ class Axis:
 INK = "currentColor"
 DASHES = {"-": "", "--": "4.4 1.9", ":": "1.2 2", "-.": "7.7 1.9 1.2 1.9", "none": "none"}
 WIDTH = 1.5  # default line width of a curve
-LETTER = 6.7  # mean width of a letter of 11 pixels
+LETTER = 6.7  # mean width in pixels of a letter at a font size of 11 pixels
 
 
 @functools.lru_cache(None)
 def marker_path(marker, size):
-    """Returns the corners of a marker as a path about its centre."""
+    """Returns the outline of a marker about its centre as SVG path data."""
     form = MarkerStyle(marker)
     path = form.get_path().transformed(form.get_transform().scale(size))
     lines = path.to_polygons(closed_only=False)
@@ -106,7 +107,7 @@ def marker_path(marker, size):
 
 
 def form(marker, size):
-    """Returns a marker as an SVG element to which fill and stroke can be applied."""
+    """Returns the name and the shape attributes of a marker's SVG element, without brackets, fill and stroke."""
     if marker == "o":
         return f'circle r="{number(0.5 * size, 2)}"'
     return f'path d="{marker_path(marker, size)}"'
@@ -117,8 +118,7 @@ def dashes(line):
 
 
 def colour(given):
-    """Returns the colour for SVG: a variable for the colour of a formulation, and a grey of the text colour for a number
-    such as `0.6`."""
+    """Returns the colour for SVG: a variable for the colour of a formulation, or the given colour."""
     return style.VARIABLES.get(given, given)
 
 
@@ -132,8 +132,8 @@ class Panel:
 
     def plot(self, x, y, back=False, **look):
         """Adds a curve. `look` may contain color, marker, linestyle, gid, label, markersize, linewidth, alpha, hollow and
-        marks, the indices of the points with markers (default: all). If `back` is True, the curve is drawn behind all
-        others, without a label."""
+        marks. `marks` are the indices of the points with markers (default: all). If `back` is True, the curve is drawn
+        behind all others, without a label."""
         self.x.take(x)
         self.y.take(y)
         (self.back if back else self.curves).append((x, y, look))
@@ -179,7 +179,8 @@ class Chart:
         return self.panels[-1]
 
     def image(self, site, name):
-        """Returns the Image of the chart for the page. Writes the figure for papers, if the site has such figures."""
+        """Returns the Image of the chart for the page. Also writes the figure for papers, if such figures are
+        requested."""
         image = Writer(self, site, name).image()
         site.paper.chart(self, name)
         return image
@@ -194,7 +195,8 @@ class Writer:
 
     @staticmethod
     def marker(look):
-        """Returns the identifier of a marker, whose definition occurs only once in a page."""
+        """Returns the identifier of a marker and stores its definition in MARKERS, so that a page contains it only
+        once."""
         size, hollow = look.get("markersize", 4.5) / 0.75, look.get("hollow", False)
         marker, ink = look["marker"], colour(look["color"])
         filled = MarkerStyle(marker).is_filled() and not hollow

@@ -15,14 +15,14 @@ CONSISTENT = ("beamw_consistent", "collocation", "geometrically_exact")
 
 
 def stored(site, name):
-    """Returns a table that another make target wrote next to the results, or None."""
+    """Returns the JSON file `name` that another make target wrote next to the results, or None."""
     path = pathlib.Path(site.results).parent / name
     return json.loads(path.read_text(encoding="utf-8")) if path.is_file() else None
 
 
 def noticed(cases):
-    """Returns the committed tables of the smallest detected faults of these cases, or a false value if they do not exist,
-    as in an installed copy."""
+    """Returns the smallest detected faults in these cases, from the two committed tables. Returns None if a table is
+    missing, as in an installed copy, or [] if there are no rows for these cases."""
     paths = [ROOT / "harness" / name for name in ("blind_spots.csv", "planted_faults.csv")]
     if not all(path.is_file() for path in paths):
         return None
@@ -42,7 +42,7 @@ def noticed(cases):
 
 
 def counted(cases):
-    """Returns [(case, points, runs, verdicts with a reference value, passes)], counted over all points."""
+    """Returns [(case, numbers of points, of runs, of verdicts with a reference value and of passes)] over all points."""
     rows = []
     for case in cases:
         counts = count_verdicts([case])
@@ -60,7 +60,8 @@ def counted(cases):
 
 
 def coverage(rows):
-    """Returns the sums of (covered, series) if the 0, 1, ... finest meshes are omitted."""
+    """Returns [(number of series whose limit is within its uncertainty of the reference value, number of series)] if the
+    0, 1, ... finest meshes are omitted."""
     sums = {}
     for row in rows:
         covered, series = sums.get(row["left_out"], (0, 0))
@@ -73,8 +74,8 @@ def of_formulation(rows, key):
 
 
 def coverages(cases):
-    """Returns the coverages on the page: for each consistent formulation, for all consistent formulations together, for
-    all formulations, and for each case."""
+    """Returns the coverages on the page: of each consistent formulation, of all consistent formulations together, of all
+    formulations, of each other formulation, and of each case."""
     rows = [row for case in cases for row in case.coverages]
     names = sorted({row["formulation"] for row in rows})
     by_case = [
@@ -147,7 +148,8 @@ def more(site):
 
 
 def noise(site):
-    """Returns {case: (number of timed runs, median and largest spread between rounds)}."""
+    """Returns {case: (number of runs with several rounds, median spread, largest spread)}. The spread is the relative
+    difference between the slowest and the fastest round."""
     out = {}
     for case in site.cases:
         spread = sorted(m.clock.most / m.clock.least - 1 for p in case.points for s in p.series

@@ -1,4 +1,5 @@
-"""Claims of the papers compared with measurements, and other programs on the cases of the papers."""
+"""Claims of the papers compared with computed values and measured times, and results of other programs for one case of
+the papers."""
 import csv
 import functools
 import math
@@ -32,7 +33,7 @@ def peers_figure(site, ours, others, name):
     return chart.image(site, name)
 
 
-# Figure on the page of the column. The printed form levels off at its derived limit.
+# Figure on the page of the column. The error of the printed form (beamw) levels off at that of its predicted limit.
 
 COLUMN_CASE, COLUMN_POINT, COLUMN_QUANTITY = "c_column", "section_data=printed", "buckling_load"
 COLUMN_ALT = ("Error of the buckling load against elements: beamw levels off, "
@@ -47,7 +48,8 @@ def column_words(verdict):
 
 
 def draw_column(axes, series, style):
-    """Draws one formulation with its verdict next to its last mesh, and its derived limit as a dashed line."""
+    """Draws the errors of one formulation with its verdict next to the last mesh. The error of its predicted limit, if
+    known, is a dashed line."""
     pairs = plots.finite(series, COLUMN_QUANTITY)
     verdict = answers.verdict_of(series, COLUMN_QUANTITY)
     axes.plot([m.n for m, _ in pairs], [e for _, e in pairs], label=series.key, **style)
@@ -60,7 +62,7 @@ def draw_column(axes, series, style):
 
 
 def column_figure(site, point):
-    """Returns the figure, or None if one of the two formulations was not run."""
+    """Returns the figure of the column, or None if one of the two formulations was not run."""
     found = {s.key: s for s in point.series}
     if not all(key in found and plots.finite(found[key], COLUMN_QUANTITY) for key in COLUMN_PAIR):
         return None
@@ -89,12 +91,12 @@ def column_section(site, case):
 NAVIGATION = [("claims.html", "claims"), ("papers.html", "papers")]
 PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"  # parameters of sheet_cantilever for the model of reference/peers.csv
 SECTIONS = ("printed constants", "section_data=printed"), (
-    "shear flow", "")  # sets for J Table 2, where no single set reproduces all four entries of the table
-TARGET = 0.01, 2e-4  # both errors of the case of other programs within 1 %, in less than 0.2 ms of solution time
+    "shear flow", "")  # two sets of section constants for J Table 2; neither reproduces all four entries of the table
+TARGET = 0.01, 2e-4  # bounds on the errors of C_xx and C_zz and on the solution time [s] in the case of other programs
 
 
 class Lookup:
-    """Finds values, errors and times of runs by name."""
+    """Finds meshes, errors and values of runs by the names of case, parameters, formulation and quantity."""
 
     def __init__(self, cases):
         self.points = {(c.name, canonical(p.parameters)): p for c in cases for p in c.points}
@@ -182,14 +184,15 @@ def claims(cases, truths):
 
 
 def interval(slow, fast):
-    """Returns the ratio of two times, with the interval from the times of their rounds."""
+    """Returns the ratio of two data.Clock times, slow / fast, as text. For several rounds, the text includes the smallest
+    and the largest ratio of rounds."""
     middle = slow.least / fast.least
     return f"{middle:.2f}" if slow.repeats == 1 else f"{middle:.2f} ({slow.least / fast.most:.2f} to {slow.most / fast.least:.2f})"
 
 
 def baseline(site):
-    """Returns the times of the joint and the hexapod with the dense baseline, if 'make lab L=bench-mechanisms' wrote them
-    next to the results."""
+    """Returns [data.Case] of the joint and the hexapod with times of the dense algorithm, if 'make lab
+    L=bench-mechanisms' wrote them next to the results."""
     files = {"spherical_joint": "mechanisms_joint.h5", "hexapod": "mechanisms_hexapod.h5"}
     here = pathlib.Path(site.results).parent
     return [
@@ -199,7 +202,8 @@ def baseline(site):
 
 
 def row_of(look, claim, fast, slow):
-    """Returns a row that compares one third-order element with two condensed second-order elements, or None."""
+    """Returns a row that compares the times of two runs, or None if one is missing. `claim` is an entry of CLAIMS. `fast`
+    and `slow` are (formulation, elements per sheet)."""
     name, quantity, paper, published = claim
     third, second = look.mesh(name, "", *fast), look.mesh(name, "", *slow)
     if third is None or second is None or not math.isfinite(second.seconds):
@@ -214,7 +218,7 @@ def row_of(look, claim, fast, slow):
 
 
 def row_dense(look, claim, fast, slow):
-    """Returns the row of row_of for the published algorithm, or None."""
+    """Returns the row of row_of() for the published algorithm, which is dense and without condensation, or None."""
     row = row_of(look, claim, fast, slow)
     times = [look.mesh(claim[0], "", *cell).dense for cell in (slow, fast)] if row else [None]
     if None in times:
@@ -231,7 +235,7 @@ CLAIMS = (("spherical_joint", "support_stiffness_max", "N 4.2: 68 % less time", 
 
 
 def headlines(site):
-    """Returns (rows, cheapest): the two claims about time, and the formulations of lowest cost within 1 % and 0.1 %."""
+    """Returns (rows on the two claims about time, [(case, level, answers.Answer)] for all quantities together)."""
     look, dense = Lookup(site.cases), Lookup(baseline(site))
     rows, soonest = [], []
     for claim in CLAIMS:
@@ -248,7 +252,7 @@ def headlines(site):
 
 
 def both(mesh):
-    """Returns the two errors of a mesh in the case for which other programs were run."""
+    """Returns the errors of C_xx and C_zz, the two quantities of the case for which other programs were run."""
     return [mesh.errors.get(q, math.nan) for q in ("C_xx", "C_zz")]
 
 
@@ -258,7 +262,8 @@ def peers_point(site):
 
 
 def peers(site):
-    """Returns (rows by number of unknowns, figure, answer) of the case for which other programs were run."""
+    """Returns (rows, figure or None, cheapest answers.Way or None) of the case for which other programs were run. The
+    rows are sorted by the number of unknowns."""
     point = peers_point(site)
     ours, out = [], []
     others = {
@@ -324,13 +329,13 @@ NAMES = {
 
 
 def read(path=TABLE):
-    """Returns the rows of a table, in its order."""
+    """Returns the rows of a CSV table, in the order of the file."""
     with open(path, newline="", encoding="utf-8") as table:
         return list(csv.DictReader(table))
 
 
 def measured(look, truths, row):
-    """Describes the measured value of a row. Returns '' if the row names no run or the run was not made."""
+    """Describes the computed value of a row. Returns '' if the row names no run or the run has no value."""
     if not row["elements"]:
         return ""
     cell = row["case"], row["parameters"], row["formulation"], int(row["elements"]), row["quantity"]

@@ -1,5 +1,4 @@
-"""Reads results.h5 and truths.h5 into plain records. Their column names are those of the tables, which `beamwork schema`
-describes."""
+"""Reads results.h5 and truths.h5 into plain records. `beamwork schema` describes the tables and columns of the files."""
 import math
 import multiprocessing
 
@@ -144,7 +143,7 @@ def read_points(group, meshes, units, noise):
             series[of_series(row)].other = row["not_modelled"]
     for (point, key, _), mesh in sorted(meshes.items()):
         series[point, key].meshes.append(mesh)
-        if series[point, key].other:  # drawn together with the other series, but never ranked
+        if series[point, key].other:  # errors relative to the other model, so that the series is drawn; it is not ranked
             mesh.errors.update(mesh.model_errors)
     for row in rows(group, "verdicts"):
         series[of_series(row)].verdicts.append(read_verdict(row))
@@ -160,7 +159,8 @@ def read_points(group, meshes, units, noise):
 
 
 def read_words(group, points):
-    """Reads the scenes, the meanings of the quantities at the points, and the parameters of the case."""
+    """Stores in each point its scene and the meanings of its quantities. Returns the rows on the parameters of the
+    case."""
     if "scenes" not in group:
         return []
     scenes = {row["point"]: row["scene"] for row in rows(group, "scenes")}
@@ -239,8 +239,8 @@ def read_results(path, bench=None):
 
 
 def holds(parameters, at):
-    """Returns True if a reference value with these parameters applies at a point. The parameters and the point are
-    `name=value;...`, where `*` stands for any value."""
+    """Returns True if a reference value with these parameters applies at a point. Both arguments are `name=value;...`.
+    `parameters` must contain every parameter of the point; a value of `*` stands for any value."""
     said = dict(item.split("=", 1) for item in parameters.split(";") if item)
     there = dict(item.split("=", 1) for item in at.split(";") if item)
     return all(value == "*" or there.get(name) == value
@@ -307,19 +307,18 @@ def read_truth_counts(path):
         raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
 
 
-# Values of other programs (`beamwork import`), which are shown together with those of beamwork. These values are stored
-# separately, so they are not counted as formulations.
+# Values of other programs (`beamwork import`), which are shown together with those of beamwork. They are stored in
+# Point.others, so they are not counted as formulations.
 
 
 def truths_of(point):
-    """Returns {quantity: (reference value, kind)} of the reference values used in the verdicts on formulations at a
-    point."""
+    """Returns {quantity: reference value} of the verdicts at a point."""
     return {v.quantity: v.truth for s in point.series for v in s.verdicts if math.isfinite(v.truth)}
 
 
 def with_errors(series, truths):
-    """Returns the series with errors relative to the reference values of beamwork. Errors relative to another model are
-    model errors."""
+    """Returns the series of another program with errors relative to the reference values of beamwork. If the series is
+    not a beam model, they are stored as model errors."""
     for mesh in series.meshes:
         into = mesh.errors if series.model == "beam" else mesh.model_errors
         for quantity, value in mesh.values.items():
@@ -356,7 +355,7 @@ def style_beside(index):
 
 
 def rows_beside(point):
-    """Returns [(series, verdict or None, quantity, finest mesh with a value)] for a table."""
+    """Returns [(series of another program, verdict or None, quantity, finest mesh with a value)] for a table."""
     out = []
     for series in point.others:
         judged = {v.quantity: v for v in series.verdicts}

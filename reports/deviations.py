@@ -1,4 +1,4 @@
-"""The list of known deviations (reference/findings.csv), with a line for each known cause and its verdicts."""
+"""The list of known deviations (reference/findings.csv), with a line for each entry and its verdicts."""
 import functools
 import math
 import re
@@ -33,8 +33,10 @@ def link_of(proof, titles):
 
 
 def predictions(rows):
-    """Returns three numbers of derived limits: those that agree with the observed limit, those that disagree, and those
-    that are undecided because the observed limit is too uncertain. Returns None if no limit was derived."""
+    """Compares the observed limits with the predicted limits. Returns None if no limit was predicted. Otherwise, `met`,
+    `missed` and `open` are the numbers of predictions that agree, that disagree, and that are undecided because the
+    observed limit is too uncertain. `least` and `largest` are the smallest and the largest relative distance of the
+    limits that agree or, if none agrees, of those that disagree. `farthest` is the row with the largest distance."""
     told = [r for r in rows if math.isfinite(met(r.verdict))]
     if not told:
         return None
@@ -54,7 +56,7 @@ def predictions(rows):
 
 
 def left(v):
-    """Returns the unexplained deviation of a limit from the derived limit or, if there is none, from the reference
+    """Returns the unexplained deviation of a limit from the predicted limit or, if there is none, from the reference
     value. The deviation is relative to the reference value, as are all errors."""
     if not math.isfinite(v.predicted) or not v.error:
         return abs(v.error)
@@ -80,7 +82,7 @@ def line(rule, rows, titles):
 
 
 def unexplained(rows):
-    """Returns [((formulation, verdict), number)] of verdicts that differ from the expected verdicts."""
+    """Returns [((formulation, verdict), number)] of the counted verdicts that differ from the expected verdicts."""
     found = {}
     for r in rows:
         if not r.verdict.as_expected and r.standing == verdicts.OWN:
@@ -90,7 +92,7 @@ def unexplained(rows):
 
 
 def contents(cases, rules):
-    """Returns the context of the page."""
+    """Returns the variables of the template."""
     rows, titles = list(verdicts.rows(cases)), headings()
     of_rule = {rule["rule"]: [] for rule in rules}
     for row in rows:

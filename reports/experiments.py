@@ -18,7 +18,7 @@ GROUPS = "experiments"
 
 
 def plain(value):
-    """Converts numbers that are not finite to None."""
+    """Returns None for a number that is not finite, otherwise the value."""
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
@@ -49,7 +49,8 @@ def holds(path, name):
 
 
 def read(path, name):
-    """Returns {attribute or table: value or rows} of an experiment, or None if there is none."""
+    """Returns {name: value of an attribute, or rows of a table} of an experiment, or None if the file does not contain
+    it."""
     if not holds(path, name):
         return None
     with opened(path) as file:

@@ -2,8 +2,8 @@
 
 The numbers of each case are in a separate file, data_CASE.js, which is loaded when the case is selected. Lists are
 strings of numbers separated by blanks, with `-` for missing numbers. Strings that occur more than once are in the list
-`w` and are replaced by their indices. If a reference value is known, values are not stored, because reference x (1 +
-error) gives them to seven digits."""
+`w` and are replaced by their indices. Values are not stored if reference value x (1 + error) gives them; the errors then
+have as many digits as seven correct digits of the values require."""
 import collections
 import functools
 import json
@@ -19,7 +19,7 @@ AXES = (("elements per member", "n"), ("time [s]", "s"), ("cost of counted work 
 
 
 def listed(values, digits):
-    """Returns numbers as one string."""
+    """Returns numbers with these significant digits as one string."""
     text = " ".join(f"{v:.{digits}g}" if v is not None and math.isfinite(v) else "-"
                     for v in values)
     return text.replace("e-0", "e-").replace("e+0", "e").replace("e+", "e")
@@ -35,15 +35,15 @@ def error_text(error):
 
 
 def follow(values, errors, truth):
-    """Returns True if all finite values equal reference x (1 + error)."""
+    """Returns True if all finite values equal truth x (1 + error) to round-off and the reference value is not zero."""
     return truth != 0 and all(
         not math.isfinite(v) and not math.isfinite(e) or abs(truth * (1 + e) - v) <= 1e-9 * abs(v)
         for v, e in zip(values, errors))
 
 
 def columns_of(values, errors, verdict):
-    """Returns [errors, verdict, reference value, values] of a quantity. Missing entries, and values that follow from the
-    other entries, are empty strings."""
+    """Returns [errors, verdict, reference value, values] of a quantity. Missing entries are empty strings. Values that
+    follow from the errors are omitted from the list."""
     said = verdict.verdict if verdict else ""
     truth = verdict.truth if verdict else math.nan
     if math.isfinite(truth) and follow(values, errors, truth):
@@ -79,7 +79,7 @@ def data_of(case):
 
 
 def shared(points):
-    """Returns {"w": strings that occur more than once, "points": the points with indices in place of these strings}."""
+    """Replaces strings that occur more than once by indices. Returns {"w": these strings, "points": the points}."""
     every = [s for p in points for s in p["s"]]
     count = collections.Counter()
     for *columns, quantities in every:

@@ -3,9 +3,9 @@ coordinates are rounded to a tenth of a point, identifiers are made unique in th
 children are moved to their parent. Black and grey become the colour of the text, so that figures change with dark
 mode. Colours of formulations become variables.
 
-Groups with the gid `f|KEY` (style.py) have the attribute data-f="KEY" if they belong to a formulation. Entries of
-legends have data-l="KEY". data-off lists formulations that are initially hidden. `f|KEY|POINTS` also names the markers
-that were passed to site.points(). Elements with the gid `fixed` keep their colours."""
+Groups with the gid `f|KEY` (style.py) belong to the formulation KEY and have the attribute data-f="KEY". Entries of
+legends have data-l="KEY". data-off lists formulations that are initially hidden. The gid `f|KEY|INDEX` also contains
+the index of the markers that were passed to site.points(). Elements with the gid `fixed` keep their colours."""
 import dataclasses
 import io
 import json
@@ -31,7 +31,8 @@ def markers_in(markup):
 
 
 def markers_by_name(markup):
-    """Returns the markup with the colours of formulations replaced by names that the style sheet of the page defines."""
+    """Returns the markup without the fallback values of the colour variables, which the style sheet of the page
+    defines."""
     return re.sub(r"var\((--f\d+),#[0-9a-f]{6}\)", r"var(\1)", markup)
 
 
@@ -74,7 +75,7 @@ NUMBER = re.compile(r"-?\d*\.?\d+(?:e-?\d+)?")
 @dataclasses.dataclass(frozen=True)
 class Image:
     """A figure of the site. `name` is the name of its file. `markup` is the SVG for the page, without a title. `points`
-    are the tooltip texts of its markers, as JSON."""
+    contains the tooltip texts of its markers as JSON."""
     name: str
     markup: str
     points: str = ""
@@ -83,7 +84,7 @@ class Image:
         return self.name
 
     def inline(self, alt):
-        """Returns the SVG with its description, followed by its points."""
+        """Returns the SVG with the alternative text `alt`, followed by `points` in a script element."""
         data = f'<script type="application/json">{self.points}</script>' if self.points else ""
         name = escape(self.name.removesuffix(".svg"))
         width = re.search(r' width="(\d+)"', self.markup)
@@ -93,7 +94,8 @@ class Image:
 
 
 def plain(value, digits):
-    """Returns a number in its shortest form, a string unchanged, and None for any other value."""
+    """Returns a number rounded to these significant digits, or None if it is not finite. Strings, integers and None are
+    returned unchanged."""
     if isinstance(value, (str, int)) or value is None:
         return value
     if not math.isfinite(value):
@@ -124,13 +126,13 @@ def said_of(told):
 
 
 def number(text, digits=1):
-    """Returns the shortest form of a coordinate."""
+    """Returns a coordinate with at most this number of decimals, in its shortest form."""
     short = f"{float(text):.{digits}f}".rstrip("0").rstrip(".")
     return "0" if short in ("-0", "") else short
 
 
 def path(text, digits):
-    """Returns the commands of a path without redundant spaces."""
+    """Returns the commands of a path with rounded numbers and without redundant spaces."""
     rounded = NUMBER.sub(lambda found: number(found.group(), digits), text)
     return re.sub(r"\s*([MLCQzZ])\s*", r"\1", " ".join(rounded.split())).replace(" -", "-")
 
@@ -140,8 +142,8 @@ def properties(text):
 
 
 def ink(own, name):
-    """Replaces black and grey by the colour of the text with an opacity, white by the colour of the paper, and known
-    colours by variables."""
+    """Replaces the colour in own[name]: black and grey by the colour of the text with an opacity, white by the colour of
+    the paper, and colours in style.VARIABLES by their variables."""
     colour = own.get(name, "none")
     if not re.fullmatch("#[0-9a-f]{6}", colour):
         return
@@ -230,7 +232,7 @@ class Writer:
 
     @staticmethod
     def joined(children):
-        """Joins consecutive lines with the same attributes into one path."""
+        """Joins consecutive unfilled paths with the same attributes into one path."""
         out = []
         for child in children:
             tag, own, _, _ = child
@@ -245,7 +247,7 @@ class Writer:
 
     @staticmethod
     def share(own, children):
-        """Moves the attributes that all children have in common to their parent."""
+        """Moves the attributes that all children have in common to their parent, unless it has such an attribute."""
         drawn = [c for c in children if c[0] != "defs"]
         for name in INHERITED:
             values = {c[1].get(name) for c in drawn}
@@ -266,7 +268,8 @@ class Writer:
 
 
 def short(svg, name):
-    """Returns (SVG for a page, names of its points) from the output of matplotlib."""
+    """Returns (SVG for a page, indices of its markers in the arguments of site.points()) from the output of
+    matplotlib."""
     root = ElementTree.fromstring(svg)
     writer = Writer(root, f"{zlib.crc32(name.encode()):08x}"[:5].translate(
         str.maketrans("0123456789", "ghijklmnop")))
@@ -290,7 +293,7 @@ def alone(markup):
 
 
 def handles_of(legend):
-    """Returns the drawn handles, an attribute that matplotlib 3.7 renamed."""
+    """Returns the handles of a legend. matplotlib 3.7 renamed this attribute."""
     return legend.legend_handles if hasattr(legend, "legend_handles") else legend.legendHandles
 
 
@@ -311,8 +314,8 @@ def tag_legends(figure):
 
 
 def image_of(figure, name, said, tight=True):
-    """Returns the Image of a figure. `said` contains the arguments of points(). If `tight` is True, the figure is cropped
-    to its contents and is therefore drawn twice."""
+    """Returns the Image of a figure. `said` contains the arguments of site.points(). If `tight` is True, the figure is
+    cropped to its contents and is therefore drawn twice."""
     tag_legends(figure)
     out = io.StringIO()
     figure.savefig(out, format="svg", metadata={"Date": None},

@@ -48,7 +48,8 @@ class NoFilm(Exception):
 
 
 def films(path):
-    """Returns {case: (summary, point)} of the cases with frames. The point is the first one that has frames."""
+    """Returns {case: (summary, point)} of the cases with several frames. The point is the first one that has them; the
+    default parameters come first."""
     out = {}
     with h5py.File(path) as file:
         for name, group in file["cases"].items():
@@ -59,7 +60,8 @@ def films(path):
 
 
 def chosen(path, wanted):
-    """Returns (case, summary, point) of the requested case, or of the only case."""
+    """Returns (case, summary, point) of the requested case, or of the only case with frames. Raises NoFilm if there is no
+    such case or if a choice is needed."""
     found = films(path)
     name = next(iter(found)) if wanted is None and len(found) == 1 else wanted
     if name in found:

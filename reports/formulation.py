@@ -60,7 +60,7 @@ def explanation_of(name, pages):
             for h, body in sections(path.read_text(encoding="utf-8"))]
 
 
-# Error against the number of elements of a formulation, for the cases with the smallest and the largest error.
+# Errors of a formulation against the number of elements, for the cases with the smallest and the largest error.
 
 FLOOR = 1e-12  # errors below this value are drawn at this value
 TITLES = ("least", "largest")
@@ -69,7 +69,7 @@ GREY = {"back": True, "color": "currentColor", "alpha": 0.25, "linewidth": 1}
 
 
 def curve(series, quantity):
-    """Returns [(elements, magnitude of the error)] of the meshes with an error."""
+    """Returns [(elements, magnitude of the error, at least FLOOR)] of the meshes with an error."""
     return [(m.n, max(abs(m.errors[quantity]), FLOOR)) for m in series.meshes
             if math.isfinite(m.errors.get(quantity, math.nan))]
 
@@ -96,7 +96,7 @@ def extremes(found):
 
 
 def draw_extremes(site, key, items, name):
-    """Draws the error curves in two panels. The other formulations are grey."""
+    """Draws the error curve of each item in a panel. Curves of other formulations are grey."""
     chart = Chart(2, (380, 230))
     for (case, point, series, quantity), title in zip(items, TITLES):
         one = chart.panel(f"{title}: {case.name}, {quantity}", "elements per member",
@@ -132,7 +132,7 @@ def options_of(declared):
 
 
 def example(name, choices):
-    """Returns an example of an option that differs from its default."""
+    """Returns the formulation with one option that differs from its default, or without options if none has a choice."""
     for option, values, default, _ in choices:
         other = next((v for v in values.split("|") if v != default), None)
         if other and "|" in values:
@@ -161,7 +161,7 @@ def rules(rows, known, titles):
     for rule in known:
         own = found.get(rule["rule"])
         if own:
-            # verdicts that a formulation repeats because of one misprint are counted on the page of that formulation
+            # on the page of a formulation with a misprint, verdicts that equal those of the corrected form also count
             counted = [verdicts.TallyRow(r.case, r.parameters, r.formulation, r.verdict,
                                          verdicts.OWN) for r in own]
             out.append({**deviations.line(rule, counted, titles),
@@ -191,9 +191,11 @@ def all_ways(cases):
 
 
 def speed(found, key, known):
-    """Returns for each level: the cases in which any formulation reaches the level, the cases in which this formulation
-    reaches it, the latter cases in which it does not pass, the cases in which it is first, its rank, and its median
-    cost relative to the cheapest."""
+    """Returns [(level, posed, ranked, doubtful, first, rank, factor)]. `posed` is the number of cases in which a
+    formulation that passes reaches the level. `ranked` and `doubtful` are the numbers of these cases in which this
+    formulation reaches the level and passes, and reaches it but does not pass. `first` is [(case, elements)] of the
+    cases in which it is the cheapest or ties. `rank` and `factor` are the medians of its rank and of its cost relative
+    to the cheapest."""
     out = []
     for level in LEVELS:
         posed, doubtful, first, factors, ranks = 0, 0, [], [], []
@@ -213,8 +215,8 @@ def speed(found, key, known):
 
 
 def table(found):
-    """Returns [(case, parameter points with verdicts, [(verdict, number)], worst verdict, page of this verdict, point of
-    this verdict)] of the cases with verdicts. The last three are None if all verdicts are passes."""
+    """Returns [(case, number of points with verdicts, [(verdict, number)], worst verdict, its page, its point)] of the
+    cases with verdicts. The last three entries are None if all verdicts are passes."""
     cases = {}
     for case, point, series in found:
         shown = [] if series.missing else [v for v in series.verdicts if v.verdict not in UNJUDGED]
@@ -242,7 +244,7 @@ class Known:
     rows: list  # verdicts.TallyRow for every verdict
     rules: list  # entries of the list of known deviations
     declared: dict  # formulation -> row of /declarations
-    ways: dict  # all_ways
+    ways: dict  # result of all_ways()
     titles: list  # section titles of the errata
     certified: set  # names of the formulations with a certificate
 
@@ -260,7 +262,7 @@ def pages_of(site):
 
 
 def contents(site, key, known):
-    """Returns the context of a page."""
+    """Returns the variables of the template for a page."""
     name, options = split(key)
     everywhere = [(c, p, s) for c in site.cases for p in c.points for s in p.series
                   if s.key == key]
@@ -317,7 +319,7 @@ def tasks(site):
 
 
 def counts(rows):
-    """Returns {verdict: number} of the rows with a verdict, without second names of entries, from good to bad."""
+    """Returns [(verdict, number)] of the rows with a verdict, from bad to good. Aliases of quantities are not counted."""
     found = {}
     for row in rows:
         if row.standing != verdicts.ALIAS and row.verdict.verdict not in UNJUDGED:
@@ -326,7 +328,7 @@ def counts(rows):
 
 
 def grouped(rows, name):
-    """Returns {name of a row: rows}."""
+    """Returns {value of the attribute `name`: rows}."""
     found = {}
     for row in rows:
         found.setdefault(getattr(row, name), []).append(row)
@@ -334,8 +336,8 @@ def grouped(rows, name):
 
 
 def wrong_in(cases, key):
-    """Returns the cases in which, at the default parameters, the formulation has a verdict that more elements do not
-    change."""
+    """Returns the cases in which the worst verdict on the formulation at the default parameters is one that more elements
+    do not change."""
     found = [(c.name, standing(s)) for c in cases for s in c.points[0].series if s.key == key]
     return [name for name, v in found if v is not None and v.verdict in WRONG]
 

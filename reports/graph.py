@@ -1,11 +1,11 @@
-"""python -m reports.graph FORM draws curves for `beamwork plot`. FORM is a picture (png, svg, pdf), or a table with a
-column for each quantity (csv). The program reads a list of solutions in the format of `beamwork solve --format json`
-from standard input and writes the picture to standard output. Exit status 4 means that nothing can be drawn; a line
-gives the reason.
+"""python -m reports.graph FORM draws curves for `beamwork plot`. FORM is png, svg or pdf for a picture, or csv for a
+table with a column for each quantity. The program reads a list of solutions in the format of `beamwork solve --format
+json` from standard input and writes the picture or the table to standard output. Exit status 4 means that nothing can be
+drawn; a line on standard error gives the reason.
 
-There is one panel for each abscissa and unit. Quantities are distinguished by colour. If there are several
-formulations, each formulation has a colour and each quantity has a panel. Curves over frequency whose values are all
-positive have a logarithmic vertical axis, as in a Bode diagram."""
+For a single formulation, there is a panel for each abscissa and unit, and each quantity has a colour. For several
+formulations, there is a panel for each quantity, and each formulation has a colour. Curves over frequency have a
+logarithmic vertical axis, as in a Bode diagram, if all their values are positive and are not phases."""
 import csv
 import importlib.util
 import itertools

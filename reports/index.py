@@ -61,18 +61,18 @@ def grouped_by_kind(cases, path):
 # Quantities without a reference value: the limit on which formulations agree, and the distance of each formulation from
 # it.
 
-AGREED = "agreement"  # name, in the results, of an agreement of at least two families of formulations
+AGREED = "agreement"  # kind of a value in the results on which at least two families of formulations agree
 
 
 @dataclass
 class AgreedRow:
-    """A quantity of a case at its defaults."""
+    """A quantity of a case at its default parameters. `value` is the limit on which formulations agree."""
 
     case: str
     quantity: str
     unit: str
     value: float
-    errors: dict  # formulation -> error of its limit
+    errors: dict  # formulation -> error of its limit relative to `value`
     meshes: dict  # formulation -> number of elements from which every mesh is within the level
 
     def within(self, level):
@@ -80,7 +80,7 @@ class AgreedRow:
 
     @property
     def farthest(self):
-        """Returns the formulation whose limit is farthest from the agreement, or None if all limits are equal."""
+        """Returns the formulation whose limit is farthest from `value`, or None if all limits equal it."""
         key = max(self.errors, key=lambda key: (abs(self.errors[key]), key))
         return key if self.errors[key] else None
 
@@ -93,7 +93,8 @@ class AgreedRow:
 
 
 def first_within(series, quantity, level):
-    """Returns the number of elements from which all meshes are within the level of the agreement, or None."""
+    """Returns the number of elements from which the errors of all meshes relative to the agreed limit are within the
+    level, or None."""
     found = None
     for mesh in reversed(series.meshes):
         if not abs(mesh.model_errors.get(quantity, math.nan)) <= level:
@@ -115,7 +116,7 @@ def row_of(case, quantity, level):
 
 
 def rows_agreed(cases, level):
-    """Returns [AgreedRow] of quantities with an agreement but no reference value, at the defaults of each case."""
+    """Returns [AgreedRow] of quantities with an agreed limit but no reference value, at the defaults of each case."""
     found = []
     for case in cases:
         point = case.points[0]
@@ -131,14 +132,14 @@ NAMED = 3  # largest number of cases that a sentence names
 
 
 def ahead(values):
-    """Returns the formulations whose value is within one percent of the largest value, and this value."""
+    """Returns the formulations whose share, rounded to whole percent, equals the largest share, and the largest share."""
     most = max(values.values())
     return sorted(k for k, v in values.items() if round(100 * v) == round(100 * most)), most
 
 
 def of_speed(compared, rows):
-    """Returns the formulations that are most often near the best and those that solve the most problems, or None if there
-    is no comparison."""
+    """Returns the formulations that are most often near the best, the formulations that solve the most problems, their
+    shares, and the numbers of problems and cases. Returns None if there is no comparison."""
     if not compared.any:
         return None
     known = [r for r in rows if math.isfinite(r.solved)]
@@ -176,8 +177,8 @@ def of_trust(cases, rows):
 
 
 def of_truths(cases):
-    """Returns the number of reference values in verdicts, their kinds and their uncertainties, or None without
-    reference values."""
+    """Returns the number of reference values in verdicts, their number by kind, and their median and largest relative
+    uncertainty, or None without reference values."""
     known = {}
     for row in verdicts.rows(cases):
         v = row.verdict
@@ -217,7 +218,7 @@ FIGURE = (300, 165)  # size of the axes in pixels
 
 
 def formulation_rows(cases):
-    """Returns {key: {case: {verdict: count}}} over all points, without second names of entries."""
+    """Returns {formulation: {case: {verdict: number}}} over all points, without aliases of quantities."""
     rows = {}
     for row in verdicts.rows(cases):
         cell = rows.setdefault(row.formulation, {}).setdefault(row.case, {})

@@ -19,8 +19,8 @@ STIFFENING = "stiffening"  # name of the case parameter that multiplies the axia
 @dataclass(frozen=True)
 class Run:
     """One motion. `error` is the time-integration error, and `cost` is the cost of counted work [s]. `energy` and
-    `momentum` are the largest unexplained relative changes. `fate` is the outcome after the loads have ended. `large`
-    is True if the run belongs to a map of large steps, for which errors are not computed."""
+    `momentum` are the largest relative changes after the last load. `fate` is the outcome after the loads have ended.
+    `large` is True if the run belongs to a map of large steps, for which errors are not computed."""
 
     scheme: str
     step: float
@@ -93,7 +93,7 @@ class Problem:
 
     @property
     def structure(self):
-        """Returns the case, parameters, formulation and mesh without the stiffening."""
+        """Returns (case, parameters except the stiffening, formulation, elements)."""
         rest = [p for p in self.parameters.split(";") if not p.strip().startswith(STIFFENING)]
         return self.case, ";".join(rest), self.formulation, self.elements
 
@@ -101,12 +101,12 @@ class Problem:
         return ordered({r.scheme for r in self.runs})
 
     def ladder(self, scheme):
-        """Returns the runs of a scheme, or None."""
+        """Returns the Ladder of a scheme, or None."""
         return next((one for one in self.ladders if one.scheme == scheme), None)
 
 
 def ordered(schemes):
-    """Returns the known schemes in their order, followed by those with options."""
+    """Returns the schemes in the order of ORDER, each followed by its variants with options. Others come last."""
     def place(scheme):
         name = scheme.partition(":")[0]
         return ORDER.index(name) if name in ORDER else len(ORDER), scheme
@@ -138,7 +138,7 @@ def ways_of(rows, runs):
 
 
 def stiffening_in(parameters):
-    """Returns the factor on the axial stiffness, from `name=value;...`."""
+    """Returns the factor on the axial stiffness from `name=value;...`, or 1 if it is not given."""
     said = dict(p.strip().split("=", 1) for p in parameters.split(";") if p.strip())
     return float(said.get(STIFFENING, 1))
 
@@ -182,7 +182,7 @@ class Check:
 class Record:
     """Contents of the results. `verdicts` are rows with observed and expected verdicts. `compared` are the problems on
     which integrators are compared (every case with a motion if `make lab L=paces` was run). `left_out` is {(case,
-    formulation): reason why it is not run}. `about` is the program that made the runs."""
+    formulation): reason why it is not run}. `about` contains the attributes and tables of `beamwork motion`."""
 
     problems: list
     verdicts: list
@@ -197,7 +197,7 @@ class Record:
 
 
 def load(path):
-    """Returns the contents of a file, or None if it does not exist."""
+    """Returns the contents of a JSON file, or None if it does not exist."""
     if not os.path.exists(path):
         return None
     with open(path, encoding="utf-8") as file:
@@ -234,8 +234,8 @@ def read(path):
     return Record(problems, found["verdicts"], *(compared_in(beside) or (problems, {}, [])), found)
 
 
-# Finds the integrator and the step with the lowest cost within a time-integration error, and the evidence for this
-# result. `beamwork motion` reports the cost of a scheme for an error.
+# Finds the integrator and the step that reach a level of the time-integration error at the lowest cost, and the evidence
+# for this result.
 
 LEVELS = (1e-2, 1e-4, 1e-6)
 FACTORS = [10**(i / 12) for i in range(25)]  # factors of profiles, from 1 to 100
@@ -272,9 +272,10 @@ def by_case(problems):
 
 @dataclass(frozen=True)
 class Summary:
-    """Summary of a case over all formulations. `wins` is {scheme: formulations for which it has the lowest cost or ties}.
-    `best` are the ways of the scheme with the most wins. `keeping` are the cheapest ways that conserve energy to
-    round-off, with their costs relative to the lowest cost."""
+    """Summary of a case over all formulations. `wins` is [(scheme, number of problems in which it has the lowest cost or
+    ties)]. `reached` is the number of problems in which any scheme reaches the level, and `count` that of all problems.
+    `best` are the Ways of the scheme with the most wins. `keeping` is [(scheme, cost relative to the lowest cost)] of
+    the cheapest Way in each problem that conserves energy to round-off."""
 
     wins: tuple
     reached: int
@@ -302,7 +303,7 @@ def counted(problems, level):
 
 
 def orders(problems):
-    """Returns {scheme: (nominal order, {verdict: ladders})}."""
+    """Returns {scheme: (nominal order, {verdict on the order: number of problems})}."""
     out = {}
     for one in (one for p in problems for one in p.ladders):
         verdicts = out.setdefault(one.scheme, (one.nominal, {}))[1]
@@ -316,7 +317,7 @@ def judged(problems):
 
 
 def series(problem, scheme):
-    """Returns [runs with equal steps, runs with a tolerance] of a scheme, each from the coarsest to the finest."""
+    """Returns [runs with equal steps, runs with a tolerance] of a scheme, each sorted from the coarsest to the finest."""
     own = sorted((r for r in problem.runs if r.scheme == scheme),
                  key=lambda r: (-r.tolerance, -r.step))
     return [[r for r in own if bool(r.tolerance) == wanted] for wanted in (False, True)]
@@ -333,8 +334,8 @@ def doubt(problem, way):
 
 
 def wins(problems, level, noise=1.0):
-    """Returns ({scheme: problems in which it has the lowest cost or ties}, problems in which any scheme reaches the
-    level)."""
+    """Returns ({scheme: number of problems in which it has the lowest cost or ties}, number of problems in which any
+    scheme reaches the level)."""
     count, reached = {}, 0
     for problem in problems:
         found = answer(problem, level, noise)
@@ -361,7 +362,7 @@ def profile(problems, level):
 
 
 def structures(problems):
-    """Returns {structure: [Problem]}, where each structure has all its stiffenings."""
+    """Returns {structure: [Problem]}, the problems that differ only in the stiffening."""
     out = {}
     for problem in problems:
         out.setdefault(problem.structure, []).append(problem)

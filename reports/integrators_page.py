@@ -100,7 +100,8 @@ def drift(ways):
 
 
 def stability(problems):
-    """Returns one sentence on a map, which lists the schemes whose energy grows or which stop at any step and stiffness."""
+    """Returns one sentence on a map. It lists the schemes that are bounded everywhere and, for each other scheme, the
+    smallest step at which its energy grows or it stops."""
     bad, every = {}, {}
     for problem in problems:
         for run in problem.runs:
@@ -173,7 +174,7 @@ def draw_scheme(site, panel, problem, scheme):
 
 
 def work_precision(site, case, problems):
-    """Returns the Image of a case: a panel for each formulation."""
+    """Returns the Image of a case with a panel for each formulation, or None if no cost and error are known."""
     told = [p for p in integrators.judged(problems) if any(r.known and r.cost > 0 for r in p.runs)]
     if not told:
         return None
@@ -325,8 +326,8 @@ def cases_of(problems, noise):
 
 
 def maps_of(problems):
-    """Returns [(name, Image, sentence)]: a map for each structure that was run with large steps, the largest map first,
-    with an explanation of the letters."""
+    """Returns [(name, Image, sentence)] with a map for each structure that was run with large steps. The largest map
+    comes first and explains the letters."""
     found = [own for own in integrators.structures(problems).values() if fates(own) and
              any(p.reference == integrators.NONE_WANTED for p in own)]
     found.sort(key=lambda own: -len(fates(own)))
@@ -340,8 +341,8 @@ def unmeasured(problems):
 
 
 def failures_of(problems):
-    """Returns [(case, parameters, scheme, failed runs, formulations, one of these runs)] of runs without an error value.
-    Large steps, which are expected to fail, are in the maps instead."""
+    """Returns [(case, parameters, scheme, number of failed runs, number of formulations, one of these runs)]. Failures
+    with large steps are in the maps instead."""
     found = {}
     for p in problems:
         for r in p.runs:

@@ -72,7 +72,7 @@ class Parser:
         return token
 
     def group(self):
-        """Parses the text between braces or a single token."""
+        """Parses a group in braces or a single atom."""
         if self.peek() != "{":
             return self.atom()
         self.take("{")

@@ -19,14 +19,14 @@ PUBLISHED = (("sheet_third", 1, 9.77e5, 1.0), ("sheet_third", 2, 9.61e5, 3.3),
                                                                                    4, 9.63e5, 9.6))
 PUBLISHED_SHELL = 9.81e5  # N Fig. 8, shell elements, which are another model
 PUBLISHED_SECONDS = {"spherical_joint": 2.45,
-                     "hexapod": 122.0}  # N, one third-order element per sheet
+                     "hexapod": 122.0}  # published times [s] with one third-order element per sheet
 PUBLISHED_FACTOR = 6.32  # N section 4.3: time of two second-order elements relative to one third-order element
 PARTS = ("elements", "assembly", "factorisation", "solution")
 QUANTITY = "support_stiffness_max"
 
 
 class Cell:
-    """One timed run of a bench file."""
+    """One timed run of a bench file. `parts` is {part: seconds per iteration}."""
 
     def __init__(self, case, key, mesh):
         self.case, self.key, self.n, self.free = case, key, mesh.n, mesh.free
@@ -51,7 +51,7 @@ def read_bench(path, case):
 
 
 def value_of(site, key, n, parameters):
-    """Returns the largest support stiffness of a run in the results."""
+    """Returns the largest support stiffness [N/m] of a run of the joint in the results, or NaN."""
     case = site.case("spherical_joint")
     for point in case.points if case else []:
         if point.parameters == parameters:
@@ -113,7 +113,8 @@ def curve_figure(site):
 
 
 def growth_figure(site, cells):
-    """Draws the time of the whole curve against elements per sheet, and the parts of an iteration."""
+    """Draws the time of the whole curve against elements per sheet, and the time of each part of an iteration divided by
+    the elements per sheet."""
     joint = [c for c in cells if c.case == "spherical_joint"]
     if not joint:
         return None

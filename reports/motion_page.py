@@ -45,7 +45,7 @@ class Motion:
 
     @property
     def scale(self):
-        """Returns the scale of energy-balance errors, which is the largest energy [J]."""
+        """Returns the scale of energy-balance errors [J]: the largest magnitude of energy and work."""
         return float(max(np.abs(self.energy).max(), np.abs(self.columns["work"]).max()))
 
     @property
@@ -54,7 +54,7 @@ class Motion:
         return self.columns["drift"] / (self.scale or 1)
 
     def momentum(self, which):
-        """Returns the momentum P or the angular momentum L [steps x 3]."""
+        """Returns the momentum P or the angular momentum L at the start and after each step [values x 3]."""
         return np.stack([self.columns[name] for name in MOMENTA[which]], axis=1)
 
     def stays(self, which):
@@ -66,7 +66,7 @@ class Motion:
 
 
 def motions_of(path, case, point="default"):
-    """Returns [Motion] of a case at a point, for the finest mesh of each formulation."""
+    """Returns [Motion] of a case at a point: the last motion on the finest mesh of each formulation."""
     with h5py.File(path) as file:
         group = file[f"cases/{case}"]
         if TABLE not in group or not len(group[TABLE]):
@@ -159,7 +159,7 @@ def words_of_steps(motion):
 
 
 def words_of_momenta(motion):
-    """Describes momenta that are conserved."""
+    """Describes the largest change of momenta if they are conserved. Otherwise returns an empty string."""
     changes = [c for c in (motion.stays("P"), motion.stays("L")) if math.isfinite(c)]
     if changes and max(changes) < ROUND_OFF:
         return f", momentum and angular momentum by {max(changes):.0e}"
@@ -193,8 +193,8 @@ def whenever(meaning):
 
 
 def spread(motions):
-    """Compares the first motion with those of other formulations. Returns an empty string if there is no other
-    motion."""
+    """Describes the ranges of energy drift and of iterations over the motions of all formulations. Returns an empty
+    string if there is only one motion."""
     if len(motions) < 2:
         return ""
     drifts = [float(np.abs(m.drift).max()) for m in motions]
@@ -203,7 +203,7 @@ def spread(motions):
             f"{between(drifts, '{:.0e}')}, and a step takes {between(counts, '{:.1f}')} iterations.")
 
 
-# Scales the numbers of an axis to be close to one by a unit prefix: thousandths, millionths or thousands.
+# Units with a prefix for axes, so that the numbers of an axis are close to one.
 
 PREFIXES = ((1e-6, "µ"), (1e-3, "m"), (1.0, ""), (1e3, "k"))
 POWERS = {1e-6: "10⁻⁶ ", 1e-3: "10⁻³ ", 1e3: "10³ "}
@@ -211,7 +211,7 @@ PLAIN = ("m", "rad", "J", "N", "N m", "s")  # units to which a prefix can be add
 
 
 def fitting(values, unit):
-    """Returns the size and the name of a suitable unit."""
+    """Returns (size in terms of `unit`, name) of a unit that suits the largest of these values."""
     largest = float(np.abs(np.asarray(values, float)).max(initial=0))
     size, prefix = 1.0, ""
     for one, name in PREFIXES:
@@ -228,7 +228,7 @@ def fitting(values, unit):
 
 WIDE, HALF = (640, 200), (300, 170)
 MOST_POINTS = 150  # largest number of points of a curve
-MOST_CURVES = 7  # largest number of curves, including the reference value; one fewer than a figure initially shows
+MOST_CURVES = 7  # largest number of curves of formulations; together with the reference value, style.MOST
 FLOOR = 1e-17  # smallest drawn drift
 # column: name, colour and line
 ENERGIES = {"kinetic": ("kinetic", 0, "-"), "strain": ("strain", 1, "-"),
@@ -261,7 +261,7 @@ def line(site, panel, name, look, x, y, unit, size):
 
 
 def draw_energies(site, motion, name):
-    """Draws kinetic energy, strain energy, work and dissipated energy."""
+    """Draws kinetic energy, strain energy and their sum, and work and dissipated energy if they are not zero."""
     chart = Chart(1, WIDE)
     values = {**motion.columns, "energy": motion.energy}
     size, unit = fitting(motion.scale, "J")
@@ -289,7 +289,8 @@ def draw_momenta(site, motion, name):
 
 
 def leading(motions):
-    """Returns the motions that are drawn, with formulations without options first."""
+    """Returns the motions that are drawn, at most MOST_CURVES. Formulations without options come first, uncorrected
+    misprints last."""
     rank = sorted(motions, key=lambda m: (verdicts.corrected(m.formulation) is not None,
                                           ":" in m.formulation))
     return rank[:MOST_CURVES]
@@ -305,7 +306,7 @@ def compared(site, panel, motion, x, y, what):
 
 
 def draw_drifts(site, motions, name):
-    """Draws the energy drift of the formulations."""
+    """Draws the magnitude of the energy drift of the leading formulations."""
     chart = Chart(1, WIDE)
     panel = chart.panel("", "time [s]", "drift of energy", xlog=False)
     for motion in leading(motions):
@@ -411,7 +412,7 @@ def leader(motions):
 
 
 def parts_of(site, case, motions):
-    """Returns the parts of the page of a case."""
+    """Returns the variables of the template for the page of a case."""
     first, name = leader(motions), f"motion_{case.name}"
     drawn = [(q, draw_quantity(site, case, q, f"{name}_{q}"))
              for q in dict.fromkeys([*case.points[0].meanings, *case.points[0].units])]
@@ -430,13 +431,13 @@ def parts_of(site, case, motions):
 
 
 def found_in(site):
-    """Returns [(case, [Motion])]."""
+    """Returns [(case, [Motion])] of the cases with motions."""
     found = ((case, motions_of(site.results, case.name)) for case in site.cases)
     return [(case, motions) for case, motions in found if motions]
 
 
 def section(site, case):
-    """Returns the section on motions for the page of a case."""
+    """Returns the section on motions for the page of a case, or [] without motions."""
     motions = motions_of(site.results, case.name)
     if not motions:
         return []

@@ -49,7 +49,8 @@ def groups(pages):
 
 
 def group_of(name, found, cases):
-    """Returns the group of a page, or None. Pages of cases and formulations belong to the groups with these names."""
+    """Returns the Group of a page, or None. Pages of single cases, formulations and motions belong to the groups that
+    contain the page of all of them."""
     if name.startswith("formulation_"):
         name = "formulations.html"
     elif name.startswith("motion_"):

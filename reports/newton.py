@@ -11,7 +11,7 @@ FORMS = ("mixed", "displacement")
 
 
 def read(path):
-    """Reads the file of harness/tools/newton.py, or None."""
+    """Returns the contents of a file that harness/tools/newton.py wrote, or None if it cannot be read."""
     try:
         with open(path, encoding="utf-8") as file:
             return json.load(file)
@@ -30,7 +30,7 @@ def largest(values, iterations):
 
 
 def singles(data):
-    """Returns [(case, [(formulation, unit, {form: (largest, iterations)}, tried)])]."""
+    """Returns [(case, [(formulation, unit, {form: result of largest()}, largest tried value)])]."""
     cases = {}
     for s in data["singles"]:
         row = (f"{s['formulation']}, n = {s['elements']}", s["unit"], {
@@ -42,14 +42,14 @@ def singles(data):
 
 
 def farther(data):
-    """Returns all formulations, those for which the mixed form converges for larger steps than the other form, and
-    those for which the mixed form converges only for smaller steps."""
+    """Returns three numbers of comparisons: all, those in which the mixed form converges for larger steps than the
+    displacement form, and those in which it converges only for smaller steps."""
     best = [[largest(s["values"], s[form])[0] or 0 for form in FORMS] for s in data["singles"]]
     return len(best), sum(m > d for m, d in best), sum(m < d for m, d in best)
 
 
 def contests(data):
-    """Returns [(case, [(formulation, first steps, {form: summary})])]."""
+    """Returns [(case, [(formulation, numbers of first steps, {form: results})])]."""
     cases = {}
     for c in data["contests"]:
         row = (f"{c['formulation']}, n = {c['elements']}", c["first_steps"], {
@@ -84,7 +84,7 @@ def figure_of(case, histories):
 
 
 def stored(site):
-    """Returns the record next to the results, or None."""
+    """Returns the contents of newton.json next to the results, or None."""
     return read(os.path.join(os.path.dirname(site.results), "newton.json"))
 
 

@@ -1,4 +1,4 @@
-"""Draws the charts and figures of the report for papers with matplotlib, in PDF, PGF (for LaTeX), PNG or SVG.
+"""Draws the charts and figures of the report again with matplotlib, for papers: PDF, PGF (for LaTeX), PNG or SVG.
 
 A style file of matplotlib changes sizes, fonts and colours of text, grids and lines. Its `figure.figsize` replaces the
 size of the charts. The colour and marker of a formulation are those of the report."""
@@ -20,7 +20,7 @@ TEX = ("xelatex", "pdflatex", "lualatex")
 
 
 class Impossible(Exception):
-    """Raised if figures cannot be drawn in this format or style. The text is one line with the remedy."""
+    """Raised if the requested case, format or style is not possible. The text is one line with the remedy."""
 
 
 class Paper:
@@ -128,7 +128,7 @@ def put_legend(figure, lines, names):
 
 
 def legend_of(panels):
-    """Returns (lines, labels) of the curves of panels without repetition, or None if there are no labels."""
+    """Returns (lines, labels) of the curves of these panels, each label once, or None if there are no labels."""
     found = {}
     for axes in panels:
         for line, name in zip(*axes.get_legend_handles_labels()):

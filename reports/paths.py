@@ -1,5 +1,5 @@
-"""Equilibrium paths: load against deflection of the C-shaped cantilever compared with 3-D solids, the conclusions of the
-paper, and limit points."""
+"""Equilibrium paths: load against deflection of the cantilever with a channel section compared with 3-D solids, the
+conclusions of J section 5.2, and paths with limit points."""
 import dataclasses
 import functools
 import math
@@ -15,7 +15,7 @@ NAVIGATION = [("paths.html", "paths")]
 
 CASE = "c_cantilever"
 EDGES = {"D": "load_height=edge;w=2.6",
-         "E": "load_point=E;load_height=edge;w=1.2"}  # the points for which solid models were computed
+         "E": "load_point=E;load_height=edge;w=1.2"}  # load point: parameters for which solid models were computed
 FORMS = (("beamw_first", "first-order modes"), ("beamw_vlasov", "J Eq. 66"),
          ("beamw_consistent", "consistent second order"))
 EXACT, COARSE = "collocation", 10
@@ -27,7 +27,7 @@ EVENTS = ("limit point", "bifurcation", "branch jump")
 
 @dataclasses.dataclass
 class Solid:
-    """Points on a curve of another model, such as 3-D solids."""
+    """Points on a curve of another model, such as 3-D solids: `value` at the deflections `w` [m]."""
     w: np.ndarray
     value: np.ndarray
     source: str
@@ -45,7 +45,7 @@ class Event:
 
 
 def solid(truths, parameters, quantity):
-    """Returns the rows of a curve, with points at the abscissae `at`."""
+    """Returns the Solid of a quantity at these parameters of the cantilever, sorted by deflection, or None."""
     with h5py.File(truths) as file:
         if CASE not in file["truths"]:
             return None
@@ -135,7 +135,8 @@ def draw_convergence(site, look, parameters):
 
 
 def draw_snap(site, look, case):
-    """Draws a path with its critical points, computed with the consistent form on its finest mesh."""
+    """Draws the path of beamw_consistent on its finest mesh, with its critical points. Returns (Image, [Event]) or
+    None."""
     point = look.points.get((case, ""))
     series = next((s for s in point.series if s.key == "beamw_consistent"), None) if point else None
     if series is None or "curve" not in series.meshes[-1].curves:
@@ -168,7 +169,7 @@ def percent(value):
 
 
 def conclusions(site, look):
-    """Returns [(statement in J section 5.2, measured value)]."""
+    """Yields (statement in J section 5.2, computed values that support or contradict it)."""
 
     def load(parameters, key, n):
         return look.value(CASE, parameters, key, n, "load_at_w")
@@ -203,7 +204,7 @@ def conclusions(site, look):
 
 
 def model_points(site, parameters):
-    """Returns [(w, parameters of the point at which the load is compared, load of the solid model)]."""
+    """Yields (deflection w [m], parameters of the point at which the load is compared, load of the solid model [N])."""
     other = solid(site.truths, parameters, "curve")
     base = parameters.rsplit(";", 1)[0]
     for w in (0.1, 0.2, 0.494, 0.5, 1.04, 1.2, 2.6):
@@ -215,7 +216,7 @@ def model_points(site, parameters):
 
 
 def continued(site, case):
-    """Returns True if the case has a path at its default parameters."""
+    """Returns True if the case has a path of beamw_consistent at its default parameters."""
     found = site.case(case)
     return found is not None and any("curve" in m.curves for s in found.points[0].series
                                      if s.key == "beamw_consistent" for m in s.meshes[-1:])

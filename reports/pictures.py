@@ -63,7 +63,8 @@ def shade(polygon, colour):
 
 
 def supports(s):
-    """Returns the nodes that do not move: fixed nodes that are not bodies, nodes attached to a clamped body, and hinges."""
+    """Returns the nodes with a support: nodes attached to a clamped main node of a body, held nodes that are not main
+    nodes, and main nodes that are partly held (hinges)."""
     owner = {int(b) for b in s.body}
     return [
         i for i, (b, held) in enumerate(zip(s.body, s.held))
@@ -73,13 +74,14 @@ def supports(s):
 
 
 def hinges(s):
-    """Returns the points at released member ends."""
+    """Returns the indices of the points at released member ends."""
     ends = np.column_stack([s.first[:-1], s.first[1:] - 1])
     return ends[s.released != 0]
 
 
 def drawn_polygons(s, state, scale):
-    """Returns [(corners, colour)] of one state, and of the undeformed state behind it (colour None)."""
+    """Returns two lists of (corners, colour): the undeformed state behind the drawn state, with colour None, and the
+    drawn state. The first is empty if the drawn state is the undeformed one."""
     every = max(1, math.ceil(len(s.position[0]) / MOST_STRIPS))
     rest = [(p, None) for p in strips(s, 0, 1, every)] if state else []
     here = [(p, shade(p, MEMBER)) for p in strips(s, state, scale, every)]
@@ -107,7 +109,7 @@ class Sheet:
         return "M" + "L".join(self.at(corners)) + ("z" if len(corners) > 2 else "")
 
     def bar(self):
-        """Returns a scale bar of a round length."""
+        """Returns a scale bar whose length is a power of ten."""
         length = 10 ** math.floor(math.log10(0.4 * self.width / self.scale))
         words = f"{length:g} m" if length >= 1 else f"{1e3 * length:g} mm"
         x, y = 10 + length * self.scale, self.height - 10
@@ -157,8 +159,9 @@ def title_of(s, state, scale):
 
 
 def chosen(s):
-    """Returns the states with a picture. For a path, these are the first distant state and the last state that is
-    farthest from it. A linear solution and the first modes are also included."""
+    """Returns the states to choose the picture from: the undeformed state, two states of a path or motion, and up to
+    MOST_MODES linear solutions, buckling modes and vibration modes each. The two states are the first one at a distance
+    of FAR from the start, and the last one that is farthest from it (to the fraction NEARLY)."""
     path = [k for k, kind in enumerate(s.kind) if kind in ("path", FRAME)]
     out = [0]
     if path:

@@ -1,5 +1,5 @@
-"""Common parts of all error figures: axes, selection of the formulations, and markers below the uncertainty of the
-reference value."""
+"""Error figures of cases and the parts that they share: axes, selection of the formulations, and markers below the
+uncertainty of the reference value."""
 import math
 
 import numpy as np
@@ -9,7 +9,7 @@ from reports import answers, data, style, verdicts
 from reports.chart import Chart
 
 FLOOR = 1e-13  # errors below this value are round-off
-NEARLY = 1e-10  # differences below this error are not relevant
+NEARLY = 1e-10  # values with smaller errors are treated as equal to the reference value
 CEILING = 1e3  # larger errors are not drawn
 MOST_CURVES = style.MOST  # largest number of formulations in a figure
 OPEN = "open: below the reference value's own digits"
@@ -45,7 +45,7 @@ def clipped(error):
 
 
 def finite(series, quantity, errors="errors"):
-    """Returns [(mesh, magnitude of its error)] of the meshes with a value."""
+    """Returns [(mesh, magnitude of its error, limited to FLOOR and CEILING)] of the meshes with an error."""
     return [(m, clipped(getattr(m, errors)[quantity])) for m in series.meshes
             if math.isfinite(getattr(m, errors).get(quantity, math.nan))]
 
@@ -155,7 +155,8 @@ def draw_series(site, panel, point, series, quantity, where, errors="errors", to
 
 
 def slope_triangle(panel, shown, quantity):
-    """Draws a triangle with the order of the most accurate formulation next to its last points."""
+    """Draws a line below the last points of the most accurate formulation. Its slope is the order of this formulation,
+    rounded to an integer."""
     best = None
     for series in shown:
         pairs, v = finite(series, quantity), answers.verdict_of(series, quantity)
@@ -233,7 +234,7 @@ def draw_errors(site, panel, point, quantity, shown, abscissa, told):
 
 
 def draw_times(site, panel, point, shown, quantity):
-    """Draws the front of the best results and the scatter of times."""
+    """Draws the front of the best results, and the interval of times of each mesh over its rounds."""
     line = front_line(point, quantity)
     panel.plot([x for x, _ in line], [y for _, y in line], back=True, color="currentColor",
                linewidth=5, alpha=0.15)
@@ -261,7 +262,7 @@ def shown_in_all(point, quantities, errors="errors"):
 
 def small_multiples(site, point, quantities, name, errors="errors", ylabel="relative error",
                     abscissa="time"):
-    """Draws a small panel for each quantity, with equal formulations in all panels."""
+    """Draws a small panel for each quantity, with the same formulations in all panels."""
     columns = min(3, len(quantities))
     chart = Chart(columns, SMALL if len(quantities) > 1 else ONE, gap=(66, 62))
     label, where, whole = against(point, abscissa)
@@ -276,9 +277,8 @@ def small_multiples(site, point, quantities, name, errors="errors", ylabel="rela
 
 
 def curves(site, point, quantity, name):
-    """Draws the curve of every formulation on its finest mesh, at most MOST_CURVES. Curves over frequency have
-    logarithmic frequencies, as in a Bode plot. The values of such curves are logarithmic if all values are
-    amplitudes."""
+    """Draws the curves of at most MOST_CURVES formulations on their finest meshes. Curves over frequency have a
+    logarithmic frequency axis, as in a Bode plot. Their value axis is logarithmic if all values are positive."""
     found = [(s, [m for m in s.meshes if quantity in m.curves and len(m.curves[quantity][0])])
              for s in point.series]
     found = sorted((f for f in found if f[1]),

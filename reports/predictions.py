@@ -14,12 +14,12 @@ def tasks(site):
 
 
 def truths_of(point):
-    """Returns {quantity: exact value}."""
+    """Returns {quantity: reference value}."""
     return {v.quantity: v.truth for s in point.series for v in s.verdicts if math.isfinite(v.truth)}
 
 
 def of_point(point):
-    """Returns [(quantity, estimate, its error, [(formulation, error of its coarsest mesh)])]."""
+    """Returns [(quantity, estimate, its relative error, [(formulation, elements of its coarsest mesh, error)])]."""
     known = truths_of(point)
     coarsest = [(s.key, s.meshes[0]) for s in point.series if s.meshes]
     predictions = {name: value for _, mesh in coarsest for name, value in mesh.predictions.items()}

@@ -1,8 +1,8 @@
 """The problems on which formulations are compared, and the cost at which each formulation solves a problem.
 
-A problem is a quantity with an exact reference value of the same model, at a parameter point of a case. Second names
-of an entry are not counted. All cases have equal weights, whatever the number of their parameter points. All problems
-within a case have equal weights.
+A problem is a quantity with an exact reference value of the same model, at a parameter point of a case. Aliases of
+quantities (verdicts.py) are not counted. All cases have equal weights, whatever the number of their parameter points.
+All problems within a case have equal weights.
 
 A formulation solves a problem to a level with the coarsest mesh for which the errors of that mesh and of all finer
 meshes are within the level, unless its limit is known to be outside the level."""
@@ -27,7 +27,7 @@ class Problem:
     point: str
     quantity: str
     tries: dict
-    meshes: list  # meshes of all runs of the structure of the problem
+    meshes: list  # meshes of all successful runs at the parameter point
     least: dict = field(default_factory=dict)  # measure -> smallest value over all these meshes
 
 
@@ -50,7 +50,7 @@ def tries_of(point, quantity, keys):
 
 
 def problems_of(case, keys):
-    """Returns the problems of a case, with the smallest cost of any run of their structure."""
+    """Returns the problems of a case, each with the smallest value of each cost measure over the runs at its point."""
     found, second_names = [], verdicts.aliases(case)
     for point in case.points:
         meshes = [m for s in point.series for m in s.meshes if m.status == "ok"]
@@ -87,8 +87,8 @@ def no_defect(verdict, level):
 
 
 def solved(problem, key, level, forbids=defect):
-    """Returns the data.Mesh with which a formulation solves the problem, or None. `forbids` is a function that returns
-    True for a known defect, which is treated as not solved."""
+    """Returns the data.Mesh with which a formulation solves the problem, or None. `forbids` is a function of verdict and
+    level that returns True for a known defect. With a known defect, the problem is not solved."""
     if key not in problem.tries:
         return None
     series, verdict = problem.tries[key]
@@ -107,8 +107,8 @@ def weights(found, key=None):
 
 
 def paid(problem, keys, level, count, forbids=defect):
-    """Returns {formulation: cost of the mesh that solves the problem}. The cost is infinite if no mesh solves the
-    problem."""
+    """Returns {formulation: cost of the mesh that solves the problem}, by the cost measure `count`. The cost is infinite
+    if no mesh solves the problem."""
     meshes = {key: solved(problem, key, level, forbids) for key in keys}
     return {key: COUNTS[count](m) if m else math.inf for key, m in meshes.items()}
 
@@ -120,8 +120,8 @@ def to_the_best(problem, bills, count):
 
 
 def to_the_smallest(problem, bills, count):
-    """Returns the unit of data profiles (More and Wild 2009): the smallest cost of any run of the structure, whatever its
-    error. This unit depends neither on a tolerance nor on other formulations."""
+    """Returns the unit of data profiles (More and Wild 2009): the smallest cost of any run at the parameter point,
+    whatever its error. This unit does not depend on a tolerance."""
     del bills
     return problem.least[count]
 
@@ -150,7 +150,7 @@ def factors(found, keys, question):
 
 # Reliability and speed: the verdicts on each formulation and its costs.
 
-LEVEL, NEAR = 0.01, 2  # "within twice the best, to 1 %"
+LEVEL, NEAR = 0.01, 2  # error level, and cost relative to the lowest cost up to which a formulation is near the best
 GROUPS = {  # column -> verdicts that the column counts
     "pass": ("pass",),
     "low order": ("low order",),
@@ -168,8 +168,8 @@ class TrustRow:
     """A row of the table for one formulation. Shares are fractions of the weight of all problems."""
 
     key: str
-    counts: dict  # column of GROUPS -> verdicts
-    offered: float = math.nan
+    counts: dict  # column of GROUPS -> number of verdicts
+    offered: float = math.nan  # share of problems that the formulation supports
     solved: float = math.nan  # share of problems solved to LEVEL
     near: float = math.nan  # share of problems solved to LEVEL at no more than NEAR times the best cost
     factor: float = math.nan  # median cost relative to the best, over the problems that the formulation solves to LEVEL
@@ -200,7 +200,7 @@ def median(pairs):
 
 
 def count_trust(cases):
-    """Returns {formulation: {column: number}} over all points and quantities, without second names of entries."""
+    """Returns {formulation: {column: number of verdicts}} over all points and quantities, without aliases."""
     out = {}
     for row in verdicts.rows(cases):
         name = COLUMN.get(row.verdict.verdict)
@@ -211,7 +211,7 @@ def count_trust(cases):
 
 
 def judged(cases):
-    """Returns every formulation that has a verdict, including options."""
+    """Returns every formulation that has a verdict, with and without options."""
     return [key for key, counts in count_trust(cases).items() if sum(counts.values())]
 
 
@@ -226,7 +226,7 @@ def speed(row, found, pairs):
 
 
 def trust_table(cases, found, keys):
-    """Returns [TrustRow] of the formulations that have verdicts."""
+    """Returns [TrustRow] of the formulations in `keys` that have verdicts, in the order of trust_order()."""
     counts, measured = count_trust(cases), factors(found, contestants(cases), Question(LEVEL))
     rows = [TrustRow(key, counts[key]) for key in keys if sum(counts.get(key, {}).values())]
     for row in rows:
@@ -236,15 +236,15 @@ def trust_table(cases, found, keys):
 
 
 def trust_order(row):
-    """Returns the sort key of a row, which is the number of solved problems. Formulations that are not compared (options,
-    uncorrected misprints) come last."""
+    """Returns the sort key of a row: the share of solved problems, then the share of passes, largest first. Formulations
+    that are not compared (options, uncorrected misprints) come last."""
     solved = row.solved if math.isfinite(row.solved) else -1
     return -round(solved, 6), -round(row.share, 6), row.key
 
 
 def wrong_cases(cases, key):
-    """Returns {case: verdicts} of the cases in which a formulation converges to a wrong limit. Cases with the most such
-    verdicts come first."""
+    """Returns {case: number of verdicts} of the cases in which a formulation converges to a wrong limit. Cases with the
+    most such verdicts come first."""
     sizes = {}
     for row in verdicts.rows(cases):
         wrong = COLUMN.get(row.verdict.verdict) in ("predicted", "wrong")

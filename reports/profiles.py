@@ -1,4 +1,5 @@
-"""Performance profiles and data profiles: the share of the problems that is solved within a factor."""
+"""Performance profiles and data profiles: the share of problems that a formulation solves at no more than a factor times
+the unit of cost (problems.to_the_best, problems.to_the_smallest)."""
 import csv
 import functools
 import math
@@ -18,7 +19,8 @@ SLACK = 1e-9  # relative tolerance of a factor, so that equal costs remain equal
 
 @dataclass(frozen=True)
 class Picture:
-    """A figure for each level. If `offered` is True, only problems that a formulation supports are counted."""
+    """A kind of profile, which is drawn for each level. If `offered` is True, the profile of a formulation counts only
+    the problems that it supports."""
 
     name: str
     count: str
@@ -191,7 +193,7 @@ def figure_of(site, picture, curves, keys, name, size=(250, 175)):
 
 
 def write_table(site, compared, name="profiles.csv"):
-    """Writes every curve, drawn or not. The factor "any" contains the share solved at any factor."""
+    """Writes every curve, drawn or not, in CSV. Rows with the factor "any" contain the share solved at any cost."""
     path = os.path.join(site.folder, name)
     with open(f"{path}.part", "w", encoding="utf-8", newline="") as out:
         table = csv.writer(out)
@@ -210,12 +212,12 @@ def write_table(site, compared, name="profiles.csv"):
 # The page of profiles, winners and reliability.
 
 NAVIGATION = [("profiles.html", "profiles")]
-NEAR = {to_the_best: 2, to_the_smallest: 10}  # factor for the example of how to read the figure
+NEAR = {to_the_best: 2, to_the_smallest: 10}  # factor at which the text next to a figure reads the leading curve
 READINGS = (defect, no_defect, any_defect)
 
 
 def panel(site, compared, picture, level, name=None, size=(250, 175)):
-    """Returns a figure with an example of how to read it: the leading curve at the factor NEAR."""
+    """Returns the figure of a level, with the leading curve at the factor NEAR as an example of how to read it."""
     curves = compared.profile(picture.question(level), picture.offered)
     at = places(FARTHEST[picture.unit])
     factor = NEAR[picture.unit]

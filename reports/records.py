@@ -5,8 +5,8 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Clock:
-    """Time of a run: the smallest time of all repetitions, and the times of the fastest and the slowest round. For a
-    single run, all three are equal."""
+    """Times of a run [s]. `least` and `most` are the times of the fastest and the slowest round. For a single run, both
+    are setup + solve."""
     setup: float
     solve: float
     least: float
@@ -17,7 +17,7 @@ class Clock:
 
 @dataclass
 class Kept:
-    """A run without elimination of degrees of freedom."""
+    """Time of a run without elimination of degrees of freedom, and the number of its unknowns."""
     clock: Clock
     free: int
 
@@ -50,7 +50,7 @@ class Mesh:
     kept: Kept = None
     parts: dict = field(default_factory=dict)  # part of Newton's iterations -> seconds
     dense: Dense = None
-    predictions: dict = field(default_factory=dict)  # quantity -> value of an analytic model
+    predictions: dict = field(default_factory=dict)  # quantity -> analytic estimate
     cost: float = math.nan  # cost of counted work, with the cost coefficients of the reference machine [s]
     priced: bool = True  # True if the formulation has separate cost coefficients, False for general ones
 
@@ -110,7 +110,7 @@ class Series:
     verdicts: list
     imported: str = ""  # file of the other program from which the series was read
     model: str = "beam"
-    unranked: str = ""  # reason why the series has no rank: derivatives by differences, or another process
+    unranked: str = ""  # reason why the series has no rank: derivatives by differences, a misprint, or another process
     is_new: bool = False  # True if not accepted yet, so that verdicts do not affect the exit status
     other: str = ""  # relevant physics that the formulation omits, so that it solves another model
     without: str = ""  # physics that the formulation omits, and the effect of the omission

@@ -32,9 +32,9 @@ class Shapes:
     members: np.ndarray  # nodes p and q, and section [members x 3]
     first: np.ndarray  # index of the first point of each member [members + 1]
     body: np.ndarray  # node with which each node moves, or -1 [nodes]
-    held: np.ndarray  # [nodes]: bits
-    released: np.ndarray  # bits of both ends [members x 2]
-    sections: list  # walls [walls x 4 x 2] in m
+    held: np.ndarray  # bits of the fixed components [nodes]
+    released: np.ndarray  # bits of the released components at both ends [members x 2]
+    sections: list  # corners (y, z) of the walls of each section [walls x 4 x 2] in m
     far: dict  # {member: section at its far end}, if the section changes along the member
     equivalent: list  # True if the section is known only by its constants and drawn as a rectangle
     kind: list
@@ -103,14 +103,14 @@ def turns(s, a, b):
 
 
 def distance(s, a, b):
-    """Returns the approximate largest displacement of a corner."""
+    """Returns an upper estimate of the largest distance that a point of a section moves between states a and b [m]."""
     radius = max(np.linalg.norm(walls, axis=2).max() for walls in s.sections)
     return float((np.linalg.norm(s.position[a] - s.position[b], axis=1) +
                   radius * np.linalg.norm(turns(s, a, b), axis=1)).max())
 
 
 def exaggeration(s, state):
-    """Returns 1 if the displacements are visible, otherwise the round factor that makes them visible."""
+    """Returns 1 if the displacements are visible, otherwise a round factor that makes them visible."""
     moved = distance(s, state, 0)
     if moved == 0 or moved > VISIBLE * size_of(s):
         return 1
@@ -133,7 +133,7 @@ def is_thick(wall):
 
 
 def strips(s, state, scale, every):
-    """Returns quadrilaterals [.. x 4 x 3] of all members."""
+    """Returns the quadrilaterals of all members [quadrilaterals x 4 x 3]. `every` is the spacing of the points used."""
     out = []
     position = s.position[0] + scale * (s.position[state] - s.position[0])
     axes = axes_of(s, state, scale)
@@ -159,8 +159,8 @@ def strips(s, state, scale, every):
 
 
 def hull_faces(points):
-    """Returns the faces of the convex hull as indices. For points in a plane, the result is the polygon. For points on
-    a line, the result is the segment."""
+    """Returns the faces of the convex hull as indices of points: triangles, one polygon for points in a plane, one
+    segment for points on a line, or none for a single point."""
     rounded, index = np.unique(np.round(points, 12), axis=0, return_index=True)
     middle = rounded.mean(axis=0)
     _, extent, axes = np.linalg.svd(rounded - middle, full_matrices=False)
@@ -204,7 +204,7 @@ def groups_of_bodies(s):
 
 
 def bodies(s, state, scale):
-    """Returns the faces of the rigid bodies and the rods between the middles of their groups."""
+    """Returns the faces of the rigid bodies, including the rods or faces between the middles of their groups."""
     faces = []
     nodes = s.nodes[0] + scale * (s.nodes[state] - s.nodes[0])
     for attached, groups in groups_of_bodies(s):
@@ -222,7 +222,7 @@ def bodies(s, state, scale):
 # the label of the state contains the factor.
 
 WHOLE = 32767
-MOST_POINTS = 1300  # of all members; with more points, only every second or third point is stored
+MOST_POINTS = 1300  # largest number of stored points of all members; of more points, only every n-th is stored
 MOST_FRAMED = 16_000  # largest number of points of all frames of a motion together
 LEAST = 3  # smallest number of points of a bent member before the number of frames is reduced
 
@@ -239,8 +239,8 @@ def frames_of(s):
 
 
 def drawn_states(s, most=MOST_FRAMED):
-    """Returns the states that are stored: all states or, for a motion, as many evenly spaced frames, including both
-    ends, as `most` points allow."""
+    """Returns the states that are stored: all states that are not frames, and as many evenly spaced frames of a motion,
+    including both ends, as `most` points allow."""
     frames = frames_of(s)
     count = max(2, most // (LEAST * max(1, len(s.members))))
     if len(frames) > count:
@@ -269,7 +269,8 @@ def ends(wall, other, pick, half):
 
 
 def profile(walls, far, half):
-    """Returns the strips along a member, and the caps of thick walls."""
+    """Returns the corners of the strips along a member and of the caps of its thick walls. `far` are the walls at the far
+    end, or None if the section is constant."""
     strips, caps = [], []
     for k, wall in enumerate(walls):
         other = None if far is None else far[k]
@@ -295,8 +296,8 @@ def drawn_bodies(s):
 
 
 def exaggerations(s):
-    """Returns the scale of every state. All states of a path have the scale of the state with the largest displacement.
-    Motions are not exaggerated."""
+    """Returns the scale of every state. All states of a path have the smallest of their scales. Motions are not
+    exaggerated."""
     found = [1.0 if kind == FRAME else float(exaggeration(s, k))
              for k, kind in enumerate(s.kind)]
     path = [k for k, kind in enumerate(s.kind) if kind == "path"]
@@ -305,9 +306,9 @@ def exaggerations(s):
 
 
 def shape(s, words, supports, hinges, start, view, most=MOST_FRAMED):
-    """Returns the data for the viewer. `words` is the title of a state and its exaggeration, `supports` are nodes,
-    `hinges` are points, `start` is the state shown first, `view` is (azimuth, elevation) in degrees, and `most` is the
-    largest number of points of all frames of a motion together."""
+    """Returns the data for the viewer. `words` is a function of (s, state, scale) that returns the title of a state.
+    `supports` are nodes, `hinges` are points, and `start` is the state shown first. `view` is (azimuth, elevation) in
+    degrees. `most` is the largest number of points of all frames of a motion together."""
     at, first = kept(s, most)
     drawn, every = drawn_states(s, most), exaggerations(s)
     scales = [(k, every[k]) for k in drawn]

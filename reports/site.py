@@ -25,7 +25,7 @@ def percent(value):
 
 
 def limit(v):
-    """Returns a limit in text form, with its significant digits, one further digit, and its uncertainty."""
+    """Returns a limit in text form with its uncertainty, to one or two digits more than are known."""
     if not math.isfinite(v.limit):
         return "–"
     if not math.isfinite(v.limit_uncertainty):

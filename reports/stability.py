@@ -9,8 +9,8 @@ from reports import experiments
 from reports.chart import Chart
 from reports.figures import FONT, Image
 
-# The map of stability in a separate SVG. Rows are formulations, and columns are extremes. Each field is a strip of the
-# tested values, in the order of the tables from left to right.
+# The map of stability in a separate SVG. Rows are formulations, and columns are extremes. Each field is a strip with a
+# part for each tested value, from left to right in the order of the results.
 
 WIDE, TALL, HEAD, LEFT = 42, 22, 150, 190  # width and height of a field, space for the names above and on the left
 MOST = 22  # largest number of extremes side by side
@@ -141,7 +141,8 @@ def kind(outcome):
 
 
 class Cell:
-    """Outcome of one formulation at one value of one extreme, which is that of the worst quantity."""
+    """Outcome of one formulation at one value of one extreme: that of the quantity with the worst outcome. `error` is the
+    largest magnitude of the errors of all quantities, or NaN."""
 
     def __init__(self, outcomes):
         order = list(LOOK)
@@ -174,7 +175,7 @@ def cells(record):
 
 
 def largest(found, name):
-    """Returns the largest error of the runs of an extreme in text form."""
+    """Returns the largest value of the attribute `name` over these Cells ({x: Cell}) in text form."""
     values = [getattr(c, name) for c in found.values() if math.isfinite(getattr(c, name))]
     return f"{max(values):.2g}" if values and max(values) > 0 else "–"
 
@@ -205,8 +206,8 @@ def draw_curve(site, extreme, keys, all_cells):
 
 
 def findings(record):
-    """Returns [(extreme, formulations, outcome, values, proof)] of outcomes that are neither accurate nor under-resolved.
-    Entries with equal values of x or equal formulations are merged."""
+    """Returns [(extreme, formulations, outcome, values of x, proof)] of the reported failures, wrong numbers and crashes.
+    Formulations with the same outcome at the same values share an entry."""
     rows, told = {}, {}
     for o in record["outcomes"]:
         if kind(o) in ("named", "wrong", "fault"):
@@ -220,7 +221,7 @@ def findings(record):
 
 
 def stored(site):
-    """Returns the record in the results, or None."""
+    """Returns the record of `beamwork stress` in the results, or None."""
     return read(site.results)
 
 

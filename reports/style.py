@@ -2,7 +2,7 @@
 others.
 
 The colours are distinguishable without colour vision (Okabe and Ito, Tol). In dark mode, each colour is replaced by a
-lighter colour of the same hue: figures.py writes a variable, which base.html defines."""
+lighter colour of the same hue: figures.py writes a variable, which the style sheet defines (sheet())."""
 import zlib
 
 import matplotlib
@@ -58,7 +58,8 @@ plt.rcParams.update({
 
 
 def extra(keys):
-    """Returns the keys of the formulations that a figure omits first: options, then uncorrected misprints and old forms."""
+    """Returns the keys that a figure initially hides so that at most MOST curves are shown. Options are hidden first,
+    then the formulations in LAST."""
     keys = list(keys)
     last = [k for k in keys if ":" in k] + [k for k in LAST if k in keys]
     rest = [k for k in keys if k not in last]
@@ -99,7 +100,7 @@ def marks():
 
 
 def sheet():
-    """Returns the variables of the colours and markers of formulations for the style sheet."""
+    """Returns the rules of the style sheet for formulations: colour variables for light and dark pages, and markers."""
     light, dark = (":root { " + " ".join(f"--f{i}: {p[k]};" for i, p in enumerate(COLOURS)) + " }"
                    for k in (0, 1))
     return f"{light}\n@media screen and (prefers-color-scheme: dark) {{ {dark} }}\n{marks()}"

@@ -25,7 +25,7 @@ FLOOR = 1e-12  # smallest drawn error
 
 
 def projected(found, table, axes):
-    """Returns a table [C, ...] summed over all axes except the given axes, which are in the given order."""
+    """Returns a table [cells, ...] reshaped to its axes and summed over all except the given axes, in the given order."""
     count = len(found.parts)
     whole = table.reshape(found.shape + table.shape[1:])
     whole = whole.sum(axis=tuple(a for a in range(count) if a not in axes))
@@ -33,7 +33,8 @@ def projected(found, table, axes):
 
 
 def by_influence(found):
-    """Returns the axes sorted by the change of the result along them, largest first. Axes with words come last."""
+    """Returns the indices of the axes. The axes along which the share of results within the tolerance varies most come
+    first, and axes with words come last."""
     within = found.reach[:, :, -1, :-2].sum(axis=(1, 2))
     score = []
     for a, part in enumerate(found.parts):
@@ -52,7 +53,7 @@ def slices_of(part):
 
 
 def counted(state, look):
-    """Returns the alternative text of a map."""
+    """Returns the alternative text of a map: the share of its fields in each state."""
     drawn = state[state != maps.EMPTY]
     said = [f"{look.words[k]}: {answers.percent((drawn == k).sum() / drawn.size)}"
             for k in [*(k for k in look.words if k >= 0), maps.UNKNOWN] if (drawn == k).any()]
@@ -205,7 +206,8 @@ def curves(site, sweep, found, q=-1):
 # Data of the runs of a sweep for maps over axes that the reader selects. The data are in a separate script next to the
 # page, which assets/sweep.js loads when the reader makes a selection.
 #
-# The states of cells are letters, each with its number of repetitions. The last axis varies fastest.
+# The states of cells are letters or signs (SPECIAL), each followed by its number of repetitions if there are several. The
+# last axis varies fastest.
 
 # Upper ends of the classes of errors in percent, in addition to the tolerance. Two further classes are larger errors
 # and no error.
@@ -224,13 +226,13 @@ def written(states):
 
 
 def levels_of(tolerance):
-    """Returns LEVELS together with the tolerance."""
+    """Returns LEVELS together with the tolerance, in percent and in ascending order."""
     own = float(f"{100 * tolerance:.6g}")
     return sorted({*LEVELS, own})
 
 
 def classes(worst, points, levels):
-    """Returns the class of the largest error in each cell [C]."""
+    """Returns the class of the largest error in each cell. `levels` are the upper ends of the classes in percent."""
     found = np.searchsorted(levels, 100 * worst.astype(float) * (1 - 1e-6))  # single precision
     found = np.where(np.isinf(worst), len(levels) + 1, found)
     return np.where(points == 0, maps.EMPTY, np.where(worst < 0, maps.UNKNOWN, found))
@@ -356,7 +358,7 @@ def curves_of(site, sweep, found):
 
 
 def glance(site, sweep):
-    """Returns the context of the first sentences, for this page and for the first page."""
+    """Returns the variables of the template for the first sentences, on this page and on the first page."""
     found = gather.of_sweep(sweep)
     made = answers.of_sweep(sweep, found)
     return {"sweep": sweep, "found": found, "answers": made, "groups": answers.together(made),

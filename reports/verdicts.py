@@ -61,7 +61,7 @@ def percent(value):
 
 
 def met(v):
-    """Returns the relative distance of the limit from the derived limit, or NaN if no limit was derived."""
+    """Returns the distance of the limit from the predicted limit relative to the latter, or NaN if none was predicted."""
     return abs(v.limit - v.predicted) / abs(v.predicted) if v.predicted else math.nan
 
 
@@ -119,7 +119,7 @@ def same(a, b):
 
 
 def is_alias(case, name, other):
-    """Returns True if there is a run with one of the two names and both names have equal values in every such run."""
+    """Returns True if both names have equal values in every run of the case, and a value in at least one run."""
     values = [m.values for p in case.points for s in p.series for m in s.meshes]
     pairs = [(v.get(name, math.nan), v.get(other, math.nan)) for v in values]
     return all(same(*pair) for pair in pairs) and any(math.isfinite(a) for a, _ in pairs)
