@@ -1,6 +1,6 @@
-/* Structures in steady rotation: results that do not depend on the frame, the algorithm of the
- * formulation or the reference point of a body, the elongation of a thick beam, and a structure at
- * rest, which costs nothing extra. */
+/* Structures in steady rotation. Results must not depend on the frame, the algorithm of the
+ * formulation or the reference point of a body. The elongation of a thick beam has a closed form. A
+ * structure at rest must cost nothing extra. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -36,8 +36,8 @@ static double value_of(const char *case_name, const char *chosen, int n,
 }
 
 /* With k = Omega L/c = 1/2, where c is the speed of sound, the elongation is L (tan k/k - 1).
- * Elements of higher order have this value on the mesh of the test, and other elements in the
- * limit. */
+ * Elements of higher order must give this value on the mesh of the test, and other elements in the
+ * limit of fine meshes. */
 static void stretch(void)
 {
     const char *const thick[] = {"omega_star=5", "slenderness=10", NULL};
@@ -83,7 +83,8 @@ static const parameter_type with_body_parameters[] = {
     {0},
 };
 
-/* Builds an inclined channel that rotates about an axis next to it. */
+/* Builds an inclined channel that rotates about an axis next to it. If value[BODY] is not zero, its
+ * tip is attached to another node by a rigid arm. */
 static status build_with_body(const double value[], scene *s, fault *f)
 {
     (void)f;
@@ -110,8 +111,8 @@ static status build_with_body(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* The centrifugal and gyroscopic terms of a rigid offset are compared with the same structure in
- * other coordinates. */
+/* The centrifugal and gyroscopic terms of a body with a rigid offset must not depend on its
+ * reference point. */
 static void reference_point(void)
 {
     static const case_type type = {.name = "with_body",
@@ -145,7 +146,7 @@ static void reference_point(void)
     }
 }
 
-/* Compares the counted work of one path with and without a rotating frame. */
+/* Compares the counted work on a path without a frame and in a frame with speed zero. */
 static void at_rest(void)
 {
     const char *const slow[] = {"omega=1e-6", NULL};
@@ -165,7 +166,7 @@ static void at_rest(void)
     cell_result_free(&turning);
 }
 
-/* An inward-pointing beam buckles under its own centrifugal force, which must be reported. */
+/* A beam that points inwards buckles under its own centrifugal force. This must be reported. */
 static void instability_is_named(void)
 {
     const char *const inward[] = {"hub_radius=-2", "omega_star=4", NULL};
@@ -195,8 +196,8 @@ static const double length = 2.385, thickness = 0.011, width = 0.017, young = 2.
                     density = 7300; /* m, m, m, Pa, kg/m^3 */
 static const double root[2] = {4.7300407448627040, 7.8532046240958376};
 
-/* Returns frequency i: 0 is bending about the weak axis, 1 about the strong axis. The second modes
- * of each follow. */
+/* Returns frequency i. Frequencies 0 and 1 are the first bending modes about the weak and the
+ * strong axis, and 2 and 3 the second modes. */
 static double exact(int i)
 {
     const double height = i % 2 == 0 ? thickness : width, k = root[i / 2] / length;
@@ -222,8 +223,8 @@ static void free_beam_tests(void)
 {
     frequencies("beamw_vlasov", 32, 1e-5);
     frequencies("beamw_first", 32, 1e-5);
-    /* so many elements that rounding in the assembly changes the stiffness, and solutions are
-     * refined */
+    /* with 600 elements, round-off in the assembly changes the stiffness, and solutions are refined
+     */
     frequencies("beamw_vlasov", 600, 2e-7);
     frequencies("beamw_vlasov", 2400, 2e-7);
 }
@@ -281,8 +282,8 @@ static void newton(void)
              "mixed Newton takes at most four iterations a step (%ld in 15 steps)", mixed);
 }
 
-/* In a first step of 15 degrees, the ends of short elements change places. The strains cannot show
- * this, so the solver must detect it. */
+/* In a first step of 15 degrees, the ends of short elements would exchange their order along the
+ * member. The strains cannot show this, so the solver must detect it. */
 static void no_element_is_turned_round(void)
 {
     const double value = solve_value_of("spherical_joint", "beamw_consistent", 32, 0, "wagner=0",
@@ -304,8 +305,6 @@ static void fine_mesh(void)
              order);
 }
 
-/* Far below the largest values, the geometric stiffness alone determines the pivots of K - A/s,
- * which vanish for these strips. */
 static void frame_of_strips(void)
 {
     const double exact = 0.6222080872197;
@@ -318,7 +317,7 @@ static void frame_of_strips(void)
 }
 
 /* Equal elements have equal rounding errors, which add up to much more than independent errors
- * would. The inertia is that of the sums. */
+ * would. */
 static void equal_elements(void)
 {
     const double critical = solve_value_of("lateral_buckling", "geometrically_exact", 256, 0,
@@ -327,7 +326,8 @@ static void equal_elements(void)
 }
 
 /* Two elements on fork supports have 14 modes, of which two are axial. In some of the other modes,
- * no node moves and only cross-sections rotate and warp, so these modes are not axial. */
+ * the cross-sections at the nodes rotate and warp without displacement, so these modes are not
+ * axial. */
 static void modes_in_place(void)
 {
     for (int keep_all = 0; keep_all < 2; keep_all++)

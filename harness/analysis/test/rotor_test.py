@@ -6,7 +6,7 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# Overhung disc, whose bending is a problem of two unknowns in the complex plane.
+# Overhung disc. Its deflection and its rotation, as complex numbers, are the two unknowns of bending.
 SHAFT = """beamwork: 1
 let: {d: 0.02}
 sections:
@@ -20,7 +20,8 @@ analyses: {r: {rotation: {omega: [%(omega)r, 0, 0], stations: [1], wanted: 8}}}
 quantities: {f_$n: {for: {n: 0..%(last)d}, frequency: {analysis: r, which: n}, unit: Hz}}
 omit: [%(omit)s]
 """
-# A point mass on a massless shaft whose end does not tilt: 12 E I/L^3, multiplied by `flat` in one plane.
+# A point mass on a massless shaft whose end does not tilt. The stiffness is 12 E I/L^3, multiplied by `flat` in one
+# plane.
 JEFFCOTT = SHAFT.replace("mass: 5, inertia: [%(polar)r, 0.02, 0.02, 0, 0, 0]", "mass: 5, hold: [ux, rx, ry, rz]")
 # Stiff arm with a mass at its tip, in an eccentric hinge with a soft spring. Three coordinates have a mass.
 ARM = """beamwork: 1
@@ -34,7 +35,8 @@ quantities:
   lag:  {frequency: {analysis: r, which: 0}, unit: Hz}
   flap: {frequency: {analysis: r, which: 1}, unit: Hz}
 """
-# Almost a string under the centrifugal force on its mass, with elements longer than its bending boundary layer.
+# Under the centrifugal force on its mass, the wire is almost a string. Its elements are longer than its bending
+# boundary layer.
 WIRE = """beamwork: 1
 let: {d: 1e-3}
 sections: {wire: {constants: {A: pi*d^2/4, Iy: pi*d^4/64, Iz: pi*d^4/64, It: pi*d^4/32}, young: 2e9, shear_modulus: 1e9, density: 7800}}
@@ -76,7 +78,7 @@ def expected(omega, polar):
 
 
 def critical(polar):
-    """Returns the speed at which a frequency in the rotating frame is zero."""
+    """Returns the critical speed, at which a frequency in the rotating frame is zero."""
     a, b = 1.0, 300.0
     for _ in range(200):
         m = (a + b)/2
@@ -108,7 +110,8 @@ class Rotors(ProgramTest):
         return values(done.stdout)
 
     def close(self, found, exact, omega, within):
-        """A frequency that vanishes at the critical speed is only as accurate as the speed."""
+        """Compares frequencies. A frequency that is zero at the critical speed is only as accurate as this speed, so
+        the allowed error includes a part of omega."""
         self.assertEqual(len(found), len(exact))
         for a, b in zip(found, exact):
             self.assertLess(abs(a - b), within*(b + 1e-2*omega), (found, exact))
@@ -124,7 +127,8 @@ class Rotors(ProgramTest):
                 self.close(self.frequencies(SHAFT % DEFAULT, formulation, n), expected(300, 0.04), 300, 2e-9)
 
     def test_masses(self):
-        """The mass of the shaft is 2e-4 of that of the disc at 7.85 kg/m^3, and its effect has this order of magnitude."""
+        """At a density of 7.85 kg/m^3, the mass of the shaft is 2e-4 times that of the disc, and its effect has this
+        order of magnitude."""
         for density in (7.85, 1e-3, 1e-6, 1e-9, 1e-12):
             for n in (2, 16):
                 found = self.frequencies(SHAFT % {**DEFAULT, "density": density}, "collocation", n)
@@ -156,7 +160,7 @@ class Rotors(ProgramTest):
                 self.assertIn("critical point", done.stderr)
 
     def known(self, scene, formulation, n, exact, within, floor=2e-13):
-        """Checks the values, and that their errors lie within the estimates of round-off, which must be no larger than
+        """Checks the values. Their errors must lie within the estimates of round-off, and these estimates must be below
         `within`."""
         done = self.solved(scene, formulation, n)
         self.assertEqual(len(done["quantities"]), len(exact))
@@ -167,8 +171,8 @@ class Rotors(ProgramTest):
             self.assertLess(abs(q["value"]/right - 1), q["rounding"] + floor, (formulation, n, q["quantity"]))
 
     def test_massless(self):
-        """Three coordinates have a mass, and the other coordinates have no frequency. With 200e9 Pa, the matrix of 32
-        elements has only 3 digits for the soft modes, but the frequencies must keep all digits."""
+        """Only three coordinates have a mass, so there are only three frequencies. With a modulus of 200e9 Pa, the
+        matrix of 32 elements has only 3 digits for the soft modes, but the frequencies must keep all digits."""
         exact = (math.sqrt(400/9 + 1/0.81)/2/math.pi, math.sqrt(400*(1 + 1/9) + 1/0.81)/2/math.pi)
         for young, stretch in (("20e9", 1e-5), ("200e9", 1e-6)):
             for formulation in ("geometrically_exact", "collocation", "beamw"):
@@ -177,7 +181,7 @@ class Rotors(ProgramTest):
                     scene = ARM % young
                     values = [q["value"] for q in self.solved(scene, formulation, n)["quantities"]]
                     first = first or values
-                    for value, right in zip(first, exact):  # of a rigid arm
+                    for value, right in zip(first, exact):  # exact values are for a rigid arm
                         self.assertLess(abs(value/right - 1), stretch, (formulation, young))
                     self.known(scene, formulation, n, first, 1e-10)
 
@@ -188,8 +192,8 @@ class Rotors(ProgramTest):
             self.assertIn("use fewer elements", q["reason"])
 
     def test_uncertainties(self):
-        """Errors must lie within the estimates. A frequency that vanishes at the critical speed loses as many digits as
-        its distance from this speed, and the estimate must show how many."""
+        """Errors must lie within the estimates of round-off. Near the critical speed, one frequency is almost zero and
+        loses digits, and its estimate must increase accordingly."""
         at = critical(0.04)
         for formulation in ("collocation", "geometrically_exact", "beamw", "sheet_third"):
             for n in (1, 4, 16, 64):
@@ -217,8 +221,8 @@ class Rotors(ProgramTest):
                                within)
 
     def test_moment(self):
-        """Matrices are stored in full if a moment may make them unsymmetric. The gyroscopic matrix must then be included
-        once."""
+        """If a moment may make matrices unsymmetric, both triangles are stored. The gyroscopic matrix must then be
+        included only once."""
         for moment in ("0", "1e-9"):
             scene = SHAFT % {**DEFAULT, "density": 1e-13}
             scene = scene.replace("analyses:", f"loads: {{turn: {{moment: [0, 0, {moment}], on: disc}}}}\nanalyses:")
@@ -236,7 +240,8 @@ class Rotors(ProgramTest):
         return self.solved(scene, "collocation", n)["steps"][-1]["stability"]
 
     def test_stability(self):
-        """With stiffnesses k and 1.3 k, K has 0, 0, 1, 2 and 2 negative eigenvalues."""
+        """With shaft stiffnesses k and 1.3 k in the two planes, K has 0, 0, 1, 2 and 2 negative eigenvalues at
+        increasing speeds."""
         for part, said in ((0.5, "stable"), (0.9, "stable"), (1.05, "unstable: grows"),
                            (1.2, "stable without damping"), (1.5, "stable without damping")):
             scene = JEFFCOTT % {**DEFAULT, "flat": 1.3, "omega": part*FIRST, "last": 0}
@@ -246,8 +251,8 @@ class Rotors(ProgramTest):
             self.assertEqual("stable without damping" in told, part > 1.1, told)
 
     def test_round_shaft(self):
-        """With equal stiffnesses the frequencies are |w -+ W|. Without damping, the shaft is stable above the critical
-        speed."""
+        """With equal stiffnesses in both planes, the frequencies in the rotating frame are |w -+ W|. Without damping,
+        the shaft is stable above the critical speed."""
         for part in (0.5, 0.999, 1.001, 1.5, 3.0):
             scene = JEFFCOTT % {**DEFAULT, "omega": part*FIRST, "last": 1}
             right = sorted(abs(FIRST*(1 + s*part))/2/math.pi for s in (-1, 1))
@@ -265,13 +270,13 @@ class Rotors(ProgramTest):
 
 
 def across(a, b, c, d):
-    """Returns the 36 entries of a spring matrix with the block a, b; c, d between uy and uz."""
+    """Returns the 36 entries of a spring matrix with the block [[a, b], [c, d]] for uy and uz."""
     rows = [[0]*6 for _ in range(6)]
     rows[1][1:3], rows[2][1:3] = (a, b), (c, d)
     return sum(rows, [])
 
 
-# A disc at the middle of a massless shaft on two bearings. The ends tilt freely.
+# A disc at the middle of a massless shaft on two bearings. The shaft can tilt freely in the bearings.
 JOURNAL = """beamwork: 1
 sections: {s: {constants: {A: 3e-4, Iy: 8e-9, Iz: 8e-9, It: 1.6e-8}, young: 200e9, shear_modulus: 80e9}}
 nodes:
@@ -293,7 +298,7 @@ BEARING, FILM, SHAFT_STIFFNESS = (3e5, 2e5, -4e4, 2e5), (1600, 250, 150, 1500), 
 RESPONSES = ", ".join(f"{part}_{o}{i}: {{response: {{analysis: A, node: disc, component: {o}, force: disc, along: {i}, "
                       f"part: {part}, at: 9}}}}" for o in ("uy", "uz") for i in ("uy", "uz")
                       for part in ("real", "imaginary"))
-# A disc that does not tilt on a shaft in a fluid film: 192 E I/L^3.
+# A disc that does not tilt, in a fluid film, on a shaft with the stiffness 192 E I/L^3.
 DAMPED = """beamwork: 1
 sections: {s: {constants: {A: 3e-4, Iy: 8e-9, Iz: 8e-9, It: 1.6e-8}, young: 200e9, shear_modulus: 80e9}}
 nodes:
@@ -332,7 +337,8 @@ class Bearings(ProgramTest):
         return done.returncode, " ".join((done.stdout + done.stderr).split())
 
     def test_journal(self):
-        """The determinant vanishes at the damped modes, and the responses are the inverse of the dynamic stiffness."""
+        """The determinant of the dynamic stiffness vanishes at the damped modes. The responses are the inverse of the
+        dynamic stiffness."""
         for formulation in ("collocation", "geometrically_exact", "beamw"):
             got = self.values(JOURNAL, 2, formulation, stiffness=across(*BEARING), damping=across(*FILM),
                               analyses="d: {modal: {damped: yes}}, A: {harmonic: {frequencies: [9]}}, L: {linear: {}}",
@@ -352,7 +358,7 @@ class Bearings(ProgramTest):
             self.assertLess(abs(got["y"]/(98.1*b/(a*d - b*c)) - 1), 1e-7)
 
     def test_onset(self):
-        """With cross stiffness q and damping c, the whirl grows above q = c w, where there is no steady vibration."""
+        """With cross stiffness q and damping c, the whirl grows for q > c w. Then there is no steady vibration."""
         stiffness, damping = 192*200e9*8e-9, 40
         onset = damping*math.sqrt(stiffness/10)
         for part in (0.999, 1.001):

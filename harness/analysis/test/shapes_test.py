@@ -1,5 +1,5 @@
-"""Shapes of solutions: equilibrium along the lines, agreement with the quantities, and the same data through the reader
-of VTK."""
+"""Shapes of solutions: equilibrium along the lines, agreement with the quantities, and equal data when the files are
+read by VTK."""
 import unittest
 
 import h5py
@@ -75,7 +75,8 @@ class Solution(ProgramTest):
                                       rtol=1e-12)
 
     def test_modes(self):
-        """The first buckling mode is stored with an amplitude of a tenth of the length, or a rotation of half a radian."""
+        """The first buckling mode is stored with an amplitude of a tenth of the length, or with a rotation of half a
+        radian."""
         _, shapes, _ = self.solve("c_column", "beamw_consistent", 16, "--shapes")
         kinds = list(shapes["kind"].asstr()[()])
         self.assertIn("buckling", kinds)
@@ -89,8 +90,8 @@ class Solution(ProgramTest):
         self.assertAlmostEqual(max(moved / 0.1, turn / 0.5), 1, delta=2e-2)
 
     def test_lines(self):
-        """The line between two nodes is the cubic whose end tangents are the x axes of the nodes times the element
-        length. The cross-sections between the nodes are perpendicular to the line."""
+        """The line between two nodes is a cubic. Its end tangents are the x axes of the nodes times the element length.
+        The cross-sections between the nodes are perpendicular to the line."""
         for formulation in ("sheet_third", "collocation"):
             _, shapes, tables = self.solve("sheet_cantilever", formulation, 1, "--shapes")
             position, length = shapes["position"][-1], tables["points"]["length"][0]
@@ -107,7 +108,7 @@ class Solution(ProgramTest):
             self.assertLess(numpy.abs(across).max(), 1e-12, formulation)
 
     def test_bimoments_of_elements(self):
-        """Bimoments are linear in an element, equal on both sides of a node, and zero at an end free to warp."""
+        """Bimoments are linear within an element, continuous at nodes, and zero at an end that is free to warp."""
         _, shapes, _ = self.solve("warping_torsion", "collocation", 4, "--shapes")
         bimoment = shapes["bimoment"][-1].ravel()
         size = numpy.abs(bimoment).max()
@@ -119,7 +120,7 @@ class Solution(ProgramTest):
         self.assertEqual(size, abs(bimoment[0]))
 
     def test_supports_and_bimoments(self):
-        """The supports of each node are stored as the bits ux uy uz rx ry rz."""
+        """The supports of each node are stored as six bits, in the order ux uy uz rx ry rz."""
         _, shapes, _ = self.solve("elastica", "collocation", 2, "--shapes")
         self.assertEqual(sorted(shapes["bodies"][:, 1]), [0, 0b111111])
         _, shapes, _ = self.solve("warping_torsion", "collocation", 4, "--shapes")
@@ -176,11 +177,10 @@ class Solution(ProgramTest):
         area.SetInputData(grid)
         area.Update()
         covered = vtk_to_numpy(area.GetOutput().GetCellData().GetArray("Area")).sum()
-        # sheets keep their area, and twisted quadrilaterals almost keep it
+        # the quadrilaterals of twisted sheets cover almost the area of the sheets
         self.assertAlmostEqual(covered / (12 * 0.0681 * 0.0282), 1, delta=2e-3)
 
     def test_vtk_steps(self):
-        """Several states are time steps, in the layout of version 2.0."""
         file, shapes, _ = self.solve("sheet_cantilever", "sheet_third", 2, "--shapes")
         root = file["VTKHDF"]
         self.assertEqual(list(root.attrs["Version"]), [2, 0])

@@ -1,4 +1,4 @@
-/* A stiffness matrix that cannot be factored: a missing support must be distinguished from digits
+/* Stiffness matrices that cannot be factored. A missing support must be distinguished from digits
  * lost in round-off, and no wrong result may be reported. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -11,7 +11,7 @@
 #include "harness/model/model.h"
 #include "harness/tools/kit/cells.h"
 
-/* Two beams along x, the second next to the first and supported separately, with loads along z. */
+/* Two beams along x, next to each other and supported separately, with loads along z. */
 static void two_beams(scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -35,7 +35,7 @@ static void let_go(scene *s, int node, int first, int last)
                        : &scene_node_at(s, node)->angle[k - SCENE_RX]) = SCENE_FREE;
 }
 
-/* Frees the second beam in one way in each case, and lists the resulting motion. */
+/* Each function frees the second beam in one way. The motions that result are listed below. */
 static void everywhere(scene *s)
 {
     let_go(s, 2, SCENE_UX, SCENE_RZ);
@@ -52,13 +52,12 @@ static void about_a_hinge(scene *s)
 {
     let_go(s, 2, SCENE_RY, SCENE_RY);
 }
-static void
-between_hinges(scene *s) /* held at both ends, free to rotate about the line between the ends */
+static void between_hinges(scene *s) /* free to rotate about the line between its ends */
 {
     let_go(s, 2, SCENE_RX, SCENE_RZ);
     scene_hold(s, 3, SCENE_UX, SCENE_UZ);
 }
-static void between_forks(scene *s) /* not held along x */
+static void between_forks(scene *s) /* free along x */
 {
     const double x[3] = {1, 0, 0}, z[3] = {0, 0, 1};
     let_go(s, 2, SCENE_UX, SCENE_RZ);
@@ -77,12 +76,13 @@ static void nothing(scene *s)
     (void)s;
 }
 
-/* components of the motion, of which the largest is 1, or all zero if the beam is held */
+/* free motion of the beam: its components, of which the largest is 1, or zeros if the beam is held
+ */
 static const struct {
     const char *what;
     void (*change)(scene *);
     double motion[6];
-    int any; /* 1 if several motions are free, of which any may be named */
+    int any; /* 1 if there are several free motions, of which the message may name any */
 } changes[] = {
     {"all is held", nothing, {0}, 0},
     {"nothing holds it", everywhere, {0}, 1},
@@ -143,7 +143,7 @@ static status run(const char *case_name, const char *formulation_text, int eleme
     return cell_run(&request, out, f);
 }
 
-/* In every case, round-off must never be reported as a missing support. */
+/* The structures of all cases are held, so no missing support may be reported. */
 static void all_cases_are_held(void)
 {
     for (int i = 0; registry_cases[i] != NULL; i++) {
@@ -167,8 +167,8 @@ static void all_cases_are_held(void)
     }
 }
 
-/* With stiffnesses that differ by 1e-20, or with very many elements, no missing support may be
- * reported, and no number may be returned. */
+/* With stiffnesses that differ by 1e-20, or with very many elements, the result is lost in
+ * round-off. No number may be returned, and no missing support may be reported. */
 static void round_off(void)
 {
     static const struct {
@@ -202,8 +202,9 @@ static void round_off(void)
     gsl_test(lost < 2, "%d were lost in round-off", lost);
 }
 
-/* A V with equal arms and different meshes. A drive of its apex along the axis moves the apex
- * sideways only by round-off, and cannot satisfy a condition there. */
+/* The apex of a V with equal arms and different meshes is driven along the axis of symmetry. The
+ * drive moves the apex sideways only by round-off, so it cannot satisfy a condition on this
+ * displacement. */
 static void driver_that_moves_nothing(double half_angle, int condition_component)
 {
     const double c = cos(half_angle), d = sin(half_angle), z[3] = {0, 0, 1}, path[2] = {0, 1},

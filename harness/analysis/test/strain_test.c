@@ -44,7 +44,7 @@ static void two_members(scene *s, const char *name, const double first[3], const
                i ? second : first, 3 * sizeof *first);
 }
 
-/* Places the members between rigid walls, at which they are free to rotate about y and z. */
+/* Places the ends of the members between rigid walls. The ends are free to rotate about y and z. */
 static void pin(scene *s)
 {
     for (int i = 0; i < 3; i += 2)
@@ -58,8 +58,8 @@ static int asked(scene *s, const element_type *e, ask_tally *tally, int n, answe
     return ask_count(tally, a, "%s, %d elements", s->name, n);
 }
 
-/* Two clamped members, one of which is hot: N = -EA eps/2, and the node in the middle moves by eps
- * L/4. */
+/* Two clamped members, one of which is heated. The force is N = -EA eps/2, and the node in the
+ * middle moves by eps L/4. */
 static void clamped(const element_type *e, ask_tally *tally)
 {
     static const double eps = 1e-4, hot[3] = {1e-4, 0, 0}, none[3] = {0};
@@ -81,7 +81,6 @@ static void clamped(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[3], eps * L / 4, 1e-9, "%s: the hot one pushes the other", e->name);
 }
 
-/* A member that is free at one end elongates without bending. */
 static void cantilever(const element_type *e, ask_tally *tally)
 {
     static const double hot[3] = {1e-3, 0, 0}, cold[3] = {-2e-4, 0, 0};
@@ -102,7 +101,7 @@ static void cantilever(const element_type *e, ask_tally *tally)
     gsl_test_abs(a.value[2], 0, 1e-6, "%s: without a force", e->name);
 }
 
-/* A frame of two columns and a beam that is shorter than their distance. */
+/* A frame of two columns and a beam that is too short. */
 static void portal(const element_type *e, ask_tally *tally)
 {
     static const double shrinks = -1e-3, height = 1, width = 2;
@@ -124,8 +123,8 @@ static void portal(const element_type *e, ask_tally *tally)
     scene_add_quantity(&s, "N", "N", linear, scene_internal_at(1, 0.5, SCENE_N));
     if (!asked(&s, e, tally, 4, &a))
         return;
-    /* half of the frame consists of a column under a force at its head, restrained against rotation
-     * by the beam with 2 EI/width, and half of the beam */
+    /* half of the frame: a column under a force at its head, whose rotation is restrained by half
+     * of the beam with the stiffness 2 EI/width */
     const double k = E * Iz, head = height * height / (2 * k) / (height / k + width / (2 * k)),
                  flexibility = height * height * height / (3 * k) -
                                head * height * height / (2 * k) + width / (2 * E * A);
@@ -133,8 +132,8 @@ static void portal(const element_type *e, ask_tally *tally)
                  "%s: a beam that is too short pulls its columns", e->name);
 }
 
-/* Frequencies of a heated and of a cooled member, f = f0 sqrt(1 - N/N_Euler), and the deflection of
- * its middle due to a force. */
+/* Frequencies f = f0 sqrt(1 - N/N_Euler) of a heated and a cooled member, and the deflection of its
+ * middle due to a force. */
 static void pinned(const element_type *e, ask_tally *tally)
 {
     static const double part[] = {0.5, -1.5}; /* relative to Euler's load, compression positive */
@@ -163,8 +162,8 @@ static void pinned(const element_type *e, ask_tally *tally)
     }
 }
 
-/* A hot column between walls, pushed at its middle. The forces P in one half and -P in the other
- * half add to the thermal thrust, which does not increase. */
+/* A hot column between walls, pushed at its middle. The load factor increases the axial forces P
+ * and -P in the two halves, but not the thermal thrust. */
 static void column(const element_type *e, ask_tally *tally)
 {
     static answer a;
@@ -175,7 +174,8 @@ static void column(const element_type *e, ask_tally *tally)
     scene_add_load(&s, SCENE_FORCE, 1, -2, 0, 0);
     scene_add_quantity(&s, "P", "N", scene_add_buckling(&s, SCENE_NONE),
                        scene_critical_factor(1, 0));
-    if (asked(&s, e, tally, 16, &a)) /* from the determinant of two spans */
+    if (asked(&s, e, tally, 16,
+              &a)) /* the expected value is a root of the determinant of two spans */
         gsl_test_rel(2 * a.value[0], 28005.43, 1e-5, "%s: critical load of a hot column", e->name);
 }
 
@@ -295,7 +295,7 @@ static void ask_one(const element_type *e, ask_tally *tally, const double R[9], 
     scene_free(&s);
     if (!ask_count(tally, &a, "%s", what))
         return;
-    /* two cantilevers share the load, and with these sections shear adds little */
+    /* the load is carried by two cantilevers; with these sections, shear hardly contributes */
     gsl_test_rel(along_force(&a, R), P / 6 / (turn_E * I), 5e-3, "%s: %s", e->name, what);
     gsl_test(!(a.value[4] > 0), "%s: %s has a frequency", e->name, what);
 }
@@ -343,8 +343,8 @@ static void idle_turn_tests(void)
     scene_free(&s);
 }
 
-/* Linear buckling with one constant and one growing load. If both act along one line, the constant
- * load reduces the critical factor by its value. */
+/* Linear buckling with one constant and one growing load. If both act along one line, the critical
+ * factor is Euler's load minus the constant load. */
 
 enum { NO_MODE, PUSHES, PULLS, BOTH_GROW, CRITICAL, BENT, WAYS };
 

@@ -35,7 +35,7 @@ def quantities():
 
 
 def expected(hertz, what, gain=0.0):
-    """Returns x, y, y' and the force on the base."""
+    """Returns the displacements x, y, the velocity y' and the force on the base, due to the unit input `what`."""
     s = 2j*np.pi*hertz
     D = np.array([[M*(s*s - W*W) + C[0]*s + K[0], -2*M*W*s], [2*M*W*s + gain, M*(s*s - W*W) + C[1]*s + K[1]]])
     spring = K[0] + C[0]*s
@@ -51,7 +51,8 @@ class TurningResponses(ProgramTest):
         return {c["quantity"]: c["curve_value"] for c in self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)["curves"]}
 
     def test_closed_form(self):
-        """Coriolis forces, spin softening, dashpots, base motion, and a loop that measures across its force."""
+        """Responses include Coriolis forces, spin softening, dashpots and base motion. A feedback loop measures x and
+        pushes along y."""
         for about, gain in ((PATH, 0), (PATH, 20)):
             loads = "loads: {l: {force: [0, 1, 0], on: m, path: [0, 1], factor: [0, 0], feedback: {node: m, component: ux, proportional: 20}}}" if gain else ""
             found = self.curves((SPRUNG + quantities()).replace("ABOUT", about).replace("KEYS", "").replace("LOADS\n", loads + "\n" if loads else ""))
@@ -62,7 +63,7 @@ class TurningResponses(ProgramTest):
                         self.assertLess(abs(one - value), 1e-9*max(abs(value), 1e-3), (about, name, what, hertz))
 
     def test_largest(self):
-        """The largest response between the frequencies is that at a whirl of the damped mass."""
+        """The largest response between the frequencies is at the frequency of a whirling mode of the damped mass."""
         text = (SPRUNG + "  most: {response: {analysis: A, node: m, component: uy, force: m, along: ux, take: max}}\n").replace("ABOUT", PATH)
         path = self.folder / "scene.yaml"
         path.write_text(text.replace("KEYS", "").replace("LOADS\n", ""), encoding="utf-8")
@@ -83,8 +84,8 @@ class TurningResponses(ProgramTest):
             self.assertAlmostEqual(H[0, 0] / expected(hertz, "fx")[1] if hertz else 1, 1, 9)
 
     def test_motion(self):
-        """A flexible arm on a driven hub has the same response about a rotation and about an instant of the motion that
-        starts from it, along the axes of the hub."""
+        """A flexible arm on a driven hub must have the same response about a rotation and about an instant of a motion
+        that starts from this rotation, along the axes of the hub."""
         text = """beamwork: 1
 sections: {s: {rectangle: {width: 0.01, thickness: 0.02}, young: 70e9, shear_modulus: 26e9, density: 2700}}
 nodes:
@@ -109,7 +110,6 @@ quantities:
             self.assertLess(np.max(abs(a - b)), 1e-6*np.max(abs(b)), i)
 
     def test_refused(self):
-        """Inputs without a meaning in rotating axes, and growing whirl, are rejected."""
         path = self.folder / "scene.yaml"
         for keys, omega, quantity, words in (
                 (", solution: modal", 6, "force: m, along: ux", "modes without damping do not solve small motions in rotating axes (spun); remove 'solution'"),

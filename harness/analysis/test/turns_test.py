@@ -1,5 +1,5 @@
-"""States from which quantities are read: rotations, symmetry, states about which analyses are solved, and sheets with
-invalid input."""
+"""States of structures: rotations beyond 180 degrees, symmetry of tangents, loaded states about which analyses are
+solved, and sheets with invalid input."""
 import json
 import math
 import resource
@@ -34,8 +34,8 @@ class AboutState(ProgramTest):
                 " ".join((done.stdout + done.stderr).split()))
 
     def test_any_load(self):
-        """The critical load must not depend on the load of the state, from a thousandth of the critical load to a
-        thousand times it."""
+        """The critical load must not depend on the load about which it is computed, from a thousandth of the critical
+        load to a thousand times it."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
             for force in (1e-3, 0.5, 0.99, 1.01, 30, 1000):
                 (factor,), _ = self.factors(formulation, -force)
@@ -58,8 +58,8 @@ class AboutState(ProgramTest):
         self.assertRegex(said, r"no critical load from path 1 to [0-9.e+]+: the structure loses no stiffness")
 
 
-# The symmetry of a tangent depends on the state. An analysis must not be rejected because loads could make the tangent
-# of a different state unsymmetric, and a zero load must change no bit.
+# Whether a tangent is symmetric depends on the state. An analysis must not be rejected if the loads would only make the
+# tangent of a different state unsymmetric. A load of zero must change no bit.
 BAR = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.005}, young: 210e9, shear_modulus: 81e9,
                density: 7850}}
@@ -136,8 +136,8 @@ quantities: {P: {critical_factor: {analysis: b}}}
                     self.assertIsNone(self.values(scene, formulation, n, 1)["P"].get("value"), (formulation, n))
 
     def test_bent_column_by_stations(self):
-        """Far beyond Euler's load the column is bent to the side of its transverse load. A different state, in which one
-        long step ends, is unstable and must be reported as such."""
+        """Far beyond Euler's load, the column bends to the side of its transverse load. One long step ends in a
+        different state, which is unstable and must be reported as such."""
         scene = BAR + """loads: {p: {force: [-200, 0.5, 0], on: b}}
 analyses: {path: {static: {stations: %r}}}
 quantities: {u: {displacement: {analysis: path, node: b, component: uy}, unit: m}}
@@ -182,7 +182,7 @@ quantities:
   curve: {internal: {analysis: st, member: rod, end: from, resultant: Mx, take: curve}}
   turn:  {displacement: {analysis: st, node: b, component: rx, take: curve}}
 """
-# G It/L = 160 N m/rad, and E I/L = 200 N m/rad in bending.
+# Torsional stiffness G It/L = 160 N m/rad, and bending stiffness E I/L = 200 N m/rad.
 TWISTED = """beamwork: 1
 """ + ROD + """parameters: {load: {value: 1600, unit: N m, min: 0, max: 1e5, about: "at the end"}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]%s}}
@@ -194,7 +194,8 @@ quantities:
   last:  {displacement: {analysis: st, node: b, component: %s}}
   curve: {displacement: {analysis: st, node: b, component: %s, take: curve}}
 """
-# The moment is 160 N m/rad times the prescribed angle, with one element or many, or there is no value.
+# The moment must be 160 N m/rad times the prescribed angle, for any number of elements. Otherwise there must be no
+# value.
 DRIVEN = """beamwork: 1
 """ + ROD + """parameters: {angle: {value: 10, unit: rad, min: -100, max: 100, about: "of the driven end"}}
 nodes:
@@ -246,7 +247,7 @@ class Turns(ProgramTest):
                     self.assertLess(abs(turn/(-right*part/5) - 1), within*max(1, angle*angle/100), (formulation, angle))
 
     def test_readings(self):
-        """The node rotates by 10 rad about its axis, or about a perpendicular axis."""
+        """A node rotates by 10 rad about its axis, or about a perpendicular axis."""
         for component, hold, moment, stiffness in (("rx", ", hold: [uy, uz, ry, rz]", "load, 0, 0", 160),
                                                    ("rz", "", "0, 0, load", 200), ("ry", "", "0, load, 0", 200)):
             for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
@@ -269,7 +270,7 @@ class Turns(ProgramTest):
                 torque, = (q["value"] for q in json.loads(done.stdout)["quantities"])
                 part = angle/n
                 if formulation.startswith("beamw") and formulation != "beamw_consistent":
-                    right = math.sin(2*part)/(2*part)  # strain measure sin, inaccurate on a coarse mesh
+                    right = math.sin(2*part)/(2*part)  # the strain measure of this element is a sine of the rotation, which is inaccurate on a coarse mesh
                     within = 1e-6
                 else:
                     right, within = 1, 5e-2 if formulation == "geometrically_exact" else 1e-6
@@ -277,7 +278,7 @@ class Turns(ProgramTest):
 
     def test_spin_in_time(self):
         """Angles are read through several revolutions with every integrator, even after a restart."""
-        for integrator, within in (("alpha", 1e-3), ("conserving", 0.02), ("radau", 1e-3)):  # due to its steps of 0.1 rad
+        for integrator, within in (("alpha", 1e-3), ("conserving", 0.02), ("radau", 1e-3)):  # errors due to steps of 0.1 rad
             values, _ = self.solved(SPINNING % ("2", integrator), "collocation", 1)
             self.assertAlmostEqual(values["rx"], 20, delta=within, msg=integrator)
             self.assertAlmostEqual(values["most"], 20, delta=within, msg=integrator)
@@ -347,7 +348,7 @@ class BadInput(ProgramTest):
 
 
 class Extremes(unittest.TestCase):
-    """For L/w from 0.5 to 20, w/t from 10 to 1000 and u_y up to 0.5 L, there must be an answer or the reason why there is
+    """For L/w from 0.5 to 20, w/t from 10 to 1000 and u_y up to 0.5 L, there must be a value or the reason why there is
     none. Sheets too thick for N Eq. 50 use a different model, which must be reported."""
 
     def test_answer_or_reason(self):
@@ -361,7 +362,7 @@ class Extremes(unittest.TestCase):
                              f"thickness={0.1 / slenderness}",
                              f"tip_deflection={deflection * length}")
                 at = (formulation, length, slenderness, deflection, done.stderr)
-                # nu = 0.3, k = 10 (1 + nu)/(12 + 11 nu)
+                # with nu = 0.3 and the shear factor k = 10 (1 + nu)/(12 + 11 nu)
                 Phi = 2.6 / (13 / 15.3) * (0.1 / slenderness / length) ** 2
                 self.assertIn(done.returncode, (0, 1), at)
                 if done.returncode == 0:

@@ -28,7 +28,7 @@ SIX = "ux", "uy", "uz", "rx", "ry", "rz"
 
 
 def matrix(**entries):
-    """Returns the 36 numbers of a spring, where `uy_uz` is in row uy, column uz."""
+    """Returns the 36 entries of a spring matrix. The argument `uy_uz` is the entry in row uy, column uz."""
     out = np.zeros((6, 6))
     for name, value in entries.items():
         row, column = name.split("_")
@@ -62,10 +62,10 @@ class Unbalance(ProgramTest):
                 for name, values in curves.items() if name.endswith("_real")}
 
     def test_jeffcott(self):
-        """The response y + i z in forward whirl is Z = w^2/(K - i q - m w^2 + i c w), and z lags y by 90 degrees."""
+        """In forward whirl, the response is y + i z = w^2/(K - i q - m w^2 + i c w), and z lags y by 90 degrees."""
         K = 3*E*I/L**3
         for film, cross, damping in ((0, 0, 30), (4e3, 1e3, 40)):
-            # the disc can tilt freely, so its rotations follow the shaft, without rotary inertia
+            # the disc can tilt freely, so its rotations follow the shaft, and rotary inertia is absent
             scene = text(disc="hold: [ux, rx]", stiffness=matrix(uy_uy=film, uz_uz=film, uy_uz=cross, uz_uy=-cross),
                          damping=matrix(uy_uy=damping, uz_uz=damping), quantities=read("uy") + read("uz"))
             found = self.solved(scene.replace(", inertia: [0.01, 0.006, 0.006, 0, 0, 0]", ""))
@@ -88,7 +88,8 @@ class Unbalance(ProgramTest):
         return np.linalg.solve(K + 1j*w*C - w*w*M, w*w*np.array(axis_forces))
 
     def test_bearings(self):
-        """With anisotropic bearings, cross terms and gyroscopic moments at one speed, the orbits are ellipses."""
+        """The bearings are anisotropic and have cross terms, and the disc has gyroscopic moments. The orbits at one
+        speed are ellipses."""
         k, c, speed = np.array([[9e3, 2e3], [-1e3, 5e3]]), np.array([[90, 5], [5, 60.]]), 2*np.pi*11
         stiff = matrix(uy_uy=k[0, 0], uy_uz=k[0, 1], uz_uy=k[1, 0], uz_uz=k[1, 1])
         damp = matrix(uy_uy=c[0, 0], uy_uz=c[0, 1], uz_uy=c[1, 0], uz_uz=c[1, 1], ry_rz=0.01*speed, rz_ry=-0.01*speed)
@@ -109,8 +110,8 @@ class Unbalance(ProgramTest):
             self.assertLess(np.abs(modal[name] - values).max(), 1e-8*np.abs(values).max(), name)
 
     def test_axes(self):
-        """The unbalance starts along the next axis and points along the following axis 90 degrees later. The force of
-        the unbalance acts on the base."""
+        """An unbalance about x points along y first and along z 90 degrees later. The same holds for cyclic
+        permutations of the axes. The base carries the force of the unbalance."""
         free = text(root="hold: all", disc="hold: [rx, ry, rz]", stiffness=matrix(ux_ux=1e4, uy_uy=2e4, uz_uz=3e4),
                     damping=matrix(ux_ux=30, uy_uy=30, uz_uz=30),
                     quantities="".join(read(c, axis) for axis in ("rx", "ry", "rz") for c in ("ux", "uy", "uz")))
@@ -126,8 +127,8 @@ class Unbalance(ProgramTest):
                     self.assertLess(abs(found[f"{SIX[component]}_{SIX[3 + axis]}"][i] - x), 1e-9*max(abs(x), 1e-6))
 
     def test_reaction(self):
-        """The reaction of a prescribed motion at rest on which the unbalance acts directly is the unbalance force with
-        the sign of a support."""
+        """The unbalance acts directly on a component with a prescribed motion of zero. The reaction is minus the
+        unbalance force."""
         found = self.solved(text(disc="hold: [ux, rx], drive: {uy: still}",
                                  motions="motions: {still: {unit: m, path: [0, 1], value: [0, 0]}}\n",
                                  quantities=read("uy", of="reaction") + read("uz")))
@@ -136,7 +137,7 @@ class Unbalance(ProgramTest):
             self.assertAlmostEqual(tilted, -1, 9)
 
     def test_units(self):
-        """Masses in mm and N are in N s^2/mm, so no unit names a kilogram."""
+        """In a scene in mm and N, masses are in N s^2/mm, so units of results must not contain the kilogram."""
         lines = []
         for name, component, part in (("shift", "uy", "real"), ("rate", "uy, of: velocity", "imaginary"), ("turn", "rz", "real")):
             lines.append(f"  {name}: {{response: {{analysis: steady, node: disc, component: {component}, part: {part}, "

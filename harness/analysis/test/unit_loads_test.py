@@ -1,4 +1,5 @@
-"""Compliances about loaded states compared with differences of paths with small unit loads, where nodes rotate by angles."""
+"""Compliances about loaded states compared with differences between paths with and without small unit loads. The
+rotations of nodes are given as angles."""
 import numpy
 
 from harness.tools.kit.program import ProgramTest
@@ -40,13 +41,13 @@ def skew(v):
 
 
 def turn(v):
-    """Returns the rotation matrix of a rotation vector."""
+    """Returns the rotation matrix of the rotation vector v."""
     size = numpy.linalg.norm(v)
     return numpy.eye(3) + numpy.sin(size) / size * skew(v) + (1 - numpy.cos(size)) / size**2 * skew(v) @ skew(v)
 
 
 def spin(v):
-    """Returns the spatial rotation due to a change of a rotation vector."""
+    """Returns the matrix that maps a change of the rotation vector v to a spatial rotation."""
     size = numpy.linalg.norm(v)
     return (numpy.eye(3) + (1 - numpy.cos(size)) / size**2 * skew(v)
             + (size - numpy.sin(size)) / size**3 * skew(v) @ skew(v))
@@ -84,7 +85,7 @@ class UnitLoads(ProgramTest):
         self.assertLess(numpy.max(numpy.abs(C - D) / numpy.outer(size, size)), 1e-6, words)
 
     def test_sequence(self):
-        """A guide holds an angle. The moment of the guide rotates with the node and is not a load."""
+        """A guide holds one angle of a sequence. Its moment rotates with the node and is not a load."""
         for x, y in (("held", "free"), ("free", "held"), ("free", "free")):
             text = BENT.replace("angle: X", f"angle: {x}").replace("angle: Y", f"angle: {y}")
             self.alike(self.compliance(text, "b"), self.differences(text, "b", 1e-2), f"{x}, {y}")
@@ -98,12 +99,12 @@ class UnitLoads(ProgramTest):
             self.alike(self.compliance(text, node), self.differences(text, node, 1e3), node)
 
     def test_released(self):
-        """If a driven master is released, the moment that drives the whole floor becomes a load."""
+        """If the driven master of a diaphragm is released, the moment that drives the whole floor becomes a load."""
         driven = STOREY.replace("DRIVE", ", drive: {rz: turn}") + "motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.1]}}\n"
         C, R = self.compliance(driven, "A", ", released: [rz]"), turn(self.moved(driven.replace("UNIT", ""), "A", [0] * 6)[3:])
         free, about = STOREY.replace("DRIVE", ""), numpy.arctan2(-R[0, 1], R[1, 1])
         self.assertAlmostEqual(about, 0.1, delta=1e-12)
-        first = turn([0, 0, about])  # z, then x, then y
+        first = turn([0, 0, about])  # rotations about z, then x, then y
         along = numpy.cross(first[:, 0], first @ turn([numpy.arcsin(R[2, 1]), 0, 0])[:, 1])
 
         def beyond(moment):

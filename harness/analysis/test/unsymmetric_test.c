@@ -83,8 +83,8 @@ static void solve(const checked_column *c, int damped, int wanted, unsymmetric_r
     factor_free(fa);
 }
 
-/* Returns the square of half the difference of the first two squares of frequencies. The result is
- * negative beyond the load at which the two frequencies meet. */
+/* Returns the square of half of the difference of the first two eigenvalues, which are squares of
+ * circular frequencies. The result is negative beyond the load at which they coincide. */
 static double difference(double P, int elements, double tip)
 {
     checked_column c;
@@ -131,7 +131,7 @@ static void columns(void)
     gsl_test_rel(flutter_load(12, 25, 16, 1), 16.21213, 2e-5, "Pflueger 1");
 }
 
-/* Checks the frequencies, the sum and product of the two that coincide, and that nothing grows
+/* Checks the frequencies, the sum and product of the two that coincide, and that no motion grows
  * below the flutter load. */
 static void near_flutter(void)
 {
@@ -166,7 +166,7 @@ static void near_flutter(void)
         }
 }
 
-/* Damping of members reduces the flutter load, to 10.94 for small damping. */
+/* Damping of members reduces the flutter load, to 10.94 in the limit of small damping. */
 static void damped(void)
 {
     static const double load[] = {10.9, 10.97, 20};
@@ -233,8 +233,7 @@ static const double mass[MASSES] = {0.31, 0.17, 0.23, 0.41}, hub_at[3] = {0.53, 
                                         {0.58, 0.13, -0.16},
                                         {0.66, 0.02, -0.09}};
 
-/* Returns the body that is equivalent to the points. The centre of the body is measured from
- * `from`. */
+/* Returns the body that is equivalent to the points. Its centre of mass is relative to `from`. */
 static scene_body body_of_points(const double from[3])
 {
     scene_body b = {0};
@@ -383,8 +382,8 @@ static void body_tests(void)
     algorithms();
 }
 
-/* Classification of modes, tested with constructed motions: each family, any number of half-waves,
- * members in any direction, and modes in which no node is displaced. */
+/* Classification of modes, tested with constructed motions: each family of modes, any number of
+ * half-waves, members in any direction, and modes without displacements of nodes. */
 
 enum { ELEMENTS = 24, MEMBERS = 2, MOST_WAVES = 5, TURN_Y = 4, TURN_Z = 5, WARPING = 6 };
 static const double length = 2;
@@ -435,7 +434,8 @@ static void add(const model *m, const double R[9], int member, int k, int waves,
 }
 
 typedef struct modes_part {
-    int component, waves; /* component in the axes of the first member */
+    int component, waves; /* component of the motion in the axes of the first member, and number of
+                             half-waves */
     double size;
 } modes_part;
 
@@ -476,7 +476,7 @@ static void in_direction(const double R[9])
                             (modes_part[]){{k, waves, k == 3 ? 1 / r : 1},
                                            {other, waves + 2, other == 3 ? 0.8 / r : 0.8}},
                             moved[k], waves, "the larger of two motions");
-            /* modes of cross-sections that rotate without translation, and of warping */
+            /* modes in which cross-sections rotate or warp without translation */
             static const int turn[] = {TURN_Z, TURN_Y, WARPING};
             const double unit[] = {1 / r, 1 / r, 1 / (r * r)};
             for (int k = 0; k < 3; k++) {
@@ -501,7 +501,6 @@ static void in_direction(const double R[9])
     scene_free(&s);
 }
 
-/* Requests a quantity by family and order. */
 static void families(void)
 {
     for (int family = SCENE_AXIAL; family <= SCENE_TORSION; family++)

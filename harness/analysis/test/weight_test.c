@@ -26,7 +26,7 @@ static int leaf_profile(scene *s)
 static const scene_body heavy = {
     .mass = 0.4, .centre = {0.02, -0.03, 0.05}, .inertia = {2e-4, 3e-4, 4e-4, 1e-5, 0, 0}};
 
-/* Adds the weight, by gravity or as an explicit force. */
+/* Adds the weight of a body as gravity, or as an explicit force m g at its centre. */
 static void add_weight(scene *s, int node, const double by[3], int by_hand)
 {
     const double m = by_hand ? s->node[node].body.mass : 1;
@@ -98,8 +98,8 @@ static void by_hand(void)
                  one.value[i], other.value[i]);
 }
 
-/* A cantilever with bodies that hang on a short stiff bar. The reaction is the sum of both weights,
- * and the moment is about the displaced centre. */
+/* A cantilever with bodies that hang on a short stiff bar. The reaction force is the sum of both
+ * weights, and the reaction moment is that of both weights about the root after displacement. */
 static void hung(void)
 {
     static const double down[3] = {0, -9.81, 0};
@@ -144,7 +144,7 @@ static int pinned(scene *s, int holds, scene_body body)
 }
 
 /* The period of small oscillations of a body whose centre is at a distance d from its pin is 2 pi
- * sqrt(I/m g d). */
+ * sqrt(I/(m g d)). */
 static void period(void)
 {
     static const double steps[] = {[SCENE_ALPHA] = 5000,
@@ -180,7 +180,8 @@ static void period(void)
 }
 
 /* A heavy top falls, on a fixed pin or on a pin that slides along z or in the plane. The work of
- * its weight equals the decrease of -m g . r_c and becomes energy of the motion. */
+ * its weight must equal the decrease of the potential -m g . r_c and the increase of the kinetic
+ * energy. */
 static void top(int holds)
 {
     static const scene_body body = {
@@ -222,8 +223,8 @@ static void top(int holds)
     gsl_test(!(moved > 0.1), "it falls: %g m", moved);
 }
 
-/* A massless column under a body whose centre is at the height `above` its head buckles at k L
- * tan(k L) = L/above. */
+/* A massless column carries a body whose centre is at the height `above` its head. It buckles at k
+ * L tan(k L) = L/above, with k^2 = P/(E I). */
 static void column(double above)
 {
     const double L = 0.5, mass = 0.25, EI = 210e9 * 10e-3 * pow(2e-3, 3) / 12;
@@ -263,15 +264,16 @@ static void weight_tests(void)
 }
 
 /* Fork supports: for any bending of the beam, the web stays between the guides, and the reaction
- * rotates with the section. Nothing depends on the axes of the scene. A rotation held about a fixed
- * axis would fail all three checks. */
+ * rotates with the section. Nothing depends on the axes of the scene. A support that held the
+ * rotation about a fixed axis would fail all three checks. */
 
 enum {
     MOVED = 0,
     MOMENT = 3,
     TURN = 6,
     VALUES = 9
-}; /* values of the middle, on the first fork, and of the first fork */
+}; /* first indices of the displacement of the middle, and of the moment and the rotation at the
+      first fork */
 
 /* Builds a beam with fork supports at both ends, held translations and a force in the middle. The
  * scene is rotated by Q from a beam along x with its web along z. */
@@ -413,19 +415,19 @@ static void fork_tests(void)
     refuse("an axis across the member", axis_across);
 }
 
-/* Compliance of a node whose prescribed motion is released. Forces and moments about fixed axes are
- * dead, both as loads and as reactions. Loads are not counted as reactions, so the compliance must
- * not depend on how loads and reactions share the force that holds the node. */
+/* Compliance of a node whose prescribed motion is released. A part of the force and moment that
+ * hold the node is a load, and the rest is a reaction. The compliance must depend on their sum
+ * only, because both keep their direction. */
 
 static const double young = 2e11, side = 0.02, length = 1;
 
 typedef struct released_request {
-    double force, moment; /* loads at the driven node, in units of EI/l^2 and EI/l */
-    unsigned driven;      /* driven components of the tip */
+    double force, moment; /* loads at the tip, in units of EI/l^2 and EI/l */
+    unsigned driven;      /* bits of the driven components of the tip */
 } released_request;
 
-/* Builds a cantilever with a driven tip, and requests all entries of the compliance from Fx ... Mz
- * to the driven components. */
+/* Builds a cantilever with a driven tip, and requests all entries of the compliance for the driven
+ * components as the released components. */
 static void make(scene *s, const released_request *what)
 {
     static const double to[6] = {-0.002, 0.06, -0.03, 0.04, 0.05, 0.1}, y[3] = {0, 1, 0.3},
@@ -465,8 +467,8 @@ static void released_solve(const element_type *type, const released_request *wha
     scene_free(&s);
 }
 
-/* Returns the largest difference of an entry, relative to the geometric mean of the corresponding
- * diagonal entries. */
+/* Returns the largest difference of two compliance entries, relative to the geometric mean of the
+ * corresponding diagonal entries. */
 static double apart(const answer *a, const answer *b)
 {
     double worst = 0;

@@ -11,7 +11,8 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Makes two solved meshes of a path with a curve, with noise and times as if measured. */
+/* Makes a sweep of two solved meshes of a path with a curve, with the noise and times of a
+ * measurement. */
 static void make(sweep *s)
 {
     static const int mesh[] = {1, 2};
@@ -133,7 +134,8 @@ static void cells_tests(void)
     sweep_free(&s);
 }
 
-/* Texts in manual pages must appear as they were written, whatever their first characters are. */
+/* Texts in manual pages must appear as they were written, even if their first character has a
+ * meaning in roff. */
 
 static void written_as(const char *text, const char *wanted, const char *what)
 {
@@ -184,7 +186,7 @@ static void words_tests(void)
              "the glossary is read %s", f.text);
     for (int i = 0; i < VERDICT_KINDS; i++)
         explained("verdict", verdict_name((verdict_kind)i));
-    for (int i = 1; i < LIMIT_KINDS; i++) /* except the first kind, "none" */
+    for (int i = 1; i < LIMIT_KINDS; i++) /* without the first kind, "none" */
         explained("kind of limit", limit_kind_name((limit_kind)i));
     for (int i = 0; i <= STATUS_NO_VALUE; i++)
         explained("status", status_name((status)i));

@@ -72,7 +72,7 @@ ROWS = re.compile(r"^    (.*) \\\\$", re.M)  # rows of LaTeX tables
 
 
 class Tables(Tested):
-    """LaTeX output for a paper contains the numbers of the JSON, and the version and hash of the element."""
+    """LaTeX output must contain the numbers of the JSON output, the version, and the hash of the element."""
 
     usual = None  # output for the unmodified example
 

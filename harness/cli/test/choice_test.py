@@ -1,5 +1,5 @@
-"""The choice of solve must meet the requested error at about the cost of the cheapest formulation. Digits are shown as
-far as the values are certain."""
+"""The mesh and the formulation that solve chooses must meet the requested error at about the cost of the cheapest
+formulation. Values are shown with the digits that are certain."""
 import json
 import random
 import re
@@ -9,9 +9,9 @@ from harness.tools.kit.program import ROOT, ProgramTest
 
 ASKED = 1e-3
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
-# cases whose meshes, according to converge, have not converged to 0.1 % with any formulation
+# cases that, according to converge, reach 0.1 % with no formulation
 UNANSWERED = set()
-# cases whose meshes take fifteen seconds and are solved by verify, so only the choice is checked
+# cases for which converge takes fifteen seconds, so its cost is not compared
 LONG = {"hexapod_motion"}
 
 
@@ -58,15 +58,17 @@ class Choice(ProgramTest):
         return self.record("converge", *scene, "--error", "0.1%")
 
     def is_cheap(self, name, chosen, answers):
-        """Checks that the choice costs at most twice as much as the cheapest according to converge. Beyond the meshes of
-        converge, the cost of the mesh before the chosen one is used. Returns True if converge has any answer."""
+        """Checks that the choice costs at most twice as much as the cheapest formulation according to converge. If the
+        chosen mesh is not among those of converge, the cost of the previous mesh is estimated as half of its cost.
+        Returns True if converge has any answer."""
         cost = {a["formulation"]: a["cost"] for a in answers["answers"] if a["rank"]}
         own = cost.get(chosen["formulation"], chosen["cell"]["cost"]/2)
         self.assertLessEqual(own, 2*min(cost.values(), default=own), f"{name}: {chosen['formulation']}, {cost}")
         return bool(cost)
 
     def is_right(self, name, chosen):
-        """Checks that the values are within the error of exact and independent reference values of the same model."""
+        """Checks that values differ from exact and independent reference values of the same model by less than the
+        requested error."""
         for q in chosen["quantities"]:
             self.assertEqual(q["status"], "ok", (name, q["quantity"]))
             for t in q["truths"]:
@@ -118,8 +120,8 @@ class Choice(ProgramTest):
         self.refused(2, "--error", "solve", "deep_beam", "-n", "4", "--error", "1%")
 
     def test_slow_convergence(self):
-        """Lateral-torsional buckling with shear converges with an order below one, so the expected error exceeds the last
-        change."""
+        """Lateral-torsional buckling with shear converges with an order below one. The error is then larger than the
+        change between the last two meshes, which the estimate must take into account."""
         path = self.folder / "beam.yaml"
         path.write_text("""beamwork: 1
 units: mm, N, MPa

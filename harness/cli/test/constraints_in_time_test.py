@@ -59,7 +59,8 @@ quantities:
 class ConstraintsInTime(ConstraintsCase):
 
     def test_one_node_in_two_in_time(self):
-        """A split node must act as one node in motions: with dashpots, driven, and for nodes with and without mass."""
+        """Two nodes joined by constraints in all components must move as one node: with dashpots, if driven, and with
+        and without mass."""
         mass = ", mass: 0.5, inertia: [0.01, 0.02, 0.015, 0, 0, 0]"
         beside = ", mass: 0.5, centre: [0.02, 0.01, 0.03], inertia: [0.01, 0.02, 0.015, 0, 0, 0]"
         for how, until, moves in (("alpha, step: 0.002", 0.1, beside), ("alpha, step: 0.002, mass: consistent", 0.1, ""),
@@ -77,8 +78,8 @@ class ConstraintsInTime(ConstraintsCase):
                 self.assertLess(abs(b["D"]), 1e-11 * abs(b["E"]), how)
 
     def test_half(self):
-        """Two halves, one of which is displaced and in rotated axes, that are equal in the plane of symmetry must move
-        in the same way as the whole structure, starting from a static state."""
+        """Two halves of a symmetric structure have equal displacements in the plane of symmetry. One half is displaced
+        and in rotated axes. They must move in the same way as the whole structure, starting from a static state."""
         for how in ("alpha, step: 0.001", "radau, step: 0.002", "conserving, step: 0.001", "explicit, step: 1e-5, mass: lumped"):
             found = []
             for half in (0, 1):
@@ -110,8 +111,8 @@ quantities:
                 self.assertLess(abs(found[1][name] - value), 1e-8 * abs(value) + 1e-10, f"{how}: {name}")
 
     def test_gear_in_time(self):
-        """The response to a torque step is T/k (1 - cos omega t), in either order of the constraint, with and without
-        inertia beyond the gear."""
+        """The response to a torque step is T/k (1 - cos omega t), for both orders of the components in the constraint,
+        with and without inertia beyond the gear."""
         k1, time, torque = 80e9 * math.pi * 0.01**4 / 2, 0.05, 500
         text = GEAR[:GEAR.index("analyses")].replace("loads: {t: {moment: [0, 0, TORQUE], on: b}, u: {moment: [0, 0, -5], on: d}}",
                                                     "loads: {t: {moment: [0, 0, 500], on: b, time: 1}}")
@@ -149,7 +150,7 @@ quantities:
                 self.assertLess(abs(found["D"]), 1e-9 * found["E"])
 
     def test_flight(self):
-        """Two free bars whose translations and rotations are equal or in a ratio conserve momentum and energy to
+        """Two free bars with equal or proportional translations and rotations must conserve momentum and energy to
         round-off."""
         for ratio in (1, -2):
             for how in ("radau, tolerance: 1e-8", "conserving, step: 0.002"):

@@ -118,7 +118,7 @@ class Forms(unittest.TestCase):
         self.assertFalse(converge("text").endswith("\n\n"))
 
     def test_without_a_truth_families_agree(self):
-        """The stored reference values belong to a different stroke, so the verdicts follow from the agreement of
+        """For a different stroke there are no stored reference values, so the verdicts follow from the agreement of
         formulations."""
         new = ("converge", "--scene", str(LEAF), "--set", "stroke=0.009")
         done = run(*new, "-f", "all", "--format", "json")

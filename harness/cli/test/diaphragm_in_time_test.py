@@ -8,7 +8,7 @@ from scipy.integrate import solve_ivp
 from harness.cli.test.constraints import ConstraintsCase
 from harness.tools.kit.program import ROOT, run
 
-# A floor on springs, with masses at the followers. NORMAL is z, and other normals are cyclic permutations.
+# A floor on springs, with masses at the followers. NORMAL is z. For other normals, the axes are permuted cyclically.
 FLOOR = """beamwork: 1
 sections: {s: {rectangle: {width: 0.02, thickness: 0.03}, young: 2e9, shear_modulus: 0.8e9, density: 2000}}
 nodes:
@@ -54,8 +54,8 @@ STIFF = numpy.array([[0, 0], [2e4, 3e4], [1e4, 2e4], [5e3, 0]])
 
 
 def exact(time, stiff=1.0, gain=40):
-    """Returns displacement, velocity and acceleration of each node, and the energies, of the floor with its three
-    coordinates, integrated by Dormand-Prince's method of order 8."""
+    """Returns the displacement, velocity and acceleration of each node, and the energies. The three coordinates of the
+    floor are integrated by the method of Dormand and Prince of order 8."""
     def rows(turn):
         across = numpy.array([[-math.sin(turn), -math.cos(turn)], [math.cos(turn), -math.sin(turn)]])
         return [(numpy.hstack([numpy.eye(2), (across @ a)[:, None]]), across @ numpy.array([-a[1], a[0]])) for a in ARM]
@@ -147,7 +147,7 @@ quantities:
 
 
 def turned(text, times):
-    """Returns the scene in permuted axes: x becomes y, y becomes z, z becomes x."""
+    """Returns the scene with its axes permuted `times` times: x becomes y, y becomes z, z becomes x."""
     for _ in range(times):
         text = re.sub(r"\[([-\d.e]+), ([-\d.e]+), ([-\d.e]+)\]", r"[\3, \1, \2]", text)
         text = re.sub(r"\[([-\d.e]+), ([-\d.e]+), ([-\d.e]+), ([-\d.e]+), ([-\d.e]+), ([-\d.e]+)\]", r"[\3, \1, \2, \6, \4, \5]", text)
@@ -245,7 +245,7 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
             self.assertLess(abs(found["D"]), 1e-6 * found["E"])
 
     def test_body(self):
-        """A floor whose nodes do not tilt must move as a rigid body. Otherwise the floor must move as a body on
+        """A floor whose nodes cannot tilt must move as a rigid body. If they can tilt, the floor must move as a body on
         universal joints."""
         for tilts, how, until, damps, close in (
                 (0, "radau, step: 0.002", 0.1, ", damping: 1e-4", 1e-8), (0, "alpha, step: 0.002, mass: consistent", 0.1, ", damping: 1e-4", 1e-8),

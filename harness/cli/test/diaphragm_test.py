@@ -45,8 +45,8 @@ quantities:
 class Diaphragms(ConstraintsCase):
 
     def test_diaphragm(self):
-        """A diaphragm is rigid in its plane, even at large rotations and with eccentric loads. If tilts are free, it has
-        universal joints."""
+        """A diaphragm is rigid in its plane, also at large rotations and with eccentric loads. If nodes can tilt, the
+        columns have universal joints at the floor."""
         loads = """loads:
   f: {force: [1e6, 4e6, 0], on: M}
   g: {force: [1e6, -3e6, 0], on: A}
@@ -71,8 +71,8 @@ class Diaphragms(ConstraintsCase):
                 self.assertLess(abs(a[name] - value), 1e-10 * abs(a[name]), name)
 
     def test_braced_floor(self):
-        """The floor is the limit of stiff hinged bars in its plane. The difference is due to the compliance of the bars.
-        The nodes may rise and tilt."""
+        """The floor is the limit of stiff hinged bars in its plane. The bars are compliant, which causes the
+        difference. The nodes may rise and tilt."""
         loads, errors = "loads: {f: {force: [1e4, 2e4, -3e4], on: A}, g: {force: [0, 1e4, 5e3], on: C}}\n", []
         same = STOREY.replace("LOADS", loads).replace("HOLD", "").replace("RELEASE", "").replace(", hold: [uz, rx, ry], mass: 500", ", hold: [uz, rx, ry]")
         same = same[:same.index("analyses")] + "analyses: {L: {linear: {}}}\n" + """quantities:
@@ -110,7 +110,7 @@ class Diaphragms(ConstraintsCase):
         text = text.replace("pushed: {linear: {}}", "pushed: {linear: {}}\n  C: {compliance: {node: a}}")
         text = text.replace("quantities:", "quantities:" + "".join(
             f"\n  c{a}{b}: {{compliance: {{analysis: C, row: {a}, column: {b}}}}}" for a in ("ux", "uy", "rz") for b in ("ux", "uy")))
-        det = "(ky*kt - kc^2)"  # displacement of a: that of the middle, plus the rotation x (-3, -2)
+        det = "(ky*kt - kc^2)"  # the displacement of a is that of the middle plus the rotation times (-3, -2)
         text = text.replace("truths:", "truths:" + "".join(
             f"\n  - {{quantity: c{name}, value: {value}, kind: exact, source: statics, uncertainty: 1e-9}}" for name, value in {
                 "uxux": f"1/ky + 4*ky/{det}", "uyuy": f"(kt + 6*kc + 9*ky)/{det}", "uxuy": f"(-2*kc - 6*ky)/{det}",

@@ -1,4 +1,4 @@
-"""External formulations: the first example next to the built-in formulations, and hostile files."""
+"""External formulations: the first example compared with the built-in formulations, and malicious files."""
 import json
 from pathlib import Path
 

@@ -9,7 +9,7 @@ EXAMPLES = ROOT / "elements" / "examples"
 CRASHES = environment(ASAN_OPTIONS="handle_segv=0:handle_abort=0")  # an abort is reported as a crash
 ENTRY = "    if (out->e == NULL)"  # the beginning of the strain function of the example
 
-# Fault: pairs of text in the example and its replacement, and words of the sentence that reports the fault.
+# Faults: pairs of a text in the example and its replacement, and words of the sentence that must report the fault.
 FAULTS = {
     "energy": (
         ("e[i] * e[i] / 2;", "e[i] * e[i];"),
@@ -120,7 +120,7 @@ FAULTS = {
         "stress: strains of a few hundredths of the length give status 'singular'"),
 }
 
-# Faults of the example that returns forces and stiffness.
+# Faults in the example that returns forces and stiffness.
 FORCE_FAULTS = {
     "sign": (
         ("F[i] = n * r[i];", "F[i] = -n * r[i];"),
@@ -171,7 +171,7 @@ CLASSIC = {
         "stretch: exact with one element and not with four", "a power of the length is wrong"),
 }
 
-# Declares a higher order than the element has, for the analyses given.
+# Declares order 4, which the element does not have, for the given analyses.
 FOURTH = """static element_order fourth(element_analysis a, const double options[])
 {
     (void)a, (void)options;
@@ -205,7 +205,7 @@ class Tested(ProgramTest):
         return one
 
     def broken(self, made, limit):
-        """Returns the sentences about violations, and checks the exit status."""
+        """Returns the sentences about violated requirements. Checks the exit status."""
         return broken(self.certificate(made, 1, limit))
 
     def told(self, name, faults):
@@ -235,8 +235,8 @@ class Planted(Tested):
 
 
     def test_linear(self):
-        """A formulation must be tested only for supported features: first-order strains are correct without large
-        rotations."""
+        """A formulation must be tested only for supported features. Without large rotations, linear strains are
+        correct."""
         first = ("        out->e[i] = (p[i] + q[i]) / (2 * c) + k * along * psi[i];\n",
                  "        out->e[i] = p[i] + (i == 1 ? -d->length * psi[2] / 2 : i == 2 ? d->length * psi[1] / 2 : 0);\n")
         small = ("FEATURE_GEOMETRIC | FEATURE_LARGE | ", "")
@@ -292,7 +292,7 @@ class Measured(Tested):
                       run("element-test", "--element", made).stdout)
 
     def test_shear_locking(self):
-        """With full integration of shear, the energy includes a part of the rotations, which must be reported."""
+        """If shear is integrated with too many points, the element locks. This must be reported."""
         found = self.measured(("c->young * c->Iz / l3}",
                                "c->young * c->Iz / l3 + c->shear_modulus * c->A / (12 * l)}"),
                               code=1)

@@ -1,5 +1,4 @@
-"""Every example of a formulation must be short, compile in the way an external author would compile it, and pass ten
-cases."""
+"""Every example of a formulation must be short, compile with the commands of an external author, and pass ten cases."""
 import re
 import shutil
 import subprocess
@@ -33,7 +32,7 @@ quantities:
 
 
 class Judged:
-    """Checks for each example that its limits are correct and that it has no more lines than the table allows."""
+    """Checks for each example that its limits are correct and that it has at most the number of lines in the README."""
 
     cases, ending, most = (), "c", 200
 
@@ -69,7 +68,7 @@ class Judged:
         return getattr(self, "loaded", self.example)
 
     def values(self, made, name, *arguments):
-        """Returns the values that `solve` finds with this element."""
+        """Returns the values computed by `solve` with this element."""
         record = self.record("solve", *arguments, "--element", made, "-f", name)
         return [q["value"] for q in record["quantities"] if q["value"] is not None]
 
@@ -98,8 +97,8 @@ class Corotational(Judged, PluginTest):
     cases = (*STATICS_AND_FREQUENCIES, "weighted_column", "lateral_buckling")
 
     def test_converges_as_the_others(self):
-        """With an unsymmetric tangent, or a chord with little axial strain, the element must take as few iterations as
-        the other elements."""
+        """With an unsymmetric tangent, or a chord with little axial strain, the element must take about as few
+        iterations as the other elements."""
         for axial in ("1e4", "1e12"):
             iterations = {
                 name: self.record("solve", "elastica", "--element", self.object, "-f", name, "-n",
@@ -170,7 +169,7 @@ class Frame(Judged, PluginTest):
             self.same_values(other, "corotational", case)
 
     def test_closed_form(self):
-        """Timoshenko's cantilever is exact with one element: F L^3/(3 E I) + F L/(G A k)."""
+        """One element gives the deflection of Timoshenko's cantilever: F L^3/(3 E I) + F L/(G A k)."""
         self.short_cantilever()
 
 
@@ -199,8 +198,6 @@ class Fortran(Judged, PluginTest):
 
 
 class Planted(PluginTest):
-    """Errors of an author must be reported by the first check, by `element-test`, or by `verify`."""
-
     def broken(self, example, change, *words):
         made = self.altered(example, change)
         told = " ".join(self.answered("element-test", "--element", made, code=1).stdout.split())

@@ -1,5 +1,5 @@
-"""Requested formulations affect the exit status. Wrong elements must be reported in every form in which a run states
-its outcome."""
+"""Verdicts on requested formulations affect the exit status. Wrong elements must be reported in every form of output
+that states the outcome of a run."""
 import json
 import pathlib
 import subprocess
@@ -18,7 +18,7 @@ EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"
 NAME = "timoshenko"
 RUN = ("-k", "elastica/default or tapered_cantilever/default")
 NOWHERE = ("-k", "hexapod/default")
-# A user-defined mass matrix, 10 % too large, in place of the mass of the displacement field.
+# A user-defined mass matrix, 10 % too large, that replaces the mass of the displacement field.
 MASS = (("static int strains(const double options[])", """
 static status inertia(const element_data *d, const node_state x[], const element_rotating_frame *frame,
                       inertia_output *out)
@@ -44,8 +44,8 @@ FAULTS = {
     "stub": ("energy += d->stiffness[i] * e[i] * e[i] / 2;", "energy += 0;", "fail"),
     "coarse": ("cos(sqrt(square) / 2)", "cos(sqrt(square) / 2.1)", "pass"),  # correct limits, but larger errors
 }
-# Forces along the element that the element applies, with halves at the nodes, and clamping moments. The forces refer to
-# the axes of the element at rest or, beyond linear analyses, to the axes of the scene.
+# Loads along the element that the element itself applies: half of the force at each node, and clamping moments. The
+# forces refer to the axes of the element at rest or, beyond linear analyses, to the axes of the scene.
 OWN_LOADS = (("static int strains(const double options[])", """
 static void along(int count, const element_data *const data[], const node_state x[], along_output out[],
                   status outcome[])
@@ -79,8 +79,8 @@ static void along(int count, const element_data *const data[], const node_state 
 }
 
 static int strains(const double options[])"""), (".stress = stress,", ".stress = stress, .along = along,"))
-# Faults in the element that applies its own loads, with the outcome in every form of output and the number of wrong
-# verdicts. Limits alone do not reveal wrong moments.
+# Faults in the element that applies its own loads, with the expected outcome and the number of wrong verdicts. Limits
+# alone do not reveal wrong moments.
 PLANTS = {
     "right": ((), "pass", 0),
     "stiffness": ((("c->young * c->Iz / l3", "1.1 * c->young * c->Iz / l3"),), "fail", 2),
@@ -90,8 +90,8 @@ PLANTS = {
     "stub": ((("    (void)inner;\n", "    (void)inner;\n    return STATUS_OK;\n"),), "fail", 2),
     "refuses": ((("    (void)f;\n", "    strcpy(f->text, \"not yet\");\n    return STATUS_REFUSED;\n"),), "fail", 2),
 }
-# A force, a moment and a load along the beam have the deflection F l^3/3EI + M l^2/2EI + q l^4/8EI with EI = 1, l = 1.
-# The frequency is 1.8751^2/2pi sqrt(EI/(rho A l^4)).
+# A force, a moment and a load along the beam have the deflection F l^3/(3EI) + M l^2/(2EI) + q l^4/(8EI) with EI = 1, l
+# = 1. The frequency is 1.8751^2/2pi sqrt(EI/(rho A l^4)).).
 LOADED = """beamwork: 1
 sections: {s: {rectangle: {width: 1, thickness: 0.01}, young: 12e6, shear_modulus: 5e6, density: 100}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -144,7 +144,7 @@ class Gate(ProgramTest):
                       for name, (changes, *_) in PLANTS.items()}
 
     def verified(self, element, *options, what=RUN, named=("-f", NAME)):
-        """Returns the process and the contents of its files."""
+        """Runs verify. Returns the process and the contents of its files."""
         files = {kind: self.folder / f"out.{kind}" for kind in ("json", "xml", "md", "h5")}
         loaded = ("--element", self.element.get(element, element))
         done = run("verify", *loaded, *named, *what, "--json", files["json"],
@@ -185,8 +185,8 @@ class Gate(ProgramTest):
                 self.assertEqual("element-test" in done.stdout, broken)
 
     def test_seven_doors(self):
-        """A wrong stiffness, a wrong mass, a load with the wrong sign, and stubs must be reported in the exit status,
-        JUnit, Markdown, JSON, the last line, the report and Python."""
+        """A wrong stiffness, a wrong mass, a load with the wrong sign, and a stub must be reported in the exit status,
+        the last line, JUnit, Markdown and JSON files, the report and Python."""
         scene = self.folder / "loaded.yaml"
         scene.write_text(LOADED, encoding="utf-8")
         for name, (_, outcome, wrong) in PLANTS.items():
@@ -200,8 +200,8 @@ class Gate(ProgramTest):
                 self.check_python(self.loaded[name], None, f"{outcome == 'pass'} {outcome}", scene=str(scene))
 
     def test_not_worse_than(self):
-        """Results within every tolerance that are worse than before must be detected: on one mesh of results and in the
-        short table, but not on other meshes."""
+        """Results within the tolerances that are worse than before must be detected. The former results are a file with
+        one mesh, or the short table."""
         _, files = self.verified("right")
         old, table = self.folder / "old.h5", self.folder / "old.csv"
         files["h5"].rename(old)

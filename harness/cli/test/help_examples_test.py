@@ -33,7 +33,7 @@ REDUCED = {
 
 
 def commands(text):
-    """Returns the indented lines that begin with the name of the program. Two spaces precede an explanation."""
+    """Returns the commands among the indented lines. An explanation follows after two spaces."""
     return [line.split("   ")[0].strip() for line in text.splitlines() if re.match(r"  beamwork [a-z]", line)]
 
 
@@ -53,7 +53,7 @@ def reduced(command):
 
 
 class Examples(ProgramTest):
-    """The files that the examples mention, which are small."""
+    """The examples run on small versions of the files that they mention."""
 
     @classmethod
     def setUpClass(cls):
@@ -77,7 +77,7 @@ class Examples(ProgramTest):
             subprocess.run([PROGRAM, *shlex.split(made)], cwd=cls.place, check=True, stdout=subprocess.DEVNULL)
 
     def run_all(self, found):
-        """Runs the commands one after the other in a copy of the files."""
+        """Runs the commands in order in a copy of the files."""
         here = self.place.with_name(f"here {len(list(self.place.parent.iterdir()))}")
         shutil.copytree(self.place, here, symlinks=True)
         if any("--into parts" in command for command in found):

@@ -111,19 +111,19 @@ class Explain(ProgramTest):
 # argp of the C library does not free a byte at exit
 MANUAL_ENV = environment(ASAN_OPTIONS="detect_leaks=0")
 FILES = ("beamwork.1", "beamwork-scene.5", "beamwork-results.5")
-# in -h and in a page: letter, name, argument, description
+# option in -h or in a manual page: letter, name, argument, description
 SHOWN = re.compile(r"^  (?:-(\w), |    )--([\w-]+)(\S*)(\s.*\n(?: {30}.*\n)*)", re.MULTILINE)
 TOLD = re.compile(r"^\.It (?:Fl (\w) , )?Fl -([\w-]+)(?: Ns (?:Oo )?= Ns Ar \"(.+?)\")?(?: Oc)?\n"
                   r"((?:(?!\.It|\.El).*\n)+)", re.MULTILINE)
 
 
 def bare(argument):
-    """Returns N for "=N" and "[=N]"."""
+    """Returns the name N of an argument "=N" or "[=N]"."""
     return argument[2:-1] if argument.startswith("[") else argument.removeprefix("=")
 
 
 def plain(page):
-    """Removes the escapes that protect characters."""
+    """Removes the roff escapes of a manual page."""
     for escaped, shown in (("\\&", ""), ("\\-", "-"), ("\\(aq", "'"), ("\\(dq", '"'),
                            ("\\(ha", "^"), ("\\(ti", "~"), ("\\(ga", "`"), ("\\e", "\\")):
         page = page.replace(escaped, shown)
@@ -131,7 +131,7 @@ def plain(page):
 
 
 def hand_page(name):
-    """Returns a manual page written by hand, with a date and a version."""
+    """Returns the manual page that page.sh makes, with a fixed version and date."""
     return run(name, "0.1.0", "2026-11-21",
                program=ROOT / "harness" / "library" / "packaging" / "page.sh").stdout
 

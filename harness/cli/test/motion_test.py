@@ -36,12 +36,12 @@ omit: [shear, trapeze, wagner_moments, wagner_torque]
 class OwnMotion(PluginTest):
 
     def flight(self, integrator, name, *element):
-        """Computes the motion of a flexible rod thrown in space, for one second."""
         return self.record("solve", "free_flight_space", "--set", f"integrator={integrator}", "-f",
                            name, "-n", 4, *element)
 
     def compare(self, name, element, integrators=("alpha", "conserving", "radau")):
-        """Checks that motions agree with the exact beam with as many elements, and that conserving steps conserve energy."""
+        """Checks that motions agree with those of collocation with the same number of elements, and that conserving
+        steps conserve energy."""
         for integrator in integrators:
             ours = self.flight(integrator, "collocation")
             own = self.flight(integrator, name, "--element", element)
@@ -156,7 +156,8 @@ quantities:
 
 
 def corner(seed, how):
-    """Returns a random scene: size, mass, excitation, amplitude (1e-7 to 1e-2 of the size) and duration."""
+    """Returns a random scene of the corner with its size, mass, excitation, amplitude (1e-7 to 1e-2 of the size) and
+    duration."""
     chance = random.Random(seed)
     L = 10**chance.uniform(-1.3, 0.5)
     t = L/chance.choice([20, 50, 100])
@@ -184,7 +185,7 @@ def corner(seed, how):
 class MotionError(ProgramTest):
 
     def curves(self, text, *options):
-        """Returns the curves of a scene by name, and the values of the other quantities."""
+        """Returns the curves by quantity, and the values of the other quantities."""
         path = self.folder / "scene.yaml"
         path.write_text(text, encoding="utf-8")
         record = self.record("solve", "--scene", path, "-f", "geometrically_exact", *options)
@@ -193,7 +194,7 @@ class MotionError(ProgramTest):
                 {one["quantity"]: one["value"] for one in record["quantities"]})
 
     def test_sudden_loads(self):
-        """The amplitudes are from 2 pm to 20 mm. The error is relative to the largest motion, 2."""
+        """The amplitudes are from 2 pm to 20 mm. The error is relative to 2, the largest value of u/u_static."""
         for how, limit in (("", 1e-3), ("integrator: alpha, ", 1.2e-3)):
             for force, n in ((1e-7, 1), (1e-3, 1), (1e-3, 4), (1, 1)):
                 with self.subTest(how=how, force=force, n=n):
@@ -225,7 +226,7 @@ class MotionError(ProgramTest):
                     self.assertLess(self.steps, 40)
 
     def test_conserving_by_driven_angles(self):
-        """Conserving steps are of order 2, and the work done equals the energy."""
+        """Conserving steps are of order 2 if angles are driven, and the work of the drives equals the change of energy."""
         right, _ = self.curves(ANGLES.replace("HOW", "integrator: radau, tolerance: 1e-7"), "-n", 2)
         errors = []
         for step in (4e-3, 2e-3):
@@ -254,14 +255,14 @@ def with_key(scene):
 class MassTest(SceneCase):
 
     def massive(self):
-        """Returns (case, settings) for the cases with mass."""
+        """Returns (case, settings) for each case with mass."""
         names = [c["case"] for c in self.record("list")["cases"]]
         having = [n for n in names if "mass" in {p["name"] for p in self.record("list", n)["parameters"]}]
         self.assertEqual(set(names) - set(having), MASSLESS)
         return [(n, tuple(w for one in ASKED.get(n, ()) for w in ("--set", one))) for n in having]
 
     def lumped_differs(self, case, point):
-        """Checks that the results are bitwise those of the scene of the case with `mass: lumped` and are marked."""
+        """Checks that the results are bitwise those of the same scene with `mass: lumped`, and are marked."""
         usual, lumped = (self.record("solve", case, *WHERE, *point, *mass) for mass in ((), LUMPED))
         self.assertEqual(usual["parameters"]["mass"], "usual")
         self.assertEqual(lumped["parameters"]["mass"], "lumped")
@@ -284,7 +285,7 @@ class MassTest(SceneCase):
                 self.assertIn("\nmass: lumped\n", self.answered("scene", case, *point, *LUMPED).stdout)
 
     def test_reference_values_hold(self):
-        """The meshes converge to the same limit, with order 2 if half of the mass of an element is at each node."""
+        """With half of the mass of an element at each node, the meshes converge to the same limit, with order 2."""
         found = self.record("solve", "deep_beam", "-f", "collocation", "-n", 64, *LUMPED)
         errors = [q["error"] for q in found["quantities"] if q["quantity"].startswith("frequency")]
         self.assertTrue(errors and all(e is not None and 1e-6 < abs(e) < 1e-3 for e in errors), errors)
@@ -314,7 +315,7 @@ class MassTest(SceneCase):
         self.assertLess(10 * found["usual"], found["lumped"])
 
 
-# Rotated quickly from its position under its own weight, with a suddenly applied load.
+# An arm that is deflected by its own weight. A driver rotates it quickly, and a load is suddenly applied at 1 s.
 SWING = """\
 beamwork: 1
 parameters:
@@ -360,7 +361,7 @@ class RestartTest(SceneCase):
         return {row["quantity"]: row["value"] for row in rows}
 
     def in_two(self, stop=1, **changes):
-        """Returns the quantities of a single run, and those of a run that continues another."""
+        """Returns the quantities of a single run, and those of two runs of which the second continues the first."""
         path, sets = self.scene(SWING), [f"--set={k}={v}" for k, v in changes.items()]
         ends = self.folder / "ends.h5"
         one = self.values(path, *MESH, *sets)
@@ -377,7 +378,8 @@ class RestartTest(SceneCase):
                 self.assertGreater(abs(float(one["z"])), 1e-3)
 
     def test_to_round_off(self):
-        """The results agree only to round-off if a run chooses its pivots again or an end has shortened a step."""
+        """The results agree only to round-off if the second run chooses new pivots, or if the end of the first run
+        shortens a step."""
         for changes, most in (({"how": "radau"}, 1e-9), ({"how": "radau", "damp": 1e-3}, 1e-9),
                               ({"how": "radau", "tol": 1e-8}, 1e-4), ({"how": "alpha", "step": 0.01}, 1e-9)):
             with self.subTest(**changes):

@@ -15,8 +15,7 @@ from harness.tools.kit.program import ProgramTest, ROOT, TRUTHS, environment, ru
 from reference.pack import seal
 
 
-# Contradictory or empty arguments, and a machine with too few resources, must lead to one line and the documented exit
-# status.
+# Contradictory or empty arguments, and too few resources, must lead to one line and the documented exit status.
 LISTS = ("formulation", "element", "elements", "set")  # options that may be given several times
 # argp of the C library does not free a byte at exit
 HELP = environment(ASAN_OPTIONS="detect_leaks=0")
@@ -73,14 +72,14 @@ class Words(ProgramTest):
 
 
 class Tables(ProgramTest):
-    """Tests of the arrays of options that verbs name."""
+    """Checks the arrays of options in the sources of the verbs."""
 
     CLI = ROOT / "harness" / "cli"
-    ANSWERS = {"bench": ("bench", "contest", "contestant")}  # otherwise in the file of the verb
+    ANSWERS = {"bench": ("bench", "contest", "contestant")}  # source files that use the options; otherwise the file of the verb
     ELSEWHERE = {("scene", "format")}  # used in the errors that case_input reports
 
     def shown(self, verb):
-        """Returns (letter, name) of each option."""
+        """Returns the letter and the name of each option in the help of a verb."""
         return re.findall(r"^  (?:-(\w), |    )--([a-z-]+)", run(verb, "-h", env=HELP).stdout,
                           re.MULTILINE)
 
@@ -123,7 +122,7 @@ class Tables(ProgramTest):
         self.refused(2, "solve takes no --beside", "solve", "elastica", "--beside", "x.h5")
 
     def test_each_is_used(self):
-        """Each verb must use each of its options. 'merge' passes all options on."""
+        """Each verb must use each of its options. 'merge' passes them on."""
         everything = "".join(path.read_text(encoding="utf-8") for path in self.CLI.glob("*.c"))
         for verb in EVERY_VERB:
             name = verb.replace("-", "_")
@@ -134,7 +133,7 @@ class Tables(ProgramTest):
             self.assertTrue(members or verb == "merge", verb)
             for member in {own or shared for own, shared in members if verb != "merge"}:
                 head, _, tail = member.partition(".")
-                if tail and f"&r->{head}" in answers:  # a whole group, which other functions read
+                if tail and f"&r->{head}" in answers:  # a whole group of options, which other functions read
                     self.assertRegex(everything, rf"->{tail}\b", (verb, member))
                 elif (verb, member) not in self.ELSEWHERE:
                     self.assertRegex(answers, rf"->{re.escape(member)}\b", (verb, member))
@@ -152,7 +151,7 @@ class Machine(ProgramTest):
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")
     def test_full_disk(self):
-        """A full disk is an error for every output, because output that is not written is not success."""
+        """For every output, a full disk must be reported as an error."""
         shown = [("--help",), ("help",), ("--version",), (), ("list",), ("list", "cases"),
                  ("list", "formulations"), ("list", "elastica"),
                  ("truth", "elastica"), *((verb, *work) for verb, work in WORK.items()),
@@ -166,7 +165,7 @@ class Machine(ProgramTest):
                              arguments)
 
     def test_small_files(self):
-        """A file size limit (ulimit -f) must be reported, even without a parent that ignores its signal."""
+        """A file size limit (ulimit -f) must be reported, with and without a parent that ignores the signal."""
         def limit():
             signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
             resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
@@ -201,15 +200,15 @@ class Machine(ProgramTest):
                 self.with_stack(size, hard, os.environ["PATH"], BEAMWORK_TRUTHS=TRUTHS)
 
     def test_least_stack(self):
-        """The message must appear with the smallest stack that the loader supports, for any address layout. A message
-        through stdio, whose buffer is on the stack, would crash three times in four."""
+        """With the smallest stack that the loader supports, the message must appear for any address layout. Writing the
+        message through stdio would need a buffer on the stack and crash in three of four runs."""
         self.needs_no_sanitizers()
         for size in 8 * (16, 17, 18):
             self.with_stack(size, True, "/usr/bin:/bin")
 
 
 class OtherPythons(ProgramTest):
-    """Reference values are derived even in a virtual environment, or with a different Python."""
+    """Reference values must be derived also in a virtual environment, or with a different Python."""
 
     def derived(self, **changes):
         done = self.answered("truth", "elastica", "--set", "load=2.5", env=environment(**changes))
@@ -330,7 +329,7 @@ class Refusals(ProgramTest):
                      silent=False)
 
     def test_misspelt_selection(self):
-        """A word without a match would skip cells silently, so it is rejected, in brackets or not."""
+        """A word that matches nothing must be rejected, with or without brackets, because it would silently omit cells."""
         for verb in ("verify", "stress"):
             self.refused(2, "did you mean 'elastica'?", verb, "-k", "elastca")
             self.refused(2, "'sheet_thrid'", verb, "-k", "(elastica or sheet_thrid)")
@@ -378,8 +377,8 @@ class Answers(ProgramTest):
                      silent=False, env=environment(BEAMWORK_REFERENCE="/nowhere"))
 
     def test_truth_has_the_digits_of_its_uncertainty(self):
-        """The value must have no digits of rounding noise. A thickness without stored values has a value, and a remedy is
-        given if no program can derive the value."""
+        """The value must have no digits of rounding noise. A thickness without a stored value must have a derived
+        value, or a remedy if no program can derive it."""
         text = self.answered("truth", "spherical_joint").stdout
         self.assertNotRegex(text, r"\d\.\d*(9{6}|0{6}\d)")
         self.assertRegex(text, r"support_stiffness_max +\S+ \+- .* exact +same, haringx\n")
@@ -391,7 +390,8 @@ class Answers(ProgramTest):
         self.assertIn("give `truths` of the scene", done.stderr)
 
     def derived(self, scene, *words):
-        """Returns {quantity: (value, uncertainty)} from the lines for the file, and these lines."""
+        """Returns {quantity: (value, uncertainty)} from the lines that are printed for the truths file, and these
+        lines."""
         done = self.answered("truth", "--scene", scene, *words)
         lines = done.stdout.partition("truths:\n")[2]
         found = re.findall(r"quantity: (\w+), value: (\S+), uncertainty: (\S+), kind: exact", lines)

@@ -1,4 +1,4 @@
-"""Destinations of output, and output on a screen."""
+"""Destinations of output, and output on a terminal."""
 import csv
 import json
 import os
