@@ -169,7 +169,7 @@ def percent(value):
 
 
 def conclusions(site, look):
-    """Yields (statement in J section 5.2, computed values that support or contradict it)."""
+    """Yields (statement in J section 5.2, computed values in text form)."""
 
     def load(parameters, key, n):
         return look.value(CASE, parameters, key, n, "load_at_w")

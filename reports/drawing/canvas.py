@@ -10,7 +10,8 @@ from reports.style import plt
 
 
 def number(value):
-    """Returns a number with four digits in text form. The digits of large numbers are in groups of three."""
+    """Returns a number with four significant digits in text form. The digits of numbers from 1e4 are in groups of
+    three."""
     if 1e4 <= abs(value) < 1e8:
         return f"{float(f'{value:.4g}'):,.0f}".replace(",", "\u202f")
     return f"{value + 0:.4g}"
@@ -61,7 +62,7 @@ class Canvas:
                 self.points.append(a + np.linspace(0, 1, steps + 1)[:, None] * (b - a))
 
     def face(self, corners, depth, colour, edge=INK):
-        """Adds a filled polygon. Near polygons cover those that are farther away."""
+        """Adds a filled polygon. It covers polygons with a smaller `depth`."""
         self.faces.append((depth, corners, colour, edge))
         if len(self.faces) < MOST_FACES:
             self.occupy(np.vstack([corners, corners[:1]]))
@@ -69,7 +70,8 @@ class Canvas:
             self.points.append(corners)
 
     def line(self, points, colour=INK, width=1.2, style="-", mark=None, above=True, clear=True):
-        """Adds a polyline. `mark` is its id in the file."""
+        """Adds a polyline. `mark` is its id in the file. If `above` is True, it is in front of the members. If `clear` is
+        True, labels avoid it."""
         if clear:
             self.occupy(points)
         order = 5 if above else 1
@@ -138,7 +140,7 @@ class Canvas:
             bbox={"facecolor": "white", "edgecolor": "none", "pad": 0.8}))
 
     def extent(self):
-        """Returns the (lower, upper) corner of the drawing."""
+        """Returns (lower left corner, upper right corner) of the drawing."""
         corners = [np.array([b[:2], b[2:]]) for b in self.boxes]
         all_points = np.vstack([np.vstack(self.points)] + corners)
         return all_points.min(axis=0), all_points.max(axis=0)

@@ -44,7 +44,8 @@ def load(one):
 
 
 def extent(within):
-    """Describes a fraction of the length of a member."""
+    """Describes the range or the position of a load along a member, in percent of its length. Returns an empty string for
+    the whole length."""
     if within in (None, (0, 1)):
         return ""
     begin, end = (f"{number(100 * part)} %" for part in within)
@@ -52,7 +53,8 @@ def extent(within):
 
 
 def axis(one):
-    """Returns the axis along which the load acts, if the load acts along a single axis."""
+    """Describes the axis along or about which the load acts. Returns an empty string if the load varies or acts in more
+    than one direction."""
     along = np.flatnonzero(np.abs(one.vector) + np.abs(one.last))
     if one.varies():
         return ""
@@ -103,7 +105,7 @@ def mass(node):
 
 
 def warping(scene):
-    """Lists the nodes at which warping is restrained or free, or the members if their ends at a node differ."""
+    """Lists the nodes at which warping is restrained, shared or free, or the members if their ends at a node differ."""
     at = {}
     for member, end, word in ends_that_warp(scene):
         at.setdefault(member.ends[end], []).append((word, member.name))
@@ -121,7 +123,7 @@ def warping(scene):
 
 
 def shortened(lines):
-    """Returns the lines, shortened if there are too many."""
+    """Returns the lines that are not empty, at most MOST, followed by the number of the other lines."""
     found = [line for line in lines if line]
     return found[:MOST] + [f"and {len(found) - MOST} more"] if len(found) > MOST else found
 

@@ -13,7 +13,7 @@ SMALL = 0.02  # dimensions below this fraction of the largest are not drawn
 
 
 def edges(low, high, axis):
-    """Returns the edges of the box along an axis [4 x 2 x 3]."""
+    """Returns the four edges parallel to an axis of the box from `low` to `high` [4 x 2 x 3]."""
     others = [i for i in range(3) if i != axis]
     out = []
     for corner in itertools.product((0, 1), repeat=2):
@@ -25,7 +25,7 @@ def edges(low, high, axis):
 
 
 def put_size(canvas, view, low, high, axis):
-    """Draws a dimension line below the drawing or to its right."""
+    """Draws the dimension line of the extent along an axis, below the drawing or to its right."""
     along = view(np.eye(3)[axis]) / view.scale
     if np.linalg.norm(along) < 0.2:
         return
@@ -152,7 +152,7 @@ def put_section(canvas, name, section, left):
 
 
 def sections_drawn(scene):
-    """Returns the names of the sections with a known shape, without repeated shapes."""
+    """Returns the names of at most MOST sections with a known shape, without repeated shapes."""
     out = {}
     for member in scene.members.values():
         for name in member.sections:
@@ -177,13 +177,13 @@ MOST_NAMES = 9  # largest number of nodes whose names are drawn
 
 
 def skeleton(scene, lines):
-    """Returns the nodes and the lines [n x 3]."""
+    """Returns the positions of the nodes and of the points on the axes of members [n x 3]."""
     points = [line.points for line in lines.values()]
     return np.vstack(points + [n.position[None] for n in scene.nodes.values()])
 
 
 def body(scene, lines):
-    """Returns the corners of the sections at the ends of members, and the masses [n x 3]."""
+    """Returns the corners of the sections at the ends of members, and the centres of masses [n x 3]."""
     out = [n.position[None] + n.centre for n in scene.nodes.values() if n.mass]
     for name, member in scene.members.items():
         line = lines[name]
@@ -194,7 +194,8 @@ def body(scene, lines):
 
 
 def directions(scene):
-    """Returns the directions of displacements and of rotations of loads, motions, springs and axes."""
+    """Returns (translational directions, rotational directions) of loads, motions, fork supports, springs and rotating
+    axes."""
     shifts, turns = [], []
     for load in scene.loads:
         (turns if "moment" in load.kind else shifts).extend((load.vector, load.last))
@@ -212,7 +213,8 @@ def directions(scene):
 
 
 def put_names(canvas, look, scene):
-    """Draws the names of all nodes or, if there are many nodes, of nodes with quantities."""
+    """Draws the names of all nodes or, if there are more than MOST_NAMES, of the nodes with quantities. Draws none if
+    these are also more than MOST_NAMES."""
     asked = [n for n in scene.nodes.values() if n.name in scene.asked]
     named = asked if len(scene.nodes) > MOST_NAMES else list(scene.nodes.values())
     if len(named) > MOST_NAMES:
@@ -222,7 +224,7 @@ def put_names(canvas, look, scene):
 
 
 def near_spin(scene, points):
-    """Returns True if the rotation axis is near enough to be drawn."""
+    """Returns True if the scene has a rotation axis that is near enough to be drawn."""
     if scene.spin is None:
         return False
     away = np.linalg.norm(scene.spin.centre - points.mean(axis=0))

@@ -38,7 +38,7 @@ def chord(k, s):
 
 
 def arc_length(k, distance):
-    """Returns the length of the arc whose ends are this distance apart."""
+    """Returns the length of the arc with torsion and curvature k [1/m] whose ends are this distance apart."""
     length = distance
     for _ in range(60):
         length += distance - np.linalg.norm(chord(k, length))
@@ -61,7 +61,7 @@ def line_of(scene, member):
 
 
 def rectangle(y, z, height, width):
-    """Returns the corners [4 x 2] about (y, z)."""
+    """Returns the corners (y, z) of a rectangle about the point (y, z) [4 x 2]."""
     return np.array([y, z]) + 0.5 * np.array([[-height, -width], [height, -width],
                                               [height, width], [-height, width]])
 
@@ -72,7 +72,7 @@ def meet(walls):
 
 
 def warps(section):
-    """Returns True if the section has a warping constant."""
+    """Returns True if the section has a warping constant other than zero."""
     given = section.get("given", {})
     if "Iw" in given:
         return float(given["Iw"]) > 0
@@ -82,7 +82,8 @@ def warps(section):
 
 
 def walls_of(section):
-    """Returns the strips [4 x 2] of thin walls relative to their centroid, and their mid-lines [walls x 2 x 2]."""
+    """Returns (strips [4 x 2], ends of the mid-lines [walls x 2 x 2], thicknesses [walls]) of thin walls. Positions are
+    relative to the centroid of the walls."""
     points = {name: np.array([float(v) for v in p]) for name, p in section["points"].items()}
     ends = np.array([[points[w["from"]], points[w["to"]]] for w in section["walls"]])
     thickness = np.array([float(w["thickness"]) for w in section["walls"]])
@@ -113,7 +114,8 @@ def outline(section):
 
 
 def prism(line, here, there):
-    """Returns quadrilaterals [m x 4 x 3] of the sides of a member, from the outline `here` at its start to `there`."""
+    """Returns (quadrilaterals of the sides of a member [m x 4 x 3], [first and last cross-section]), with the outline
+    `here` at its start and `there` at its end."""
     share = np.linspace(0, 1, len(line.points))[:, None, None]
     rings = (1 - share) * here + share * there  # [points x corners x 2]
     y, z = line.axes[:, None, 1], line.axes[:, None, 2]
@@ -183,8 +185,8 @@ def openness(view, points):
 
 
 def choose_view(points, shifts, turns, solid):
-    """Returns the view of points [n x 3], where `shifts` and `turns` are directions of loads and motions. `solid` is
-    True if sections have a shape."""
+    """Returns the view of points [n x 3]. `shifts` and `turns` are the translational and rotational directions of loads
+    and motions. `solid` is True if sections have a shape."""
     extent = np.ptp(points, axis=0)
     flat = extent <= FLAT * np.linalg.norm(extent)
     straight = flat.sum() == 2

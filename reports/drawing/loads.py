@@ -70,7 +70,7 @@ def put_moment(canvas, view, load, at):
 
 
 def beside_member(flat, way, gravity):
-    """Shifts arrows that would lie on the member or, for gravity, on other loads."""
+    """Returns the shift on paper [pt] of arrows that would lie on the member or, for gravity, on other loads."""
     along = unit(flat[-1] - flat[0])
     if abs(along @ way) > 0.9:
         return SHORT * np.array([-1.0, 0]) if abs(along[1]) > 0.5 else SHORT * np.array([0, -1.0])
@@ -78,7 +78,7 @@ def beside_member(flat, way, gravity):
 
 
 def in_fixed(load, line, v):
-    """Returns the vector of a load on a member in fixed axes."""
+    """Returns the vector v of a load on a member in fixed axes."""
     return line.axes[0].T @ v if load.member_axes else v
 
 

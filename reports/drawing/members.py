@@ -88,7 +88,8 @@ def put_hinges(canvas, view, member, line):
 
 
 def ends_that_warp(scene):
-    """Yields (member, end 0 or 1, fixed, free or shared) for all members whose sections warp."""
+    """Yields (member, end, word) for the ends of members whose sections warp. `end` is 0 or 1, and `word` is "fixed",
+    "free" or "shared"."""
     if "warping" in scene.omitted or "all" in scene.omitted:
         return
     for member in scene.members.values():
@@ -204,7 +205,7 @@ def put_ground(canvas, at, away):
 
 PLATE = 15  # half the side of the plate of a clamp [pt]
 HATCHES = 9  # number of hatching lines of a plate
-MOST_LETTERS = 4  # largest number of supports with letters, where the list below the drawing contains the others
+MOST_LETTERS = 4  # largest number of partly fixed nodes for which the drawing names the fixed components
 
 
 def held_of(scene, node):
@@ -232,7 +233,8 @@ def into(scene, lines, name):
 
 
 def put_plate(canvas, view, at, way, mark):
-    """Draws a plate normal to a member in space. Returns 0 if the plate is seen edge-on."""
+    """Draws a plate normal to a member in space and returns 1. Draws nothing and returns 0 if the plate would be seen
+    edge-on."""
     side = np.cross(way, [0, 0, 1.0] if abs(way[2]) < 0.9 else [1.0, 0, 0])
     side /= np.linalg.norm(side)
     other, h = np.cross(way, side), PLATE / view.scale

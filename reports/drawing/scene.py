@@ -10,7 +10,7 @@ Loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)  # every scalar is text u
 
 @dataclass
 class Turn:
-    """A rotation about an axis, which is free, fixed or prescribed by a motion."""
+    """A rotation about an axis. `angle` is "free", "held" or the name of the motion that prescribes it."""
     axis: np.ndarray
     angle: str
 
@@ -32,8 +32,8 @@ class Node:
 
 @dataclass
 class Member:
-    """A member. `y` is the direction of the y axis of its section. `released` are the components that both ends release.
-    `warping` is fixed, free or shared at both ends."""
+    """A member. `y` is the direction of the y axis of its section. `released` contains the names of the released
+    components for each end. `warping` contains "fixed", "free", "shared" or "" for each end."""
     name: str
     ends: tuple  # names of two nodes
     sections: tuple  # names of the sections at both ends
@@ -76,14 +76,14 @@ class Spring:
 
     @property
     def acts(self):
-        """Returns the axes along and about which the spring acts."""
+        """Returns a mask [6] of the components with a stiffness, a damping or a table."""
         return (self.stiffness != 0) | (self.damping != 0) | np.array(self.tables)
 
 
 @dataclass
 class Constraint:
-    """A condition between components of nodes: a diaphragm (`master` and `normal`), equal components, or a ratio. The first
-    of `nodes` is the master, or the node with the ratio."""
+    """A condition between components of nodes. `kind` is "diaphragm" (rigid in the plane normal to `normal`; the first of
+    `nodes` is its master), "equal", or "ratio" (component of the first node = `ratio` x component of the second)."""
     name: str
     kind: str
     nodes: tuple

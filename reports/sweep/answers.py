@@ -7,7 +7,7 @@ from reports.sweep.boxes import Box
 
 ENOUGH = 0.9  # share of the largest range that a range with fewer elements must reach to be listed first
 FEWER = 0.15  # share of the first range that a range with fewer elements must reach to be listed
-BEHIND = 0.95  # share of the points of the next quantity below which one quantity is the only deciding quantity
+BEHIND = 0.95  # a quantity decides alone if its points within the tolerance are fewer than this share of the next one's
 WIDER = 1.01  # factor on the first range that a range with more elements must reach to be listed
 
 
@@ -52,8 +52,8 @@ class Answer:
     decided: str = ""
 
     def decide(self):
-        """Determines if a single quantity is the reason why the largest insufficient number of elements is not enough for
-        all quantities."""
+        """Sets `decided`. On the finest mesh that is not sufficient at all points, the deciding quantity is within the
+        tolerance at clearly fewer points than every other quantity."""
         short = [i for i, r in enumerate(self.of) if r.reached < r.known]
         if not short or not self.single:
             return
@@ -63,8 +63,8 @@ class Answer:
             self.decided = reached[0][1]
 
     def choose(self):
-        """Selects the range that is listed first: of the ranges that are nearly as wide as the widest, the range with the
-        fewest elements."""
+        """Sets `first` to the range with the fewest elements that is nearly as wide as the widest. Sets `fewer` and
+        `wider` to ranges with fewer and with more elements that are also listed."""
         most = max((r.good for r in self.of), default=0)
         if not most:
             return
@@ -79,7 +79,7 @@ class Answer:
         return [r for r in (self.first, self.fewer, self.wider) if r]
 
     def same(self):
-        """Returns the key that is equal for answers in one sentence."""
+        """Returns a key that is equal for answers that are printed in one sentence."""
         if not self.first:
             return self.absent, self.of[-1].reached
         return self.first.mesh, self.first.box.lattice, self.first.box.chosen
@@ -181,7 +181,7 @@ class Group:
 
 
 def together(made):
-    """Returns [Group], in the order of the answers."""
+    """Returns [Group] of answers that are printed in one sentence, in the order of the answers."""
     groups = {}
     for each in made:
         groups.setdefault(each.same(), []).append(each)
@@ -199,8 +199,8 @@ def unknown(sweep, found, q):
 
 
 def outcomes(sweep, found):
-    """Returns [(formulation, outcome, runs, total, [(axis, low, high)])] of outcomes without a solution, with the axes
-    that the outcome does not cover completely."""
+    """Returns [(formulation, outcome, number of its runs, number of all runs, [(Parts, low, high)])] of outcomes
+    without a solution. The list contains the axes on which the outcome occurs only from `low` to `high`."""
     out = []
     for f, key in enumerate(sweep.keys):
         for s, name in enumerate(sweep.statuses):

@@ -40,7 +40,7 @@ class Box:
 
     @property
     def share(self):
-        """Returns the share of all points that are in the box and within the tolerance."""
+        """Returns the share of all points that are in the box and have a reference value."""
         return self.points / self.whole if self.whole else 0.0
 
     def holds(self, at):
@@ -138,8 +138,8 @@ class Search:
         return table
 
     def keep(self, score, rows, fixed):
-        """Keeps the best of all choices for each number of conditions. `score` is [rows of each axis of rows], `rows` is
-        {axis: its choices, simple ones first}, and `fixed` is {axis: row} of other axes."""
+        """Keeps the best of all choices for each number of conditions. `rows` is {axis: its choices, simple ones first}.
+        `score` has a dimension for each of these axes. `fixed` is {axis: row} of the choices on other axes."""
         costs = [self.choices[a].cost[r] for a, r in rows.items()]
         base = sum(int(self.choices[a].cost[r]) for a, r in fixed.items())
         for kinds in itertools.product(*map(np.unique, costs)):
@@ -151,7 +151,8 @@ class Search:
                 self.best[cost] = float(of[at]), fixed | chosen
 
     def one(self, axis, fixed):
-        """Tries all choices on an axis with the choices on the other axes fixed."""
+        """Tries all choices on an axis with the choices on the other axes fixed. Returns the numbers of good and bad
+        points for each choice."""
         of = self.choices[axis]
         good, bad = (of.member @ self.reduced(t, (axis,), fixed) for t in (self.good, self.bad))
         other = {a: row for a, row in fixed.items() if a != axis}
@@ -167,7 +168,7 @@ class Search:
                   {a: np.arange(len(first.cost)), b: np.arange(len(second.cost))}, {})
 
     def three(self, a, b, c):
-        """Tries the coarse choices on two axes with all choices of one condition on a third axis."""
+        """Tries the coarse choices on axes a and b together with all choices on axis c that are one condition."""
         rows = {a: self.choices[a].coarse, b: self.choices[b].coarse, c: self.choices[c].rows(1)}
         if not len(rows[c]):
             return
@@ -195,7 +196,7 @@ class Search:
                 fixed[axis] = int(value.argmax())
 
     def ascend(self):
-        """Changes the choice on one axis after the other, starting from the best box, until the score no longer improves."""
+        """Changes the choice on one axis after the other, starting from each box in `best`, until no score improves."""
         before = None
         while self.best and before != self.best:
             before = dict(self.best)
@@ -230,7 +231,7 @@ class Search:
         self.ascend()
 
     def box(self, cost, chosen):
-        """Returns the choice as a Box."""
+        """Returns the Box of a choice, {axis: row}, with `cost` conditions."""
         good, bad = (float(self.reduced(t, (), chosen)) for t in (self.good, self.bad))
         parts = [None] * self.good.ndim
         for axis, row in chosen.items():
@@ -249,8 +250,8 @@ def candidates(lattice, good, bad, whole):
 
 
 def largest(lattices, counts, whole=None):
-    """Returns the Box, or None if no box with enough points is within the tolerance. `counts` is [(good, bad)] of the
-    cells of each lattice; the first lattice is preferred. `whole` has the meaning given at Search."""
+    """Returns the largest Box, or None if no box with enough points is within the tolerance. `counts` is [(good, bad)] of
+    the cells of each lattice; the first lattice is preferred. `whole` is the argument of Search."""
     every = [box for lattice, (good, bad) in zip(lattices, counts)
              for box in candidates(lattice, good, bad, whole)]
     found = None

@@ -322,7 +322,8 @@ def take_outcomes(into, sweep, piece):
 
 
 def count(reach, cell, asked, reached):
-    """Adds points to a table of reached levels."""
+    """Adds points to a table `reach` [C, F, Q+1, M+2] (Gathered.reaches). `cell` are their cells, and `reached` are their
+    classes in the last dimension. Only points for which `asked` is True are added."""
     _, f, q, classes = reach.shape
     flat = ((cell[:, None, None] * f + np.arange(f)[None, :, None]) * q +
             np.arange(q)[None, None, :]) * classes + reached
@@ -348,7 +349,7 @@ def take(into, sweep, piece):
 
 
 def of_sweep(sweep):
-    """Returns Gathered, reading every point once more."""
+    """Returns the Gathered of a sweep. Its points are read once more, after the passes of lattice_of()."""
     into = empty(sweep, lattice_of(sweep))
     for piece in sweep.pieces():
         take(into, sweep, piece)
@@ -365,7 +366,8 @@ class Outlier:
 
 
 def exceptions(sweep, boxes):
-    """Returns the worst exceptions [[Outlier]] of the boxes [(box, f, q, m)]."""
+    """Returns [[Outlier]], at most NAMED of the worst exceptions for each of the boxes [(Box, f, q, m)]. f, q and m are
+    the indices of formulation, quantity and mesh."""
     found = [[] for _ in boxes]
     wanted = [i for i, (box, *_) in enumerate(boxes) if box.bad]
     for piece in sweep.pieces() if wanted else ():

@@ -1,5 +1,5 @@
-"""Maps of a sweep in separate SVG images, with a field for each cell of two axes. The colour and the sign of a field have
-one meaning. Equal adjacent fields in a row are joined, which keeps files small. assets/sweep.js draws the same maps
+"""Maps of a sweep in separate SVG images, with a field for each cell of two axes. The colour and the sign of a field both
+show its state. Equal adjacent fields in a row are joined, which keeps files small. assets/sweep.js draws the same maps
 over other axes and must be changed together with this module."""
 import numpy as np
 from markupsafe import escape
@@ -14,8 +14,8 @@ EMPTY, UNKNOWN = -2, -1  # states of fields without a point, and without a refer
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"
 WIDE, LEAST_FIELD, MOST_FIELD = 230, 11.5, 40  # width of a map, smallest and largest size of a field, in pixels
 LEFT, TOP, BELOW, RIGHT = 52, 36, 38, 12
-LETTER = 5.6  # mean width of a letter of 9 pixels
-DOT = 6  # radius of a point
+LETTER = 5.6  # mean width in pixels of a letter at a font size of 9 pixels
+DOT = 6  # radius of a point in pixels
 
 
 def luminance(colour):
@@ -30,7 +30,7 @@ def ink(fill):
 
 
 def steps(count):
-    """Returns colours from light (few elements) to dark (many elements)."""
+    """Returns this number of colours, from light (few elements) to dark (many elements)."""
     at = np.linspace(0.95, 0.25, count) if count > 1 else [0.8]
     return [to_hex(colormaps["viridis"](x)) for x in at]
 
@@ -58,8 +58,8 @@ class Look:
 
 
 def states(reach, points, look):
-    """Returns the states of fields. `reach` is the number of points by the first mesh within the tolerance [..., M + 2],
-    and `points` is the number of points in each field."""
+    """Returns the states of fields. `reach` [..., M + 2] is the number of points by the first mesh from which all meshes
+    are within the tolerance (gather.Gathered). `points` is the number of points in each field."""
     count = look.none
     total, out = reach.sum(axis=-1), reach[..., count:].sum(axis=-1)
     top = count - 1 - np.argmax(reach[..., count - 1::-1] > 0, axis=-1)
@@ -69,7 +69,7 @@ def states(reach, points, look):
 
 
 def runs(row):
-    """Returns [(first, length, state)] of the fields that are drawn in a row."""
+    """Returns [(first field, number of fields, state)] of the runs of equal fields in a row, except empty fields."""
     ends = np.flatnonzero(np.diff(row, prepend=row[0] - 1, append=row[-1] - 1))
     return [(int(a), int(b - a), int(row[a])) for a, b in zip(ends, ends[1:]) if row[a] != EMPTY]
 
@@ -201,8 +201,8 @@ class Map:
 
 def winners(wins, known, keys):
     """Returns (states, fill, sign) of the formulation of lowest cost in each field. The state is 2 k if formulation k is
-    the cheapest at every point, and 2 k + 1 if it is the cheapest at most points. `wins` is [..., F], and `known` is
-    the number of points with a reference value."""
+    the cheapest at every point, and 2 k + 1 if it is the cheapest at the largest number of points but not at all. `wins`
+    [..., F] are these numbers, and `known` is the number of points with a reference value."""
     count = len(keys)
     best, most = wins.argmax(axis=-1), wins.max(axis=-1)
     state = np.where(most == 0, 2 * count, 2 * best + (most < known))

@@ -63,14 +63,14 @@ class Worst:
 class Piece:
     """Consecutive points of a sweep.
 
-      at      [points, axes]
-      truth   reference value [points, quantities]
+      first   index of the first point
+      at      values of the parameters [points, axes]
       `doubt` uncertainty of the reference value [points, quantities]
-      kind    [points, quantities]
+      kind    kind of the reference value, as an index in Sweep.kinds [points, quantities]
       value   [points, formulations, meshes, quantities], NaN if there is none
       error   relative error [points, formulations, meshes, quantities], NaN if there is none
-      status  [points, formulations, meshes]
-      cost    [points, formulations, meshes] [s]
+      status  outcome, as an index in Sweep.statuses [points, formulations, meshes]
+      cost    cost of counted work [s] [points, formulations, meshes]
       least   number of elements from which all meshes are within the tolerance, or 0 if there is none
               [points, formulations, quantities]"""
 
@@ -149,7 +149,7 @@ class Sweep:
             yield at
 
     def read(self, names, step):
-        """Yields (first point, [rows of tables]) in pieces."""
+        """Yields (index of the first point, [rows of each table in `names`]) for pieces of at most `step` points."""
         step = max(1, step)
         try:
             with h5py.File(self.path) as file:
@@ -166,7 +166,7 @@ class Sweep:
 
 
 def home(file):
-    """Returns the location of the tables of a sweep in a file, or None."""
+    """Returns the group with the tables of a sweep in a file, or None."""
     return file if MARK in file.attrs else file.get(GROUP)
 
 
