@@ -35,8 +35,6 @@ typedef struct arnoldi_result {
 status arnoldi_solve(const arnoldi_problem *, arnoldi_result *, fault *);
 void arnoldi_free(arnoldi_result *);
 
-/* Linear buckling about the undeformed state. */
-
 /* Centre lines of the structure in all solutions, for pictures. */
 
 /* Collects the shapes of the undeformed structure, of at most `most` states of every path, of
@@ -52,8 +50,8 @@ status collect_systems(const analysis_context *, system_matrices *, fault *);
 /* Imperfections. */
 
 /* Returns the number of modes that an analysis must find for the imperfections that use it,
- * including two more modes that reveal equal modes; 0: no imperfection uses the analysis. Buckling
- * modes are counted over the positive loads. */
+ * including two more modes that reveal equal modes; 0: no imperfection uses the analysis. Only
+ * buckling modes with positive critical factors are counted. */
 int imperfection_modes(const scene *, int analysis);
 /* Sets x[free + driven] to the sum of the imperfections, each of which is a mode times its
  * amplitude. REFUSED: a mode does not exist or is not unique. */
@@ -162,8 +160,8 @@ flutter_kind flutter_of(const flutter_system *, const unsymmetric_result *, int 
  * damping". */
 const char *flutter_name(const flutter_system *, flutter_kind);
 
-/* The smallest path parameter at which stability is lost. The search starts at path 0. The state at
- * this point is on the path. The caller frees mode[free]. */
+/* The smallest path parameter at which stability is lost. The search starts at path 0. The caller
+ * frees mode[free]. */
 typedef struct flutter_point {
     double path, error, frequency; /* error: relative to the path parameter; frequency: in rad/s */
     const char *what;              /* flutter_name */
@@ -198,7 +196,7 @@ void flutter_judge_free(flutter_judge *);
  * axis. This number changes at a critical point, where an eigenvalue passes zero. It also changes
  * where a pair crosses the imaginary axis away from zero, which is not a critical point. It does
  * not change where a pair meets on the real axis, or if rounding changes a double eigenvalue into a
- * pair. If K is symmetric, it equals the number of negative pivots. */
+ * pair. If K is symmetric, the number equals the number of negative pivots. */
 
 enum { LEFT_NEAREST = 6 };
 
@@ -224,14 +222,14 @@ status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *
  * criterion, and the change of K is proportional to this correction. */
 
 typedef struct path_point {
-    double factor, control; /* dfactor/ds, where s is the arc length in the metric of the model */
-    double rate;            /* dfactor/ds with s in the model's metric */
+    double factor, control; /* load factor, and value of the control coordinate */
+    double rate;            /* dfactor/ds, where s is the arc length in the metric of the model */
     double *tangent;        /* [free + driven] dx/ds */
     int symmetric;
     /* number of negative pivots of K, or the replacement from left_count; -1: unknown */
     int negative;
     int determinant; /* sign of det K */
-    /* smallest eigenvalue of K, or its real part if K is not symmetric; NAN: not needed */
+    /* eigenvalue of K nearest to zero, or its real part if K is not symmetric; NAN: not needed */
     double least;
     int nearest;
     /* [nearest] eigenvalues nearest to zero, in ascending order of magnitude, if K is not symmetric
@@ -326,15 +324,14 @@ void spectrum_take(const scene_quantity *, int count, double step, const double 
 /* Returns 1 if a quantity that is not a curve is evaluated at this station of path[stations]. */
 int extract_path_asks(const analysis_context *, int analysis, int stations, const double path[],
                       int station);
-/* Like extract_path_asks, but returns 1 if all stations are needed. */
+/* Like extract_path_asks, but returns 1 for every station unless only values are requested
+ * (solve_options.values_only). */
 int extract_path_wants(const analysis_context *, int analysis, int stations, const double path[],
                        int station);
 /* Returns 1 if the station needs more than the motion of nodes: resultants, reactions, shapes,
  * matrices, or the initial state of a following analysis. Compliances that were already computed
  * are not counted. */
 int extract_path_whole(const analysis_context *, int analysis, int station);
-
-/* Quantities of eigenvalues: critical loads and frequencies. */
 
 /* Checks if stability is lost and regained within a step of a static path. The state is examined
  * after every sixth of the step, so a loss over a fifth of the step is noticed. */
@@ -343,8 +340,6 @@ int extract_path_whole(const analysis_context *, int analysis, int station);
  * differs from that of both ends; INFINITY: none. The work is not counted. */
 status within_step(flutter_judge *, analysis_context *, const model_state *from,
                    const model_state *to, double *found, fault *);
-
-/* Linear statics about the undeformed state. */
 
 /* Small motions and stability about a loaded, deformed state: the last state of the static path
  * that the analysis follows. */
@@ -393,14 +388,15 @@ typedef struct vibration {
     /* 1: the mass inside elements is neglected, and the extremes between frequencies are omitted */
     int plain;
     sparse D; /* [2 (free + border + loops)] dynamic stiffness in real form */
-    /* source: index in K of each entry of the free block, column by column; first: [free + 1] */
+    /* source, row: index in K and row of each entry of the free block, column by column; first:
+     * [free + 1] index of the first entry of each column */
     int *source, *first;
     int *row, *rows;
     double complex *column; /* [free + border + loops] rows and values of a column of D */
     matrix_factor *factor;
     double *x; /* [2 (free + border + loops)] */
     double complex *found,
-        *left; /* [quantities x (all + loops)] solutions; [quantities x free] left solutions */
+        *left; /* [quantities x (all + loops)] solutions; [quantities x free] residuals */
     double complex *output,
         *dual;             /* [all + loops] linear form of an output, and its dual solution */
     double *room;          /* [model_stresses + all] */
@@ -418,11 +414,11 @@ size_t loops_whole(const vibration *);
 /* Returns the loop of a load; NULL: the loop is not closed. */
 const control_loop *loops_of(const vibration *, int load);
 /* Computes the coefficients of a loop: own u + gain S^T x = gain r at s = i w, with the factor u,
- * the error r and the measured form S. Returns `gain` and sets *own. If there is an integral gain,
- * both are multiplied by s. */
+ * the reference r and the measured form S. Returns `gain` and sets *own. If there is an integral
+ * gain, both are multiplied by s. */
 double complex loops_gain(const control_loop *, double w, double complex *own);
-/* Computes K, M, C and B of the free coordinates and of the integrals of the errors, which follow
- * them, on one pattern and with all loops closed. The caller frees to[4], even after a failure. */
+/* Computes K, M, C and B with all loops closed, on one pattern. The rows are the free coordinates,
+ * followed by the integrals of the errors. The caller frees to[4], even after a failure. */
 status loops_close(const vibration *, const sparse *const from[], sparse to[], fault *);
 void loops_release(sparse closed[]);
 
@@ -434,7 +430,7 @@ status harmonic_matrices(vibration *, int whole, fault *);
 status harmonic_pattern(vibration *, fault *);
 /* Allocates the matrix of a direct solution. */
 status harmonic_matrix(vibration *, fault *);
-/* Factors this matrix at a circular frequency. */
+/* Factors the matrix of a direct solution at the circular frequency w. */
 status harmonic_factor(vibration *, double w, fault *);
 /* Returns the number of additional unknowns for modes with a damping ratio in a direct solution.
  * Each such mode has one unknown, y = i w U^T (x - r), with D x + U y = f. The vector r contains
@@ -587,7 +583,8 @@ status second_order_keep(const vibration *v, const sparse *G, const system_matri
 /* Stores the reduced model and its errors (second_order_reduced.c). */
 status second_order_keep_reduced(const vibration *, const system_matrices *,
                                  const second_order *whole, reduced_model *, fault *);
-/* Lists the nonzero entries by columns (this and the next two: second_order_store.c). */
+/* Lists the nonzero entries by columns. This and the next two functions are in
+ * second_order_store.c. */
 status second_order_triplets(int rows, int columns, const double value[], triplets *, fault *);
 /* Stores the model with its first `outputs` outputs. */
 status second_order_take(const second_order *, int outputs, linear_model *, fault *);

@@ -30,7 +30,7 @@ typedef struct solver {
     double *work, *A, *z, *re, *im;
     int *order;
     unsigned long long seed;
-    int found;         /* number of Ritz values in order[] that are not rounding errors */
+    int found;         /* number of requested Ritz values that are not rounding errors */
     double *last;      /* [wanted] magnitudes at the last convergence */
     double complex *x; /* [n] */
 } solver;
@@ -66,7 +66,7 @@ static double orthogonalise(const solver *s, double x[])
     return before > 0 ? sqrt(dense_dot(n, x, x)) / before : 0;
 }
 
-/* Adds x, which must be orthogonal to the basis. */
+/* Normalises x, which must be orthogonal to the basis, and adds it to the basis. */
 static void take(solver *s, double x[])
 {
     const int n = s->p->n, k = s->count++;
@@ -180,7 +180,8 @@ static int converged(solver *s, double *worst)
     return good;
 }
 
-/* Returns 1 if the last start vector gave an eigenvalue as large as the requested ones. */
+/* Returns 1 if the magnitude of a requested eigenvalue has changed since the last convergence. The
+ * last start vector has then given a new eigenvalue. */
 static int changed(solver *s)
 {
     int different = 0;

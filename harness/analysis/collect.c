@@ -54,8 +54,9 @@ static void keep_motion(const analysis_context *c, int analysis, shapes *s)
         keep(c, s, &(shape_state){SHAPE_MOTION, analysis, o->value[i], 1}, o->state[i]);
 }
 
-/* Stores the state displaced by x[free + driven]. If the analysis follows a path, this is a
- * displacement from the last state of the path. */
+/* Stores a state displaced by x[free + driven]. The displacement starts from the state that the
+ * analysis follows (an instant of a motion or the last state of a path), or from the undeformed
+ * state. */
 static status keep_displaced(const analysis_context *c, shape_state *what, const double x[],
                              const double sigma[], shapes *s, fault *f)
 {
@@ -272,8 +273,8 @@ static status keep_model(const analysis_context *c, const model_state *state, co
     return w->models ? second_order_keep(&v, out->turns ? &w->G : NULL, s, out, f) : STATUS_OK;
 }
 
-/* Stores B, and K, which the caller has computed. Also stores M if the formulation has inertia, and
- * G if the axes rotate. */
+/* Stores K, which the caller has computed, and B. If the formulation has inertia, also stores M, C
+ * if there is damping, and G if the axes rotate. */
 static status systems_keep(const analysis_context *c, const model_state *state, double path,
                            workspace *w, const system_matrices *s, state_matrices *out, fault *f)
 {
@@ -337,7 +338,8 @@ static status systems_keep_path(const analysis_context *c, int analysis, workspa
 {
     const outcome_path *path = outcome_path_of(&c->outcomes[analysis]);
     const scene_analysis_kind kind = c->scene->analysis[analysis].kind;
-    if (kind == SCENE_COMPLIANCE || kind == SCENE_MOTION) /* of others; no equilibrium */
+    if (kind == SCENE_COMPLIANCE ||
+        kind == SCENE_MOTION) /* the states of others, or not in equilibrium */
         return STATUS_OK;
     for (int i = 0; i < path->reached; i++)
         TRY(keep_state(c, analysis, i, path->state[i], w, s, f));

@@ -57,8 +57,9 @@ static status add_point(continuation *p, fault *f)
     return STATUS_OK;
 }
 
-/* Records if the critical points of the step from `before` to `here` are known. If there is no
- * inertia, also records the number of eigenvalues that have passed zero. */
+/* Records if the critical points of the step from `before` to `here` are known, and the number of
+ * eigenvalues that have passed zero. This number decides the stability only if K is unsymmetric and
+ * all critical points so far are known. */
 static void judge(continuation *p, const path_point *before, step_record *record)
 {
     outcome_continuation *o = p->o;
@@ -77,7 +78,7 @@ static void judge(continuation *p, const path_point *before, step_record *record
     record->by_eigenvalues = !p->here.symmetric && !o->undecided && p->first >= 0;
 }
 
-/* Makes `next` the point `here`. */
+/* Makes `next` the point `here`, and records the step and the point. */
 static status accept(continuation *p, step_record *record, fault *f)
 {
     const path_point before = p->here;
@@ -94,8 +95,8 @@ static status accept(continuation *p, step_record *record, fault *f)
     return history_add_step(p->c->result, record, f);
 }
 
-/* Sets the direction of the first step, along the control coordinate, in or against the direction
- * of the load. */
+/* Reverses the tangent at the start of the path if the first step, which changes the control
+ * coordinate, has moved against this tangent. */
 static void turn_start(continuation *p)
 {
     if (p->o->points > 1 || continuation_step_dot(p, p->here.tangent, p->moved) >= 0)
@@ -106,7 +107,7 @@ static void turn_start(continuation *p)
 }
 
 /* Corrects the state and evaluates the point. If the attempt is doubtful, the state may be on
- * another branch. A step along the arc ends at the next station. */
+ * another branch. A step along the arc that would pass the station ends at the station. */
 static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t,
                        fault *f)
 {

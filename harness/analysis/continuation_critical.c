@@ -28,7 +28,7 @@ typedef struct bound {
     double at, value; /* fraction of the step, and value of the test function (NAN: unknown) */
 } bound;
 
-/* Returns the smallest eigenvalue of K, and sets p->mode to its left eigenvector. K must be
+/* Returns the eigenvalue of K nearest to zero, and sets p->mode to its left eigenvector. K must be
  * factored in the current state. */
 static double least_eigenvalue(continuation *p)
 {
@@ -54,8 +54,8 @@ static double least_eigenvalue(continuation *p)
     return eigenvalue;
 }
 
-/* Returns the smallest eigenvalue of K at the point where K is factored. If K is not symmetric,
- * returns the real part of the eigenvalue nearest to zero. */
+/* Returns the eigenvalue of K nearest to zero at the point where K is factored, or its real part if
+ * K is not symmetric. */
 static double least_of(continuation *p, const path_point *at)
 {
     return at->symmetric ? least_eigenvalue(p) : at->least;
@@ -85,7 +85,8 @@ static path_goal part_of(const continuation *p, path_goal goal, double part)
     return (path_goal){goal.by_arc, from + part * (goal.value - from)};
 }
 
-/* Target of the search: the first point after `from` at which the count changes. */
+/* Target of the search: the first point after `from` at which the indicator changes: the sign of
+ * the rate (by_rate 1), or the number of negative pivots. */
 typedef struct sought {
     int by_rate;
     double from;  /* fraction of the step */
@@ -115,7 +116,7 @@ static status try_at(continuation *p, path_goal goal, const sought *s, bound *b,
     TRY(continuation_step_look(p, p->moved, &p->trial, &record, f));
     *before = is_before(p, s);
     b->value = s->by_rate ? p->trial.rate : least_of(p, &p->trial);
-    /* The smallest eigenvalue may belong to another mode, whose sign is irrelevant. */
+    /* The eigenvalue nearest to zero may belong to another mode, whose sign is irrelevant. */
     const int falls =
         p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > s->negative;
     if (!s->by_rate && (b->value > 0) != (*before == falls))
@@ -270,7 +271,8 @@ static status report_all(continuation *p, path_goal goal, int by_rate, int *jump
     return STATUS_OK;
 }
 
-/* Makes the state at this fraction of the step the first or next trial point. */
+/* Computes the trial point at a fraction of the step. first 1: starts from `here`; 0: starts from
+ * the previous trial point. */
 static status look_at(continuation *p, path_goal goal, double part, int first, fault *f)
 {
     const path_goal to = part_of(p, goal, part);

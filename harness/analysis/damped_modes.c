@@ -32,8 +32,8 @@ static status take_frequencies(const harmonic_modes *m, int *count, double **her
     return STATUS_OK;
 }
 
-/* Finds the damped modes up to the frequency `below` [Hz]. If loops are closed, finds all modes, or
- * as many as can be found with reasonable effort. */
+/* Finds the damped modes up to the frequency `below` [Hz], or all modes if loops are closed and
+ * there are at most ALL_STATES states. */
 static status find_damped_of(vibration *v, const sparse *const of[], sparse closed[],
                              matrix_factor *factor, double below, unsymmetric_result *r, fault *f)
 {

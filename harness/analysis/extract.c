@@ -21,7 +21,8 @@ static const char *const no_frequency =
     "the mesh has no mode of this kind that is distinguishable from round-off; coordinates with "
     "little or no mass have no mode";
 
-/* Returns 1 if an angle of the node corresponds to this component. */
+/* Returns 1 if this component of the node is defined. A rotation is undefined if all members at the
+ * node release it. */
 static int is_turned(const scene *s, int node, int component, fault *f)
 {
     double axis[3];
@@ -35,7 +36,7 @@ static int is_turned(const scene *s, int node, int component, fault *f)
     return 0;
 }
 
-/* Returns 1 if the quantity is defined even if nodes rotate independently. */
+/* Returns 1 if all rotations that the quantity reads are defined. */
 static int is_defined(const scene *s, const scene_quantity *q, fault *f)
 {
     const quantity_type *type = quantity_type_of(q);
@@ -200,7 +201,8 @@ static void take_meaning(const outcome_spectrum *from, quantity_result *r)
         memcpy(r->meaning, from->meaning, sizeof r->meaning);
 }
 
-/* Names the kind of buckling mode i about the undeformed state, in space. */
+/* Adds the kind of buckling mode i to the meaning of the result. Does nothing in a plane, or about
+ * a loaded state. */
 static void name_kind(const analysis_context *c, const scene_quantity *q, const outcome_side *side,
                       int i, quantity_result *r)
 {

@@ -23,8 +23,8 @@ static double known(const analysis_context *c, double value, double error, const
     return NAN;
 }
 
-/* Returns the eigenvalue of a mode; NAN: no mode is of this kind, or the eigenvalue is lost in
- * rounding. */
+/* Returns the value from the eigenvalue of the requested mode; NAN: there is no such mode, or the
+ * eigenvalue is lost in rounding. */
 static double eigenvalue_of(const analysis_context *c, const scene_quantity *q,
                             const rotation_modes *modes, quantity_result *r)
 {
@@ -42,7 +42,7 @@ static double eigenvalue_of(const analysis_context *c, const scene_quantity *q,
     return NAN;
 }
 
-/* Returns the growth rate [1/s]; NAN: there are no modes, or no digit is significant. */
+/* Returns the largest growth rate [1/s]; NAN: there are no modes, or no digit is significant. */
 static double growth_of(const analysis_context *c, const rotation_modes *modes, quantity_result *r)
 {
     int largest = 0;
@@ -114,8 +114,8 @@ static double at_station(const analysis_context *c, const scene_quantity *q,
     return quantity_scaled(q, extracted(c, q, o, i, r));
 }
 
-/* Returns the rounding error of an acceleration or a jerk at a station. Accelerations at the ends
- * of steps are those of the integrator. */
+/* Returns the rounding error of an acceleration or a jerk at a station. Returns 0 for an
+ * acceleration at the end of a step, because it comes from the integrator. */
 static double rounding_at(const analysis_context *c, const scene_quantity *q,
                           const analysis_outcome *o, int i)
 {
@@ -154,8 +154,8 @@ static double relative(double error, double value)
     return value != 0 ? error / fabs(value) : 0;
 }
 
-/* Rejects a rate of which rounding leaves no digit. size: its magnitude, or the largest of
- * its curve. */
+/* Rejects a rate of which rounding leaves no digit. size: magnitude of the rate, or the largest
+ * magnitude of its curve. */
 static void judge_rate(const scene_quantity *q, double size, quantity_result *r)
 {
     const double most = 0.1;
@@ -184,7 +184,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
         bound = fmax(bound, bound_at(c, q, o, i));
         largest = fmax(largest, fabs(r->curve.value[i]));
     }
-    r->rounding = fmax(r->rounding, relative(bound, largest)); /* known for modes */
+    r->rounding = fmax(r->rounding, relative(bound, largest)); /* known() sets it for modes */
     r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
     judge_rate(q, largest, r);
 }
@@ -236,8 +236,8 @@ static void path_ends(const analysis_context *c, const scene_quantity *q, const 
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason_of_path(c, q));
 }
 
-/* Returns 1 if the quantity is evaluated at the station. A maximum or minimum is evaluated at all
- * stations. */
+/* Returns 1 if the quantity is evaluated at the station: at the requested station, otherwise at the
+ * last one. Maxima and minima, which need all stations, are not considered. */
 static int is_taken_at(const scene_quantity *q, int stations, const double path[], int station)
 {
     if (q->reduction == SCENE_AT)
@@ -356,7 +356,7 @@ static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quan
     r->x = quantity_abscissa(q, peak->hertz);
 }
 
-/* Records if a feedback loop is closed. */
+/* Records in the meaning of a response that a feedback loop is closed. */
 static void take_loops(const analysis_context *c, const scene_quantity *q, quantity_result *r)
 {
     for (int i = 0; q->what.kind == SCENE_RESPONSE && i < c->scene->loads; i++)

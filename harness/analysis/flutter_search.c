@@ -77,7 +77,7 @@ static void describe(search *s, const unsymmetric_result *r, station *out)
 }
 
 /* Computes the station at `path`, starting from the stored state. STATUS_SINGULAR: the tangent is
- * singular. If the flag is set, growth within rounding is ignored. */
+ * singular. surely 1: growth within rounding is ignored. */
 static status look_closely(search *s, double path, int surely, station *out, fault *f)
 {
     newton_run *n = s->n;
@@ -133,8 +133,9 @@ static double difference(const station *a, int i)
     return part * part;
 }
 
-/* Returns the minimum of the parabola through three stations if it lies between them and its value
- * is negative or small; otherwise NAN. */
+/* Returns the path parameter at the minimum of the parabola through the differences at three
+ * stations. Returns NAN if this minimum is not between the stations, or neither negative nor small.
+ */
 static double vertex(const station *a, const station *b, const station *c, int i)
 {
     const double fa = difference(a, i), fb = difference(b, i), fc = difference(c, i);

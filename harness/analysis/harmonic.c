@@ -237,7 +237,8 @@ status harmonic_check_rates(const vibration *v, const scene_response *r, fault *
     return STATUS_OK;
 }
 
-/* Checks that the requested reactions and rates can be evaluated. */
+/* Checks the requested reactions, rates and unbalances. REFUSED: one of them cannot be evaluated.
+ * */
 static status check_outputs(const vibration *v, fault *f)
 {
     const scene *s = v->c->scene;
@@ -330,8 +331,8 @@ status harmonic_analysis(analysis_context *c, int analysis, analysis_outcome *o,
     return outcome;
 }
 
-/* Returns the largest difference between two values of a response, relative to the largest
- * value. */
+/* Returns the largest difference between two solutions for a response, relative to the largest
+ * value of the first solution, or in radians for a phase. */
 static double apart(const vibration *v, int quantity, const outcome_harmonic *a,
                     const outcome_harmonic *b)
 {

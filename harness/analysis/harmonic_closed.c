@@ -57,7 +57,7 @@ static double scaled_size(const harmonic_modes *m, int loop, int part)
     return sqrt(sum);
 }
 
-/* Adds the rows and columns of a loop to the matrix. */
+/* Adds the scaled row and column of loop l to the matrix m->closed. */
 static void put_loop(const vibration *v, int l)
 {
     harmonic_modes *m = v->modes;
@@ -89,7 +89,7 @@ static double left_of(vibration *v, const double f[], double complex x[])
     return harmonic_modes_left(v, left);
 }
 
-/* Computes |P| and q. */
+/* Computes |P| and q. NOT_CONVERGED: 1 - |P| q is not positive, so there is no bound. */
 static status bound_loops(vibration *v, fault *f)
 {
     harmonic_modes *m = v->modes;

@@ -117,7 +117,7 @@ status harmonic_reacting(const vibration *v, const scene_response *r, int *out, 
         for (int k = 0; k < 3; k++)
             nodes += (s->node[i].translation[k] == driver) + (s->node[i].angle[k] == driver) +
                      2 * (model_vertex(v->c->model, i)->vector_driver[k] == driver);
-    for (int i = 0; i < 6 * s->nodes && driver != SCENE_NONE; i++) /* followers */
+    for (int i = 0; i < 6 * s->nodes && driver != SCENE_NONE; i++) /* coordinates that follow it */
         nodes += model_tie(v->c->model, i / 6, i % 6) != NULL &&
                  model_vertex(v->c->model, i / 6)->coordinate[i % 6] == *out;
     if (driver == SCENE_NONE)
@@ -201,7 +201,8 @@ double complex harmonic_force_at(const vibration *v, const scene_response *r, do
     return sum;
 }
 
-/* Sets the shapes of a driven coordinate. */
+/* Sets out[4 x free] to the columns of K, M, C and B that belong to a driven coordinate. Returns
+ * the number of these columns. */
 static int shapes_of_motion(const vibration *v, int c, double out[])
 {
     const sparse *const by_motion[HARMONIC_SHAPES_OF_MOTION] = {&v->K, &v->M, &v->C, &v->B};
@@ -212,14 +213,15 @@ static int shapes_of_motion(const vibration *v, int c, double out[])
     return HARMONIC_SHAPES_OF_MOTION;
 }
 
-/* Converts v->output to forces. */
+/* Copies the real part of v->output to out[free]. */
 static void take_shape(const vibration *v, double out[])
 {
     for (int k = 0; k < v->free; k++)
         out[k] = creal(v->output[k]);
 }
 
-/* Sets the forces of an input. The forces at any frequency are combinations of these forces. */
+/* Sets the forces of an input, and returns their number. The forces at any frequency are
+ * combinations of these forces. */
 static int shapes_of_input(vibration *v, const scene_response *r, double out[])
 {
     const size_t n = (size_t)v->free;

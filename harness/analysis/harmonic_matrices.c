@@ -44,7 +44,7 @@ static status linear_system_of(vibration *v, const double displaced[], fault *f)
     return STATUS_OK;
 }
 
-/* Computes K at the end of the static path. */
+/* Computes K at the end of the static path. REFUSED: this state was not reached, or is unstable. */
 static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
 {
     analysis_context *c = v->c;
@@ -175,8 +175,8 @@ static void append(vibration *v, int column, int row, int source)
     v->source[at] = source;
 }
 
-/* Lists the free block as a full matrix. Sets first[free + 1] from the numbers of entries, or lists
- * the entries. */
+/* Lists the entries of the free block, including both halves of a symmetric matrix. While v->row is
+ * NULL, only counts the entries of column j in first[j + 1]. */
 static void unfold(vibration *v)
 {
     for (int j = 0; j < v->free; j++)

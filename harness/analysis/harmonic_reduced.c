@@ -28,7 +28,7 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for the modes of a harmonic analysis");
 }
 
-/* Bounds B: finds the largest g for which B <= g (M + K/least). Beyond the modes, M <= K/least. */
+/* Bounds B: finds the smallest g for which B <= g (M + K/least). Beyond the modes, M <= K/least. */
 static status bound_inner(vibration *v, harmonic_modes *m, sparse *N, matrix_factor **factor,
                           eigen_result *e, fault *f)
 {
@@ -98,7 +98,8 @@ static void project(const harmonic_modes *m, const sparse *A, double P[], double
     }
 }
 
-/* Computes X^T (K^-1 - V V^T) Y for the modes, where X = A V and Y = A' V. */
+/* Computes X^T (K^-1 - V V^T) Y for the modes V, where X = A V, Y = A' V, solved = K^-1 Y, Xp = X^T
+ * V and Yp = V^T Y. */
 static void couple(const harmonic_modes *m, const double X[], const double solved[],
                    const double Xp[], const double Yp[], double out[])
 {
@@ -138,7 +139,7 @@ static status couplings(vibration *v, harmonic_modes *m, double *X[2], fault *f)
     return outcome;
 }
 
-/* Adds V^T U U^T V of the damping ratios. */
+/* Adds V^T U U^T V of the damping ratios to Cp. */
 static void add_ratios(harmonic_modes *m)
 {
     const size_t n = (size_t)m->n, count = (size_t)m->count;
@@ -213,7 +214,7 @@ status harmonic_modes_project(vibration *v, int count, const double f[], fault *
     return outcome;
 }
 
-/* Returns entry k of D of the projected matrices. */
+/* Returns entry k of V^T D V. */
 static double complex projected(const vibration *v, const harmonic_modes *m, double w, size_t k)
 {
     const scene_proportional *damping = &v->c->scene->analysis[v->analysis].damping;
@@ -222,8 +223,7 @@ static double complex projected(const vibration *v, const harmonic_modes *m, dou
            moves * moves / (1 + I * w * damping->stiffness) * m->Bp[k];
 }
 
-/* Returns the Frobenius norm of the coupling between the modes and the remaining motions; INFINITY:
- * unknown. */
+/* Returns d, the Frobenius norm of T D_m^-1 T^T; INFINITY: unknown. */
 static double coupled(vibration *v, harmonic_modes *m, double w)
 {
     const scene_proportional *damping = &v->c->scene->analysis[v->analysis].damping;

@@ -19,7 +19,7 @@ int imperfection_modes(const scene *s, int analysis)
     return wanted;
 }
 
-/* Modes with the same critical load or frequency. */
+/* Modes with the same critical load or frequency: their number, and the first two of them. */
 typedef struct same_modes {
     int count, mode[2];
 } same_modes;
@@ -38,8 +38,8 @@ static same_modes same_as(const outcome_side *side, int mode)
     return out;
 }
 
-/* Finds the combination part[0], part[1] of two modes, u[vertices x 7] each, that is closest to a
- * direction. Returns 0 if there is none. */
+/* Finds the combination part[0], part[1] of two modes, u[vertices x 7] each, whose displacements
+ * are closest to a direction. Returns 0 if no combination is closer than the others. */
 static int most_along(int vertices, const double *const u[2], const double direction[3],
                       double part[2])
 {
@@ -118,8 +118,9 @@ static status mode_of(const analysis_context *c, int index, double out[], fault 
                              who.text, same.mode[0], same.mode[1]);
 }
 
-/* Returns the sign, 1 or -1, for which the shift is along the requested direction. If no direction
- * is given, the largest component of the shift becomes positive. */
+/* Returns the sign, 1 or -1, for which the shift is along the requested direction; 0: the shift is
+ * normal to this direction. If no direction is given, the largest component of the shift becomes
+ * positive. */
 static double sign_of(const scene_imperfection *p, const double shift[3])
 {
     const double least = 1e-6, size = vec3_norm(shift), along = vec3_dot(shift, p->direction);

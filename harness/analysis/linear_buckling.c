@@ -127,7 +127,7 @@ static void keep(eigen_side *side, outcome_side *to)
     outcome_take(side, to);
 }
 
-/* Sets the number of eigenvalues of each sign that the quantities request. */
+/* Sets the number of eigenvalues of each sign that the quantities and imperfections request. */
 static void wanted_of(const analysis_context *c, int analysis, eigen_problem *p)
 {
     p->largest = imperfection_modes(c->scene, analysis);

@@ -148,8 +148,8 @@ status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
     return result;
 }
 
-/* Search for the critical point. The stable states on the path are stored, with the last state
- * first. */
+/* Search for the critical point. p and sigma belong to the last stable states on the path, with the
+ * last state first. */
 typedef struct loaded_search {
     newton_run n;
     /* predicts the next state from the stable states since the last unstable state */
@@ -351,8 +351,8 @@ static status predict(loaded_search *s, double step, sparse *A, fault *f)
     return outcome == STATUS_FAULT ? outcome : STATUS_OK;
 }
 
-/* Predicts the distance in two steps, so no scale is needed: the second step is small relative to
- * the prediction of the first step. */
+/* Predicts the distance in two steps. The second step is small relative to the prediction of the
+ * first step, so the scale of the path need not be known. */
 static status predict_twice(loaded_search *s, fault *f)
 {
     const double small = 1e-3;
@@ -425,8 +425,8 @@ static status find_critical(loaded_search *s, fault *f)
                      s->begin, s->p[0]);
 }
 
-/* Counts the negative eigenvalues at `path`. The computation starts from the stored state, which
- * this state then replaces. */
+/* Counts the negative eigenvalues at `path`. The computation starts from s->stable, which does not
+ * change. */
 static status count_at(loaded_search *s, double path, int *negative, fault *f)
 {
     s->p[0] = kinematics_state_path(s->stable);
@@ -442,7 +442,7 @@ typedef struct loads_found {
     double *value, *error;
 } loads_found;
 
-/* Adds loads until their number equals that of negative eigenvalues. */
+/* Adds loads until their number equals the number of negative eigenvalues or of requested loads. */
 static void add_loads(const loaded_search *s, int negative, double value, double error,
                       loads_found *out)
 {
@@ -518,8 +518,8 @@ static status pass(loaded_search *s, double high, double width, double most, dou
     return STATUS_OK;
 }
 
-/* Finds the requested loads after the first load from the inertia along the path. The search ends
- * at a thousand times the first load. */
+/* Finds the requested loads after the first load from the number of negative eigenvalues along the
+ * path. The search ends at a thousand times the distance from the start to the first load. */
 static status find_more(loaded_search *s, loads_found *out, fault *f)
 {
     const double size = fabs(s->estimate - s->begin), from = s->p[0],

@@ -41,8 +41,8 @@ static double highest(const unsymmetric_problem *p)
     return sqrt(square);
 }
 
-/* Estimates the slowest frequency of the structure from K^-1 M, with the motions measured by
- * integrals held at 0. x, y [n]: work space. */
+/* Estimates the lowest circular frequency of the structure from K^-1 M, with the motions measured
+ * by integrals held at 0. x, y [n]: work space. */
 static double slowest(const unsymmetric_problem *p, double x[], double y[])
 {
     enum { PASSES = 5 };
@@ -82,7 +82,8 @@ static int hides(const unsymmetric_problem *p, const unsymmetric_result *r)
     return hidden;
 }
 
-/* Shifts the matrices. own: values of K and C without the shift. */
+/* Sets K to K + shift C + shift^2 M, and C to C + 2 shift M. own: values of K and then of C without
+ * the shift. */
 static void shift_by(sparse closed[], const double own[], double shift)
 {
     sparse *K = &closed[0], *M = &closed[1], *C = &closed[2];

@@ -15,8 +15,8 @@ typedef struct refinement {
     lapack_int *order;             /* [n] */
 } refinement;
 
-/* Computes y = dD/ds x. absolute 1: computes the sums of the
- * absolute values of the terms of D(s) x. */
+/* Computes y = dD/ds x. absolute 1: computes the sums of the absolute values of the terms of D(s)
+ * x. */
 static void multiply(const refinement *t, double complex s, int absolute, const double complex x[],
                      double complex y[])
 {
@@ -33,7 +33,7 @@ static void multiply(const refinement *t, double complex s, int absolute, const 
         }
 }
 
-/* Returns 0 if D(s) is exactly singular. */
+/* Factors D(s). Returns 0 if D(s) is exactly singular. */
 static int factor_just_at(refinement *t, double complex s)
 {
     const sparse *K = t->K;

@@ -14,7 +14,8 @@
  * */
 enum { OTHERS = 2 };
 
-/* The tangent in two parts, from the last linearisation with respect to the strains. */
+/* The tangent in two parts: the matrix of the geometric part, and the data of the last
+ * linearisation, from which the material part follows. */
 typedef struct tangent_parts {
     const model *m;
     const linear_memory *memory;

@@ -101,7 +101,7 @@ static int *positions(const vibration *v, const system_matrices *s)
     return out;
 }
 
-/* Adds the rows of free coordinates. */
+/* Adds the rows of the free coordinates of `a` to out[free x size]. at: positions. */
 static void add_matrix(const vibration *v, const sparse *a, int skew, const int at[], int size,
                        double out[])
 {
@@ -115,7 +115,7 @@ static void add_matrix(const vibration *v, const sparse *a, int skew, const int 
         }
 }
 
-/* Adds row c of `a` to `out`. */
+/* Adds row c of `a` to a row of `out`. at: positions. */
 static void add_row(const vibration *v, const sparse *a, int skew, int c, const int at[],
                     double out[])
 {
@@ -129,7 +129,8 @@ static void add_row(const vibration *v, const sparse *a, int skew, int c, const 
         }
 }
 
-/* Computes the forces of a unit input on all coordinates. */
+/* Computes the forces of a unit input on all coordinates; zero for a motion or a reference value.
+ * */
 static void forces_of(const vibration *v, const system_input *in, double out[])
 {
     int index[KINEMATICS_MOST];

@@ -14,7 +14,8 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for a reduced model");
 }
 
-/* Reads the node name from `at` to the next comma. REFUSED: a node is named twice. */
+/* Reads the node name from `at` to the next comma. REFUSED: the name is empty, unknown, or already
+ * in the list. */
 static status read_node(const scene *s, const char *text, const char *list, const char *at,
                         int *node, fault *f)
 {
@@ -99,7 +100,8 @@ static status transfers_alloc(const second_order *whole, transfers_compared *t, 
     return STATUS_OK;
 }
 
-/* Scales of coordinates that differ in their unit are not comparable. */
+/* Sets kind[n + motions] from the units of the coordinates, because the scales of coordinates with
+ * different units are not comparable. */
 static void set_kinds(const system_matrices *s, const second_order *whole, char kind[])
 {
     static const char *const unit[] = {"m", "rad", "rad/m"};

@@ -74,7 +74,7 @@ static void explain(analysis_context *c, int analysis, analysis_outcome *o, faul
         advise_prestressed(c, analysis, f);
 }
 
-/* Returns 1 if the analysis has a step with an indefinite tangent. */
+/* Returns 1 if a step, starting with index `from`, has an indefinite tangent. */
 static int has_negative(const solve_result *r, int from)
 {
     for (int i = from; i < r->steps; i++)
@@ -170,7 +170,8 @@ static void keep_states(analysis_context *c)
         spoil(r, collect_systems(c, &r->systems, &f), &f);
 }
 
-/* Reports the value and the name of the governing quantity. */
+/* Sets the value of an envelope of quantities to that of the governing quantity, and adds its name.
+ * */
 static void put_envelope(const scene *s, solve_result *r, int quantity)
 {
     const scene_quantity *q = &s->quantity[quantity];

@@ -204,7 +204,7 @@ status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
 /* Compliance and stiffness of a node in a deformed state. A released prescribed motion is replaced
  * by its reactions: dead forces, and moments that follow the convention of the analysis. */
 
-/* Returns the loads for which a quantity requests the response. */
+/* Returns the columns of the compliance or stiffness that quantities request, one bit each. */
 static unsigned wanted_columns(const analysis_context *c, int analysis)
 {
     unsigned wanted = 0;
@@ -224,7 +224,8 @@ static void forget_columns(unsigned known, double C[36])
             C[i] = NAN;
 }
 
-/* Computes the force on the node, and the moment that causes its rotation. */
+/* Computes the reaction on the node: its force [N], and the moment [N m] that causes its rotation.
+ * */
 static status reaction_of(analysis_context *c, const scene_compliance *what, const model_state *s,
                           node_tangent *t, double reaction[6], fault *f)
 {

@@ -39,7 +39,7 @@ static void solve(const unsymmetric_solver *s, int transposed, double x[])
     s->out->solutions++;
 }
 
-/* Computes y = K^-1 M x. */
+/* Computes y = K^-1 M x in scaled coordinates. */
 static void apply_undamped(void *context, const double in[], double out[])
 {
     const unsymmetric_solver *s = context;
@@ -51,7 +51,7 @@ static void apply_undamped(void *context, const double in[], double out[])
         out[i] = s->y[i] * s->scale[i];
 }
 
-/* Computes y = M K^-T x. */
+/* Computes y = M K^-T x in scaled coordinates. */
 static void apply_undamped_transposed(void *context, const double in[], double out[])
 {
     const unsymmetric_solver *s = context;
@@ -63,7 +63,7 @@ static void apply_undamped_transposed(void *context, const double in[], double o
         out[i] = s->y[i] / s->scale[i];
 }
 
-/* Applies the matrix [-K^-1 C, -K^-1 M; 1, 0] to [x; v]. */
+/* Applies the matrix [-K^-1 C, -K^-1 M; 1, 0] to [x; v] in scaled coordinates. */
 static void apply_damped(void *context, const double in[], double out[])
 {
     const unsymmetric_solver *s = context;
@@ -136,7 +136,8 @@ static void measure(unsymmetric_solver *s)
     }
 }
 
-/* Estimates the longest period of the undamped structure. */
+/* Sets s->second to an estimate of 1/w, where w is the lowest circular frequency of the undamped
+ * structure. */
 static void find_second(unsymmetric_solver *s, double from[], double to[])
 {
     double size = 0;
@@ -158,8 +159,9 @@ static void find_second(unsymmetric_solver *s, double from[], double to[])
     s->second = size > 0 ? sqrt(size) : 1;
 }
 
-/* Scales integrals z, with C z' = -K x, between the forces that they cause and their change in the
- * time `second`. rate: work space. */
+/* Increases the scales of integrals z, with C z' = -K x. The new scale is the geometric mean of the
+ * scale from the forces that they cause and of the scale from their change in the time `second`.
+ * rate: work space. */
 static void scale_integrals(unsymmetric_solver *s, double rate[])
 {
     const sparse *K = s->p->K, *C = s->p->C;
@@ -228,7 +230,7 @@ static double complex product(int n, const double complex a[], const double comp
     return sum;
 }
 
-/* Returns w^T (2 s M + C) x. absolute 1: returns the sum of the absolute values of its terms. */
+/* Returns |w^T (2 s M + C) x|. absolute 1: returns the sum of the absolute values of its terms. */
 static double slope(const unsymmetric_solver *s, int absolute, double complex at,
                     const double complex w[], const growth_estimate *e)
 {
@@ -335,8 +337,8 @@ static const double complex *left_of(const unsymmetric_solver *s, int i, const g
     return found;
 }
 
-/* Sets e->w, the second vector of the forms: the left vector or, for a symmetric K, the mode. If
- * the form of the mode is too small, its conjugate is used. */
+/* Sets e->w, the second vector of the forms: the left vector or, for a symmetric K, the mode x. If
+ * |x^T M x| is too small, the conjugate of x is used. */
 static void take_other(const unsymmetric_solver *s, int i, const growth_estimate *e)
 {
     const double complex *left = s->p->K->symmetric ? NULL : left_of(s, i, e);
