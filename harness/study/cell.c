@@ -79,7 +79,7 @@ void cell_formulation(cell_request *request, const formulation *chosen)
     request->solve.newton = formulation_newton(chosen);
 }
 
-/* Marks the result as failed, and all quantities as missing. */
+/* Marks the solution as not converged for the reason `trouble`, and all quantities as missing. */
 static status nothing_counts(const char *trouble, solve_result *out, fault *f)
 {
     out->status = STATUS_NOT_CONVERGED;
@@ -135,7 +135,8 @@ static const double surely = 100;
 /* values below this limit, relative to the largest value in the same unit, count as zero */
 static const double nothing = 1e-9;
 
-/* Returns the physics that the section does not have, because the constants are zero. */
+/* Returns the physics that have no effect in the section, because its constants for them are
+ * zero. */
 static unsigned absent_in(const section *c)
 {
     const double length = sqrt(c->Ip / c->A), moment = 1e-12 * c->Ip * length;
@@ -181,8 +182,8 @@ static unsigned absent_in_sections(const scene *s)
     return absent;
 }
 
-/* Returns 1 if omitting the physics in an element shows its effect. Sections given by matrices
- * cannot be split. */
+/* Returns 0 if a section is given by matrices. Physics cannot be removed from the matrices, so
+ * their effect cannot be computed. */
 static int can_be_shown(const scene *s)
 {
     int can = 1;
@@ -223,7 +224,7 @@ static status solve(const scene *s, const element_type *type, unsigned omit, int
     return cell_run(&request, out, f);
 }
 
-/* Returns the largest value among the quantities with the same unit. */
+/* Returns the largest absolute value among the quantities with the same unit as `quantity`. */
 static double size_of_unit(const scene *s, const solve_result *r, int quantity)
 {
     double size = 0;
@@ -239,7 +240,8 @@ static double relative(double apart, double scale)
     return apart > 0 ? apart / scale : isfinite(apart) ? 0 : INFINITY;
 }
 
-/* Returns the largest difference over the points of a curve, relative to its largest value. */
+/* Returns the largest difference over the points of two curves, relative to the largest absolute
+ * value of a, or to `least` if this is larger. INFINITY: the curves have different points. */
 static double change_of_curve(const curve *a, const curve *b, double least)
 {
     double apart = 0, size = least;
@@ -284,7 +286,8 @@ static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
     return 1;
 }
 
-/* Returns the change on a mesh; NAN: a value is missing, and out->why gives the reason. */
+/* Returns the largest relative change of a quantity on one mesh if the physics out->what is
+ * omitted. NAN: a value is missing, and out->why gives the reason. */
 static double change_on(const scene *s, const element_type *type, int elements, omission *out)
 {
     cell_result with, without;
@@ -307,16 +310,17 @@ static double change_on(const scene *s, const element_type *type, int elements, 
     return largest;
 }
 
-/* Returns 1 if two meshes give the same change. Changes below the noise count as rounding. */
+/* Returns 1 if the changes on two meshes agree within a factor of two. Changes below the noise
+ * agree. */
 static int agree(double coarse, double fine)
 {
     const double noise = 1e-9, apart = 2;
     return fmax(coarse, fine) <= noise || (coarse <= apart * fine && fine <= apart * coarse);
 }
 
-/* Solves on repeatedly doubled meshes until two meshes give the same change. The larger one of
- * their changes is used. A clearly significant change is computed on finer meshes only if the run
- * time is short. */
+/* Solves on repeatedly doubled meshes until the changes on two meshes agree. The result is the
+ * larger of these changes times omission_safety. A clearly significant change is used without this
+ * factor. It is computed on finer meshes only if the run time is short. */
 static void estimate(const scene *s, const element_type *type, omission *out)
 {
     enum { FINEST = 32 };

@@ -63,8 +63,8 @@ static double of_resultant(const scene *s, scene_resultant which)
     return which <= SCENE_QZ ? force : force * size;
 }
 
-/* Returns the scale of positions, rotations and dimensionless numbers. Returns 0 (unknown) for
- * rates and other values. */
+/* Returns the scale of a reading from its unit, for positions, rotations and dimensionless numbers.
+ * Returns 0 (unknown) for rates and other values. */
 static double of_reading(const scene *s, const char *unit)
 {
     if (strcmp(unit, "m") == 0)
@@ -100,7 +100,7 @@ static double physical_scale(const scene *s, const scene_quantity *q)
     }
 }
 
-/* Returns 1 if the value is the time or the number of an event. */
+/* Returns 1 if the value of the quantity is a time, a period or the reciprocal of a period. */
 static int is_of_time(const scene_quantity *q)
 {
     return q->reduction >= SCENE_MAX_TIME && q->reduction <= SCENE_PER_SECOND;
@@ -119,7 +119,8 @@ double change_scale(const scene *s, int quantity, const solve_result *r)
     return is_of_time(q) ? out : fmax(out, fabs(q->factor) * physical_scale(s, q));
 }
 
-/* Returns the change of a quantity; NAN: the value is missing in both results. */
+/* Returns the change of a quantity; NAN: the value is missing in both results; INFINITY: it is
+ * missing in one of them. */
 static double change_of(const scene *s, int index, const solve_result *a, const solve_result *b)
 {
     const double x = index < a->quantities ? a->quantity[index].value : (double)NAN,
@@ -172,7 +173,7 @@ static const quantity_result *whole_of(const solve_result *r, int quantity)
     return q != NULL && q->status == STATUS_OK && q->curve.points > 0 ? q : NULL;
 }
 
-/* Returns the point of the curve with this abscissa; -1: none. */
+/* Returns the index of the point of the curve with this abscissa; -1: none. */
 static int point_at(const curve *c, double x, double size)
 {
     for (int i = 0; i < c->points; i++)

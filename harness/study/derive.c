@@ -187,15 +187,17 @@ status derive_scene(const char *path, FILE *scene_text, derived_value **out, int
 #define BEAMWORK_DATA "/usr/local/share/beamwork"
 #endif
 
-/* Returns 1 if the folder contains the data. */
+/* Writes the path of `name` in the folder below the given folder. Returns 1 if this path can be
+ * read. */
 static int is_in(const char *folder, const char *below, const char *name, char path[PATH_MAX])
 {
     const int length = snprintf(path, PATH_MAX, "%s/%s%s", folder, below, name);
     return length < PATH_MAX && access(path, R_OK) == 0;
 }
 
-/* Searches in the folders above bin/ and lib/, which contain share/. A folder such as
- * lib/x86_64-linux-gnu is one level deeper. */
+/* Searches for `name` in the folder of the program or library, in the two folders above it, and in
+ * share/beamwork/ inside these two. A folder such as lib/x86_64-linux-gnu is one level deeper than
+ * bin/ and lib/. */
 static int is_near(const char *folder, const char *name, char path[PATH_MAX])
 {
     static const char *const below[] = {"", "../", "../../", "../share/beamwork/",

@@ -101,7 +101,8 @@ double expense_of_cell(const sweep *s, int series_index, int mesh)
     return expense_of_scene(&p->scene, p->steps, one->formulation.type, one->mesh[mesh]);
 }
 
-/* relative to the work of one process; the order of tasks does not matter for cheaper series */
+/* share of the work of one process above which a series is expensive; the order of cheaper series
+ * does not matter */
 static const double dear_share = 0.01;
 
 /* A series that is run. */
@@ -110,7 +111,7 @@ typedef struct expense {
     int series;
 } expense;
 
-/* Sorts by decreasing cost. Series with equal costs keep their order. */
+/* Orders series by decreasing cost. Series with equal costs keep their order. */
 static int dearest(const void *left, const void *right)
 {
     const expense *a = left, *b = right;
@@ -252,7 +253,8 @@ static void forget(void *record, const branch parts[])
         set_address(record, b, NULL);
 }
 
-/* Like serialise_read. *out is NULL after a failure. */
+/* Reads an array of `count` elements. Returns 0, SERIALISE_DAMAGED or SERIALISE_NO_MEMORY. *out is
+ * NULL after a failure. */
 static int get_array(FILE *from, const branch *b, size_t count, char **out)
 {
     enum { LARGEST = 1 << 28 }; /* [bytes] larger arrays mean that the data are damaged */

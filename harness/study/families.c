@@ -30,7 +30,7 @@ static int is_known_wrong(const truths *t, unsigned features, const char *key)
     return 0;
 }
 
-/* Returns 1 if the formulation may take part in the agreement. */
+/* Returns 1 if the limit of the series may take part in an agreement. */
 static int may_vote(const sweep *s, const series *one, const truths *t)
 {
     const element_type *type = one->formulation.type;
@@ -81,8 +81,9 @@ static int agree(const scene_quantity *q, const families_known_limit *a,
     return d.apart + d.unknown <= FAMILIES_APART * size;
 }
 
-/* Returns the limits that agree with the given limit, including the nearest limit of each family.
- * */
+/* Returns the agreement around limit `centre`, with the nearest agreeing limit of each family. The
+ * uncertainty covers the nearest limit of another family, and the part of the other differences
+ * that exceeds the combined uncertainty. */
 static families_limit around(const scene_quantity *q, const families_known_limit *all, int count,
                              int centre)
 {
@@ -113,7 +114,7 @@ static families_limit around(const scene_quantity *q, const families_known_limit
     return out;
 }
 
-/* Mean of limits, weighted by 1/U^2. */
+/* Mean of limits, weighted by 1/U^2, with its uncertainty and the weighted spread of the limits. */
 typedef struct mean {
     double value, uncertainty, spread;
 } mean;
@@ -147,8 +148,8 @@ static int is_near(const families_known_limit *one, const mean *m)
     return fabs(one->value - m->value) <= one->uncertainty + m->uncertainty;
 }
 
-/* Repeatedly removes from in[count] the limit that is farthest from the mean in terms of its
- * uncertainty, until all limits are within their uncertainty. Returns the mean of the remaining
+/* Repeatedly removes from in[count] the limit with the largest distance from the mean relative
+ * to its uncertainty, until all limits agree with the mean. Returns the mean of the remaining
  * limits. */
 static mean settle(const families_known_limit *all, int count, int in[])
 {
@@ -169,8 +170,8 @@ static mean settle(const families_known_limit *all, int count, int in[])
     }
 }
 
-/* Computes the mean of the limits that are within their uncertainty of the centre, if they
- * belong to at least two families. */
+/* Replaces *out by the mean of the limits that agree with the centre and with this mean, if these
+ * limits belong to at least two families. */
 static void refine(const scene_quantity *q, const families_known_limit *all, int count, int centre,
                    families_limit *out)
 {
@@ -247,7 +248,8 @@ static const char *kept_out(const sweep *s, int index, int quantity, const truth
                : "without a limit on these meshes";
 }
 
-/* Returns a formulation of another family that could be included. */
+/* Returns the name of a formulation of another family that is not in the run, supports the scene,
+ * and has no known deviation for it; NULL: none. */
 static const char *of_another_family(const sweep *s, int point_index, const char *family,
                                      const truths *t)
 {
@@ -267,8 +269,9 @@ static const char *of_another_family(const sweep *s, int point_index, const char
     return NULL;
 }
 
-/* Writes "A, B " for the series of a point that are excluded for this reason. reason NULL: for the
- * series that are included. */
+/* Writes "A, B", preceded by the text `before`, for the series of a point that are excluded for
+ * this reason. reason NULL: for the series that are included. Returns the number of these
+ * series. */
 static int put_series(FILE *to, const sweep *s, int point_index, int quantity, const truths *t,
                       const char *reason, const char *before)
 {
@@ -309,8 +312,8 @@ void families_why(FILE *to, const sweep *s, int point_index, int quantity, const
         fprintf(to, "; add -f %s", more);
 }
 
-/* Returns the source of the reference value: "beamw_consistent (beamw) and collocation
- * (reissner) agree". */
+/* Returns the source of the reference value, such as "beamw_consistent (beamw) and collocation
+ * (reissner) agree". The caller frees the text. NULL: out of memory. */
 static char *source_of(const sweep *s, const families_limit *l)
 {
     char *text = NULL;

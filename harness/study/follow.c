@@ -71,7 +71,8 @@ static status try_step(follow_walk *w, double target, int asked, double *least, 
     return STATUS_OK;
 }
 
-/* Moves from the last sample to `to` in as many steps as necessary. */
+/* Moves from the last sample to `to` in as many steps as necessary. NOT_CONVERGED: the steps have
+ * become too small. */
 static status step_to(follow_walk *w, double to, fault *f)
 {
     const follow_curves *c = w->out;
@@ -296,7 +297,8 @@ status agreements_add(const sweep *s, const truths *t, int index, judgement *out
 
 /* Counts how often limits agree with an exact reference value within their uncertainty. */
 
-/* Returns the row for the case and the formulation of the series. */
+/* Returns the row for the case and the formulation of the series, and adds it if necessary. NULL:
+ * out of memory. */
 static coverage *row_of(const sweep *s, judgement *j, const series *one, fault *f)
 {
     const case_type *of = s->point[one->point].type;

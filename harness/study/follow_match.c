@@ -53,7 +53,7 @@ static status first(const state_matrices *s, follow_shapes *out, double work[])
     return STATUS_OK;
 }
 
-/* Makes the shapes of the first `modes` modes of a state. */
+/* Sets the shapes to the first `modes` modes of a state, normalised to unit mass. */
 static status follow_match_first(const state_matrices *s, int modes, follow_shapes *out, fault *f)
 {
     double *work = malloc(((size_t)s->M.rows + 1) * sizeof *work);
@@ -81,8 +81,8 @@ typedef struct match_workspace {
     int *taken; /* [modes] number of followed modes in the group that starts with this mode */
 } match_workspace;
 
-/* Finds the group that contains the largest part of mode i of `before`, and the mean frequency of
- * this part. */
+/* Finds the group of modes with equal frequencies that contains the largest part of mode i of
+ * `before`. Stores this part as the new shape, with its match and its mean frequency. */
 static void match_one(const follow_shapes *before, int i, const state_matrices *s,
                       match_workspace *w, follow_shapes *out)
 {
@@ -222,7 +222,7 @@ static const double exact =
 static const double close_enough = 0.1; /* largest relative gap of a veering that is reported */
 
 /* Computes f_i - f_j at a parameter value, where modes are matched with sample k. *mean: mean of
- * both frequencies [Hz]. */
+ * both frequencies [Hz]. *least is replaced by the worst match if this is smaller. */
 static status difference_at(follow_walk *w, int k, double value, const int mode[2],
                             double *difference, double *mean, double *least, fault *f)
 {
@@ -250,7 +250,7 @@ static double gap_of(const follow_sample *s, const int mode[2])
 }
 
 /* Finds the crossing between samples a and b, where the differences have opposite signs, with the
- * Illinois variant of regula falsi. */
+ * Illinois variant of regula falsi. Stops if *least falls below follow_sure. */
 static status find_crossing(follow_walk *w, int a, int b, follow_event *e, double *least, fault *f)
 {
     const follow_sample *s = w->out->sample;
@@ -286,7 +286,6 @@ static status add_event(follow_curves *c, const follow_event *e, fault *f)
     return STATUS_OK;
 }
 
-/* Repeats the last step if the order of two modes changes in the step. */
 status follow_events_step(follow_walk *w, double *least, fault *f)
 {
     const int last = w->out->samples - 1;
@@ -303,7 +302,8 @@ status follow_events_step(follow_walk *w, double *least, fault *f)
     return STATUS_OK;
 }
 
-/* Finds samples with a minimum of the gap between two modes. */
+/* Adds the veerings of two modes: samples at which the gap between their frequencies has a
+ * minimum. */
 static status find_veerings(follow_walk *w, const int mode[2], fault *f)
 {
     const follow_sample *s = w->out->sample;
@@ -320,7 +320,8 @@ static status find_veerings(follow_walk *w, const int mode[2], fault *f)
     return STATUS_OK;
 }
 
-/* Finds crossings at samples. follow_events_step finds crossings between samples. */
+/* Adds the crossings of two modes at samples, where the frequencies are equal. follow_events_step
+ * finds crossings between samples. */
 static status find_crossings(follow_walk *w, const int mode[2], fault *f)
 {
     const follow_sample *s = w->out->sample;

@@ -56,7 +56,7 @@ static void expect(const sweep *s, truths *t, verdict *v)
         if (v->kind == VERDICT_BIASED_AS_PREDICTED || v->kind == VERDICT_WRONG_AS_PREDICTED)
             rules_foretell(r, &subject);
         if (is_beyond(r, v) && r->from == NULL && formulations_is_loaded(one->formulation.type))
-            /* findings about formulations of this program do not apply to other programs */
+            /* built-in known deviations do not apply to loaded formulations */
             continue;
         if (is_beyond(r, v))
             snprintf(v->reason, sizeof v->reason,
@@ -131,7 +131,7 @@ static int is_imported(const series *one, int quantity)
     return 0;
 }
 
-/* Returns 1 if the limit is certainly within the tolerance, whatever the verdict is. */
+/* Returns 1 if the verdict means that the limit is certainly within the tolerance. */
 static int is_within(const verdict *v)
 {
     return v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED ||
@@ -171,7 +171,7 @@ static void judge_quantity(const sweep *s, truths *t, int index, int quantity, j
              v->kind != VERDICT_SKIP && v->kind != VERDICT_OTHER_MODEL);
 }
 
-/* Returns 1 if noise could explain the whole last change, or if there is no verdict yet. */
+/* Returns 1 if noise could explain the whole last change, or if the verdict is undecided. */
 static int noise_may_decide(const sweep *s, const truths *t, int index, int quantity)
 {
     const double small_change = 1e-7;
@@ -325,8 +325,7 @@ static int formulations_are_run(const sweep *s, const char *word)
     return all && found;
 }
 
-/* Returns 1 if all points and quantities of the cases are included, so that the word selects only
- * cases. */
+/* Returns 1 if the run includes all points and quantities of every case that matches the word. */
 static int cases_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;

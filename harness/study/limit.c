@@ -5,7 +5,8 @@
 /* Returns the order from three values, at most bisected_order, by bisection; NAN: no order fits the
  * changes. */
 static double richardson_order(const double n[3], const double f[3]);
-/* Returns Richardson's limit from the last two of three values. */
+/* Returns Richardson's limit f from the last two of three values. The values are assumed to be f +
+ * c n^-p for n elements. */
 static double richardson_limit(const double n[3], const double f[3], double p);
 /* Returns the amplification of errors: the root of the sum of squares of the derivatives of the
  * extrapolated limit with respect to the values. */
@@ -27,7 +28,7 @@ static const double sure = 1.25, unsure = 3;
 static const double end_factor =
     4; /* uncertainty of a value without extrapolation, as a multiple of the scatter */
 
-/* The thinned sequence, with the coarsest mesh first, and values derived from it. */
+/* The selected meshes, with the coarsest mesh first, and values derived from it. */
 typedef struct meshes {
     int count;
     double n[LIMIT_MESHES], f[LIMIT_MESHES];
@@ -106,7 +107,8 @@ static double refinement(const meshes *m, int before_last)
     return m->n[i] / m->n[i - 1];
 }
 
-/* Sets the limit with an assumed order, for fewer than three meshes. */
+/* Sets the limit to the last value, for fewer than three meshes. With two meshes, the uncertainty
+ * follows from an assumed order. */
 static void few(const meshes *m, mesh_limit *out)
 {
     out->kind = LIMIT_NOT_YET;
@@ -118,8 +120,8 @@ static void few(const meshes *m, mesh_limit *out)
             end_factor * m->noise;
 }
 
-/* Sets the limit and returns 1 if the last change is within the noise and the previous change was
- * not small by accident. */
+/* Sets the limit and returns 1 if the last change is within the noise. Returns 0 if the previous
+ * change is so large that the last change may be small by accident. */
 static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const double a = fabs(m->change[m->count - 2]), b = fabs(m->change[m->count - 3]),
@@ -230,8 +232,9 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Sets the uncertainty if no order was observed, from the largest of the last three changes, each
- * reduced according to the nominal order. The uncertainty is larger if the changes grow. */
+/* Sets the limit to the last value if no order was observed. Its uncertainty follows from the
+ * largest of the last three changes, each reduced according to the nominal order. It is larger if
+ * the changes grow. */
 static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int last = m->count - 1;

@@ -128,7 +128,7 @@ static const truth *known(const truths *t, const truth *row)
     return NULL;
 }
 
-/* Copies the row without its strings. */
+/* Converts the row to a reference value and checks it. The strings are not copied. */
 static void take_row(truths_reader *r, const case_type *type, truth *out)
 {
     char *const *field = r->row->field;

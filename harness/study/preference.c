@@ -33,7 +33,8 @@ static int count_omits(const scene *s, const element_type *type)
     return count;
 }
 
-/* Returns the lowest order in the requested quantities. */
+/* Returns the smallest of the highest orders that the formulation declares for the requested
+ * quantities. */
 static int order_of(const scene *s, const element_type *type)
 {
     double options[ELEMENT_MAX_OPTIONS] = {0};
@@ -250,7 +251,8 @@ static int settled(const scene *s, const runner *r)
     return r->last.largest <= r->asked && (sure || r->tried >= s->meshes);
 }
 
-/* Returns 1 if the next mesh is too expensive. */
+/* Returns 1 if no further mesh is solved, because it would be too expensive or too fine, or because
+ * finer meshes cannot converge. */
 static int exhausted(const scene *s, const runner *r)
 {
     const int tells =
@@ -379,7 +381,8 @@ status preference_elements(const cell_request *request, const formulation *chose
     return STATUS_OK;
 }
 
-/* Chooses the first candidate whose values converge. */
+/* Chooses the first candidate whose values converge. If none converges, chooses the candidate with
+ * the smallest change. */
 static void choose(const scene *s, runner of[], int count, preference *out)
 {
     runner *first = race(s, of, count);

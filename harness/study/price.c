@@ -223,7 +223,8 @@ static int reach_one(const reach_question *q, int series_index, reached *out)
     return 1;
 }
 
-/* Returns 1 if a ranks before b. */
+/* Returns 1 if a ranks before b. Formulations without a defect rank first, then those with a lower
+ * cost, then by name. */
 static int is_before(const sweep *s, const reached *a, const reached *b)
 {
     if ((a->defect != NULL) != (b->defect != NULL))

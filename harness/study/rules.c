@@ -152,7 +152,8 @@ int rules_is_observed(const rule *r)
     return r->observed > 0 && r->foretold == all;
 }
 
-/* Returns 1 if a case of the rule has the parameter of the term, with a possible value. */
+/* Returns 1 if the term is a feature, or if a case of the rule has the parameter of the term and
+ * the parameter can have all values of the term. */
 static int term_means_something(const rule *r, const rules_term *t, const case_type *const cases[])
 {
     int found = t->feature != 0;

@@ -211,7 +211,7 @@ static void write_time(double seconds, char *text, size_t size)
         snprintf(text, size, "%d h %d min", minutes / 60, minutes % 60);
 }
 
-/* Overwrites the present line. */
+/* Overwrites the progress line. */
 static void write_over(progress *p, const char *line)
 {
     const int most = columns_of(p->to);

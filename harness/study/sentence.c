@@ -166,7 +166,8 @@ static int count_undecided(const judgement *j)
     return count;
 }
 
-/* Describes the number of unexpected verdicts. */
+/* Lists the numbers of all findings that make a run fail, such as unexpected verdicts and
+ * regressions. */
 static void failures(const judgement *j, char *text, size_t size)
 {
     int parts = 0;

@@ -278,7 +278,7 @@ enum { NOISE_REPETITIONS = 2 };
 /* Returns the cost [s] on the reference machine, from all rows that apply to the formulation. */
 double price_of(const price_row *rows, const formulation *chosen, const cell_result *cell);
 
-/* Placeholder until the cause is found. */
+/* Cause in a proposed rule, which the user must replace. */
 #define PROPOSAL_CAUSE "to be found: why is this not a pass?"
 
 /* Returns 1 if the verdict means that the formulation is wrong, or that its correctness is unknown.
@@ -290,8 +290,8 @@ int reach_is_defect(verdict_kind kind);
 /* Returns 1 if a verdict may depend on the row. Returns 0 for an agreement of formulations, and for
  * a value that cannot be reproduced. */
 int truth_gates(const truth *row);
-/* Like truth_of, but excludes reference values for other shear theories. theory: words separated by
- * '|'; NULL: any theory. */
+/* Like truth_of, but excludes reference values for other shear theories. theories: words separated
+ * by '|'; NULL: any theory. */
 const truth *truth_of_theory(const truths *t, const case_type *type, const double value[],
                              const char *quantity, const char *model, const char *theories);
 /* Returns the cross-formulation agreement (kind agreement); NULL: none. It is for information and
@@ -345,7 +345,8 @@ status accepted_read(const char *path, hid_t file, fault *f);
 /* Compares one series with the stored values of its meshes. */
 status agreements_add(const sweep *s, const truths *t, int index, judgement *out, fault *f);
 
-/* Coverage of limits, which checks their uncertainties. */
+/* Coverage: the share of limits that agree with exact reference values within their
+ * uncertainties. */
 
 /* Adds the verdicts from number `first` on to the coverages of a judgement. */
 status coverage_count(const sweep *s, int first, judgement *out, fault *f);
@@ -382,14 +383,12 @@ typedef struct follow_walk {
 status follow_solve(follow_walk *, double value, const follow_shapes *before, follow_shapes *out,
                     double *least, fault *);
 
-/* Finds crossings in the last step. *least: the worst match found. If modes veer within one step,
- * they appear to cross. At the apparent crossing, however, their shapes do not match those of the
- * previous sample, so *least falls below follow_sure and the step must be halved. */
+/* Adds the crossings in the last step. *least: worst match. If modes veer within the step, they
+ * appear to cross. At the apparent crossing, however, their shapes do not match those of the
+ * previous sample. *least then falls below follow_sure, and the step must be halved. */
 status follow_events_step(follow_walk *, double *least, fault *);
 /* Adds crossings at samples, and veerings, in the order of their parameter values. */
 status follow_events_rest(follow_walk *, fault *);
-
-/* Rules that a complete run should have shown, and reference values that it should have used. */
 
 /* Names in user tables. */
 
@@ -404,9 +403,6 @@ const char *own_names_near_case(const case_type *const run[], const char *name,
                                 char text[FAULT_TEXT]);
 const char *own_names_near_formulation(const char *name, char text[FAULT_TEXT]);
 const char *own_names_near_quantity(const scene *s, const char *name, char text[FAULT_TEXT]);
-
-/* Richardson extrapolation: fits f + c n^-p to the values of three meshes with numbers of
- * elements n. */
 
 /* Checks the consistency of the records of a run, without reference values. Inconsistent records
  * are an error of the program. */

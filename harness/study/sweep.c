@@ -3,7 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns 1 if the quantity depends on features that the options of the formulation change. */
+/* Returns 0 if the options of the formulation change only features on which the quantity does not
+ * depend. */
 static int option_matters(const sweep_point *p, const formulation *chosen, const char *quantity)
 {
     const unsigned features = formulation_bears_on(chosen);
@@ -254,7 +255,7 @@ static void choose_options(const element_type *type, chosen_cells *out)
     }
 }
 
-/* Adds the options for which the point has a discrete reference value. */
+/* Adds the formulations with the options for which the point has a discrete reference value. */
 static void choose_stored(const truths *t, const sweep_point *p, chosen_cells *out)
 {
     for (int i = 0; i < t->rows && out->count < MOST_FORMULATIONS; i++) {
@@ -328,7 +329,8 @@ static status plan_point(const sweep_request *request, const truths *t, sweep *s
     if (asked == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a selection");
     const status outcome = plan_series(request, t, s, index, words, asked, f);
-    /* Omissions depend on all quantities, so the verdict does not depend on the selection. */
+    /* Omissions depend on all quantities. Thus a selection does not change which formulations solve
+     * another model. */
     plan_omissions(s, index);
     drop_quantities(&s->point[index].scene, asked);
     free(asked);

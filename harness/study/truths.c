@@ -65,8 +65,8 @@ static status read_cases(const char *path, hid_t all, const case_type *only, tru
     return STATUS_OK;
 }
 
-/* Finds tables of cases that the program does not have. Otherwise these tables would remain unused
- * without notice. */
+/* Counts the tables of cases that the program does not have, and records the name of the first one.
+ * Otherwise these tables would remain unused without notice. */
 static void find_strangers(hid_t all, truths *out)
 {
     char name[64];

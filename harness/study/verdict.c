@@ -113,9 +113,10 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
                                      .value = h.value,
                                      .noise = one->noise != NULL ? one->noise[quantity] : NAN,
                                      .nominal_order = fmax(1, ceil(q->least_order)),
-                                     .highest_order = scene_tapers(here) && order.highest > 2
-                                                          ? 2 /* for prismatic members */
-                                                          : order.highest,
+                                     .highest_order =
+                                         scene_tapers(here) && order.highest > 2
+                                             ? 2 /* higher orders require prismatic members */
+                                             : order.highest,
                                      .near_zero = q->near_zero};
     return limit_of(&sequence);
 }
@@ -324,7 +325,8 @@ static const char *quantity_of(const sweep *s, const verdict *v)
     return s->point[series_of(s, v)->point].scene.quantity[v->quantity].name;
 }
 
-/* Returns 1 if the same rule explains both verdicts. */
+/* Returns 1 if one proposed rule covers both verdicts: they have the same case, formulation and
+ * kind. */
 static int same_rule(const sweep *s, const verdict *a, const verdict *b)
 {
     return a->needs_finding && b->needs_finding && a->kind == b->kind &&

@@ -219,7 +219,7 @@ static int is_heading(const workload *w, const heading *head)
            head->bytes <= LARGEST && (head->same >= 0 ? head->bytes == 0 : head->bytes > 0);
 }
 
-/* Marks the output as damaged. The pipe is then closed. */
+/* Marks the output of the worker as damaged, and kills the worker, which closes its pipe. */
 static int spoilt(worker *from)
 {
     from->damaged = 1;

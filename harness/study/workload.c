@@ -9,9 +9,10 @@
 
 /* Returns the edit that makes equivalent scene number `repetition`. */
 static scene_edit noise_words(const formulation *, int repetition);
-/* Sets series.noise to twice the larger of the two differences, relative to the value or to
- * near_zero. If the formulation uses finite differences and their error is larger, the noise is
- * this error. NAN: a value or a repetition is missing. Returns -1 if out of memory. */
+/* Sets series.noise to twice the larger of the differences between the repetitions and the value on
+ * the finest mesh. The differences are relative to the value or to near_zero. If the formulation
+ * uses finite differences and their error is larger, the noise is this error. NAN: a value or a
+ * repetition is missing. Returns -1 if out of memory. */
 static int noise_take(const sweep_point *, const cell_result again[NOISE_REPETITIONS], series *);
 
 static int is_run(const sweep *s, int i)
@@ -306,7 +307,7 @@ static double value_of(const cell_result *cell, int quantity)
                : NAN;
 }
 
-/* Returns twice the larger difference; NAN: one of the values is unknown. */
+/* Returns twice the larger relative difference; NAN: one of the values is unknown. */
 static double noise_of(const scene_quantity *q, double value, const double again[NOISE_REPETITIONS])
 {
     double largest = 0;
