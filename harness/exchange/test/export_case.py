@@ -1,4 +1,4 @@
-"""Scenes that are exported, the contents of a deck, and the results of CalculiX."""
+"""Scenes to be exported, the contents of a deck, and the results of CalculiX."""
 import os
 import re
 import shutil
@@ -13,7 +13,7 @@ from cases.format.test.scene_case import EXAMPLES, SceneCase
 CCX = shutil.which("ccx")
 needs_ccx = unittest.skipUnless(CCX, "ccx (Debian: calculix-ccx) is not installed")
 
-# A cantilever with a Poisson's ratio of zero, for which the beam is exact except for its shear theory.
+# A cantilever with a Poisson's ratio of zero. Except for its shear theory, the beam is then exact.
 LENGTH, WIDTH, HEIGHT, YOUNG = 0.1, 10e-3, 2e-3, 200e9
 INERTIA = WIDTH * HEIGHT**3 / 12
 CANTILEVER = """\
@@ -35,8 +35,8 @@ quantities:
   turn:       {displacement: {analysis: run, node: tip, component: rz}, unit: rad}
 """
 RECTANGLE = "rectangle: {width: 10e-3, thickness: 2e-3}"
-# Sections of walls, the area of their centre lines, and the area that is counted twice where a wall ends inside another
-# wall.
+# Sections of walls, with the sum of lengths times thicknesses of the walls, and the area that this sum counts twice
+# where a wall ends inside another wall.
 WALLS = {
     "channel: {depth: 0.02, flange: 0.01, flange_thickness: 1e-3, web_thickness: 0.6e-3}":
         (2 * 10e-6 + 12e-6, 0),
@@ -52,9 +52,9 @@ WALLS = {
         (20e-6 + 40e-6, 0.5e-3 * 2e-3),
 }
 CHANNEL = "channel: {depth: 0.2, flange: 0.1, flange_thickness: 10e-3, web_thickness: 6e-3}"
-TIP = "at: [0.02, 2, 0]"  # the axis of the member is along y
+TIP = "at: [0.02, 2, 0]"
 PERCENT = {"ux": -0.29, "uy": 0, "uz": 0.04, "rx": -0.19, "ry": 1.32, "rz": -0.26, "twist": 0.89}
-# Requests a reaction, which a linear analysis does not give.
+# Requests a reaction, which a linear analysis does not support.
 HELD = "  held:       {reaction: {analysis: run, node: base, component: ux}, unit: N}\n"
 PATH = "{static: {stations: [0.5, 1]}}"
 
@@ -65,7 +65,7 @@ def cantilever(force, kind="{linear: {}}"):
 
 
 def hinge():
-    """Returns the crossed leaves, with only one stiffness in the loaded state."""
+    """Returns the scene of two crossed leaves with only one of its stiffnesses."""
     text = (EXAMPLES / "cross_flexure_hinge.yaml").read_text(encoding="utf-8")
     return re.sub(r"^  (k_y: |- {quantity: k_y,).*\n", "", text, flags=re.M)
 
@@ -75,7 +75,7 @@ def numbers(line):
 
 
 def mesh_of(deck):
-    """Returns ({node: position [3]}, elements [count, 20]) of a deck."""
+    """Returns ({node: position [3]}, node numbers of elements [count, 20]) of a deck."""
     nodes, elements, card, pending = {}, [], "", []
     for line in deck.read_text(encoding="utf-8").splitlines():
         if line.startswith("*"):

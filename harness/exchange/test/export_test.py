@@ -43,8 +43,8 @@ class Decks(ExportTest):
                                            atol=1e-12)
 
     def test_walls(self):
-        """Bricks share their faces, and no space is filled twice. The area is that of the walls, except where a wall ends
-        inside another wall. The deck states the difference."""
+        """Adjacent bricks must share their faces, and no space may be filled twice. The area must be that of the walls,
+        except where a wall ends inside another wall. The deck states the difference."""
         faces = [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
         for section, (area, twice) in WALLS.items():
             deck = self.deck(self.scene(cantilever(1.0).replace(RECTANGLE, section)), "-n", "3")
@@ -89,7 +89,8 @@ class Decks(ExportTest):
         self.assertIn("leaf_spring_guide.yaml; thickness=0.0004\n", deck)
 
     def test_one_turn(self):
-        """A sequence of one rotation about z is prescribed about z, and fixed about x and y."""
+        """If the sequence of rotations of a node has one angle about z, the deck prescribes the rotation about z and
+        fixes the rotations about x and y."""
         deck = self.deck(self.scene(hinge()), "-n", "2").read_text(encoding="utf-8")
         moment = re.search(r"^\*\*Q moment\|N m\|forces\|4\|(\d+)\|3\|", deck, re.M)
         states = [step for step in deck.split("*STEP") if step.startswith(",NLGEOM")]
@@ -148,7 +149,7 @@ class Answers(ExportTest):
     """Tests the reading of output in the format of CalculiX, without running CalculiX."""
 
     def printed(self, *vectors):
-        """Writes a deck and its .dat, in which every step prints the next pair (displacement, force)."""
+        """Writes a deck and its .dat file, in which each step prints the next pair (displacement, force) of `vectors`."""
         deck = self.deck(self.scene(cantilever(1.0, PATH)), "-n", "1")
         answers = [line[4:].split("|") for line in deck.read_text(encoding="utf-8").splitlines()
                    if line.startswith("**Q ")]
@@ -214,12 +215,13 @@ class Answers(ExportTest):
         self.assertIn("4 values, 1 mesh; another model: solid", told)
 
 
-# Results of CalculiX (if installed) compared with those of beams and plates.
+# Results of CalculiX, if it is installed, compared with those of beams and plates.
 @needs_ccx
 class Solved(ExportTest):
 
     def test_cantilever(self):
-        """Exact values: tip deflection F L^3/(3 E I) + 6 F L/(5 G A), rotation F L^2/(2 E I)."""
+        """Exact values of a cantilever are the tip deflection F L^3/(3 E I) + 6 F L/(5 G A) and the tip rotation F
+        L^2/(2 E I)."""
         found = self.solved(self.scene(cantilever(2.0)), "-n", "10")
         bent = 2 * LENGTH**3 / (3 * YOUNG * INERTIA)
         sheared = 1.2 * 2 * LENGTH / (YOUNG / 2 * WIDTH * HEIGHT)
@@ -228,7 +230,8 @@ class Solved(ExportTest):
                                delta=1e-3)
 
     def test_elastica(self):
-        """Exact values for F L^2/(E I) = 2: deflection 0.49346 L, shortening 0.16064 L (Mattiasson 1981)."""
+        """For F L^2/(E I) = 2, exact values of the elastica are the deflection 0.49346 L and the shortening 0.16064 L
+        (Mattiasson 1981)."""
         force = 2 * YOUNG * INERTIA / LENGTH**2
         found = self.solved(self.scene(cantilever(force, PATH)), "-n", "16")
         self.assertAlmostEqual(found["deflection"] / (0.49346 * LENGTH), 1, delta=2e-3)
@@ -236,8 +239,8 @@ class Solved(ExportTest):
         self.assertAlmostEqual(found["held"] / -force, 1, delta=1e-5)
 
     def test_arc(self):
-        """Exact values for an end rotation a: deflection (1 - cos a) L/a and shortening (1 - sin a/a) L. The bar is
-        oblique, and its rotation axis is not a coordinate axis."""
+        """For a bar bent by an end rotation a, exact values are the deflection (1 - cos a) L/a and the shortening (1 -
+        sin a/a) L. The bar is oblique, and its rotation axis is not a coordinate axis."""
         angle, c, s = 1.2, 0.8, 0.6
         text = cantilever(0.0, PATH).replace(
             "tip:  {at: [0.02, 0.1, 0]", "tip:  {at: [0.02, 0.08, 0.06], rotation: {vector: [none, "
@@ -254,7 +257,7 @@ class Solved(ExportTest):
         self.assertAlmostEqual(found["turn"], -c * angle, delta=1e-6)
 
     def test_compliance(self):
-        """Exact compliances of the end of a beam: L/(E I), L^2/(2 E I), L/(E A)."""
+        """Exact compliances of the end of a cantilever are L/(E I), L^2/(2 E I) and L/(E A)."""
         text = cantilever(1.0).replace("run: {linear: {}}", "run: {compliance: {node: tip}}")
         entries = {"turn_turn": ("rz", "rz", "rad/(N m)", LENGTH / (YOUNG * INERTIA)),
                    "turn_move": ("rz", "ux", "rad/N", -LENGTH**2 / (2 * YOUNG * INERTIA)),
@@ -269,7 +272,7 @@ class Solved(ExportTest):
 
     def test_channel(self):
         """For a channel of 2 m with rigid ends, each compliance of the solid, and the twist due to a force on the
-        centroid, exceeds that of the beam by the given percentage."""
+        centroid, exceeds that of the beam by the percentage in PERCENT."""
         head = cantilever(1.0).replace(RECTANGLE, CHANNEL).replace("at: [0.02, 0.1, 0]", TIP)
         text = head[:head.index("loads:")] + (
             "analyses:\n  run: {compliance: {node: tip}}\nquantities:\n" + "".join(

@@ -115,15 +115,15 @@ class Import(ProgramTest):
         self.assertIn("given again", self.read(HEAD + COLUMNS + ROWS + ROWS, 2).stderr)
 
     def test_axes(self):
-        """If the x axis of the other program is the -y axis of beamwork, C_ux_Fx of that program is C_uy_Fy of beamwork.
-        An entry with only one index of this kind changes sign."""
+        """If the x axis of the other program is the -y axis of beamwork, C_ux_Fx of that program is C_uy_Fy of
+        beamwork. An entry changes sign if only one of its indices refers to this axis."""
         self.read(HEAD + "# axes: x=-y y=x z=z\n" + COLUMNS +
                   "C_ux_Fx, m/N, 2,,,, 3,\nC_ux_Fy, m/N, 2,,,, 4,\n")
         found = {row["quantity"]: (row["value"], row["factor"]) for row in self.stored()}
         self.assertEqual(found, {b"C_uy_Fy": (3, 1), b"C_uy_Fx": (-4, -1)})
 
     def test_mirrored_axes(self):
-        """In a reflection, a rotation about an axis that does not change has the opposite sign."""
+        """If one axis is reversed, which is a reflection, rotations about the other axes change sign."""
         self.read(HEAD + "# axes: x=x y=-y z=z\n# convention: spatial\n" + COLUMNS +
                   "C_ux_Mz, 1/N, 2,,,, 3,\nC_uy_Mz, 1/N, 2,,,, 4,\nC_thz_Mz, rad/(N m), 2,,,, 5,\n")
         self.assertEqual({row["quantity"]: row["value"]
@@ -188,7 +188,8 @@ class Import(ProgramTest):
                    self.folder / name, *options)
 
     def test_what_is_missing_is_gone(self):
-        """A missing series is reported as gone: after a change of its name, without the import, or without a mesh."""
+        """An imported series that is missing must be reported as gone: after a change of the program's name, without
+        the import, or without one of its meshes."""
         values = ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))
         text = "# beamwork-import: 1\n# program: {}\n# version: {}\n# case: elastica\nquantity, unit, elements, value\n"
         rows = [f"w_over_L, 1, {n}, {value}\n" for n, value in values]
@@ -226,8 +227,8 @@ class Import(ProgramTest):
                      "collocation", "--imported", self.folder / "theirs.h5", "--imported-must-pass")
 
     def test_quantities_on_their_own_meshes(self):
-        """A quantity given on fewer meshes must be evaluated on those meshes, the finest of which is the finest mesh of
-        the quantity."""
+        """A quantity may be given on fewer meshes than another. It must be evaluated on its own meshes, and its limit
+        on the finest of these."""
         self.read("# beamwork-import: 1\n# program: mine\n# case: elastica\nquantity, unit, elements, value\n" +
                   "".join(f"w_over_L, 1, {n}, {v}\n" for n, v in ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))) +
                   "".join(f"theta, rad, {n}, {0.46135195119 + 0.04 / n**2}\n" for n in (2, 4, 8, 16)))
@@ -246,7 +247,7 @@ class Import(ProgramTest):
         self.assertIn("finest mesh, n = 8: 0.4615", " ".join(done.stdout.split()))
 
     def test_several_beside(self):
-        """Each file may be given once, and each program may occur once at a point."""
+        """Several imported files are compared. Each file may be given once, and each program may occur once at a point."""
         self.read(
             HEAD.replace("MBDyn 1.7.3, 3-node", "rival") + COLUMNS + ROWS +
             "# case: elastica\nw_over_L, 1, 2,,,, 1,\n")
@@ -331,7 +332,8 @@ class Import(ProgramTest):
                              code=status)
 
     def test_files_of_mbdyn(self):
-        """Reads files written by MBDyn 1.7.3 from data/mbdyn_sheet.mbd: four 3-node beams, 0.06 % from the exact beam."""
+        """Reads files that MBDyn 1.7.3 wrote for data/mbdyn_sheet.mbd. The model has four 3-node beams, and its error
+        is 0.06 % of the exact value."""
         self.mapped(MAPS / "mbdyn.yaml", DATA / "mbdyn_sheet.mov", DATA / "mbdyn_sheet.jnt")
         found = {row["quantity"].decode(): row["value"] for row in self.stored()}
         for name, value in (("u_x", 9.864219e-2 - 0.1), ("F_y", 3492.813), ("M_z", -172.2694)):

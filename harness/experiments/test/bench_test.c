@@ -1,5 +1,5 @@
-/* A conclusion about times is drawn from a benchmark only if the noise allows it. The counted work
- * must be the same every time. */
+/* A benchmark must draw a conclusion about times only if the noise allows it. The counted work must
+ * be the same in every repetition. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -14,8 +14,8 @@
 
 enum { PAIRS = 101, TRIALS = 300 };
 
-/* Returns the time of a lap of 1.7 ms with the noise of a shared machine: mostly small, sometimes
- * large, and drifting. */
+/* Returns a random time of a lap of 1.7 ms on a shared machine. The noise is mostly small,
+ * sometimes large, and drifts. */
 static double noisy(const gsl_rng *random, double drift)
 {
     const double tail =
@@ -56,8 +56,8 @@ static void test_against(void)
                  "no pair decides nothing");
 }
 
-/* The median of 101 draws: P(Binomial(101, 1/2) < 34) = 3.2e-4 and P(< 35) = 6.7e-4 enclose the
- * tail of 5e-4. */
+/* Checks the confidence interval of the median of 101 draws. The tail of 5e-4 is between
+ * P(Binomial(101, 1/2) < 34) = 3.2e-4 and P(< 35) = 6.7e-4. */
 static void test_interval(void)
 {
     double a[PAIRS], b[PAIRS];
@@ -96,8 +96,8 @@ static void test_compare(void)
     gsl_test_int(rounds_compare(&even, &even), 0, "times that are equal do not differ");
 }
 
-/* For the errors 20 %, 0.5 %, 3 %, 0.2 % and 0.05 %, the answer is the coarsest mesh from which all
- * meshes are within the level. */
+/* The meshes have the errors 20 %, 0.5 %, 3 %, 0.2 % and 0.05 %. A level is reached by the coarsest
+ * mesh that is within the level, as are all finer meshes. */
 static void test_reach(void)
 {
     const double error[5] = {0.2, -0.005, 0.03, 0.002, -0.0005};
@@ -304,7 +304,6 @@ static void kinds(void)
     }
 }
 
-/* One outcome, and one known deviation that expects the outcome in `word` for x from 2 to 3. */
 typedef struct expectation {
     extreme_outcome o;
     extreme_finding row;
@@ -332,7 +331,8 @@ static void one_outcome(outcome_kind kind, double x, expectation *out)
                              .count = &out->count};
 }
 
-/* A known deviation that no outcome shows makes a whole run fail, but not a selection. */
+/* If no outcome shows a known deviation, a complete run must fail, but a run of a selection must
+ * not. */
 static void unobserved(void)
 {
     for (int whole = 0; whole < 2; whole++) {
@@ -345,8 +345,8 @@ static void unobserved(void)
     }
 }
 
-/* Two outcomes, in one cell or (one_cell 0) in two cells, in either order. The outcome of a cell is
- * its worst outcome. */
+/* Two outcomes, in one cell or, if one_cell is 0, in two cells, in either order. The outcome of a
+ * cell is its worst outcome. */
 static void cells(void)
 {
     for (int good = 0; good < OUTCOME_KINDS; good++)
@@ -377,7 +377,7 @@ static void cells(void)
             }
 }
 
-/* A known deviation applies to its range, including both ends up to their last digits. */
+/* A known deviation applies to a range of x, including both ends up to their last digits. */
 static void ranges(void)
 {
     static const struct {
@@ -431,7 +431,7 @@ typedef struct neighbours_bench {
 
 static char words[][16] = {"", "exact", "same", "m"};
 
-/* Returns the index of an extreme with exact values. */
+/* Returns the index of an extreme whose quantities have exact values. */
 static int exact_extreme(void)
 {
     int i = 0;
@@ -440,8 +440,8 @@ static int exact_extreme(void)
     return i;
 }
 
-/* `own` is the number of elements of the mesh that is evaluated, and error[0] is its relative
- * error. The other entries are errors of its neighbours. NAN: no value. */
+/* Makes an outcome on the mesh with `own` elements, whose relative error is error[0], and its
+ * neighbouring meshes with the other errors. NAN: no value. */
 static void make(int own, const int mesh[OUTCOME_NEIGHBOURS], const double error[MESHES],
                  neighbours_bench *b)
 {

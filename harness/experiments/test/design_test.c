@@ -14,7 +14,6 @@ static const parameter_type table[] = {
 };
 static const case_type box = {.name = "box", .parameters = {table}};
 
-/* Three axes of the unit box, without division. */
 static void unit_axes(sweep_axis out[3])
 {
     for (int i = 0; i < 3; i++)
@@ -39,7 +38,7 @@ static void grid(void)
     axis_free(&a[1]);
 }
 
-/* The GSL manual (quasi-random sequences) prints these five points. */
+/* The five points are those printed in the GSL manual (quasi-random sequences). */
 static void sobol(void)
 {
     static const double right[] = {0.5, 0.5, 0.75, 0.25, 0.25, 0.75, 0.375, 0.375, 0.875, 0.875};
@@ -53,7 +52,7 @@ static void sobol(void)
     design_free(&d);
 }
 
-/* Returns the digits of n in a base, reflected at the point. */
+/* Returns the digits of n in a base, mirrored at the radix point, as a number in [0, 1). */
 static double mirrored(int n, int base)
 {
     double out = 0, digit = 1.0 / base;
@@ -78,7 +77,7 @@ static void halton(void)
     design_free(&d);
 }
 
-/* Points must be the same wherever a request starts, before or after a mark. */
+/* The points must not depend on where a request starts. */
 static void anywhere(design_kind kind)
 {
     enum { POINTS = 2 * DESIGN_STRIDE + 100 };
@@ -201,8 +200,8 @@ static void order_of_each(void)
     gsl_test_rel(run[2].order, 1, 1e-14, "against the run before");
 }
 
-/* Errors and costs are powers of the step size. A level between two runs has the cost given by that
- * power. */
+/* Errors and costs are powers of the step size. The cost of a level between the errors of two runs
+ * must be interpolated with this power. */
 static void cost_of_a_level(void)
 {
     pace p;
@@ -221,8 +220,8 @@ static void cost_of_a_level(void)
     gsl_test(r.run != NULL, "a shorter step is not within it");
 }
 
-/* Returns 1 if the errors of a quantity do not converge on successively finer runs. The errors of
- * positions converge. */
+/* Returns 1 if pace_order_stands reports that a quantity with these errors does not converge. The
+ * errors of positions converge. */
 static int stands(const double error[RUNS], double floor)
 {
     pace p;

@@ -36,7 +36,7 @@ def content(group):
 
 
 def contents(path):
-    """Returns {group: contents}. The group `verify` contains everything outside the other groups."""
+    """Returns {group: contents}. The key `verify` is for the contents outside groups."""
     with h5py.File(path) as file:
         groups = {name: content(group) for name, group in file["experiments"].items()}
         own = {name: value for name, value in content(file).items()

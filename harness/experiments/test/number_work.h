@@ -1,4 +1,5 @@
-/* A job for tests. Each batch consists of some numbers, which are added in canonical order. */
+/* A job for tests. Each batch consists of some numbers. The result is their sum in the order of the
+ * batches. */
 #ifndef BEAMWORK_TEST_NUMBER_WORK_H
 #define BEAMWORK_TEST_NUMBER_WORK_H
 
@@ -15,11 +16,11 @@
 enum { NUMBERS_BATCHES = 40 };
 
 typedef struct numbers {
-    int crashes; /* batch whose process ends itself, or -1 */
-    int fails;   /* batch whose computation fails, or -1 */
+    int crashes; /* number of the batch whose process ends itself, or -1 */
+    int fails;   /* number of the batch whose computation fails, or -1 */
     int wait;    /* [us] duration of a batch */
     double busy; /* [s] processor time of a batch */
-    double sign; /* sign of the numbers, where -1 gives different results */
+    double sign; /* sign of the numbers; -1 gives different results */
     int taken, next;
     double sum;
 } numbers;
@@ -49,7 +50,8 @@ static inline status numbers_run(void *context, int batch, FILE *to, digest *con
     return STATUS_OK;
 }
 
-/* The result depends on the order: each sum is changed before the next number is added. */
+/* Adds the numbers of a batch. The sum is changed before each addition, so the result depends on
+ * the order. */
 static inline status numbers_take(void *context, int batch, FILE *from, fault *f)
 {
     numbers *n = context;
@@ -71,7 +73,7 @@ typedef struct numbers_work {
     shard_work w;
 } numbers_work;
 
-/* The structure contains a pointer to itself and must not be copied. */
+/* Prepares the work. The structure contains a pointer to itself and must not be copied. */
 static inline void numbers_begin(numbers_work *out)
 {
     out->n = (numbers){.crashes = -1, .fails = -1, .sign = 1};
@@ -89,7 +91,7 @@ static inline void numbers_begin(numbers_work *out)
                           .take = numbers_take};
 }
 
-/* Returns the result of all batches, computed in this process. */
+/* Returns the result of all batches when computed in this process alone. */
 static inline double numbers_alone(void)
 {
     numbers_work here;
@@ -108,7 +110,7 @@ static inline status numbers_shard(const numbers_work *of, const char *into, int
     return shard_run(&of->w, &request, out, f);
 }
 
-/* Merges every batch of the folders once, and computes their sum. */
+/* Merges the batches in the folders, and computes the result. */
 static inline status numbers_merge(numbers_work *of, const char *const folder[], int folders,
                                    stock *s, fault *f)
 {

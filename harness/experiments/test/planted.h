@@ -1,4 +1,4 @@
-/* Faults injected into formulations that have none. */
+/* Injects faults into formulations without faults. */
 #ifndef BEAMWORK_TEST_PLANTED_H
 #define BEAMWORK_TEST_PLANTED_H
 
@@ -9,8 +9,8 @@
 
 static const element_type *base; /* the formulation into which the fault is injected */
 
-/* Checks a type with a fault. `family` is the family of checks that must detect the fault. The
- * other arguments are words of the message. */
+/* Checks a type with a fault. `family` is the family of checks that must detect the fault. The last
+ * arguments are words that the message must contain. */
 static inline void planted(const char *family, const element_type *fault_type, const char *first,
                            const char *second)
 {

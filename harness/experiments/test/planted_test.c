@@ -1,4 +1,4 @@
-/* Faults injected into formulations without faults. Each fault changes the output of one function
+/* Injects faults into formulations without faults. Each fault changes the output of one function
  * and must be detected, with a message that names the cause. */
 #include "harness/experiments/experiments_impl.h"
 #include <math.h>
@@ -12,7 +12,8 @@ static void strain_changed(const element_data *d, const node_state x[], strain_o
     change(out);
 }
 
-/* Defines a strain function whose outputs are changed. */
+/* Defines a strain function that evaluates the formulation and then changes its outputs by
+ * `statement`. */
 #define STRAIN(name, statement)                                                                    \
     static void name##_change(strain_output *out)                                                  \
     {                                                                                              \
@@ -59,7 +60,8 @@ static status half_energy(const element_data *d, const double e[], const double 
     return outcome;
 }
 
-/* Replaces a position or rotation that is NaN by that of a node at rest. */
+/* Copies the nodes and replaces a position (turn 0) or a rotation (turn 1) that is NaN by a value
+ * at rest. The element then ignores an invalid input. */
 static void deaf(const node_state x[], int node, int turn, node_state out[2])
 {
     memcpy(out, x, 2 * sizeof *out);
@@ -108,7 +110,8 @@ static status soft_about_z(const element_data *d, const double e[], const double
     return outcome;
 }
 
-/* If exactness is not claimed, the message gives the error of the element. */
+/* A formulation that does not claim to be exact is made too soft. The message must give its error.
+ */
 static void not_exact(void)
 {
     static claims c;
@@ -301,8 +304,8 @@ static void planted_tests(void)
     the_rest();
 }
 
-/* Defines an inertia function whose outputs are changed. A fault of inertia must be detected, with
- * a message that names the cause. */
+/* Defines an inertia function that evaluates the formulation and then changes its outputs by
+ * `statement`. Each of these faults must be detected, with a message that names the cause. */
 #define INERTIA(name, statement)                                                                   \
     static status name(const element_data *d, const node_state x[],                                \
                        const element_rotating_frame *frame, inertia_output *out)                   \
@@ -323,8 +326,8 @@ INERTIA(half_potential, if (out->potential != NULL) *out->potential /= 2)
 INERTIA(wrong_force, if (out->force != NULL) out->force[8] *= -1)
 INERTIA(wrong_softening, if (out->N != NULL) out->N[14 * 2 + 2] *= 1.01)
 INERTIA(unsymmetric_softening, if (out->N != NULL) out->N[14 * 1 + 2] *= 1.01)
-/* the error is larger for rotations than for translations, in units of the length of the test
- * element [m] */
+/* the fault is larger for rotations than for translations; 0.2385 m is the length of the test
+ * element */
 INERTIA(
     unsymmetric_turns, if (out->N != NULL) {
         out->N[14 * 5 + 4] += 0.03 * 0.2385 * 0.2385 * out->N[0];

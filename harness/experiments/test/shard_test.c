@@ -33,8 +33,8 @@ static void one_folder(void)
     folder_remove(&of);
 }
 
-/* Batches of works with different numbers of shards are combined. A batch that is in both folders
- * is used once. */
+/* Merges two folders of the same work that was divided into different numbers of shards. A batch
+ * that is in both folders must be used once. */
 static void two_folders(void)
 {
     const test_folder a = folder_make(), b = folder_make();
@@ -63,8 +63,7 @@ static void two_folders(void)
     folder_remove(&other);
 }
 
-/* If the process of a batch ends, only this batch is lost. After a restart, the batch must be
- * computed. */
+/* If the process of a batch ends, only this batch may be lost. A restart must compute it. */
 static void lost(void)
 {
     const test_folder of = folder_make();
@@ -84,7 +83,8 @@ static void lost(void)
     folder_remove(&of);
 }
 
-/* A batch that fails, or a full disk, ends the run with its message. Existing batches are kept. */
+/* A batch that fails, or a full disk, must end the run with a message. Existing batches are kept.
+ */
 static void failures(void)
 {
     const test_folder of = folder_make();
@@ -136,7 +136,8 @@ static void killed(void)
         }
         setpgid(child, child);
         usleep((useconds_t)random_below(&seed, 4000));
-        kill(i % 2 == 0 ? -child : child, SIGKILL); /* all processes, or only the first process */
+        kill(i % 2 == 0 ? -child : child,
+             SIGKILL); /* even: the whole process group; odd: only the first process */
         waitpid(child, NULL, 0);
     }
     gsl_test(numbers_shard(&w, of.path, 0, 1, &done, &f) != STATUS_OK, "%s", f.text);
@@ -145,7 +146,8 @@ static void killed(void)
     folder_remove(&of);
 }
 
-/* On a request to stop, completed batches are kept, and no partly written file remains. */
+/* After a request to stop, completed batches must be kept, and no partly written file may remain.
+ */
 static void interrupted(void)
 {
     const test_folder of = folder_make();

@@ -9,7 +9,7 @@
 #include "harness/experiments/test/number_work.h"
 #include "harness/records/records.h"
 
-/* A folder with all batches of the work, one of which will be damaged. */
+/* A folder with all batches of the work. Batch 4 will be damaged. */
 typedef struct filled {
     test_folder of;
     const char *folder[1];
@@ -32,7 +32,7 @@ static void fill(filled *out)
     out->path = folder_path(&out->of, out->name);
 }
 
-/* Reads the folder. `said` receives the messages. */
+/* Reads the folder into a stock. `said` receives the messages. */
 static status take(filled *of, stock *s, char said[400], fault *f)
 {
     memset(said, 0, 400);
@@ -48,7 +48,7 @@ static long size_of(const char *path)
     return stat(path, &there) == 0 ? (long)there.st_size : -1;
 }
 
-/* The damaged batch must be missing, be named once, and be computed again. */
+/* The damaged batch must count as missing, be reported once, and be computed again. */
 static void is_done_again(filled *of, const char *what)
 {
     stock s;
@@ -93,7 +93,7 @@ static void damaged(void)
     folder_remove(&of.of);
 }
 
-/* A merge and a restart must reject the folder, with a message that contains these words. */
+/* A merge and a restart must both reject the folder, with a message that contains these words. */
 static void is_refused(filled *of, const char *words)
 {
     stock s;
@@ -183,8 +183,8 @@ static void nowhere(void)
     folder_remove(&of);
 }
 
-/* Batches that were computed on another processor or with another BLAS must be reported. Those from
- * another host must not. */
+/* Batches that were computed on another processor or with another BLAS must be reported. Batches
+ * from another host with the same processor and BLAS must not be reported. */
 static void machines(void)
 {
     filled of;
@@ -235,7 +235,7 @@ static void stock_tests(void)
     nowhere();
 }
 
-/* The examples of FIPS 180-4. */
+/* The digests of the examples in FIPS 180-4. */
 static void known_digests(void)
 {
     static const struct {
@@ -290,8 +290,8 @@ static void cut(void)
     gsl_test_int(deal_cut(0, cost, 0.5, first), 0, "of nothing no batch");
 }
 
-/* Each batch is assigned to one shard, the costs of the shards are nearly equal, and the result is
- * reproducible. */
+/* Each batch must be assigned to one shard. The costs of the shards must be nearly equal, and the
+ * assignment reproducible. */
 static void dealt(void)
 {
     enum { BATCHES = 500, SHARDS = 7 };
@@ -314,8 +314,8 @@ static void dealt(void)
     gsl_test(most > 1.01 * least, "shards end together: %g to %g", least, most);
 }
 
-/* Rule: the most expensive remaining batch belongs to the first of the shards with the lowest
- * cost. */
+/* The rule is that the most expensive remaining batch is assigned to the shard with the lowest
+ * cost, and to the first of such shards if costs are equal. */
 static void dealt_by_the_rule(void)
 {
     enum { BATCHES = 300, MOST = 40 };
@@ -347,7 +347,7 @@ static void deal_tests(void)
     dealt();
 }
 
-/* Checks integrators, steps and tolerances as given on the command line. */
+/* Checks how a list on the command line is read, such as steps or tolerances. */
 
 static void list_is(const char *text, double ratio, int count, const double right[])
 {

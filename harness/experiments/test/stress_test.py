@@ -1,4 +1,3 @@
-"""Extremes of cases, and their results in `beamwork stress`."""
 import csv
 import io
 import json
@@ -104,7 +103,7 @@ class Stress(ProgramTest):
         self.assertEqual(done.returncode, 1, done.stdout)
 
     def test_motions(self):
-        """Step sizes do not change. A rotation too large for a step is reported by name."""
+        """The step sizes of these motions are prescribed. A rotation that is too large for a step must be reported."""
         done = run("-k", "(turn_alpha or long_steps_radau) and collocation", "--format", "json")
         self.assertEqual(done.returncode, 0, done.stdout)
         record = json.loads(done.stdout)
@@ -141,7 +140,7 @@ class Stress(ProgramTest):
             self.refused(code, "", "stress", *arguments, silent=False)
 
 
-# At extremes, each integrator must give a value with its error, or fail with a reason.
+# In extreme motions, each integrator must give a value with its error, or fail with a reason.
 STEEL = 200e9, 7800.0
 
 # A sheet with a length of a thousand times its thickness, which is held in a deflected position and released.
@@ -198,7 +197,7 @@ class Extremes(ProgramTest):
         return {r["integrator"]: r for r in json.loads(done.stdout)["runs"]}
 
     def is_named(self, run):
-        """Checks that a motion that fails states the reason and the time."""
+        """Checks that a motion that failed states the reason and the time at which it stopped."""
         self.assertEqual(run["status"], "not_converged")
         self.assertIn(" s: ", run["reason"] + " s: ")
         self.assertIsNotNone(run["stopped"])

@@ -1,4 +1,4 @@
-/* Summary of a sweep, from artificial rows: percentages, the map, the worst points. */
+/* Summary of a sweep with artificial rows: percentages, the map, and the worst points. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,8 @@ static const parameter_type table[] = {
 };
 static const case_type box = {.name = "box", .parameters = {table}};
 
-/* A grid of 3 x 2 points, one formulation, meshes 4 and 8, two quantities. */
+/* Ranges of a sweep with a grid of 3 x 2 points, one formulation, meshes with 4 and 8 elements, and
+ * two quantities. */
 static void make(parameter_ranges *r)
 {
     memset(r, 0, sizeof *r);
@@ -34,16 +35,17 @@ static void make(parameter_ranges *r)
     r->batches = 1;
 }
 
-/* Errors of both quantities with 4 and 8 elements at each point. */
+/* Errors at each point, for 4 and 8 elements, of both quantities. */
 static const double errors[POINTS][MESHES][2] = {
-    {{0.001, 0.002}, {0.0001, 0.0002}}, /* within the tolerance with 4 and more elements */
-    {{0.02, 0.002}, {0.003, 0.0002}},   /* the first quantity is within the tolerance only with 8
-                                           elements */
-    {{0.001, 0.002}, {0.05, 0.0002}},   /* the first quantity is never within the tolerance,
-                                           because the finer mesh is inaccurate */
-    {{NAN, NAN}, {NAN, NAN}},           /* no solution with 8 elements */
-    {{NAN, 0.004}, {NAN, -0.0004}},     /* the first quantity has no reference */
-    {{NAN, NAN}, {NAN, NAN}},           /* no scene */
+    {{0.001, 0.002},
+     {0.0001, 0.0002}}, /* both quantities are within the tolerance with 4 and more elements */
+    {{0.02, 0.002}, {0.003, 0.0002}}, /* the first quantity is within the tolerance only with 8
+                                         elements */
+    {{0.001, 0.002}, {0.05, 0.0002}}, /* the first quantity is never within the tolerance, because
+                                         its error is large on the finer mesh */
+    {{NAN, NAN}, {NAN, NAN}},         /* no solution */
+    {{NAN, 0.004}, {NAN, -0.0004}},   /* the first quantity has no reference value */
+    {{NAN, NAN}, {NAN, NAN}},         /* no scene */
 };
 static const int least[POINTS][2] = {{4, 4}, {8, 4}, {0, 4}, {0, 0}, {0, 4}, {0, 0}};
 
@@ -127,7 +129,7 @@ static void worst_are(const tally *t)
     gsl_test_rel(t->doubt[1], 4e-4, 1e-15, "the largest doubt");
 }
 
-/* The summary must be the same whether points are added together or one by one. */
+/* The summary must be the same whether points are added in one call or one by one. */
 static void same_in_pieces(const parameter_ranges *r, const rows *whole, const tally *right)
 {
     tally t;
@@ -175,8 +177,6 @@ static void tally_tests(void)
     ranges_free(&r);
 }
 
-/* Arguments of --vary: values, limits, and rejected arguments. */
-
 static const parameter_type axis_table[] = {
     {"width", "m", 0.05, 1e-3, 10, NULL, "of a strip"},
     {"turn", "rad", 0, -1, 1, NULL, "of an end"},
@@ -204,7 +204,8 @@ static void values_are(const char *text, axis_kind kind, int count, const double
     axis_free(&a);
 }
 
-/* The ends are exactly the given numbers, and not sums. */
+/* The first and last values of an axis must be exactly the given numbers, without round-off of
+ * sums. */
 static void ends_are_exact(void)
 {
     sweep_axis a = read_good("width=0.2..0.9/7"), b = read_good("width=0.2..0.9/7:log");
@@ -214,7 +215,7 @@ static void ends_are_exact(void)
     axis_free(&b);
 }
 
-/* Values at fractions of an axis: ends and midpoints, and the word at each fraction. */
+/* Checks values at fractions of an axis, and the word of a list at each fraction. */
 static void shares(void)
 {
     sweep_axis a = read_good("turn=-1..1"), b = read_good("width=0.01..1:log"),
@@ -267,7 +268,7 @@ static void axis_tests(void)
     is_refused("ends=fixd", "unknown choice");
 }
 
-/* A formulation must satisfy every claim that it makes, and its claims must be compared. */
+/* A formulation must satisfy every claim that it makes, and at least one claim must be compared. */
 
 static void tell(const char *key, const checks_family *family, const claims *c)
 {
@@ -297,15 +298,15 @@ static void contract_tests(void)
     gsl_test(by_matrices < 1, "%d formulations carry sections by their matrices", by_matrices);
 }
 
-/* Contents of the fields of the map of a sweep: one field of each kind. */
+/* Marks in the map of a sweep, one field of each kind. */
 
 enum { PLACES = 8 };
 
 static const parameter_type map_table[] = {{"a", "m", 1, -100, 100, NULL, ""}, {0}};
 static const case_type map_box = {.name = "box", .parameters = {map_table}};
 
-/* Fields with their marks in a sweep with reference values at some points only (mixed), and without
- * reference values (alike). */
+/* Fields and their marks. `mixed`: some points of the sweep have reference values; `alike`: the
+ * fields have the same kind of points. */
 static const struct {
     tally_place place;
     const char *mixed, *alike;

@@ -1,5 +1,5 @@
 /* Derivatives by finite differences must agree with those that the formulations compute. For each
- * formulation, J, H, forces or tangents are removed and replaced. */
+ * formulation, J, H, the forces or the tangents are removed and replaced by finite differences. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -54,7 +54,7 @@ static status assemble(const adapters_subject *s, const node_state x[], double *
     return STATUS_OK;
 }
 
-/* The formulation that supplies the force of the adapted formulation. */
+/* The formulation that computes the forces of the formulation under test. */
 static adapters_subject source;
 
 static status force_of_source(const element_data *d, const node_state x[], force_output *out)
@@ -72,8 +72,8 @@ static status force_of_source(const element_data *d, const node_state x[], force
     return STATUS_OK;
 }
 
-/* Returns the largest difference relative to the largest entry, in the unit of the coordinates of
- * each node (force, moment, bimoment). */
+/* Returns the largest difference relative to the largest entry, where unit[] are the units of a
+ * force, a moment and a bimoment at each node. */
 static double departure(int n, const double a[], const double b[], const double unit[])
 {
     double apart = 0, most = 0;
@@ -94,7 +94,7 @@ static void units(int rows, int columns, double out[])
                                 (columns > 1 || rows == 1 ? power[j % NODE_COORDINATES] : 0));
 }
 
-/* A deformed element, rotated as a whole. */
+/* Places the nodes of a deformed element that is rotated as a whole. */
 static void deformed(const adapters_subject *s, unsigned seed, node_state x[])
 {
     double d[N];
@@ -158,8 +158,8 @@ static double prestressed(const adapters_subject *s, const double v[], double K[
     return F[n - NODE_COORDINATES];
 }
 
-/* Compares the effect of an axial force on the torsional stiffness [N m], which depends only on the
- * terms of the formulation for the stretching of fibres. */
+/* Compares the effect of an axial force on the torsional stiffness [N m]. It depends only on how
+ * the formulation describes the stretching of fibres. */
 static void twists_as(const adapters_subject *whole, const adapters_subject *part, const char *what,
                       double bound)
 {
@@ -206,7 +206,7 @@ static void loaded(const adapters_subject *s, double out[M + ELEMENT_ALONG_COORD
     memcpy(out + M, load.ends, sizeof load.ends);
 }
 
-/* Functions other than strain and stress must receive the data of their own type. */
+/* Functions other than strain and stress must receive the data of the original type. */
 static void passes_on(const element_type *given, const section *c)
 {
     const double sigma[M] = {2.385};
@@ -308,7 +308,8 @@ static void adapters_tests(void)
                  "%s: nothing is left out, nothing is made", given->name);
         passes_on(given, &c);
         if (element_inner(given, options) > 0)
-            continue; /* such an element requires a solution of its own equations */
+            continue; /* elements with inner unknowns must solve their own equations, so nothing can
+                         be removed */
         without(given, &c, LEAVES_H, "without second derivatives");
         without(given, &c, LEAVES_J, "without derivatives");
         forces_only(given, &c);
@@ -323,7 +324,8 @@ enum { ELEMENTS = 5, GATHER_M = ELEMENT_MAX_STRAINS, GATHER_N = ELEMENT_MAX_COOR
 
 static const element_type *gather_source;
 static double gather_options[ELEMENT_MAX_OPTIONS];
-static int requests, most; /* requests for many elements, and most elements in one request */
+static int requests,
+    most; /* calls for several elements, and largest number of elements in a call */
 
 static void note(int count)
 {
@@ -340,8 +342,8 @@ static void strain_many(int count, const element_data *const data[], const node_
                               &out[i]);
 }
 
-/* An energy of the strains and its derivatives, which fails if the first node warps in one
- * direction. */
+/* Computes an energy of the strains and its derivatives. Fails if the first node has warping of one
+ * sign. */
 static status force(const element_data *d, const node_state x[], force_output *out)
 {
     double e[GATHER_M] = {0}, J[GATHER_M * GATHER_N], C[GATHER_M * GATHER_M] = {0},
@@ -376,7 +378,6 @@ static void force_many(int count, const element_data *const data[], const node_s
         outcome[i] = force(data[i], x + i * element_nodes(gather_source, gather_options), &out[i]);
 }
 
-/* One type that is completed twice, and elements of this type. */
 typedef struct both {
     element_type given[2], type[2];
     element_data *data[2];

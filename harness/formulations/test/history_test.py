@@ -1,4 +1,5 @@
-"""Histories of elements, which must be committed at accepted steps and never at rejected steps, in every analysis."""
+"""Elements with a history. In every analysis, the history must be committed at accepted steps and never at rejected
+steps."""
 import json
 import shutil
 import subprocess
@@ -67,7 +68,7 @@ RIGIDITY = 292.712582272 / 0.8  # torsional rigidity of timoshenko.c [N m^2]
 
 
 class Path:
-    """The bar of midpoint.c, with n elements, after accepted twists [rad]."""
+    """The bar of midpoint.c with n elements, after the accepted twists [rad]."""
 
     def __init__(self, n=1):
         self.n, self.twist, self.strain = n, 0, 0
@@ -89,7 +90,7 @@ class Path:
         self.strain, self.twist = self.at(twist)[0], twist / self.n
 
     def under(self, torque):
-        """Returns the twist under a torque."""
+        """Returns the twist under a torque, by bisection."""
         low, high = self.n * self.twist, 2
         for _ in range(100):
             middle = (low + high) / 2
@@ -116,7 +117,7 @@ class History(ProgramTest):
         return {c["quantity"]: dict(zip(c["curve_x"], c["curve_value"])) for c in record["curves"]}, record
 
     def follows(self, torque, steps, twist_of, n=1, close=2e-6):
-        """Checks that the torques at stations are those of the path with these accepted steps."""
+        """Checks that the torques at stations are those of a bar with these accepted steps."""
         path, compared = Path(n), 0
         for at in steps:
             if at in torque:
@@ -126,7 +127,7 @@ class History(ProgramTest):
         self.assertEqual(compared, len([at for at in torque if at > 0]))
 
     def test_rejected_steps(self):
-        """Rejected steps leave nothing in the history. The history of a station is that of the step that led to the
+        """Rejected steps must not change the history. The history at a station is that of the step that led to the
         station."""
         text = BESIDE + ("motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.8]}}\n"
                          "loads: {pull: {force: [-30000, 20000, 8000], on: d}}\n"
@@ -139,7 +140,7 @@ class History(ProgramTest):
             self.follows(curves["torque"], [s["path"] for s in record["steps"]], lambda at: 0.8 * at, n)
 
     def test_loads_and_stiffness(self):
-        """The tangent of an accepted state is that of the step that led to the state. Continuation also commits its
+        """The tangent of an accepted state is that of the step that led to the state. A continuation also commits its
         steps."""
         static = FREE + ("loads: {pull: {moment: [1000, 0, 0], on: b}}\n"
                          "analyses: {run: {static: {stations: 0..1/4}}, at: {compliance: {node: b, about: run}}}\n"
@@ -173,7 +174,7 @@ class History(ProgramTest):
             self.follows(curves["torque"], steps, twist_of, close=1e-5)
             for time in (0.75, 1):
                 self.assertAlmostEqual(curves["then"][time] / curves["torque"][time], 1, delta=1e-5)
-        # stations within a step are separate steps, which leave nothing behind
+        # the history of stations within a step must not affect the following steps
         curves, _ = self.solved(text.replace("INTEGRATOR", "radau").replace("0..1/4", "0..1/12"))
         path = Path()
         for k in range(1, 13):
@@ -184,7 +185,6 @@ class History(ProgramTest):
                 path.accept(twist_of(time))
 
     def test_as_without(self):
-        """An element whose history has no effect must give the same results as the element without a history."""
         text = (ROOT / "harness/formulations/test/midpoint.c").read_text(encoding="utf-8")
         source = self.folder / "plain.c"
         source.write_text(text.replace("1 + 10 * m * m", "1 + 0 * m"), encoding="utf-8")
@@ -220,7 +220,7 @@ class History(ProgramTest):
             self.assertAlmostEqual(one / other, 1, delta=1e-6)
 
     def changed(self, name, changes):
-        """Returns the path of an example with changes."""
+        """Returns the path of a copy of the example with changes."""
         text = (EXAMPLES / name).read_text(encoding="utf-8")
         for before, after in changes:
             self.assertIn(before, text)
@@ -238,7 +238,7 @@ class History(ProgramTest):
         self.follows(dict(zip(curve["curve_x"], curve["curve_value"])), curve["curve_x"][1:], lambda at: 0.8 * at, 2)
 
     def faults(self, *changes, file=ROOT / "harness/formulations/test/midpoint.c"):
-        """Returns the violated requirements of an element in C after changes, and the measures of the element."""
+        """Returns the violated requirements of the element in C after changes, and its measured values."""
         text = file.read_text(encoding="utf-8")
         for before, after in changes:
             self.assertIn(before, text)
@@ -254,8 +254,8 @@ class History(ProgramTest):
         return " ".join(broken(record)), points
 
     def test_element_test(self):
-        """Undeclared defects of an element, and histories that are not continued, must be violations. The error of the
-        midpoint rule must be equal in every cycle."""
+        """Undeclared properties of an element, and histories that are not continued, must be reported as violations.
+        The error of the midpoint rule must be the same in every cycle."""
         none, points = self.faults()
         self.assertEqual(none, "")
         one, ten, hundred = points["strains after closed cycles"]
@@ -286,7 +286,7 @@ class History(ProgramTest):
         self.assertEqual(broken(json.loads(done.stdout)), [])
 
     def test_refused(self):
-        """Analyses that require strains of the state alone must be rejected with a remedy."""
+        """Analyses that require strains that depend only on the state must be rejected with a remedy."""
         conserving = DRIVEN + ("motions: {turn: {unit: rad, time: t^2}}\n"
                                "analyses: {run: {motion: {stations: [1], integrator: conserving, step: 0.1}}}\n"
                                f"quantities: {{{TORQUE}}}\n")

@@ -8,7 +8,7 @@ from harness.tools.kit.program import ROOT, run
 
 
 class Refused(Speaker):
-    """Errors before the formulation is known lead to exit status 2."""
+    """Errors before the name of the formulation is known lead to exit status 2."""
 
     def test_no_such_command(self):
         self.refuse("exec:/no/such/command at all", "/no/such/command", "No such file")

@@ -21,7 +21,7 @@ const element_type beamwork_element = {(unsigned)of()};
 
 
 def public_headers():
-    """Returns element.h and all headers that it includes, which are installed."""
+    """Returns element.h and all headers that it includes."""
     out = subprocess.run(["cc", "-I.", "-M", "-xc", "-"], cwd=ROOT, check=True, text=True,
                          input='#include "elements/element.h"\n', stdout=subprocess.PIPE).stdout
     return [word for word in out.split() if word.startswith("elements/")]
@@ -66,8 +66,8 @@ class Headers(ProgramTest):
         self.compiles_beside("clang++-19")
 
     def test_exports(self):
-        """The symbol must have C linkage in C++, although constants have internal linkage there, and must be visible even
-        if symbols are hidden."""
+        """In C++, constants have internal linkage, but the symbol must have C linkage and be visible even if symbols
+        are hidden by default."""
         for compiler in ("g++", "clang++-19"):
             if shutil.which(compiler) is None:
                 self.skipTest(f"needs {compiler}")
@@ -81,7 +81,7 @@ class Headers(ProgramTest):
 
 @unittest.skipIf(shutil.which("gfortran") is None, "needs gfortran")
 class Fortran(ProgramTest):
-    """The module of the example must have the constants and the layout of the header."""
+    """The module of the example must have the constants and the structure layout of the header."""
 
     @classmethod
     def setUpClass(cls):

@@ -8,7 +8,8 @@
 
 enum { TWIST = 3 };
 
-/* history [2]: the twist, and the strain per length */
+/* Returns the strain per length of a trial twist. history: twist, and strain per length, of the
+ * last accepted state. */
 static double twist_strain(const double history[], double t)
 {
     const double m = (t + history[0]) / 2;

@@ -9,7 +9,7 @@ enum { N = 14 };
 typedef struct mass_massive {
     element_data beam;
     double mass;     /* [kg] */
-    double about[3]; /* half of the moments of inertia of the sections of the element [kg m^2] */
+    double about[3]; /* half of the moments of inertia of the element about its axes [kg m^2] */
 } mass_massive;
 
 static size_t massive_size(const element_request *request)
@@ -36,7 +36,7 @@ static void add(double M[], int at, int row, int column, double value)
     M[N * (at + row) + at + column] += value;
 }
 
-/* Adds sign x~ A to M at the rotations `at`. A is the identity if NULL. */
+/* Adds sign x~ A to the block of M with the rotations at index `at`. A is the identity if NULL. */
 static void add_cross(double M[], int at, const double x[3], const double A[9], double sign)
 {
     const double X[9] = {0, -x[2], x[1], x[2], 0, -x[0], -x[1], x[0], 0};
@@ -61,8 +61,8 @@ static void turned(const double R[9], const double about[3], double J[9])
     }
 }
 
-/* Adds the force J a + w x J w of the sections at a node with the angular velocity w and the
- * angular acceleration a, and its derivatives. */
+/* Adds the inertia moment J a + w x J w of one node, with its angular velocity w and angular
+ * acceleration a, and its derivatives. */
 static void add_node(const double J[9], int at, const double w[3], const double a[3],
                      inertia_output *out)
 {

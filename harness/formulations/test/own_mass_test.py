@@ -26,7 +26,7 @@ quantities: {x: {displacement: {analysis: run, node: c, component: ux}},
 class OwnMass(Speaker):
 
     def python(self, before="", after="", name="own_mass.py"):
-        """Returns exec: of the example with the given change."""
+        """Returns "exec:" and the command of the example with one replacement."""
         text = (EXAMPLES / name).read_text(encoding="utf-8")
         self.assertIn(before, text)
         path = self.folder / "mine.py"
@@ -82,7 +82,7 @@ class OwnMass(Speaker):
         self.assertEqual(beam, self.solved(self.python(), "own_mass_py", "deep_beam", 4)[1])
 
     def contract(self, element, code=0):
-        """Returns the outcomes of the checks of mass, and the violated requirements."""
+        """Returns the outcomes of the checks of inertia, and the violated requirements."""
         out = self.answered("element-test", "own_mass_py", "--element", element, "--format", "json", code=code,
                             env=WITH_MODULES).stdout
         record = json.loads(out)

@@ -47,7 +47,7 @@ serve(prepare, force=force, gives="energy", name="chord", family="example", sour
 
 
 class Energy(ProgramTest):
-    """A formulation with options that computes only an energy."""
+    """Tests a formulation with options that computes only an energy."""
 
     def solve(self, *words, formulation="chord", code=0):
         path = self.folder / "chord.py"
@@ -236,7 +236,7 @@ class InPython(ProgramTest):
 
 EXAMPLE = OCTAVE_EXAMPLES / "timoshenko.m"
 NAME = "timoshenko_m"
-# some of the cases of process_test.py, which take 4 s of processor time, whereas all ten would take 28 s
+# four of the ten cases for Python, because all ten would take 28 s of processor time instead of 4 s
 OCTAVE_CASES = ("tapered_cantilever", "deep_beam", "sprung_beam", "bend_45")
 HERE = "addpath(fileparts(mfilename('fullpath')));"
 
@@ -299,7 +299,7 @@ OPTIONS = """'options', {
 
 
 class Module(OctaveTest):
-    """Functions that an author may supply, for the same beam."""
+    """Optional functions of an element, for the same beam."""
 
     def values(self, case, element):
         record = self.record("solve", case, "-f", NAME, "-n", "2", "--element", element)
@@ -395,8 +395,8 @@ CONTRACT_EXAMPLES = ROOT / "elements" / "examples"
 
 
 class ManyAtOnce(ProgramTest):
-    """An error must be reported if the value of the first element is used for all elements, but not if each element has
-    a separate value."""
+    """For calls with many elements, the value of the first element is used for all elements. This error must be
+    reported. The correct code must have no error."""
 
     def test_one_value_for_all(self):
         text = (CONTRACT_EXAMPLES / "timoshenko.py").read_text(encoding="utf-8")

@@ -1,5 +1,5 @@
-"""The page on the protocol: its client, bytes and table of a section must agree with the program. A client that was
-written in another language from the page alone must compute the same results."""
+"""The page on the protocol must agree with the program. A client written in another language from the page alone must
+compute the same results."""
 import re
 import shutil
 import struct

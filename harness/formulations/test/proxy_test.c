@@ -1,6 +1,6 @@
-/* A formulation of this program that another process serves must give bit-for-bit the results of
- * the process of the solver. The other process is this program, whose first argument names the
- * formulation. */
+/* A formulation of this program is evaluated in another process, and must give bit for bit the same
+ * results as in the process of the solver. The other process is this program, with the name of the
+ * formulation as its first argument. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -78,7 +78,7 @@ static void learn(void)
     served->prepare(&request, kind[head[0]], NULL);
 }
 
-/* Writes the requested outputs: strains e, J, H, or energy, sigma, C. */
+/* Writes the requested outputs of elements: strains e, J and H, or energy, sigma and C. */
 static void evaluate(int64_t what, int64_t count, const int64_t number[], const double body[],
                      double *out[3])
 {

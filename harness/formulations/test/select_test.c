@@ -1,5 +1,5 @@
-/* The value of random selections must agree with an independent evaluation, with and without
- * redundant brackets. Unknown words must be reported. */
+/* Random selections must have the value of an independent evaluation, with and without redundant
+ * brackets. Unknown words must be reported. */
 #include "harness/formulations/formulations.h"
 
 #include <gsl/gsl_test.h>
@@ -32,7 +32,7 @@ static void add_bracket(sample *s, const char *piece, int needed)
     strncat(s->bracketed, piece, LONGEST - 1 - strlen(s->bracketed));
 }
 
-/* Appends an expression. `around` is the precedence of the enclosing operator: 0 or, 1 and, 2
+/* Appends a random expression. `around` is the precedence of the enclosing operator: 0 or, 1 and, 2
  * not. */
 static int grow(sample *s, uint64_t *seed, int depth, int around)
 {
@@ -111,7 +111,7 @@ static void expressions(void)
         gsl_test_int(select_matches(malformed[i], text), -1, "malformed: %s", malformed[i]);
 }
 
-/* Evaluates the piece, repeated `count` times, followed by the word. */
+/* Evaluates `piece`, repeated `count` times, followed by `end`. */
 static int repeated(const char *piece, int count, const char *end)
 {
     static char long_one[LONGEST];
@@ -141,8 +141,7 @@ static status all_met(const char *expression, fault *f)
     return select_all_met(expression, &met, f);
 }
 
-/* Checks for which expressions the result is true for every text that contains the name of the
- * case. */
+/* Checks which expressions select every text that contains the name of the case. */
 static void covered(void)
 {
     const struct {

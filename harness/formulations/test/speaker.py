@@ -45,15 +45,15 @@ while True:
 class Speaker(ProgramTest):
 
     def speaker(self, first="", then="", at=""):
-        """Returns exec: of a process with these lines inserted before its first line, after its first line, and before an
-        answer."""
+        """Returns "exec:" and the command of a process with these lines inserted before its first line, after its first
+        line, and before an answer."""
         path = self.folder / "speaker.py"
         path.write_text(SPEAKER.format(pids=str(self.folder / "pids"), first=first, then=then,
                                        at=textwrap.indent(at, "    ").strip()), encoding="utf-8")
         return f"exec:'{sys.executable}' '{path}'"
 
     def nothing_left(self):
-        """Requires that every process that was started ends within a few seconds."""
+        """Requires that every process that was started has ended within a few seconds."""
         pids = [int(line) for line in (self.folder / "pids").read_text("utf-8").split()]
         self.assertTrue(pids)
         end = time.monotonic() + 20

@@ -9,13 +9,13 @@ from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, read_json, run
 
 LIBRARY = pathlib.Path(PROGRAM).parent / "libbeamwork.so.0"
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
-# a part of the motion with twelve joints, because the whole motion takes as long as many other cases together
+# the whole motion of the machine with twelve joints takes too long for a test
 PART = {"hexapod_motion": "time=0.05"}
 CLOCKS = re.compile(r'"(seconds_\w+|clock)": ("[^"]*"|[^,\n]+)')
 
 
 class Library:
-    """Calls functions whose last two arguments are a document and a message."""
+    """Calls library functions whose last two arguments receive a document and a message."""
 
     def __init__(self):
         self.calls = ctypes.CDLL(str(LIBRARY))
@@ -26,7 +26,7 @@ class Library:
         return out
 
     def made(self, name, *arguments):
-        """Returns the object that the call creates, even a result that did not converge."""
+        """Returns the object that the call creates, also if a solution did not converge."""
         out, why = ctypes.c_void_p(), ctypes.c_void_p()
         status = getattr(self.calls, name)(*arguments, ctypes.byref(out), ctypes.byref(why))
         line = self.text(why) if why.value is not None else ""
@@ -70,7 +70,8 @@ class Documents(ProgramTest):
         self.assertEqual(CLOCKS.sub("", ours), CLOCKS.sub("", theirs), arguments)
 
     def check(self, name, *words):
-        """Checks the default choice, and a run with two elements and the last formulation that supports the scene."""
+        """Compares documents of the default choice, and of a solution with two elements and the last formulation that
+        supports the scene."""
         scene = self.library.scene(name)
         listed = self.library.text(self.library.made("bw_scene_json", scene))
         self.same(listed, "list", *words)

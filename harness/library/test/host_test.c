@@ -1,5 +1,5 @@
-/* The settings of the host must change no bit of the results and must be restored afterwards.
- * Threads use their own handles. */
+/* Settings of the host must not change the results, not even one bit, and must be restored
+ * afterwards. Threads use their own handles. */
 #include <fenv.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_gamma.h>
@@ -15,7 +15,7 @@
 
 enum { THREADS = 4, ROUNDS = 6 };
 
-/* Returns the document of a solution without its times, which the caller frees. */
+/* Returns the document of a solution without its times. The caller frees it. */
 static char *solved(const char *name, const char *formulation, int elements)
 {
     char *why = NULL, *json = NULL;
@@ -152,8 +152,8 @@ static void silence(void)
     close(error);
 }
 
-/* Cases whose analyses use all libraries, with enough elements for iterated eigenvalues. Every
- * thread runs them in a different order. */
+/* These cases use all numerical libraries, with enough elements for iterative eigenvalue solvers.
+ * Every thread runs them in a different order. */
 static const char *const several[] = {"c_column", "c_column", "lateral_buckling", "tip_body"};
 enum { SEVERAL = sizeof several / sizeof several[0], MANY = 150 };
 static char *alone[SEVERAL];
@@ -185,14 +185,15 @@ static void *converge(void *argument)
 }
 
 /* The allocator of the address sanitizer of gcc 12 deadlocks in a process that was forked while
- * another thread held its lock. That of glibc does not. */
+ * another thread held its lock. The allocator of glibc does not. */
 #ifdef __SANITIZE_ADDRESS__
 enum { BESIDE = 0 };
 #else
 enum { BESIDE = 1 };
 #endif
 
-/* All threads solve one scene, and processes are started at the same time or afterwards. */
+/* All threads solve the same cases. Processes are started at the same time or, with the address
+ * sanitizer, afterwards. */
 static void threads(void)
 {
     pthread_t thread[THREADS], other;
@@ -249,8 +250,8 @@ static void shared_scene(void)
     bw_scene_free(s);
 }
 
-/* 1 if the program has reached its end. A numerical library may end the program early with status
- * 0, as LAPACK does for a wrong argument. */
+/* 1 after all tests. A numerical library may end the program early with status 0, as LAPACK does
+ * for a wrong argument. */
 static int ended;
 
 static void mind_the_end(void)

@@ -1,4 +1,4 @@
-/* A scene file in ten lines, and the checks of a failed call. */
+/* The text of a scene file, and checks of calls that must fail. */
 #ifndef BEAMWORK_LEAF_H
 #define BEAMWORK_LEAF_H
 
@@ -37,7 +37,7 @@ static inline void leaf_is_well(bw_status got, char *why, const char *what)
     bw_free_text(why);
 }
 
-/* Evaluates the call before its message is read. */
+/* Calls leaf_fails with the message in `why`. The call is evaluated before its message is read. */
 #define FAILS(call, expected, word)                                                                \
     do {                                                                                           \
         const bw_status got_ = (call);                                                             \

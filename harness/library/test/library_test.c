@@ -42,7 +42,7 @@ static void mistakes(void)
     FAILS(bw_scene_read(text, sizeof text - 1, NULL, &s, &why), BW_REFUSED,
           "the scene has no key 'nodess'; did you mean 'nodes'?");
     FAILS(bw_scene_read("", 0, "empty.yaml", &s, &why), BW_REFUSED, "empty.yaml");
-    /* an invalid UTF-8 name does not make the line invalid */
+    /* invalid UTF-8 in a name is replaced in the message */
     FAILS(bw_scene_open("/\xff\n", &s, &why), BW_FAULT, "/?? cannot be read");
 }
 
@@ -135,7 +135,7 @@ static void nothing(void)
              "and no curves, steps and shapes");
 }
 
-/* A result keeps the data on which it depends. Missing data are reported. */
+/* A result keeps the objects on which it depends. Missing data must be reported. */
 static void results(void)
 {
     char *why = NULL, *before = NULL, *after = NULL;

@@ -22,14 +22,15 @@ SECONDS = re.compile(r'"seconds_\w+": [^,\n]+')
 
 
 def variables():
-    """Returns the variables of make for the same program as these tests. The file names must not differ, because
-    otherwise everything would be linked again while other tests run the program."""
+    """Returns the variables of make for the same program as these tests. The names of the files must be the same,
+    because otherwise make would link everything again while other tests run the program."""
     given = shlex.split(os.environ.get("MAKEFLAGS", "").partition(" -- ")[2])
     return [f"BUILD={os.path.relpath(BUILD, ROOT)}", *(word for word in given if "=" in word)]
 
 
 def clean():
-    """Returns the environment without the variables of make, whose job slots are counted separately, and of beamwork."""
+    """Returns the environment without the variables of make, so that its job slots are not used, and without those of
+    beamwork."""
     return {name: value for name, value in os.environ.items()
             if not name.startswith(("MAKE", "BEAMWORK"))}
 
@@ -64,14 +65,14 @@ class Installed(ProgramTest):
         return done.stdout
 
     def flags(self, *options):
-        """Returns the flags that pkg-config reports for the copy, adapted to its location."""
+        """Returns the flags that pkg-config reports, adapted to the location of the copied installation."""
         text = self.installed("--define-variable=prefix=" + str(self.root).replace(" ", r"\ "),
                               *options, "beamwork", program="pkg-config",
                               PKG_CONFIG_PATH=str(self.root / "lib" / "pkgconfig"))
         return shlex.split(text)
 
     def compiled(self, *command):
-        """Returns the user program, built by that command."""
+        """Compiles the user program with that command. Returns its path."""
         source = self.folder / "consumer.c"
         shutil.copy(HERE / "consumer" / "consumer.c", source)
         self.installed("-Wall", "-Wextra", "-Werror", *command[1:], "-o", "consumer",

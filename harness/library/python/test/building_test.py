@@ -14,7 +14,7 @@ from harness.library.python.test.module import ModuleTest, bw, leaf
 
 
 def written(scene):
-    """Returns the text of the scene without its head."""
+    """Returns the text of the scene file without its header."""
     return bw.scene.scene_text({}, scene._entries)[0]  # pylint: disable=protected-access
 
 
@@ -209,7 +209,7 @@ ESCAPED = "&lt;script&gt;alert(1)&lt;/script&gt;"
 class Shown(ModuleTest):
 
     def shown(self, thing):
-        """Returns the HTML, after checking that its tags match."""
+        """Returns the HTML of an object, after checking that its tags match."""
         html = thing._repr_html_()  # pylint: disable=protected-access
         for tag in ("table", "tr", "td", "th", "caption", "details", "pre"):
             self.assertEqual(html.count(f"<{tag}>") + html.count(f"<{tag} "),
@@ -323,13 +323,12 @@ class Tables(ModuleTest):
 class Drawn(ModuleTest):
 
     def lines(self, figure, axes=0):
-        """Draws the figure and returns the points of the lines of its axes."""
+        """Draws the figure. Returns the points of each line in one of its axes."""
         figure.savefig(self.folder / "figure.png")
         self.assertGreater((self.folder / "figure.png").stat().st_size, 1000)
         return [line.get_xydata() for line in figure.axes[axes].get_lines()]
 
     def test_result(self):
-        """Curves of paths and motions, and shapes of results."""
         result = bw.Scene.case("sheet_cantilever").solve("sheet_third", 1)
         line, = self.lines(result.plot("C_zz_curve"))
         self.assertTrue((line == numpy.transpose(result.curve("C_zz_curve"))).all())

@@ -1,4 +1,4 @@
-"""How Python finds, loads and installs the module, and the documentation of the module."""
+"""Finding, loading and installing the Python module, and its documentation."""
 import ast
 import json
 import os
@@ -82,7 +82,7 @@ class Doors(ModuleTest):
                 self.assertIn(words, done.stdout)
 
 
-# A formulation whose functions are in a separate process, and in the process that solves.
+# A formulation with functions in Python, evaluated in a separate process, and in the process that solves.
 INSIDE = """
 import sys, threading
 import beamwork as bw
@@ -126,8 +126,8 @@ print("done")
 class Inside(ModuleTest):
 
     def test_functions_of_this_process(self):
-        """Functions in this process must give the same bits as in a separate process, in solutions, several processes,
-        and verbs of the program. Errors must have equal texts."""
+        """Functions in this process must give the same bits as in a separate process, for solutions in one or several
+        processes and for verbs of the program. Errors must have equal texts."""
         done = subprocess.run([sys.executable, "-c", INSIDE, EXAMPLES], text=True, check=False, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, env=environment(**SETTINGS, BEAMWORK=PROGRAM))
         self.assertEqual((done.stdout, done.returncode), ("done\n", 0), done.stderr)
@@ -202,13 +202,13 @@ class Types(ModuleTest):
 
     @unittest.skipUnless(shutil.which("mypy"), "needs mypy")
     def test_mypy(self):
-        """mypy --strict must find type hints everywhere in the module."""
         done = subprocess.run(["mypy", "--cache-dir", self.folder, "--python-executable", sys.executable], cwd=ROOT,
                               text=True, check=False, stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
         self.assertEqual(done.returncode, 0, done.stdout)
 
     def test_everything_has_types(self):
-        """Without mypy, every function of the module must have types of its arguments and of its result."""
+        """Every function of the module must have types of its arguments and of its result. This is tested also without
+        mypy."""
         for path in sorted((FOLDER / "beamwork").glob("*.py")):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.FunctionDef):

@@ -1,4 +1,4 @@
-"""Wrong use of the module, and the memory use of the module."""
+"""Wrong use of the Python module, and its use of memory."""
 import copy
 import ctypes
 import gc
@@ -156,7 +156,7 @@ class Memory(ModuleTest):
         result.close()
         del result
         gc.collect()
-        for _ in range(50):  # freed memory would be overwritten
+        for _ in range(50):  # further solutions would overwrite memory that was freed
             bw.Scene.case(CASE).solve("sheet_third", 1, shapes=5)
         for ours, theirs in zip(kept, (x, y, position)):
             numpy.testing.assert_array_equal(ours, theirs)
@@ -258,7 +258,7 @@ class Processes(ModuleTest):
         scene = bw.Scene.case("elastica")
         self.assertTrue(scene.converge("beamw", meshes=[1, 2], stop=readable))
         os.write(writable, b"x")
-        many = bw.Scene.case(CASE)  # so many runs that some runs remain when others have ended
+        many = bw.Scene.case(CASE)  # so many runs that some are still active when others have ended
         for call in (lambda: many.converge(stop=readable), lambda: many.verify(stop=readable),
                      lambda: bw.verify(select=CASE, stop=readable)):
             self.one_line(bw.TimeLimit, "stopped before", call)
@@ -268,7 +268,7 @@ class Processes(ModuleTest):
         self.assertGreater(scene.solve("collocation", 1)["w_over_L"], 0)
 
     def test_interrupted_solution(self):
-        """Ctrl-C ends a motion of many steps long before its end; the scene can be used again."""
+        """Ctrl-C must end a motion of many steps long before its end. The scene can then be used again."""
         scene = bw.Scene.case("free_flight_space")
         expected = scene.solve("collocation", 1).values
         scene.set(time=100, step=1e-4, tolerance=0)
@@ -281,7 +281,7 @@ class Processes(ModuleTest):
         self.assertEqual(dict(again.values), dict(expected))
 
     def test_interrupt(self):
-        """Ctrl-C ends verify and converge with their processes, and solve."""
+        """Ctrl-C must end verify and converge with their processes, and solve."""
         for call in ("bw.verify(refine=3)", "while True: s.solve('collocation', 16)",
                      "bw.Scene.case('hexapod').converge(meshes=[16, 32, 64])"):
             code = ("import beamwork as bw\ns = bw.Scene.case('sheet_cantilever')\n"
@@ -291,13 +291,13 @@ class Processes(ModuleTest):
                     stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
                 process.stdout.readline()
                 threading.Timer(1, process.send_signal, (signal.SIGINT, )).start()
-                _, told = process.communicate(timeout=100)  # the timeout expires only if Ctrl-C did not end the process
+                _, told = process.communicate(timeout=100)  # the timeout expires only if Ctrl-C has not ended the process
                 self.assertIn("KeyboardInterrupt", told)
                 self.assertEqual(process.returncode, -signal.SIGINT)
 
 
 CYCLES = 1000
-BOUND = 300 * CYCLES  # bytes, a third of a leak of 1 kB per cycle
+BOUND = 300 * CYCLES  # [bytes] a leak of 1 kB per cycle would exceed this bound by a factor of three
 
 
 class Arena(ctypes.Structure):
@@ -308,7 +308,7 @@ class Arena(ctypes.Structure):
 
 
 def in_use():
-    """Returns the number of bytes in use by the library and by Python."""
+    """Returns the number of bytes allocated by the library and by Python."""
     gc.collect()
     ask = ctypes.CDLL(None).mallinfo2
     ask.restype = Arena
@@ -317,7 +317,7 @@ def in_use():
 
 
 def cycle(built):
-    """Makes every kind of object that must be freed."""
+    """Makes an object of every kind that the library must free."""
     scene = bw.Scene.case("sheet_cantilever").set(tip_deflection=0.01)
     result = scene.solve("sheet_third", 1, shapes=3)
     if len(result.curve("C_zz_curve").x) + len(result.steps) + len(result.shapes.kinds) == 0:
@@ -333,7 +333,7 @@ def cycle(built):
 class Leaks(ModuleTest):
 
     def grown(self, work):
-        """Returns the number of bytes by which the memory in use grows in a thousand repetitions."""
+        """Returns by how many bytes the memory in use grows while the work is repeated."""
         for _ in range(50):
             work()
         before = in_use()

@@ -11,7 +11,7 @@ from harness.library.python.test.module import FOLDER, SETTINGS, ModuleTest
 from harness.tools.kit.program import environment, read_json
 
 NOTEBOOK = FOLDER / "sheet_flexures.ipynb"
-# What the scripts of the notebooks print, among other things.
+# part of the output of each notebook as a script
 SAID = {NOTEBOOK: "for 1 % in every quantity", FOLDER / "own_mechanism.ipynb": "resonance 11.2"}
 NEEDS = [name for name in ("nbclient", "nbformat", "ipykernel", "matplotlib")
          if importlib.util.find_spec(name) is None]
@@ -83,7 +83,7 @@ class Notebook(ModuleTest):
 
     @staticmethod
     def reply(client, request):
-        """Returns how a request ended: ok, or the name of an exception."""
+        """Returns the outcome of a request: ok, or the name of an exception."""
         while True:
             message = client.get_shell_msg(timeout=100)
             if message["parent_header"].get("msg_id") == request:

@@ -1,4 +1,5 @@
-"""Compares constants of outlines (sectionproperties) with exact values and with the thin-walled sections of beamwork."""
+"""Section constants of outlines (sectionproperties) compared with exact values and with the thin-walled sections of
+beamwork."""
 import importlib.util
 import math
 import unittest
@@ -25,7 +26,7 @@ def channel(depth, flange, t):
 class Outline(ModuleTest):
 
     def ours(self, words):
-        """Returns the section constants that the program computes from the dimensions."""
+        """Returns the constants of a section that the program computes from its dimensions."""
         names = ("A", "Iy", "Iz", "It", "Iw", "ys", "zs")
         text = f"""beamwork: 1
 sections:
@@ -68,8 +69,7 @@ loads:
 
     @unittest.skipUnless(INSTALLED, "needs sectionproperties")
     def test_turned(self):
-        """A rotated and displaced outline must have the same constants, and the angle of its axes must be that of the
-        rotation."""
+        """A rotated and displaced outline must have the same constants, with its axes rotated by the same angle."""
         points, turn = channel(0.2, 0.1, 0.02), 0.3
         c, s = math.cos(turn), math.sin(turn)
         there = [[0.7 + c * y - s * z, -0.2 + s * y + c * z] for y, z in points]

@@ -8,19 +8,20 @@ from harness.library.python.test.module import ROOT, ModuleTest, bw
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
 
 
-# a part of the motion with twelve joints, because the whole motion takes as long as many other cases together
+# the whole motion of the machine with twelve joints takes too long for a test
 PART = {"hexapod_motion": {"time": 0.05}}
 
 
 def bits(value):
-    """Returns a string that distinguishes a float from every other. All NaNs are equal."""
+    """Returns a string that differs for different floats. All NaNs have the same string."""
     return "nan" if value is None or math.isnan(value) else float(value).hex()
 
 
 class SameBits(ModuleTest):
 
     def same(self, record, result):
-        """Checks that every value, error and curve equals the value that the program wrote with 17 digits."""
+        """Checks that every value, error and curve equals the value in the record, which the program wrote with 17
+        digits."""
         self.assertEqual((record["formulation"], record["elements"]),
                          (result.document["formulation"], result.elements))
         values = [q for q in record["quantities"] if q["quantity"] not in result.curves]

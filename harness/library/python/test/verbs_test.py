@@ -16,7 +16,7 @@ from harness.library.python.test.module import ModuleTest, SETTINGS, bw, leaf
 from harness.tools.kit.program import PROGRAM, ROOT, environment, read_json, run
 
 RUNS = ("-f", "beamw", "-n", "1,2")
-# columns that differ from run to run
+# columns with times, or with values that may differ between runs
 CLOCKS = re.compile(r"clock|seconds.*|spent|round_.*|keep_all_.*|repeats|kept|noise|work_spread")
 
 
@@ -46,7 +46,7 @@ class Verbs(ModuleTest):
         self.assertGreater(len(ours), 0)
 
     def same_rows(self, ours, theirs):
-        """Checks that numbers of records equal the texts of a CSV file, bit for bit."""
+        """Checks that the numbers of our records are bit for bit those of a CSV file."""
         self.assertGreater(len(ours), 0)
         self.assertEqual(len(ours), len(theirs))
         for mine, one in zip(timeless(list(ours)), timeless(theirs)):
@@ -189,7 +189,7 @@ class Verbs(ModuleTest):
 class Running(ModuleTest):
 
     def test_scenes(self):
-        """The program must receive scenes built in Python, scenes that were read, and values that were set."""
+        """A verb must use scenes built in Python, scenes that were read, and parameter values that were set."""
         built = leaf()
         built.parameters["push"] = {"value": 1, "unit": "N"}
         built.loads["push"]["force"] = [0, "push", 0]
@@ -203,8 +203,8 @@ class Running(ModuleTest):
         self.one_line(bw.Refused, "--colour", bw.stress, colour="red")
 
     def test_progress(self):
-        """The function receives what the program writes to a terminal. An exception in the function is raised
-        afterwards."""
+        """The progress function receives the text that the program writes to a terminal. An exception in it must be
+        raised after the verb."""
         program = self.folder / "program"
         program.write_text("#!/bin/sh\n[ -t 2 ] || exit 4\nprintf '\\rcells 3 of 7, 40 %%, about 3 s left: elastica, "
                            "beamw, n = 2\\r   \\r\\rtimes of points 4 of 7, 50 %%: x\\r' >&2\n"

@@ -1,5 +1,5 @@
-/* A user program in C and C++, which solves a case and a scene, prints the values with all digits
- * and the documents, and misspells a name. */
+/* A user program in C and C++. It solves a case and a scene, prints the values with all digits and
+ * the documents, and misspells a name. */
 #include <beamwork.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,7 +23,7 @@ int model_alloc(void)
     return 1;
 }
 
-/* Prints the error after a call that has set *why. */
+/* Prints the message of a call that has failed, and frees it. */
 static int failed(bw_status status, char **why)
 {
     if (status == BW_OK)
