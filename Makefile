@@ -87,7 +87,7 @@ help: ## this list
 
 # Errors of every mesh are held against the committed ones where LAPACK and libm are theirs; NOT_WORSE= leaves that out.
 NOT_WORSE ?= $(if $(filter 12.%,$(shell cat /etc/debian_version 2>/dev/null)),--not-worse-than $(BASELINE))
-verify: all ## judge every formulation on every case against the stored truths; errors of meshes against the committed ones, bounds of findings against what they show
+verify: all ## evaluate every formulation on every case against the stored reference values; compare the errors of meshes with the committed errors, and the bounds of known deviations with the observed errors
 	@$(PROGRAM) verify --built-in --scene cases/examples --shapes -o $(BUILD)/results.h5 --json $(BUILD)/verify.json --junit $(BUILD)/junit.xml --markdown $(BUILD)/verify.md $(NOT_WORSE) $(VERIFY)
 	@$(if $(VERIFY),,$(PYTHON) harness/tools/bounds.py $(BUILD)/verify.json reference/findings.csv --loose)
 
@@ -104,14 +104,14 @@ $(foreach word,$(T),$(if $(findstring $(word),$(CHOSEN)),,$(error No test has '$
 else
 RUN = $(sort $(PYTHON_TESTS)) $(TESTS)
 endif
-test: $(if $(T),all $(filter $(TESTS),$(RUN)) $(if $(filter harness/library/%.py,$(RUN)),library) $(if $(filter %/blind_spots_test.py,$(RUN)),$(PLANTED)),tests layers) needs-test ## run all tests, or those with words of T="WORD ..." in the name of their file or folder; V=1 shows what they print
+test: $(if $(T),all $(filter $(TESTS),$(RUN)) $(if $(filter harness/library/%.py,$(RUN)),library) $(if $(filter %/blind_spots_test.py,$(RUN)),$(PLANTED)),tests layers) needs-test ## run all tests, or those with words of T="WORD ..." in the name of their file or folder; V=1 shows their output
 	@BEAMWORK="$(PROGRAM)" BEAMWORK_TRUTHS="$(TRUTHS)" BEAMWORK_REFERENCE="$(CURDIR)/reference" SHOW="$(V)" harness/tools/run_tests.sh $(BUILD)/logs $(RUN)
 
 # For editors and clang's tools.
 compile_commands.json: FORCE
 	@$(MAKE) --no-print-directory -Bnk V=1 all tests | $(PYTHON) harness/tools/compile_commands.py >$@
 
-all: $(PROGRAM) $(TRUTHS) ## build the program and the packed truths
+all: $(PROGRAM) $(TRUTHS) ## build the program and the packed reference values
 
 $(BUILD)/peers.h5: reference/peers.csv $(PROGRAM)
 	@$(PROGRAM) import $< -o $@ >/dev/null
@@ -120,7 +120,7 @@ $(BUILD)/peers.h5: reference/peers.csv $(PROGRAM)
 is_newer = PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports.experiments $(BUILD)/results.h5 $(1) $(PROGRAM)
 # RESULTS=FILE: your own results, as 'verify --shapes --scene my.yaml -o FILE' writes them, or a
 # sweep; SWEEP="FILE ...": sweeps beside the results.
-report: all needs-report $(BUILD)/peers.h5 ## draw the report of the last verify, into build/report/index.html; of RESULTS=NAME.h5, also a sweep, into build/report_NAME/index.html; SWEEP=FILE in addition; FIGURES=pdf also as figures for papers
+report: all needs-report $(BUILD)/peers.h5 ## write the report of the last verify to build/report/index.html; that of RESULTS=NAME.h5, which may be a sweep, to build/report_NAME/index.html; SWEEP=FILE adds a sweep; FIGURES=pdf also writes figures for papers
 ifndef RESULTS
 	@test -f $(BUILD)/results.h5 -a -f $(BUILD)/verify.json || $(MAKE) --no-print-directory verify
 	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory lab-newton
@@ -129,7 +129,7 @@ ifndef RESULTS
 endif
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) --imported $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") $(foreach form,$(FIGURES),--figures $(form)) $(if $(STYLE),--style "$(STYLE)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
-docs: all library needs-docs ## the documentation as a site that opens from disk, into build/docs/index.html; with verdicts of the last verify
+docs: all library needs-docs ## build the documentation as a site that opens from disk, build/docs/index.html, with verdicts of the last verify
 	@rm -rf $(BUILD)/docs $(BUILD)/docs_trees
 	@PYTHONDONTWRITEBYTECODE=1 BEAMWORK_LIBRARY=$(abspath $(BUILD))/libbeamwork.so.0 $(PYTHON) docs/generate.py $(abspath $(PROGRAM)) $(BUILD)/docs_source $(wildcard $(BUILD)/results.h5)
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m sphinx -q -W --keep-going -c docs -d $(BUILD)/docs_trees $(BUILD)/docs_source $(BUILD)/docs
@@ -139,7 +139,7 @@ stress: all
 	@$(PROGRAM) stress -o $(BUILD)/results.h5 $(STRESS)
 
 .PHONY: motion
-# Integrators of motions in time: orders, what they conserve, large steps.
+# Integrators of motions: orders, conserved quantities, large steps.
 motion: all
 	@$(PROGRAM) motion --expected harness/experiments/expected.csv --time-limit 0 -o $(BUILD)/results.h5 $(MOTION)
 
@@ -151,16 +151,16 @@ bench: all ## time every formulation on every case; its part of build/results.h5
 BASELINE := harness/baseline.csv
 # It is of Debian 12, measured on two processors with AVX-512 (Intel, AMD), which cost up to 2 times of each other's work in an eigenvalue; LAPACK and libm of Debian 13 move errors near rounding 1.9 times, kernels for processors without AVX-512 a few series more.
 COMPARE ?= --threshold error=0.9,work=2
-compare: ## errors, limits and work of the last verify against the committed ones; on other systems and processors with their measured bounds
+compare: ## compare errors, limits and work of the last verify with the committed ones; on other systems and processors, within measured bounds
 	@$(PROGRAM) compare $(BASELINE) $(BUILD)/results.h5 $(COMPARE)
 
 # Its status 1 says that something has changed, which is what is to be accepted.
-baseline: all ## print what has changed, for the commit message, and accept it
+baseline: all ## print the changes, for the commit message, and accept them
 	@$(MAKE) --no-print-directory verify NOT_WORSE=
 	@$(PROGRAM) compare $(BASELINE) $(BUILD)/results.h5 || [ $$? = 1 ]
 	@$(PROGRAM) compare $(BUILD)/results.h5 -o $(BASELINE)
 
-truths: needs-truths all ## derive every exact and predicted row again, and solids where CalculiX is installed; compare with reference/
+truths: needs-truths all ## derive every exact and predicted row again, and solids if CalculiX is installed; compare with reference/
 	@$(PYTHON) reference/derive/rederive.py
 	@$(PYTHON) reference/derive/predicted.py
 
@@ -185,13 +185,13 @@ format: needs-layout
 	@git ls-files '*.c' '*.h' | xargs clang-format-19 -i
 
 # Rows of WORDS in words.py: pattern, what to write instead.
-words: ## check texts that users read, documentation and comments for words to avoid; prints what to write instead
+words: ## check texts that users read, documentation and comments for words to avoid, and print replacements
 	@$(PYTHON) harness/tools/words.py
 
 format-check: needs-layout
 	@git ls-files '*.c' '*.h' | xargs clang-format-19 --dry-run -Werror
 
-check: ## everything CI runs: gcc and clang with warnings as errors, layout, tidy, sanitizers, tests, verify
+check: ## run everything that CI runs: gcc and clang with warnings as errors, layout, tidy, sanitizers, tests, verify
 	@.ci/run
 
 clean: ## remove what was built

@@ -61,7 +61,7 @@ static status build(const double value[], scene *s, fault *f)
 const case_type case_hexapod = {
     .name = "hexapod",
     .summary = "flexure hexapod of twelve spherical joints: support stiffness along its stroke",
-    .source = "N section 4.3, Fig. 10; synthetic dimensions",
+    .source = "N, section 4.3, Fig. 10; synthetic dimensions",
     .parameters = {joint_parameters, hexapod_parameters, parameters, case_omit},
     .build = build,
 };

@@ -9,7 +9,7 @@
 enum { CRANK_ANGLE = TIMED_PARAMETERS, DURATION };
 
 static const parameter_type timed[] = {
-    [TIMED_TIME] = {"time", "s", 0.25, 0, 100, NULL, "instant of the output"},
+    [TIMED_TIME] = {"time", "s", 0.25, 0, 100, NULL, "time of the output"},
     TIMED_HOW(0.01, "1/50 of the duration of the drive", 1e-3),
     [CRANK_ANGLE] = {"crank_angle", "rad", 0.2613, -1, 1, NULL,
                      "final angle of the cranks, for a stroke of 50 mm"},
@@ -51,8 +51,8 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_hexapod_motion = {
     .name = "hexapod_motion",
-    .summary = "flexure hexapod of twelve spherical joints driven through its stroke",
-    .source = "after N section 4.3, with dimensions, masses and a duration chosen here",
+    .summary = "flexure hexapod of twelve spherical joints that a drive moves through its stroke",
+    .source = "after N, section 4.3, with dimensions, masses and a duration chosen here",
     .parameters = {joint_parameters, hexapod_parameters, timed, case_mass_omit},
     .build = build,
 };

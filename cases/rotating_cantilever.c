@@ -14,17 +14,18 @@ enum { OMEGA, SLENDERNESS, HUB_RADIUS, AXIS, STIFFNESS_RATIO, STATIONS };
 enum { MODES = 3, LOWEST = 4, MOST_STATIONS = 200 };
 
 static const parameter_type parameters[] = {
-    [OMEGA] = {"omega_star", "1", 6.0, 0, 1e4, NULL, "angular velocity in sqrt(EI/(rho A L^4))"},
+    [OMEGA] = {"omega_star", "1", 6.0, 0, 1e4, NULL,
+               "angular velocity in units of sqrt(EI/(rho A L^4))"},
     [SLENDERNESS] = {"slenderness", "1", 1000.0, 1, 1e7, NULL, "L/sqrt(I/A)"},
-    [HUB_RADIUS] = {"hub_radius", "1", 0, -100, 100, NULL,
-                    "distance of the root from the axis, in L; negative: the beam points inward"},
+    [HUB_RADIUS] =
+        {"hub_radius", "1", 0, -100, 100, NULL,
+         "distance of the root from the axis, in units of L; negative: the beam points inward"},
     [AXIS] = {"axis", "rad", 0, 0, 1.57079632679489661923, NULL,
-              "0: axis normal to the beam, pi/2: along the beam"},
+              "direction of the axis; 0: normal to the beam, pi/2: along the beam"},
     [STIFFNESS_RATIO] = {"stiffness_ratio", "1", 1, 1e-6, 1e6, NULL,
                          "ratio of the bending stiffness in lag to that in flap"},
-    [STATIONS] =
-        {"stations", "1", 1, 1, MOST_STATIONS, NULL,
-         "number of angular velocities for the frequency curves, starting at zero; 1: no curves"},
+    [STATIONS] = {"stations", "1", 1, 1, MOST_STATIONS, NULL,
+                  "number of angular velocities for the frequency curves, from zero; 1: no curves"},
     {0},
 };
 
@@ -124,10 +125,9 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_rotating_cantilever = {
     .name = "rotating_cantilever",
-    .summary = "cantilever in steady rotation: flap and lag frequencies, stretch",
+    .summary = "cantilever in steady rotation: flap and lag frequencies and elongation",
     .source = "exact flap and lag frequencies of the stretched beam "
-              "(reference/derive/rotating.py); its stretch "
-              "is tan k/k - 1",
+              "(reference/derive/rotating.py); its elongation is tan k/k - 1",
     .parameters = {parameters, case_mass_omit},
     .build = build,
 };

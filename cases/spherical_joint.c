@@ -79,7 +79,7 @@ const case_type case_spherical_joint = {
     .name = "spherical_joint",
     .summary = "spherical flexure joint of six folded sheets: support "
                "stiffness over one revolution of its tilt axis",
-    .source = "N section 4.2, Fig. 8, Table 1; geometry reconstructed",
+    .source = "N, section 4.2, Fig. 8, Table 1; reconstructed geometry",
     .parameters = {joint_parameters, parameters, case_omit},
     .build = build,
 };

@@ -10,7 +10,7 @@
 enum { TILT = TIMED_PARAMETERS, DURATION };
 
 static const parameter_type timed[] = {
-    [TIMED_TIME] = {"time", "s", 0.25, 0, 100, NULL, "instant of the output"},
+    [TIMED_TIME] = {"time", "s", 0.25, 0, 100, NULL, "time of the output"},
     TIMED_HOW(0.01, "1/50 of the duration of the drive", 1e-4),
     [TILT] = {"tilt", "rad", 15 * JOINT_DEGREE, 0, 1, NULL, "rotation of the end effector"},
     [DURATION] = {"duration", "s", 0.5, 1e-3, 100, NULL, "duration of the smooth drive"},
@@ -61,8 +61,8 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_spherical_joint_motion = {
     .name = "spherical_joint_motion",
-    .summary = "spherical flexure joint driven through its tilt in half a second",
-    .source = "after N section 4.2, with masses and a duration chosen here",
+    .summary = "spherical flexure joint that is tilted by a drive within half a second",
+    .source = "after N, section 4.2, with masses and a duration chosen here",
     .parameters = {joint_parameters, timed, case_mass_omit},
     .build = build,
 };

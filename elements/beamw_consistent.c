@@ -43,7 +43,8 @@ static status stress(const element_data *d, const double e[], const double inner
 
 const element_type element_beamw_consistent = {
     .name = "beamw_consistent",
-    .summary = "BEAMW with coupled shear stiffness and modified modes consistent with it",
+    .summary = "BEAMW with coupled shear stiffness and modified modes that are consistent with "
+               "that stiffness",
     .source = "J; stiffness and modes: reference/ERRATA.md, J 58/62/66, App. A",
     .family = "beamw",
     .abi = ELEMENT_ABI,

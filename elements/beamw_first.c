@@ -9,7 +9,7 @@ static status prepare(const element_request *request, element_data *out, fault *
 
 const element_type element_beamw_first = {
     .name = "beamw_first",
-    .summary = "BEAMW with linear modes: no second-order terms inside the element",
+    .summary = "BEAMW with linear modes: without second-order terms inside the element",
     .source = "J Eq. 7, App. A",
     BEAMW_VARIANT_TYPE,
     .offers = BEAMW_OFFERS | FEATURE_SHEAR | FEATURE_ENGESSER,

@@ -27,7 +27,7 @@ struct element_data {
 
 static const parameter_type options[] = {
     [OPTION_NODES] = {"nodes", "", 1, 0, 0, "2|3",
-                      "nodes of an element; one integration point fewer"},
+                      "number of nodes of an element; there is one integration point fewer"},
     {0},
 };
 
@@ -139,7 +139,7 @@ static element_order order(element_analysis analysis, const double value[])
 
 const element_type element_geometrically_exact = {
     .name = "geometrically_exact",
-    .summary = "geometrically exact beam with warping, two or three nodes, reduced integration",
+    .summary = "geometrically exact beam with warping, two or three nodes and reduced integration",
     .source = "Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. Mech. Eng. 49 "
               "(1985); interpolation of "
               "rotations: beamwork",

@@ -9,7 +9,7 @@ static status prepare(const element_request *request, element_data *out, fault *
 
 const element_type element_sheet_second_consistent = {
     .name = "sheet_second_consistent",
-    .summary = "second-order sheet-flexure element that includes shear in its deformation function",
+    .summary = "second-order sheet-flexure element whose deformation function includes shear",
     .source = "N Eqs. 7, 13-17, 33-36; reference/ERRATA.md, N 37",
     SHEET_SECOND_TYPE,
     .offers = SHEET_BASE_OFFERS | FEATURE_HARINGX, /* Simo-Reissner: the axial force does work on

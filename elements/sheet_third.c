@@ -9,7 +9,8 @@ static status prepare(const element_request *request, element_data *out, fault *
 
 const element_type element_sheet_third = {
     .name = "sheet_third",
-    .summary = "third-order sheet-flexure element (Hellinger-Reissner), sign of u_y corrected",
+    .summary =
+        "third-order sheet-flexure element (Hellinger-Reissner), with the sign of u_y corrected",
     .source = "N Eqs. 37, 44-52, 55-65; reference/ERRATA.md, N 49",
     SHEET_THIRD_TYPE,
     .prepare = prepare,

@@ -8,7 +8,7 @@ static status prepare(const element_request *request, element_data *out, fault *
 
 const element_type element_sheet_third_printed = {
     .name = "sheet_third_printed",
-    .summary = "third-order sheet-flexure element with the printed sign of u_y",
+    .summary = "third-order sheet-flexure element with the sign of u_y as printed",
     .source = "N Eqs. 37, 44-52, 55-65 as printed",
     SHEET_THIRD_TYPE,
     .prepare = prepare,

@@ -27,11 +27,11 @@ def written(results, target):
 
 def main():
     parser = argparse.ArgumentParser(prog="reports", description=__doc__)
-    parser.add_argument("results", help="of 'beamwork verify -o', or a sweep")
+    parser.add_argument("results", help="results of 'beamwork verify -o', or a sweep")
     parser.add_argument("truths")
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("-o", dest="folder")
-    what.add_argument("--film", help="an HTML file: a motion that plays in any browser")
+    what.add_argument("--film", help="HTML file with a motion that plays in any browser")
     what.add_argument("--vtk", metavar="FILE.pvd",
                       help="the shapes of 'beamwork solve --shapes -o' as a series of .vtu files, for any version "
                       "of ParaView and VTK")
@@ -43,7 +43,7 @@ def main():
     parser.add_argument("--style", metavar="FILE",
                         help="matplotlib style file for the figures: size, fonts, lines, grid")
     parser.add_argument("--bench",
-                        help="times of 'beamwork bench -o'; without it those of single runs")
+                        help="times of 'beamwork bench -o'; default: the times of single runs")
     parser.add_argument("--imported",
                         action="append",
                         default=[],

@@ -131,7 +131,7 @@ def main():
                            help="0.3%% or 0.003; may be repeated (10, 1, 0.1, 0.01%%)")
     arguments.add_argument("--format", choices=("text", "csv", "json"), default="text")
     arguments.add_argument("--all-points", action="store_true", help="all parameter points, not only the defaults")
-    arguments.add_argument("-k", "--case", action="append", help="this case only; may be repeated")
+    arguments.add_argument("-k", "--case", action="append", help="only this case; may be repeated")
     arguments.add_argument("-o", "--output", type=argparse.FileType("w"), default=sys.stdout)
     r = arguments.parse_args()
     try:

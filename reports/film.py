@@ -115,9 +115,9 @@ def write(text, path):
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(prog="reports.film", description=__doc__)
-    parser.add_argument("results", help="of 'beamwork solve --shapes -o' or 'verify --shapes -o'")
-    parser.add_argument("-k", dest="case", help="its name, if the file contains several motions")
-    parser.add_argument("-o", dest="film", required=True, help="an HTML file")
+    parser.add_argument("results", help="results of 'beamwork solve --shapes -o' or 'verify --shapes -o'")
+    parser.add_argument("-k", dest="case", help="name of the case, if the file contains several motions")
+    parser.add_argument("-o", dest="film", required=True, help="HTML file to write")
     given = parser.parse_args(arguments)
     try:
         data.read_about(given.results)

@@ -208,7 +208,7 @@ PLACES = (  # pages to read next, if the site has them
     ("profiles.html#trust", "trust in full"),
     ("formulations.html", "formulations"),
     ("stability.html", "stability"),
-    ("motions.html", "motions in time"),
+    ("motions.html", "motions"),
     ("integrators.html", "integrators"),
     ("errata.html", "errata"),
     ("deviations.html", "causes"),

@@ -60,8 +60,8 @@ static void weigh_all(const fields *f, scene_load *what)
     const int before = s->loads, told = f->b->mistakes->count;
     if (f->placed != NULL)
         mistake_at(f, "on",
-                   "gravity on all members belongs to the scene, not to "
-                   "a part; move it to the loads of the scene");
+                   "gravity on all members belongs to the scene, not to a part; move this load to "
+                   "the loads of the scene");
     for (what->where = 0; what->where < s->members && f->b->mistakes->count == told; what->where++)
         if (is_heavy(s, &s->member[what->where]))
             add(f, what);
@@ -71,16 +71,15 @@ static void weigh_all(const fields *f, scene_load *what)
         if (s->node[what->where].body.mass > 0)
             add(f, what);
     if (s->loads == before && f->b->mistakes->count == told)
-        mistake_at(f, "on",
-                   "the scene has no mass; give sections a density or nodes a "
-                   "mass");
+        mistake_at(f, "on", "the scene has no mass; give a density to sections or a mass to nodes");
 }
 
 static void check_weight(const fields *f, const scene_load *what)
 {
     if (what->where >= 0 && scene_node_at(f->b->scene, what->where)->body.mass == 0)
-        mistake_at(f, "on",
-                   "gravity on a node that has no mass; give it mass: [kg], or name a member");
+        mistake_at(
+            f, "on",
+            "the node on which gravity acts has no mass; give it mass: [kg], or name a member");
 }
 
 /* Returns the index of the entry whose gravity acts on all members and bodies, or -1. */
@@ -97,9 +96,9 @@ static int whole_of(builder *b)
 static void check_gravity(const fields *f, const scene_load *what, int whole)
 {
     if (fields_have(f, "at") || what->axes == SCENE_AXES_MEMBER || what->follower)
-        mistake_at(
-            f, "gravity",
-            "weight acts at centres of mass along global axes; remove 'at', 'axes' and 'follower'");
+        mistake_at(f, "gravity",
+                   "gravity acts at centres of mass, along the axes of the scene; remove 'at', "
+                   "'axes' and 'follower'");
     if (whole >= 0 && !is_on_all(f))
         document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
                          "'%.40s' (on: all) already includes this weight; remove one of "
@@ -145,19 +144,19 @@ static void check_keys(const fields *f, int given)
     static const char *const of_range[] = {"from", "to", "to_value"};
     if (fields_have(f, "where") && given > SCENE_MOMENT)
         mistake_at(f, "where",
-                   given == SCENE_GRAVITY ? "where: this key is for a force or a moment; gravity "
-                                            "acts on the whole member; remove it"
-                                          : "where: this key is for a force or a moment; a "
-                                            "distributed load has 'from' and 'to'");
+                   given == SCENE_GRAVITY ? "where: this key is for a force or a moment, but "
+                                            "gravity acts on the whole member; remove the key"
+                                          : "where: this key is for a force or a moment; give a "
+                                            "distributed load 'from' and 'to' instead");
     for (int k = 0; k < 3; k++) {
         if ((spreads(given) && (k < 2 || given != OF_TEMPERATURE)) || !fields_have(f, of_range[k]))
             continue;
         document_mistake(f->b->mistakes, document_find(f->map, of_range[k]), 0,
                          "%s: this key is for a distributed load; %s", of_range[k],
                          given == OF_TEMPERATURE
-                             ? "a temperature is constant from 'from' to 'to'; remove it"
+                             ? "a temperature is constant from 'from' to 'to'; remove the key"
                          : given == SCENE_GRAVITY
-                             ? "gravity acts on the whole member; remove it"
+                             ? "gravity acts on the whole member; remove the key"
                              : "a force or a moment within a member acts at one position, 'where'");
     }
 }
@@ -189,12 +188,12 @@ static int place_of(const fields *f, const scene_load *what)
     const char *on = fields_text(f, "on", "");
     if (what->lumped && (!scene_load_along(what) || within))
         mistake_at(f, "lumped",
-                   "lumped: this key is for distributed loads and gravity on a member; this load "
-                   "acts at one position; remove it");
+                   "lumped: this key is for distributed loads and gravity on a member, but this "
+                   "load acts at one position; remove the key");
     if (within && node && !member) {
         document_mistake(f->b->mistakes, document_find(f->map, "where"), 0,
-                         "where: this is a fraction of a member's length, but '%.40s' "
-                         "is a node; name a member, or remove 'where'",
+                         "where: the value is a fraction of a member's length, but '%.40s' is a "
+                         "node; name a member, or remove 'where'",
                          on);
         return SCENE_NONE;
     }
@@ -317,10 +316,9 @@ void builder_springs(builder *b)
                 b->mistakes, f.map, 0,
                 "the spring has neither stiffness nor damping nor tables; give one of them");
         if (tables != NULL && f.placed != NULL && f.placed->turned)
-            document_mistake(
-                b->mistakes, tables, 0,
-                "tables belong to components along the axes of the scene, but the part is rotated; "
-                "move the spring to the scene, or do not rotate the part");
+            document_mistake(b->mistakes, tables, 0,
+                             "tables apply to components along the axes of the scene, but the part "
+                             "is rotated; move the spring to the scene, or do not rotate the part");
         const int index = scene_add_spring(b->scene, SCENE_NONE, SCENE_NONE, stiffness);
         builder_call(b, SCENE_SPRINGS, index, i);
         if (index < 0)

@@ -165,8 +165,8 @@ static void check_given(const fields *f)
     if (known == unknown)
         document_mistake(f->b->mistakes, f->place, 0,
                          known ? "the motion has both values and a condition; remove one of them"
-                               : "the motion needs 'path' and 'value', one of 'time', 'pieces' and "
-                                 "'table', or 'such_that'");
+                               : "the motion has no value; give 'path' and 'value', one of 'time', "
+                                 "'pieces' and 'table', or 'such_that'");
 }
 
 void builder_motions(builder *b)
@@ -209,7 +209,7 @@ static void complete(const fields *f, int index, scene_analysis *a)
         builder_in_time(&motion, &a->of.motion);
     if (a->follows >= index) {
         document_mistake(f->b->mistakes, document_find(what.map, "about"), 0,
-                         "'%s' is defined after this entry; move it before",
+                         "'%s' is defined after this entry; move it before this entry",
                          fields_text(&what, "about", ""));
         a->follows = SCENE_NONE;
     }
@@ -238,14 +238,14 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
             snprintf(who + used, sizeof who - used, "%s%s", used > 0 ? ", " : "",
                      scene_analysis_name((scene_analysis_kind)k));
         }
-    document_mistake(what->b->mistakes, document_find(what->map, "analysis"), 0,
-                     "'%s' is %s and has no %s; name an analysis that has one: %s%s", a->name,
-                     scene_analysis_name(a->kind), key, who,
-                     a->kind == SCENE_HARMONIC && scene_reads_forces(q)
-                         ? "; or replace the node by two nodes joined by a stiff spring, "
-                           "and multiply the spring stiffness by the response of one node "
-                           "with from: the other"
-                         : "");
+    document_mistake(
+        what->b->mistakes, document_find(what->map, "analysis"), 0,
+        "'%s' is %s and has no %s; name an analysis that has one: %s%s", a->name,
+        scene_analysis_name(a->kind), key, who,
+        a->kind == SCENE_HARMONIC && scene_reads_forces(q)
+            ? "; or replace the node with two nodes joined by a stiff spring, and multiply the "
+              "spring stiffness by the response of one node relative to the other (from)"
+            : "");
 }
 
 /* Functions of time: an expression of t, pieces of such expressions, or a table. */
@@ -425,8 +425,8 @@ static void add_table(const fields *f, int index, builder_piece *add, int spline
         ascends &= at[k] > at[k - 1];
     if (count != values || count < 2 || !ascends) {
         document_mistake(f->b->mistakes, document_find(f->map, "at"), 0,
-                         "a table needs at least two ascending instants and a value for each; 'at' "
-                         "has %d and 'value' has %d",
+                         "a table needs at least two ascending times and a value for each, but "
+                         "'at' has %d numbers and 'value' has %d",
                          count, values);
         return;
     }
@@ -469,7 +469,7 @@ int builder_stations(const fields *f, const char *values, double **path, double 
         return count;
     document_mistake(
         f->b->mistakes, document_find(f->map, fields_have(f, values) ? values : "path"), 0,
-        "'path' has %d values and '%s' has %d; give the same number of values for both", stations,
+        "'path' has %d values, but '%s' has %d; give the same number of values for both", stations,
         values, count);
     return 0;
 }

@@ -137,10 +137,10 @@ static void turn_about_axes(const fields *f, scene_node *n)
     if (moving == 0 || (moving == 3 && driven == 0))
         return;
     if (moving > 1) {
-        document_mistake(f->b->mistakes, f->place, 0,
-                         "axes: none, one or all three rotations may be free; for other "
-                         "combinations, write rotation: {sequence: [{axis: [...], "
-                         "angle: free}, ...]}");
+        document_mistake(
+            f->b->mistakes, f->place, 0,
+            "axes: only none, one or all three rotations may be free; for other combinations, "
+            "write rotation: {sequence: [{axis: [...], angle: free}, ...]}");
         return;
     }
     n->rotation = SCENE_ROTATION_SEQUENCE;
@@ -250,9 +250,8 @@ static void check_masters(const fields *f, const scene_node *n)
     const document_node *rotation = document_find(f->map, "rotation");
     if (document_find(rotation, "vector") != NULL && f->placed != NULL && f->placed->turned)
         document_mistake(f->b->mistakes, rotation, 0,
-                         "rotation: in a rotated part, rotation components are not "
-                         "along the axes of the scene; use a node of the scene, and "
-                         "connect it to the part");
+                         "rotation: in a rotated part, rotation components are not along the axes "
+                         "of the scene; use a node of the scene, and connect the node to the part");
     if (rotation != NULL && (held || fields_have(f, "fork")))
         document_mistake(f->b->mistakes, rotation, 0,
                          "'rotation' sets all rotations; remove rx, ry, rz and forks");
@@ -324,7 +323,7 @@ static void read_walls(const fields *f, section_spec *spec)
     spec->walls = count;
     if (spec->points > SECTION_MAX_POINTS || count > SECTION_MAX_WALLS || count == 0) {
         document_mistake(f->b->mistakes, f->place, 0,
-                         "the section has %d points and %d walls; give 1 to %d of each",
+                         "the section has %d points and %d walls; give 1 to %d points and walls",
                          spec->points, count, SECTION_MAX_WALLS);
         spec->points = spec->walls = 0;
         return;
@@ -414,7 +413,7 @@ static void check_material(const fields *f)
         if (fields_have(f, other[i].key))
             document_mistake(
                 m, document_find(f->map, other[i].key), 0,
-                "'%s' does not apply to a section given by its stiffness matrix; remove it",
+                "'%s' does not apply to a section that is given by its stiffness matrix; remove it",
                 other[i].key);
 }
 
@@ -545,7 +544,7 @@ static void read_steps(const fields *f, scene_motion *how)
         how->tolerance = how->scheme == SCENE_RADAU ? usual_of_radau : usual_tolerance;
     if (!steps && how->tolerance == 0)
         document_mistake(f->b->mistakes, document_find(f->map, "tolerance"), 0,
-                         "without a tolerance all steps are equal; give 'step' [s]");
+                         "without a tolerance, all steps are equal; give 'step' [s]");
 }
 
 void builder_in_time(const fields *f, scene_motion *how)

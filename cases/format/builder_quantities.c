@@ -118,7 +118,7 @@ static void take_envelopes(builder *b)
         const fields f = fields_of(b, &b->list[SCENE_QUANTITIES].entry[i]);
         if (fields_have(&f, "when"))
             document_mistake(b->mistakes, document_find(f.map, "when"), 0,
-                             "when: this key is for quantities of motions; add it to the "
+                             "when: this key is only for quantities of motions; add it to the "
                              "quantities of the envelope, or remove it");
         if (!fields_have(&f, "unit") && first >= 0)
             memcpy(q->unit, s->quantity[first].unit, sizeof q->unit);
@@ -185,22 +185,21 @@ static void check_when(const fields *f, const scene_quantity *q)
         return;
     if (s->analysis[q->analysis].kind != SCENE_MOTION)
         document_mistake(f->b->mistakes, document_find(f->map, "when"), 0,
-                         "when: it is the window of a motion in time, and %s is not a motion; "
+                         "when: this key gives the window of a motion, but %s is not a motion; "
                          "remove it, or name a motion",
                          scene_called(s, SCENE_ANALYSES, q->analysis).text);
     else if (q->transform == SCENE_HISTORY && !scene_is_passed(q, SCENE_MOTION))
-        document_mistake(
-            f->b->mistakes, document_find(f->map, "when"), 0,
-            "when: it is the window of crossings, means, spectra and extremes, and this "
-            "quantity is none of these; remove it, or change 'take'");
+        document_mistake(f->b->mistakes, document_find(f->map, "when"), 0,
+                         "when: this key gives the window of crossings, means, spectra, maxima and "
+                         "minima, but this quantity is none of these; remove it, or change 'take'");
     else
         for (int i = q->passing.direction == SCENE_RISING; i < 3;
              i++) /* the direction 'rising' is ignored, because it is always written */
             if (fields_have(&when, crossing[i]) && q->reduction != SCENE_CROSSING &&
                 q->reduction != SCENE_PERIOD && q->reduction != SCENE_PER_SECOND)
                 document_mistake(f->b->mistakes, document_find(when.map, crossing[i]), 0,
-                                 "%s: it is for crossings; remove it, or write take: crossing, "
-                                 "period or per_second",
+                                 "%s: this key is only for crossings; remove it, or write take: "
+                                 "crossing, period or per_second",
                                  crossing[i]);
 }
 
@@ -240,9 +239,10 @@ static void check_wanted(builder *b)
         const fields f = fields_below(&entry, fields_have(&entry, "modal") ? "modal" : "buckling");
         const int asked = asked_of(b->scene, i);
         if (fields_have(&f, "wanted") && fields_whole(&f, "wanted", 0, 1, ENTRY_MOST_ORDER) < asked)
-            document_mistake(b->mistakes, document_find(f.map, "wanted"), 0,
-                             "quantities need %d modes of this analysis; write %d, or remove it",
-                             asked, asked);
+            document_mistake(
+                b->mistakes, document_find(f.map, "wanted"), 0,
+                "the quantities require %d modes of this analysis; write %d, or remove the key",
+                asked, asked);
     }
 }
 
@@ -254,7 +254,7 @@ static void read_overs(const fields *what, scene_quantity *q)
     if (n != NULL && (q->envelope == SCENE_ENVELOPE_NONE || count == 0))
         document_mistake(what->b->mistakes, n, 0,
                          "combinations: this key lists the combinations of an envelope; %s",
-                         count == 0 ? "name one, or remove it for all"
+                         count == 0 ? "name a combination, or remove the key for all combinations"
                                     : "add envelope: max, min or largest, or write combination:");
     for (int i = 0; i < count; i++) {
         const int over =
@@ -517,11 +517,10 @@ void units_check(const document_node *unit, mistakes *m)
                              foreign[i].remedy);
             return;
         }
-    document_mistake(
-        m, unit, 0,
-        "unit '%.40s' is unknown; all values are in SI units, such as m, rad, N, N m, N/m, Pa, "
-        "kg/m^3, Hz, 1",
-        unit->text);
+    document_mistake(m, unit, 0,
+                     "unit '%.40s' is unknown; values are in SI units, such as m, rad, N, N m, "
+                     "N/m, Pa, kg/m^3, Hz, 1",
+                     unit->text);
 }
 
 typedef struct named_unit {

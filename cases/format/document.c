@@ -29,25 +29,25 @@ static void tell_syntax(document_reader *r)
 {
     const yaml_parser_t *p = &r->parser;
     const char *context = p->context != NULL ? p->context : "";
-    const char *problem = p->problem != NULL ? p->problem : "this cannot be read";
+    const char *problem = p->problem != NULL ? p->problem : "this text cannot be read";
     const int line = (int)p->problem_mark.line + 1, column = (int)p->problem_mark.column + 1;
     const int in_flow = strstr(context, "flow") != NULL;
     if (p->error == YAML_MEMORY_ERROR)
         r->mistakes->out_of_memory = 1;
     else if (p->error == YAML_READER_ERROR)
-        mistakes_add(r->mistakes, line, column,
-                     "byte %zu is not readable text (%s); save the file as UTF-8, without control "
-                     "characters",
-                     p->problem_offset, problem);
+        mistakes_add(
+            r->mistakes, line, column,
+            "byte %zu is not valid text (%s); save the file as UTF-8, without control characters",
+            p->problem_offset, problem);
     else if (strstr(problem, "cannot start any token") != NULL &&
              p->buffer.pointer < p->buffer.last && *p->buffer.pointer == '\t')
         mistakes_add(r->mistakes, line, column, "the line is indented with a tab; use spaces");
     else if (in_flow)
-        mistakes_add(r->mistakes, line, column,
-                     "the %s opened in line %d, column %d is not closed here (%s); "
-                     "close it, or add a comma",
-                     strstr(context, "mapping") != NULL ? "'{'" : "'['",
-                     (int)p->context_mark.line + 1, (int)p->context_mark.column + 1, problem);
+        mistakes_add(
+            r->mistakes, line, column,
+            "the %s opened in line %d, column %d is not closed here (%s); close it, or add a comma",
+            strstr(context, "mapping") != NULL ? "'{'" : "'['", (int)p->context_mark.line + 1,
+            (int)p->context_mark.column + 1, problem);
     else
         mistakes_add(r->mistakes, line, column, "%s%s%s; correct indentation, colons and quotes",
                      context, context[0] != '\0' ? ": " : "", problem);
@@ -200,8 +200,8 @@ static document_node *read_collection(document_reader *r, const yaml_event_t *ev
 
 static document_node *read_node(document_reader *r, const yaml_event_t *event, int depth)
 {
-    static const char anchor[] = "anchors are not supported; write the entry where it is needed, "
-                                 "or use 'for', 'let' or 'parts'";
+    static const char anchor[] = "anchors are not supported; write the entry at each place where "
+                                 "it is needed, or use 'for', 'let' or 'parts'";
     static const char tag[] = "tags are not supported; remove the tag: the key determines "
                               "whether a value is a string, a number or a word";
     switch (event->type) {

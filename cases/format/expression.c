@@ -40,8 +40,8 @@ static int constant(const name_context *c, const char *text, int *at, int length
     *at = behind + rest;
     if (known == NULL)
         expression_wrong(why, from,
-                         "no section '%.*s' is known here; a section can be named "
-                         "only after the list of sections",
+                         "section '%.*s' is unknown here; a section can be named only after the "
+                         "list of sections",
                          length - 1 < 40 ? length - 1 : 40, text + from);
     else if (index < 0)
         expression_wrong(why, behind, "a section has no constant '%.*s'; it has %s",

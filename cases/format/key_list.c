@@ -93,7 +93,7 @@ const char *const key_list_head[2] = {
     "sqrt exp log sin cos tan asin acos atan sinh cosh tanh atan2 hypot floor ceil mod min max; SI "
     "only. [EXPR, ...] may be a range: a..b, a..b step c, a..b/n, a..b/n:log (equal ratios). A "
     "word may be the name of a parameter.",
-    "Every entry (NAME: {...}, - {...}) may have these; $i in its name and texts is replaced:"};
+    "Keys of every entry (NAME: {...}, - {...}); $i is replaced in names and strings:"};
 
 typedef struct key_rows {
     FILE *to;

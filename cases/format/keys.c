@@ -14,7 +14,7 @@ const entry_field keys_let[] = {
 const entry_field keys_refusal[] = {
     {"if", ENTRY_FORMS, .needed = 1, .summary = "condition, as for entries"},
     {"say", ENTRY_TEXT, .needed = 1,
-     .summary = "message: the reason and the remedy; $NAME is replaced by its value"},
+     .summary = "message with the reason and the remedy; $NAME is replaced by the value of NAME"},
     {.name = NULL}};
 
 static const entry_field nothing[] = {{.name = NULL}};
@@ -22,7 +22,7 @@ static const entry_field nothing[] = {{.name = NULL}};
 const entry_field keys_parameter[] = {
     {"value", ENTRY_FORMS, .needed = 1,
      .summary = "default: an expression of constants, or a word"},
-    {"unit", ENTRY_TEXT, .summary = "SI unit; 1 for a plain number", .usual = "1"},
+    {"unit", ENTRY_TEXT, .summary = "SI unit; 1: a plain number", .usual = "1"},
     {"min", ENTRY_NUMBER, .summary = "minimum", .left_out = "no limit"},
     {"max", ENTRY_NUMBER, .summary = "maximum", .left_out = "no limit"},
     {"choices", ENTRY_FORMS, .summary = "[WORD, ...]: allowed words; [0, 1]: a switch",
@@ -45,9 +45,11 @@ const entry_field keys_truth[] = {
      .summary = "shear theory in stability problems", .left_out = "any"},
     {"parameters", ENTRY_NAMES, .below = nothing,
      .summary = "parameter values to which it applies, as NAME: VALUE", .left_out = "any values"},
-    {"at", ENTRY_NUMBER, .summary = "point of a curve", .left_out = "none: a single value"},
+    {"at", ENTRY_NUMBER, .summary = "abscissa of a point of a curve",
+     .left_out = "none: a single value"},
     {"model", ENTRY_WORD, .words = "plate|solid",
-     .summary = "a different model: shown only, never affects the exit status",
+     .summary = "true: the value belongs to a different model; it is shown but never affects the "
+                "exit status",
      .left_out = "beams"},
     {"convention", ENTRY_TEXT, .summary = "moment convention", .left_out = "that of the analysis"},
     {.name = NULL}};
@@ -57,11 +59,11 @@ const entry_field keys_part[] = {
      .left_out = "none"},
     {"nodes", ENTRY_ENTRIES, .below = entry_node, .summary = "NAME is INSTANCE.NAME in the scene",
      .left_out = "none"},
-    {"members", ENTRY_ENTRIES, .below = entry_member, .summary = "members between nodes or ports",
+    {"members", ENTRY_ENTRIES, .below = entry_member,
+     .summary = "members between nodes or ports of the part", .left_out = "none"},
+    {"springs", ENTRY_ENTRIES, .below = entry_spring, .summary = "in the axes of the part",
      .left_out = "none"},
-    {"springs", ENTRY_ENTRIES, .below = entry_spring, .summary = "in the part's axes",
-     .left_out = "none"},
-    {"loads", ENTRY_ENTRIES, .below = entry_load, .summary = "in the part's axes",
+    {"loads", ENTRY_ENTRIES, .below = entry_load, .summary = "in the axes of the part",
      .left_out = "none"},
     {"places", ENTRY_FORMS, .summary = "[NAME, ...]: ports that each instance connects to nodes",
      .left_out = "none"},
@@ -83,11 +85,12 @@ static const entry_field outer[] = {{"", ENTRY_NAME, .summary = "node of the sce
 
 const entry_field keys_instance[] = {
     {"part", ENTRY_NAME, .needed = 1, .summary = "name of the part"},
-    {"at", ENTRY_VECTOR, .needed = 1, .count = 3, .unit = "m", .summary = "position of its origin"},
+    {"at", ENTRY_VECTOR, .needed = 1, .count = 3, .unit = "m",
+     .summary = "position of the origin of the part"},
     {"axes", ENTRY_MAP, .group = 1, .below = axes, .summary = "its axes",
      .left_out = "those of the scene"},
-    {"turn", ENTRY_MAP, .group = 1, .below = angles, .summary = "rotation about one axis",
-     .left_out = "none"},
+    {"turn", ENTRY_MAP, .group = 1, .below = angles,
+     .summary = "rotation of the part about one axis", .left_out = "none"},
     {"connect", ENTRY_NAMES, .below = outer, .summary = "PLACE: NODE",
      .left_out = "none; required for each interface"},
     {.name = NULL}};
@@ -98,8 +101,8 @@ const entry_field keys_loop[] = {
     {"let", ENTRY_NAMES, .below = keys_let, .summary = "values derived for this entry",
      .left_out = "none"},
     {"if", ENTRY_FORMS,
-     .summary = "{NAME: VALUE, NAME: [VALUE, ...], ...}: the entry exists only "
-                "if these names have these values",
+     .summary = "{NAME: VALUE, NAME: [VALUE, ...], ...}: the entry exists only if the names have "
+                "these values",
      .left_out = "the entry always exists"},
     {.name = NULL}};
 
@@ -128,21 +131,21 @@ const entry_field keys_root[] = {
     {"springs", ENTRY_ENTRIES, .below = entry_spring, .summary = "between nodes, or to the ground",
      .left_out = "none"},
     {"motions", ENTRY_ENTRIES, .below = entry_driver,
-     .summary = "prescribed values along a path or in time", .left_out = "none"},
+     .summary = "prescribed values along a path or as functions of time", .left_out = "none"},
     {"loads", ENTRY_ENTRIES, .below = entry_load, .summary = "forces and moments",
      .left_out = "none"},
     {"constraints", ENTRY_ENTRIES, .below = entry_constraint,
      .summary = "components of nodes that are equal, or in a ratio", .left_out = "none"},
     {"imperfections", ENTRY_ENTRIES, .below = entry_imperfection,
-     .summary = "initial shape of the structure, free of stress", .left_out = "none"},
+     .summary = "stress-free initial shape of the structure", .left_out = "none"},
     {"combinations", ENTRY_ENTRIES, .below = entry_combination,
      .summary = "{CASE: FACTOR, ...}: load cases that act together", .left_out = "none"},
     {"analyses", ENTRY_ENTRIES, .below = entry_analysis, .summary = "analyses to run",
-     .left_out =
-         "a static analysis to the end of the motion paths; without motions, a linear analysis"},
+     .left_out = "a static analysis to the end of the paths of the motions; a linear analysis if "
+                 "there are no motions"},
     {"quantities", ENTRY_ENTRIES, .below = entry_quantity, .summary = "requested results",
-     .left_out = "the usual quantities of each analysis: displacements of "
-                 "loaded or driven nodes, the first eigenvalue"},
+     .left_out = "the usual quantities of each analysis: displacements of loaded or driven nodes, "
+                 "and the first eigenvalue"},
     {"truths", ENTRY_LIST, .below = keys_truth, .summary = "reference values", .left_out = "none"},
     {"plane", ENTRY_WORD, .words = SCENE_PLANE_CHOICES,
      .summary = "plane to which all nodes, including those of the mesh, are confined",
@@ -153,24 +156,23 @@ const entry_field keys_root[] = {
                 "parameter NAME has this VALUE",
      .left_out = "none: all physics that sections, loads and analyses require is included"},
     {"shear_theory", ENTRY_WORD, .words = "haringx|engesser|own",
-     .summary = "shear theory in stability problems; own: that of each formulation",
+     .summary = "shear theory in stability problems; own: the theory of each formulation",
      .usual = "haringx"},
     {"mass", ENTRY_WORD, .words = "consistent|lumped",
-     .summary = "mass of members in vibration and steady rotation, and in "
-                "motions without their own setting: distributed, or at the "
-                "nodes",
+     .summary = "mass of members in vibration and steady rotation, and in motions that do not "
+                "specify it: consistent (distributed), or lumped at the nodes",
      .usual = "consistent"},
     {"needs", ENTRY_WORDS, .words = PHYSICS "|engesser|haringx",
-     .summary = "key of earlier versions: all physics not listed here, except warping, is omitted; "
+     .summary = "key of earlier versions: physics that is not listed is omitted, except warping; "
                 "use omit instead",
      .left_out = "as given by omit"},
     {"meshes", ENTRY_FORMS,
      .summary = "elements per member: [EXPR, ...], or a choice of lists: {NAME: {VALUE: [...]}}",
      .usual = "[1, 2, 4, 8]"},
-    {"parts", ENTRY_ENTRIES, .below = keys_part, .summary = "sub-assemblies in their own axes",
+    {"parts", ENTRY_ENTRIES, .below = keys_part, .summary = "sub-assemblies with their own axes",
      .left_out = "none"},
-    {"instances", ENTRY_ENTRIES, .below = keys_instance, .summary = "parts placed in the scene",
-     .left_out = "none"},
+    {"instances", ENTRY_ENTRIES, .below = keys_instance,
+     .summary = "parts that are placed in the scene", .left_out = "none"},
     {.name = NULL}};
 
 /* The names of two tables in one list. */

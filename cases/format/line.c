@@ -340,7 +340,7 @@ static void meaning_state(FILE *to, const scene *s, const scene_quantity *q)
     else if (a->kind == SCENE_LINEAR)
         fputs(", small displacements", to);
     else if (a->follows != SCENE_NONE && isnan(instant))
-        fputs(", small displacements about the loaded state", to);
+        fputs(", for small displacements about the loaded state", to);
     else if (isnan(instant))
         fputs(", of the undeformed structure", to);
     if (path != NULL && path->kind == SCENE_STATIC && scene_rotates(path))

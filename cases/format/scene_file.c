@@ -304,7 +304,7 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
     fields_word(f, "model", "plate|solid", 0);
     if (!(t.uncertainty >= 0))
         document_mistake(m, document_find(f->map, "uncertainty"), 0,
-                         "the uncertainty is %g; give a positive value, or remove it",
+                         "the uncertainty is %g; give a positive value, or remove the uncertainty",
                          t.uncertainty);
     if ((strcmp(t.kind, "predicted") == 0) != (t.formulation[0] != '\0'))
         document_mistake(m, f->place, 0,

@@ -227,8 +227,9 @@ static int is_omitted(const fields *f, const document_node *n)
         return choose_holds(n, f->names, f->b->mistakes);
     if (n->kind == DOCUMENT_TEXT && strcmp(n->text, "yes") == 0)
         return 1;
-    document_mistake(f->b->mistakes, n, 0,
-                     "give yes, or the parameter values for which it is omitted: {NAME: VALUE}");
+    document_mistake(
+        f->b->mistakes, n, 0,
+        "give yes, or the parameter values for which the physics is omitted: {NAME: VALUE}");
     return 0;
 }
 

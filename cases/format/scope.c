@@ -74,7 +74,7 @@ int scope_accepts(const scope *names, const document_node *key, mistakes *m)
     const size_t length = strlen(key->text);
     if (length == 0 || expression_name_length(key->text) != length || length > 40) {
         document_mistake(m, key, 0,
-                         "'%.60s' is not a valid name of a value; use at most 40 letters, digits "
+                         "'%.60s' is not a valid name for a value; use at most 40 letters, digits "
                          "and _, beginning with a letter",
                          key->text);
         return 0;
@@ -142,8 +142,8 @@ static int value_text(const document_node *n, int at, size_t length, int said, c
     }
     if (known != NULL) {
         document_mistake(m, n, at,
-                         "$%s is %g: only whole numbers and words can be part of names; count with "
-                         "a loop name and compute the value with 'let'",
+                         "$%s is %g, but only whole numbers and words can be part of names; count "
+                         "with a loop name, and compute the value with 'let'",
                          known->name, known->number);
         return 0;
     }

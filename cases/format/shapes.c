@@ -481,7 +481,7 @@ static void known_profiles(const char *name, char *text, size_t size)
     for (size_t k = 0; k < sizeof all / sizeof all[0]; k++) {
         if (strncmp(name, all[k].family, 3) != 0)
             continue;
-        used = (size_t)snprintf(text, size, "sizes of %s are ", all[k].family);
+        used = (size_t)snprintf(text, size, "the sizes of %s are ", all[k].family);
         for (int i = 0; used < size && (all[k].list != NULL ? all[k].list[i].number > 0 : i < UPN);
              i++)
             used +=

@@ -52,7 +52,7 @@ static int column_of(const table_file *t, const document_node *of, int header)
             if (found >= 0) {
                 document_mistake(
                     t->mistakes, of, 0,
-                    "%.80s:%d: two columns are called '%.40s'; give the number of the column",
+                    "%.80s:%d: two columns have the name '%.40s'; give the number of the column",
                     t->name, t->line, of->text);
                 return -1;
             }
@@ -66,11 +66,13 @@ static int column_of(const table_file *t, const document_node *of, int header)
     if (found < 0 && *of->text != '\0' && *end == '\0' && number >= 1 && number <= t->columns)
         found = (int)number - 1;
     if (found < 0 && header)
-        document_mistake(t->mistakes, of, 0, "%.80s:%d: no column '%.40s'; the columns are %s",
-                         t->name, t->line, of->text, known);
+        document_mistake(t->mistakes, of, 0,
+                         "%.80s:%d: column '%.40s' does not exist; the columns are %s", t->name,
+                         t->line, of->text, known);
     else if (found < 0)
         document_mistake(t->mistakes, of, 0,
-                         "%.80s:%d: no column '%.40s': without a header give its number, 1 to %d",
+                         "%.80s:%d: column '%.40s' does not exist, because the file has no header; "
+                         "give the number of the column, 1 to %d",
                          t->name, t->line, of->text, t->columns);
     return found;
 }
@@ -126,7 +128,7 @@ static int read_row(table_file *t, char *line)
             return 1;
     }
     if (count != t->columns)
-        return wrong(t, "the number of columns differs from that of the first row", "",
+        return wrong(t, "the number of columns differs from that in the first row", "",
                      "; write decimals with points, and commas between columns");
     for (int k = 0; k < 2; k++) {
         double value;
@@ -134,7 +136,7 @@ static int read_row(table_file *t, char *line)
         if (!line_number(field, &value))
             return wrong(t, "no number: '", field, "'");
         if (k == 0 && t->list[0]->count > 0 && !(value > t->last))
-            return wrong(t, "'at' does not ascend at ", field,
+            return wrong(t, "the values of 'at' do not ascend at ", field,
                          "; sort the rows, and remove repeated ones");
         if (t->list[k]->count == DOCUMENT_ENTRIES)
             return wrong(t, "more than 10000 rows", "", "; write a smaller table");
@@ -210,7 +212,7 @@ static int read_shift(shift_file *s, char *line)
         return 1;
     }
     if (count != t->columns)
-        return wrong(t, "the number of columns differs from that of the first row", "",
+        return wrong(t, "the number of columns differs from that in the first row", "",
                      "; write decimals with points, and commas between columns");
     if (s->map->count == DOCUMENT_ENTRIES)
         return wrong(t, "more than 10000 rows", "", "; write a smaller table");
@@ -321,9 +323,9 @@ static void read_table(document_node *map, const char *beside, arena *a, mistake
         return;
     for (int k = 0; k < 2; k++)
         if (t.of[k] == NULL || t.of[k]->kind != DOCUMENT_TEXT) {
-            document_mistake(
-                m, t.of[k] != NULL ? t.of[k] : file, 0,
-                "with 'file', 'at' and 'value' name its columns, by header or by number");
+            document_mistake(m, t.of[k] != NULL ? t.of[k] : file, 0,
+                             "if 'file' is given, 'at' and 'value' must name columns of the file, "
+                             "by header or by number");
             return;
         }
     FILE *from = open_file(&t, beside);

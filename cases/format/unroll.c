@@ -207,7 +207,8 @@ const document_node *choose_value(const document_node *n, const scope *names, mi
     if (n->kind != DOCUMENT_MAP)
         return n;
     if (n->count != 1 || n->item[0]->kind != DOCUMENT_MAP) {
-        document_mistake(m, n, 0, "a choice depends on one name: {NAME: {VALUE: ..., else: ...}}");
+        document_mistake(m, n, 0,
+                         "a choice must depend on one name: {NAME: {VALUE: ..., else: ...}}");
         return NULL;
     }
     const int before = m->count;
@@ -304,8 +305,8 @@ static void check_ports(const document_node *part, const unrolled *instance, con
         document_mistake(m, places, 0, "places: a list of names is expected");
     else if (p->connect != NULL && p->connect->count > connected)
         document_mistake(m, p->connect, 0,
-                         "the part has %d ports ('places'), but %d are connected; connect only the "
-                         "ports of the part",
+                         "the part has %d ports ('places'), but %d ports are connected; connect "
+                         "only the ports of the part",
                          ports, p->connect->count);
 }
 

@@ -5,7 +5,7 @@ static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     {"sign", ENTRY_WORD, .words = "positive|negative", .summary = "sign of the load factor",
      .usual = "positive", ENTRY_IN(scene_quantity, what.of.load.sign), .first = 1, .falls = 2},
-    {"which", ENTRY_WHOLE, .summary = "index, counted from 0", .usual = "0",
+    {"which", ENTRY_WHOLE, .summary = "index of the critical factor, counted from 0", .usual = "0",
      ENTRY_IN(scene_quantity, what.of.load.order), .most = ENTRY_MOST_ORDER},
     {.name = NULL}};
 
@@ -20,8 +20,10 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 {
     (void)s;
     meaning_ordinal(to, q->what.of.load.order);
-    fprintf(to, " %s factor of the loads at which the structure buckles (linear buckling)",
-            q->what.of.load.sign > 0 ? "positive" : "negative");
+    fprintf(
+        to,
+        " %s factor by which the loads are multiplied when the structure buckles (linear buckling)",
+        q->what.of.load.sign > 0 ? "positive" : "negative");
 }
 
 static double eigenvalue(const scene_quantity *q, const quantity_eigenvalue *found, double *part)

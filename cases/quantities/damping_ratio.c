@@ -3,13 +3,13 @@
 
 #include "cases/scene/scene.h"
 
-static const entry_field fields[] = {QUANTITY_ANALYSIS,
-                                     QUANTITY_MODE,
-                                     {"of", ENTRY_WORD, .words = "ratio|decay",
-                                      .summary = "-Re s/|s| of the eigenvalue s, or -Re s [1/s]",
-                                      .usual = "ratio",
-                                      ENTRY_IN(scene_quantity, what.of.mode.decay)},
-                                     {.name = NULL}};
+static const entry_field fields[] = {
+    QUANTITY_ANALYSIS,
+    QUANTITY_MODE,
+    {"of", ENTRY_WORD, .words = "ratio|decay",
+     .summary = "measure of damping: -Re s/|s| of the eigenvalue s, or -Re s [1/s]",
+     .usual = "ratio", ENTRY_IN(scene_quantity, what.of.mode.decay)},
+    {.name = NULL}};
 
 static const char *unit(const scene *s, const scene_quantity *q)
 {

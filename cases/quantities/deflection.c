@@ -8,13 +8,13 @@ static const entry_field fields[] = {
      ENTRY_IN(scene_quantity, what.of.deflection.member), .of = SCENE_MEMBERS},
     /* must precede `end`, because `end` is also a position */
     {"where", ENTRY_NUMBER, .needed = 1, .group = 2,
-     .summary = "position in the member, from 0 at its start to 1 at its end",
+     .summary = "position within the member, from 0 at the start to 1 at the end of the member",
      ENTRY_IN(scene_quantity, what.of.deflection.place), .most = 1,
      .range = "a fraction of the member's length, from 0 to 1"},
     {"end", ENTRY_WORD, .needed = 1, .group = 2, .words = "from|to",
-     .summary = "end of the member, including the motion of its release",
+     .summary = "end of the member, including the relative displacement of the released end",
      ENTRY_IN(scene_quantity, what.of.deflection.place)},
-    QUANTITY_COMPONENT("along or about a fixed axis", deflection.component),
+    QUANTITY_COMPONENT("component along or about an axis fixed in space", deflection.component),
     QUANTITY_ACTING,
     QUANTITY_TAKEN,
     {.name = NULL}};
@@ -42,7 +42,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
 
 const quantity_type quantity_deflection = {
     .key = "deflection",
-    .summary = "displacement or rotation within a member, or of its end at a release",
+    .summary = "displacement or rotation within a member, or of a released end of a member",
     .kind = SCENE_DEFLECTION,
     .field = fields,
     .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,

@@ -4,7 +4,8 @@
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     {"of", ENTRY_WORD, .needed = 1, .words = "kinetic|strain|energy|work|dissipated|drift",
-     .summary = "energy-balance error: energy plus dissipation, minus initial energy and work",
+     .summary =
+         "energy-balance error: energy plus dissipated energy, minus initial energy and work",
      ENTRY_IN(scene_quantity, what.of.balance)},
     QUANTITY_TAKEN,
     {.name = NULL}};
@@ -23,9 +24,9 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
         [SCENE_KINETIC] = "kinetic energy",
         [SCENE_STRAIN] = "strain energy, including springs",
         [SCENE_ENERGY] = "kinetic and strain energy",
-        [SCENE_WORK] = "work of loads and of prescribed coordinates, since the start",
-        [SCENE_DISSIPATED] = "energy that damping dissipated, since the start",
-        [SCENE_DRIFT] = "energy plus dissipation, minus initial energy and work"};
+        [SCENE_WORK] = "work of the loads and of the prescribed coordinates since the start",
+        [SCENE_DISSIPATED] = "energy dissipated by damping since the start",
+        [SCENE_DRIFT] = "energy plus dissipated energy, minus initial energy and work"};
     fputs(word[q->what.of.balance], to);
 }
 
@@ -35,7 +36,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
 }
 
 const quantity_type quantity_energy = {.key = "energy",
-                                       .summary = "energy of a motion",
+                                       .summary = "energy of the structure during a motion",
                                        .kind = SCENE_BALANCE,
                                        .field = fields,
                                        .analyses = 1u << SCENE_MOTION,

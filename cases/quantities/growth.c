@@ -14,7 +14,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 {
     (void)s;
     (void)q;
-    fputs("largest growth rate of small motions, 0 if none grows", to);
+    fputs("largest growth rate of small motions; 0 if no small motion grows", to);
 }
 
 const quantity_type quantity_growth = {.key = "growth",

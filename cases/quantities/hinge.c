@@ -41,8 +41,8 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
         if (there->component[i] == what->component[COMPONENT])
             return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "quantity %s: %s does not release that component at its end '%s'; name one "
-                     "that it releases, or request the deflection of that end",
+                     "quantity %s: %s does not release that component at its end '%s'; name a "
+                     "released component, or request the deflection of that end",
                      q->name, scene_called(s, SCENE_MEMBERS, what->node[MEMBER]).text,
                      what->component[END] ? "to" : "from");
 }

@@ -7,17 +7,18 @@ static const entry_field fields[] = {
      ENTRY_IN(scene_quantity, what.of.internal.member), .of = SCENE_MEMBERS},
     /* must precede `end`, because `end` is also a position */
     {"where", ENTRY_NUMBER, .needed = 1, .group = 2,
-     .summary = "position in the member, from 0 at its start to 1 at its end",
+     .summary = "position within the member, from 0 at the start to 1 at the end of the member",
      ENTRY_IN(scene_quantity, what.of.internal.place), .most = 1,
      .range = "a fraction of the member's length, from 0 to 1"},
     {"end", ENTRY_WORD, .needed = 1, .group = 2, .words = "from|to", .summary = "end of the member",
      ENTRY_IN(scene_quantity, what.of.internal.place)},
     {"along", ENTRY_WORD, .needed = 1, .group = 2, .words = "max|min|largest",
-     .summary = "over the member: maximum, minimum, or largest magnitude without sign",
+     .summary = "statistic along the member: maximum, minimum or largest magnitude without sign",
      ENTRY_IN(scene_quantity, what.of.internal.along), .first = SCENE_ALONG_MAX},
     QUANTITY_SIDE(internal.before),
     {"resultant", ENTRY_WORD, .needed = 1, .words = SCENE_RESULTANT_CHOICES,
-     .summary = "resultant on the part towards 'to', in principal axes of the rotated section",
+     .summary = "resultant on the part of the member towards 'to', along the principal axes of the "
+                "rotated section",
      ENTRY_IN(scene_quantity, what.of.internal.resultant)},
     QUANTITY_ACTING,
     QUANTITY_TAKEN,
@@ -43,7 +44,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
         [SCENE_BIMOMENT] = "bimoment",
         [SCENE_MX_SAINT_VENANT] = "Saint-Venant torque",
         [SCENE_MX_WARPING] = "torque due to restrained warping",
-        [SCENE_MX_WAGNER] = "torque of the stresses along twisted fibres"};
+        [SCENE_MX_WAGNER] = "torque of the axial stresses along twisted fibres"};
     static const char *const along[] = {[SCENE_ALONG_PLACE] = "",
                                         [SCENE_ALONG_MAX] = "largest ",
                                         [SCENE_ALONG_MIN] = "least ",
@@ -66,7 +67,8 @@ static double read(const scene_quantity *q, const quantity_state *state)
 }
 
 const quantity_type quantity_internal = {.key = "internal",
-                                         .summary = "stress resultant on a section of a member",
+                                         .summary =
+                                             "stress resultant on a cross-section of a member",
                                          .kind = SCENE_INTERNAL,
                                          .field = fields,
                                          .analyses = 1u << SCENE_LINEAR | QUANTITY_ALL_STATES,

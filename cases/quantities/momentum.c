@@ -29,7 +29,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
 }
 
 const quantity_type quantity_momentum = {.key = "momentum",
-                                         .summary = "momentum of a motion",
+                                         .summary = "momentum of the structure during a motion",
                                          .kind = SCENE_BALANCE,
                                          .field = fields,
                                          .analyses = 1u << SCENE_MOTION,

@@ -7,7 +7,7 @@ static const entry_field fields[] = {
     QUANTITY_NODE(rated.at.node),
     QUANTITY_COMPONENT("coordinate of the node", rated.at.component),
     {"of", ENTRY_WORD, .words = SCENE_RATE_CHOICES,
-     .summary = "first, second or third derivative in time", .usual = "velocity",
+     .summary = "first, second or third derivative with respect to time", .usual = "velocity",
      ENTRY_IN(scene_quantity, what.of.rated.rate)},
     QUANTITY_TAKEN,
     {.name = NULL}};
@@ -46,13 +46,13 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     const scene_rate_of what = q->what.of.rated.rate;
     if (what == SCENE_SPEEDING && scheme == SCENE_CONSERVING)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: the integrator conserving provides only the mean "
+                         "quantity %s: the integrator conserving computes only the mean "
                          "acceleration of each step; use integrator: radau, alpha or explicit",
                          q->name);
     if (what == SCENE_JERK && scheme != SCENE_RADAU && scheme != SCENE_EXPLICIT)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: integrators of order 2 provide no jerk; use integrator: "
-                         "radau or explicit",
+                         "quantity %s: integrators of order 2 do not compute the jerk; use "
+                         "integrator: radau or explicit",
                          q->name);
     return STATUS_OK;
 }
@@ -65,15 +65,15 @@ static int turns(const scene *s, const scene_quantity *q, int i, scene_component
     return i < 1;
 }
 
-const quantity_type quantity_rate = {
-    .key = "rate",
-    .summary = "velocity, acceleration or jerk of a node; of rotations in its own axes",
-    .kind = SCENE_RATE,
-    .field = fields,
-    .analyses = 1u << SCENE_MOTION,
-    .between = 1,
-    .unit = unit,
-    .meaning = meaning,
-    .read = read,
-    .turns = turns,
-    .check = check};
+const quantity_type quantity_rate = {.key = "rate",
+                                     .summary = "velocity, acceleration or jerk of a node; those "
+                                                "of rotations are along the axes of the node",
+                                     .kind = SCENE_RATE,
+                                     .field = fields,
+                                     .analyses = 1u << SCENE_MOTION,
+                                     .between = 1,
+                                     .unit = unit,
+                                     .meaning = meaning,
+                                     .read = read,
+                                     .turns = turns,
+                                     .check = check};

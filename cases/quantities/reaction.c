@@ -5,7 +5,8 @@ static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     QUANTITY_NODE(component.node),
     {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS "|turn_1",
-     .summary = "coordinate of the node; turn_1: the rotation about the first axis of its sequence",
+     .summary =
+         "coordinate of the node; turn_1: the rotation about the first axis of the node's sequence",
      ENTRY_IN(scene_quantity, what.of.component.component), .turns = ENTRY_COMPONENT},
     QUANTITY_ACTING,
     QUANTITY_TAKEN,

@@ -5,9 +5,9 @@ static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     QUANTITY_NODE(relative.node),
     {"from", ENTRY_NAME, .needed = 1,
-     .summary = "reference node, in whose axes the motion is measured",
+     .summary = "reference node, along whose axes the displacement or rotation is measured",
      ENTRY_IN(scene_quantity, what.of.relative.from), .of = SCENE_NODES},
-    QUANTITY_COMPONENT("component of the relative motion", relative.component),
+    QUANTITY_COMPONENT("component of the relative displacement or rotation", relative.component),
     QUANTITY_TAKEN,
     {.name = NULL}};
 

@@ -5,36 +5,39 @@
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     QUANTITY_NODE(response.node),
-    QUANTITY_COMPONENT("component of the node's small motion, in fixed axes", response.component),
-    {"from", ENTRY_NAME, .summary = "node whose same component is subtracted", .left_out = "none",
-     ENTRY_IN(scene_quantity, what.of.response.from), .of = SCENE_NODES},
+    QUANTITY_COMPONENT("component of the node's small motion, along fixed axes",
+                       response.component),
+    {"from", ENTRY_NAME, .summary = "node of which the same component is subtracted",
+     .left_out = "none", ENTRY_IN(scene_quantity, what.of.response.from), .of = SCENE_NODES},
     {"force", ENTRY_NAME, .group = 2,
-     .summary = "node at which a harmonic force or moment of 1 acts",
-     .left_out = "the input is a motion: drive", ENTRY_IN(scene_quantity, what.of.response.forced),
-     .of = SCENE_NODES},
+     .summary = "node at which a harmonic force of 1 N or moment of 1 N m acts",
+     .left_out = "the input is a motion, given by 'drive'",
+     ENTRY_IN(scene_quantity, what.of.response.forced), .of = SCENE_NODES},
     {"drive", ENTRY_NAME, .group = 2,
-     .summary = "harmonic motion of a base or a drive, of 1 m or 1 rad",
+     .summary = "motion that varies harmonically, by 1 m or 1 rad, such as that of a base",
      .left_out = "the input is a force", ENTRY_IN(scene_quantity, what.of.response.driver),
      .of = SCENE_DRIVERS},
     {"reference", ENTRY_NAME, .group = 2,
-     .summary = "load with feedback whose reference moves harmonically, by 1 m or 1 rad",
+     .summary = "load with feedback, whose reference varies harmonically, by 1 m or 1 rad",
      .left_out = "the input is a force", ENTRY_IN(scene_quantity, what.of.response.reference),
      .of = SCENE_LOADS},
     {"unbalance", ENTRY_NAME, .group = 2,
-     .summary = "node with an unbalance of 1 kg m, mass times eccentricity, that rotates with the "
-                "frequency",
+     .summary = "node with an unbalance (mass times eccentricity) of 1 kg m that rotates at the "
+                "excitation frequency",
      .left_out = "the input is a force", ENTRY_IN(scene_quantity, what.of.response.unbalanced),
      .of = SCENE_NODES},
-    {"about", ENTRY_WORD, .words = "rx|ry|rz", .summary = "axis and sense of its rotation",
-     .usual = "rx", ENTRY_IN(scene_quantity, what.of.response.spinning), .first = SCENE_RX},
+    {"about", ENTRY_WORD, .words = "rx|ry|rz",
+     .summary = "axis and sense of rotation of the unbalance", .usual = "rx",
+     ENTRY_IN(scene_quantity, what.of.response.spinning), .first = SCENE_RX},
     {"along", ENTRY_WORD, .words = ENTRY_COMPONENTS, .summary = "component of the force",
      .usual = "ux", ENTRY_IN(scene_quantity, what.of.response.forced_along),
      .turns = ENTRY_COMPONENT},
     {"of", ENTRY_WORD, .words = SCENE_VIBRATION_CHOICES,
-     .summary = "output; reaction: of the motion that drives the component",
+     .summary =
+         "output; reaction: reaction force or moment of the motion that drives the component",
      .usual = "displacement", ENTRY_IN(scene_quantity, what.of.response.of)},
     {"part", ENTRY_WORD, .words = SCENE_VIBRATION_PARTS,
-     .summary = "part of the complex response; phase: ahead of the input, -pi to pi",
+     .summary = "part of the complex response; a positive phase (-pi to pi) is ahead of the input",
      .usual = "amplitude", ENTRY_IN(scene_quantity, what.of.response.part)},
     QUANTITY_TAKEN,
     {.name = NULL}};
@@ -75,7 +78,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     if (r->from != SCENE_NONE)
         meaning_node(to, s, "minus that of", r->from);
     if (r->driver != SCENE_NONE) {
-        fprintf(to, " for a unit motion %s", s->driver[r->driver].name);
+        fprintf(to, " for a unit amplitude of motion %s", s->driver[r->driver].name);
         return;
     }
     if (r->unbalanced != SCENE_NONE) {
@@ -84,7 +87,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
         return;
     }
     if (r->reference != SCENE_NONE) {
-        fprintf(to, " for a unit reference of load %s",
+        fprintf(to, " for a unit amplitude of the reference of load %s",
                 scene_name(s, SCENE_LOADS, r->reference).text);
         return;
     }
@@ -108,25 +111,26 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     if ((r->driver != SCENE_NONE) + (r->forced != SCENE_NONE) + (r->reference != SCENE_NONE) +
             (r->unbalanced != SCENE_NONE) !=
         1)
-        return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its input is missing; name the node of a 'force' or of an "
-                         "'unbalance', a motion with 'drive', or a load with feedback with "
-                         "'reference'",
-                         q->name);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "quantity %s: the input is missing; name a node with 'force' or 'unbalance', a motion "
+            "with 'drive', or a load that has feedback with 'reference'",
+            q->name);
     if (r->reference != SCENE_NONE && s->load[r->reference].feedback.node == SCENE_NONE)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: load %s has no feedback, and so no reference; name one that "
-                         "has, or a 'force'",
+                         "quantity %s: load %s has no feedback and therefore no reference; name a "
+                         "load with feedback, or give 'force'",
                          q->name, scene_name(s, SCENE_LOADS, r->reference).text);
     if (r->reference != SCENE_NONE && !scene_closes_loop(s, q->analysis, r->reference))
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: the loop of load %s is open in %s, so its reference moves "
-                         "nothing; remove 'loops: open', or name a load that acts there",
+                         "quantity %s: the feedback loop of load %s is open in %s, so its "
+                         "reference has no effect; remove 'loops: open', or give another input",
                          q->name, scene_name(s, SCENE_LOADS, r->reference).text,
                          scene_called(s, SCENE_ANALYSES, q->analysis).text);
     if (r->of == SCENE_REACTING && r->from != SCENE_NONE)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: a reaction belongs to one node; remove 'from'", q->name);
+                         "quantity %s: a reaction belongs to a single node; remove 'from'",
+                         q->name);
     if (r->driver == SCENE_NONE || s->driver[r->driver].condition_driver == SCENE_NONE)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,

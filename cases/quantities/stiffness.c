@@ -20,8 +20,9 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     const int component = q->what.of.entry.row;
     fputs("stiffness", to);
     meaning_node(to, s, "of", scene_compliance_of(&s->analysis[q->analysis])->node);
-    fprintf(to, ": small %s %c for a unit %s, all else free to follow", meaning_load(component),
-            meaning_axis(component), component < SCENE_RX ? "displacement" : "rotation");
+    fprintf(to, ": small %s %c for a unit %s, while all other components are free",
+            meaning_load(component), meaning_axis(component),
+            component < SCENE_RX ? "displacement" : "rotation");
 }
 
 static const char *settle(const scene *s, scene_quantity *q, const char **key)
@@ -46,13 +47,14 @@ static double read(const scene_quantity *q, const quantity_state *state)
     return 1 / state->compliance(state, q->what.of.entry.row, q->what.of.entry.row);
 }
 
-const quantity_type quantity_stiffness = {.key = "stiffness",
-                                          .summary = "1/compliance, with the other components free",
-                                          .kind = SCENE_STIFFNESS_ENTRY,
-                                          .field = fields,
-                                          .analyses = 1u << SCENE_COMPLIANCE,
-                                          .unit = unit,
-                                          .meaning = meaning,
-                                          .read = read,
-                                          .turns = turns,
-                                          .settle = settle};
+const quantity_type quantity_stiffness = {
+    .key = "stiffness",
+    .summary = "reciprocal of a compliance: stiffness while the other components are free",
+    .kind = SCENE_STIFFNESS_ENTRY,
+    .field = fields,
+    .analyses = 1u << SCENE_COMPLIANCE,
+    .unit = unit,
+    .meaning = meaning,
+    .read = read,
+    .turns = turns,
+    .settle = settle};

@@ -5,17 +5,18 @@
 
 static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
-    {"member", ENTRY_NAME, .needed = 1, .summary = "member whose section is not given by constants",
+    {"member", ENTRY_NAME, .needed = 1,
+     .summary = "member, whose section is given by dimensions or walls",
      ENTRY_IN(scene_quantity, what.of.stress.member), .of = SCENE_MEMBERS},
     {"where", ENTRY_NUMBER,
-     .summary = "position in the member, from 0 at its start to 1 at its end",
+     .summary = "position within the member, from 0 at the start to 1 at the end of the member",
      ENTRY_IN(scene_quantity, what.of.stress.place), .otherwise = NAN,
      .left_out = "the whole member", .most = 1,
      .range = "a fraction of the member's length, from 0 to 1"},
     QUANTITY_SIDE(stress.before),
     {"measure", ENTRY_WORD, .words = SCENE_STRESS_CHOICES,
-     .summary = "measure of stress at the points of the section", .usual = "von_mises",
-     ENTRY_IN(scene_quantity, what.of.stress.measure), .always = 1},
+     .summary = "stress component or equivalent stress at the points of the section",
+     .usual = "von_mises", ENTRY_IN(scene_quantity, what.of.stress.measure), .always = 1},
     QUANTITY_ACTING,
     QUANTITY_TAKEN,
     {.name = NULL}};
@@ -58,9 +59,10 @@ static const char *settle(const scene *s, scene_quantity *q, const char **key)
     c->whole = isnan(c->place);
     c->place = c->whole ? 0 : c->place;
     *key = "member";
-    return has_points(s, c->member) ? NULL
-                                    : "its section is given by numbers and has no stress points; "
-                                      "describe it by dimensions or walls, or request 'internal'";
+    return has_points(s, c->member)
+               ? NULL
+               : "the section is given by constants or matrices and has no stress points; describe "
+                 "it by dimensions or walls, or request 'internal'";
 }
 
 static status check(const scene *s, const scene_quantity *q, fault *f)
@@ -68,9 +70,8 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     if (has_points(s, q->what.of.stress.member))
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "quantity %s: the section of %s is given by numbers and has no "
-                     "stress points; describe it by dimensions or walls, or request "
-                     "a resultant",
+                     "quantity %s: the section of %s is given by constants or matrices and has no "
+                     "stress points; describe it by dimensions or walls, or request a resultant",
                      q->name, scene_called(s, SCENE_MEMBERS, q->what.of.stress.member).text);
 }
 

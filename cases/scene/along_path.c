@@ -78,11 +78,12 @@ along_path_words along_path_end(const scene *s, int acting)
     }
     if (c.begin > c.end)
         snprintf(out.text, sizeof out.text,
-                 "; no load changes along the path: give a load that grows");
+                 "; no load changes along the path; give a load that increases");
     else
         snprintf(out.text, sizeof out.text,
-                 "; nothing changes outside path %g to %g, where %s keeps its last value: extend "
-                 "its values; a load without path and factor grows with the path",
+                 "; nothing changes outside path %g to %g, because %s keeps its last value there; "
+                 "extend its values, or remove its 'path' and 'factor' so that it increases with "
+                 "the path",
                  c.begin, c.end, c.last.text);
     return out;
 }
@@ -105,7 +106,7 @@ static int is_straight(int stations, const double path[], const double value[])
 status along_path_proportional(const scene *s, int acting, fault *f)
 {
     static const char words[] =
-        "its values from path 0 to 1 are not on a straight line, so a critical load of a linear "
+        "its values between path 0 and 1 do not vary linearly, so a critical load for a linear "
         "prestress has no meaning; follow a static path";
     for (int i = 0; i < s->loads; i++) {
         const scene_load *load = &s->load[i];
@@ -402,10 +403,9 @@ static const char *const
     *const no_tangent = "has a different stiffness on each side, but this analysis "
                         "requires a single stiffness at rest; request it about a "
                         "static path that loads one side",
-    *const no_feedback =
-        "acts only in motions, harmonic analyses and damped modes (damped: yes); add path: [0, 1], "
-        "factor: [0, 0] to its load, which removes it from other analyses; or loops: open about an "
-        "instant of a motion",
+    *const no_feedback = "acts only in motions, harmonic analyses and damped modes (damped: yes); "
+                         "to remove it from other analyses, add path: [0, 1], factor: [0, 0] to "
+                         "its load; about an instant of a motion, add loops: open",
     *const no_strains = "has stresses that the undeformed state does not have; request "
                         "the analysis about a static or a linear analysis",
     *const no_drive =
@@ -443,32 +443,32 @@ const scene_input scene_inputs[] = {
     {"pretension", "uuuuuuuuuuuuuxuuu", no_strains, has_pretension},
     {"unstressed length", "uuuuuuuuuuuuuxuuu", no_strains, has_unstressed_length},
     {"free curvature", "uuuuuuuuuuuuuxuuu", no_strains, has_free_curvature},
-    {"load of a case", "uuuuu-uuu-uuu-uuu", NULL, has_of_case},
+    {"load with a load case", "uuuuu-uuu-uuu-uuu", NULL, has_of_case},
     {"initial curvature", "uuuuuuuuuuuuuuuuu", NULL, has_curvature},
     {"imperfection", "uuuuuuuuuuuuuuuuu", NULL, has_imperfection},
-    {"imperfection by a mode", "uuuuuuuuuuuuuuuuu", NULL, has_mode},
-    {"imperfection by shifts", "uuuuuuuuuuuuuuuuu", NULL, has_shifts},
+    {"imperfection given by a mode", "uuuuuuuuuuuuuuuuu", NULL, has_mode},
+    {"imperfection given by shifts", "uuuuuuuuuuuuuuuuu", NULL, has_shifts},
     {"taper", "uuuuuuuuuuuuuuuuu", NULL, has_taper},
-    {"section by its matrices", "uuuuuuuuuuuuuuuuu", NULL, has_matrices},
+    {"section given by its matrices", "uuuuuuuuuuuuuuuuu", NULL, has_matrices},
     {"spring", "uuuuuuuuuuuuuuuuu", NULL, has_spring},
     {"unsymmetric spring", "uusxuxxuuuuxuuuuu", not_symmetric, has_unsymmetric_spring},
     {"offset of an end", "uuuuuuuuuuuuuuuuu", NULL, has_offset},
     {"foundation", "uuuuuuuuuuuuuuuuu", NULL, has_foundation},
-    {"spring by a table", "uuuuuuuuuuuuuuuuu", NULL, has_table},
+    {"spring given by a table", "uuuuuuuuuuuuuuuuu", NULL, has_table},
     {"spring with a kink at rest", "xuuxuxxuuxuuuxxuu", no_tangent, has_kink},
     {"release", "uuuuuuuuuuuuuuuuu", NULL, has_release},
     {"warping held", "uuuuuuuuuuuuuuuuu", NULL, has_held_warping},
     {"warping shared", "uuuuuuuuuuuuuuuuu", NULL, has_shared_warping},
     {"node attached to another", "uuuuuuuuuuuuuuuuu", NULL, has_tied},
-    {"supports in rotated axes", "uuuuuuuuuuuuuuuuu", NULL, has_axes},
+    {"supports along rotated axes", "uuuuuuuuuuuuuuuuu", NULL, has_axes},
     {"constraint", "uuuuuuuuuuuuuuuuu", NULL, has_constraint},
     {"diaphragm", "uuuuuuuuuuuuuuuuu", NULL, has_diaphragm},
     {"fork", "uuuuuuuuuuuuuuuuu", NULL, has_fork},
     {"mass of a node", "-ii-iuuuu-iuuuuuu", NULL, has_mass},
     {"inertia of a node", "-ii-iuuuu-iuuuuuu", NULL, has_inertia},
-    {"motion of a case", "uuxuu-uuu-uuu-uuu", no_drive, has_drive_of_case},
+    {"motion with a load case", "uuxuu-uuu-uuu-uuu", no_drive, has_drive_of_case},
     {"motion of a node", "uuxuu-uuu-uuu-uuu", no_drive, has_drive},
-    {"velocity at the start", "--------u---u---u", NULL, has_start},
+    {"initial velocity", "--------u---u---u", NULL, has_start},
     {"rotating axes", "-uu-u--xu-uuu--uu", no_spin, has_spin},
     {"damping", "----i--iu---uuuuu", NULL, has_damping},
     {"dashpot", "----i--iu---uuuuu", NULL, has_dashpot},
@@ -533,8 +533,8 @@ static status check_unknown(const scene *s, int analysis, scene_column column, f
         if (s->driver[d].value == NULL && s->driver[d].function.pieces == 0 &&
             (column == SCENE_OF_LINEAR || column == SCENE_OF_BUCKLING))
             return fault_set(f, STATUS_REFUSED,
-                             "%s (%s) and motion %s: the value of the motion is unknown, "
-                             "and only a static path solves for it; use a static path",
+                             "%s (%s) and motion %s: the value of the motion is unknown, and only "
+                             "a static path determines such a value; use a static path",
                              scene_called(s, SCENE_ANALYSES, analysis).text,
                              scene_column_name[column], s->driver[d].name);
     return STATUS_OK;
@@ -547,7 +547,7 @@ status scene_inputs_check(const scene *s, int analysis, fault *f)
     TRY(check_unknown(s, analysis, column, f));
     for (const scene_input *i = scene_inputs; i->name != NULL; i++)
         if (i->part[column] == SCENE_PART_REFUSED && i->stands(s, analysis, who, sizeof who))
-            return fault_set(f, STATUS_REFUSED, "%s (%s) and %s (%s): it %s",
+            return fault_set(f, STATUS_REFUSED, "%s (%s): %s (%s) %s",
                              scene_called(s, SCENE_ANALYSES, analysis).text,
                              scene_column_name[column], who, i->name, i->why);
     return STATUS_OK;

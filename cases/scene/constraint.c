@@ -265,9 +265,8 @@ static status check_across(const scene *s, int i, int node, fault *f)
     if (n->rotation != SCENE_ROTATION_SEQUENCE || !(n->axis[0][c->normal] > 0) ||
         n->axis[0][(c->normal + 1) % 3] != 0 || n->axis[0][(c->normal + 2) % 3] != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the rotation of %s must be given by components, or by a "
-                         "sequence that begins with the normal of the diaphragm; remove "
-                         "its rotation",
+                         "%s: the rotation of %s must be given by components, or by a sequence "
+                         "that begins with the normal of the diaphragm; remove 'rotation' there",
                          who.text, whose.text);
     return STATUS_OK;
 }
@@ -312,15 +311,16 @@ static status check_names(const scene *s, int i, fault *f)
                          who.text);
     if (c->nodes < (diaphragm ? 1 : 2))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the constraint has fewer than two nodes; give two or more", who.text);
+                         "%s: the constraint has fewer than two nodes; name two or more", who.text);
     if (!isfinite(c->ratio) || !(fabs(c->ratio) >= 1e-6 && fabs(c->ratio) <= 1e6))
         return fault_set(f, STATUS_REFUSED,
                          "%s: ratio = %g; give a magnitude from 1e-6 to 1e6, or fix the component",
                          who.text, c->ratio);
     if (c->ratio != 1 && !(single && c->nodes == 2))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: a ratio relates one component of two nodes; write one entry for each",
-                         who.text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: a ratio relates one component of two nodes; write one entry for each component",
+            who.text);
     for (int k = 0; k < c->nodes; k++) {
         if (c->node[k] < 0 || c->node[k] >= s->nodes)
             return fault_set(f, STATUS_REFUSED, "%s: one of the nodes does not exist; add it first",

@@ -119,8 +119,8 @@ static status reverse(scene *s, fault *f)
             q->what.of.deflection.place = 1 - q->what.of.deflection.place;
         else if (quantity_type_of(q) == &quantity_hinge)
             return fault_set(f, STATUS_REFUSED,
-                             "quantity %s: it refers to a released end, whose axes change "
-                             "when the member is reversed; remove it",
+                             "quantity %s refers to a released end, whose axes change when the "
+                             "member is reversed; remove the quantity",
                              q->name);
     }
     return STATUS_OK;
@@ -142,10 +142,10 @@ static status split_quantity(scene_quantity *q, double fraction, int second, fau
     int member;
     if ((internal && scene_internal_of(q)->along != SCENE_ALONG_PLACE) ||
         (stress && scene_stress_of(q)->whole))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "quantity %s covers the whole of member 0, which is split; request a position on it",
-            q->name);
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s covers the whole of member 0, which is split; request a "
+                         "position on the member",
+                         q->name);
     if (internal) {
         const scene_internal what = *scene_internal_of(q);
         const double place = split_place(what.place, what.before, fraction, second, &member);
@@ -240,10 +240,10 @@ static status split(scene *s, double fraction, fault *f)
     const int loads = s->loads;
     double between[3], start[3], chord[3];
     if (!(fraction > 0 && fraction < 1))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "a member cannot be split at %g of its length; give a fraction between 0 and 1",
-            fraction);
+        return fault_set(f, STATUS_REFUSED,
+                         "a member cannot be split at the fraction %g of its length; give a "
+                         "fraction between 0 and 1",
+                         fraction);
     scene_end(s, 0, 0, start);
     scene_chord(s, 0, chord);
     for (int k = 0; k < 3; k++) {

@@ -17,10 +17,10 @@
             .left_out = (otherwise), ENTRY_IN(scene_analysis, acting.combination),                 \
             .of = SCENE_COMBINATIONS                                                               \
     }
-static const char all_loads[] = "all loads; required if they have cases";
+static const char all_loads[] = "all loads; required if the loads have cases";
 
 static const entry_field linear[] = {
-    ACTING("all loads; if they have cases, each is solved, and quantities select one"),
+    ACTING("all loads; if the loads have cases, every case is solved and quantities select one"),
     {.name = NULL}};
 
 #define OMEGA(member)                                                                              \
@@ -35,7 +35,7 @@ static const entry_field linear[] = {
          ENTRY_VECTOR,                                                                             \
          .count = 3,                                                                               \
          .unit = "m",                                                                              \
-         .summary = "a point of its axis",                                                         \
+         .summary = "a point of the rotation axis",                                                \
          .usual = "[0, 0, 0]",                                                                     \
          ENTRY_IN(scene_analysis, member.centre),                                                  \
          .always = 1}
@@ -56,7 +56,7 @@ static const entry_field spin[] = {OMEGA(of.walk.frame), {.name = NULL}},
     {"time",                                                                                       \
      ENTRY_NUMBER,                                                                                 \
      .unit = "s",                                                                                  \
-     .summary = "instant of the motion that 'about' names",                                        \
+     .summary = "time during the motion that 'about' names",                                       \
      .left_out = "the end of the motion",                                                          \
      ENTRY_IN(scene_analysis, time),                                                               \
      .otherwise = NAN,                                                                             \
@@ -66,14 +66,14 @@ static const entry_field spin[] = {OMEGA(of.walk.frame), {.name = NULL}},
          .group = 2,                                                                               \
          .words = "own|fixed",                                                                     \
          .summary =                                                                                \
-             "about an instant: small motions are along the own axes of each node, which turn "    \
-             "with it, or along fixed axes",                                                       \
+             "about an instant of a motion: axes of the small motions. own: the axes of each "     \
+             "node, which rotate with the node",                                                   \
          .usual = "own",                                                                           \
          ENTRY_IN(scene_analysis, axes)},                                                          \
     {                                                                                              \
         "axes_of", ENTRY_NAME, .group = 2,                                                         \
-            .summary = "about an instant: node; all small motions are along axes that turn with "  \
-                       "it",                                                                       \
+            .summary = "about an instant of a motion: node with which the axes of all small "      \
+                       "motions rotate",                                                           \
             .left_out = "see axes", ENTRY_IN(scene_analysis, axes_of), .of = SCENE_NODES           \
     }
 
@@ -102,8 +102,8 @@ static const entry_field path[] = {{"stations", ENTRY_NUMBERS, .needed = 1,
      .most = INFINITY},                                                                            \
     {                                                                                              \
         "stiffness", ENTRY_NUMBER, .unit = "s",                                                    \
-            .summary = "coefficient of the stiffness of members and springs, without geometric "   \
-                       "stiffness",                                                                \
+            .summary = "coefficient of the stiffness matrix of members and springs, without "      \
+                       "geometric stiffness",                                                      \
             .usual = "0", ENTRY_IN(scene_analysis, damping.stiffness), .most = INFINITY            \
     }
 
@@ -114,14 +114,14 @@ static const entry_field of_modes[] = {
     {"ratio", ENTRY_NUMBER, .unit = "1", .summary = "damping ratio of every mode", .usual = "0",
      ENTRY_IN(scene_analysis, damping.ratio), .most = INFINITY},
     {"ratios", ENTRY_NUMBERS, .unit = "1",
-     .summary =
-         "damping ratios of the first modes, lowest frequency first; the others have 'ratio'",
+     .summary = "damping ratios of the first modes, lowest frequency first; 'ratio' applies to all "
+                "other modes",
      .left_out = "none", ENTRY_IN(scene_analysis, damping.ratios)},
     {.name = NULL}};
 
 #define PROPORTIONAL                                                                               \
     {"damping", ENTRY_MAP, .below = proportional,                                                  \
-     .summary = "Rayleigh damping, in addition to that of members and springs",                    \
+     .summary = "Rayleigh damping, in addition to the damping of members and springs",             \
      .left_out = "none"}
 
 #define LOOPS                                                                                      \
@@ -136,17 +136,18 @@ static const entry_field modes[] = {
     {"wanted", ENTRY_NUMBER, .summary = "number of modes",
      .left_out = "as required by the quantities"},
     {"damped", ENTRY_WORD, .words = "no|yes",
-     .summary = "modes with the damping of members, springs and `damping`", .usual = "no",
-     ENTRY_IN(scene_analysis, damped)},
+     .summary = "modes with the damping of members and springs and that given by `damping`",
+     .usual = "no", ENTRY_IN(scene_analysis, damped)},
     LOOPS,
     PROPORTIONAL,
-    ABOUT("static or linear analysis: its last state is the base state; or motion: an instant"),
+    ABOUT("static or linear analysis, whose last state is the base state; or motion, whose state "
+          "at 'time' is the base state"),
     INSTANT,
     {.name = NULL}};
 
 static const entry_field buckling[] = {{"wanted", ENTRY_NUMBER, .summary = "number of modes",
                                         .left_out = "as required by the quantities"},
-                                       ABOUT("static analysis; its last state is the base state"),
+                                       ABOUT("static analysis, whose last state is the base state"),
                                        ACTING(all_loads),
                                        {.name = "sign", .kind = ENTRY_LATER},
                                        {.name = NULL}};
@@ -160,11 +161,11 @@ static const entry_field compliance[] = {
     {"released", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
      .summary = "prescribed components that are free", .usual = "[]",
      ENTRY_IN(scene_analysis, of.compliance.released)},
-    ABOUT("static analysis, continuation or rotation; computed at its stations"),
+    ABOUT("static analysis, continuation or rotation; the compliance is computed at its stations"),
     {.name = NULL}};
 
 static const entry_field control[] = {
-    {"node", ENTRY_NAME, .needed = 1, .summary = "node of the coordinate",
+    {"node", ENTRY_NAME, .needed = 1, .summary = "node to which the coordinate belongs",
      ENTRY_IN(scene_analysis, of.continuation.control.node), .of = SCENE_NODES},
     {"component", ENTRY_WORD, .needed = 1, .words = "ux|uy|uz",
      .summary = "translation of the node",
@@ -173,7 +174,7 @@ static const entry_field control[] = {
 
 static const entry_field continuation[] = {
     {"control", ENTRY_MAP, .needed = 1, .below = control,
-     .summary = "coordinate that is increased"},
+     .summary = "coordinate that increases along the path"},
     {"by", ENTRY_WORD, .words = "coordinate|arc", .summary = "measure of the steps",
      .usual = "coordinate", ENTRY_IN(scene_analysis, of.continuation.control.by_arc), .always = 1},
     {"to", ENTRY_NUMBERS, .needed = 1, .unit = "m",
@@ -205,21 +206,21 @@ static const entry_field start[] = {
     {"spin", ENTRY_VECTOR, .count = 3, .unit = "rad/s",
      .summary = "angular velocity of the structure about 'centre'", .usual = "[0, 0, 0]",
      ENTRY_IN(scene_analysis, of.motion.start.spin)},
-    {"centre", ENTRY_VECTOR, .count = 3, .unit = "m", .summary = "a point of its axis",
+    {"centre", ENTRY_VECTOR, .count = 3, .unit = "m", .summary = "a point of the rotation axis",
      .usual = "[0, 0, 0]", ENTRY_IN(scene_analysis, of.motion.start.centre)},
     {.name = NULL}};
 
 #define OF_MODES                                                                                   \
-    "for modes, which motions do not use; at a frequency f, mass: 4*pi*f*ratio gives that ratio, " \
-    "or damping: ratio/(pi*f) of members"
+    "only for modes, which motions do not use; at a frequency f, mass: 4*pi*f*ratio, or damping: " \
+    "ratio/(pi*f) of members, gives the same damping ratio"
 static const entry_field of_masses[] = {
     {"mass", ENTRY_NUMBER, .needed = 1, .unit = "1/s",
-     .summary =
-         "ratio of damping force to momentum, for all masses in fixed axes; not with conserving",
+     .summary = "damping force divided by momentum, for all masses, along fixed axes; not "
+                "supported by the integrator conserving",
      ENTRY_IN(scene_analysis, damping.mass), .most = INFINITY},
     {"stiffness", ENTRY_LATER,
-     .summary = "not for motions; give it as damping: b [s] of each member, and b times their "
-                "stiffness as damping of springs"},
+     .summary = "not for motions; give each member damping: b [s], and each spring a damping of b "
+                "times its stiffness"},
     {"ratio", ENTRY_LATER, .summary = OF_MODES},
     {"ratios", ENTRY_LATER, .summary = OF_MODES},
     {.name = NULL}};
@@ -231,18 +232,18 @@ static const entry_field in_time[] = {
      ENTRY_IN(scene_analysis, of.motion.path)},
     {"integrator", ENTRY_WORD, .words = SCENE_SCHEME_CHOICES, .summary = "method",
      .left_out =
-         "alpha if one of its parameters, or a step without a tolerance, is given; else radau"},
+         "alpha if one of its parameters is given, or a step without a tolerance; otherwise radau"},
     {"step", ENTRY_NUMBER, .unit = "s",
-     .summary = "time step; with a tolerance, the initial time step",
+     .summary = "time step; initial time step if a tolerance is given",
      .left_out = "1/1000 of the last station", ENTRY_IN(scene_analysis, of.motion.step),
      .always = 1},
     {"tolerance", ENTRY_NUMBER,
-     .summary = "tolerance of the time error, relative to the largest motion "
-                "so far (at most the size of the structure). alpha and "
-                "conserving: for all steps together, distributed in proportion "
-                "to their lengths; radau: for the error estimate of one step, "
-                "which is far above the actual error; 0: equal steps",
-     .left_out = "0 if a step is given; else 1e-3, with radau 1e-5: 0.1 % of the motion",
+     .summary = "tolerance of the time-integration error, relative to the largest displacement so "
+                "far (at most the size of the structure). alpha and conserving: for all steps "
+                "together, distributed in proportion to their lengths; radau: for the error "
+                "estimate of one step, which is far above the actual error. 0: equal steps",
+     .left_out =
+         "0 if a step is given; otherwise 1e-3 (radau: 1e-5), which is 0.1 % of the displacements",
      ENTRY_IN(scene_analysis, of.motion.tolerance)},
     {"rho", ENTRY_NUMBER, .group = 1,
      .summary = "alpha: spectral radius at infinite frequency, 0 to 1", .usual = "0.9"},
@@ -250,21 +251,20 @@ static const entry_field in_time[] = {
      .summary = "alpha: parameter of the method of Hilber, Hughes and Taylor, 0 to 1/3",
      .left_out = "as given by rho"},
     {"trapezoidal", ENTRY_WORD, .group = 1, .words = "no|yes",
-     .summary = "alpha: use the trapezoidal rule, which may become unstable; for comparison",
+     .summary = "alpha: use the trapezoidal rule, for comparison; the rule may become unstable",
      .usual = "no"},
     {"parameters", ENTRY_VECTOR, .group = 1, .count = 2, .summary = "alpha: alpha_m, alpha_f",
      .left_out = "as given by rho"},
     {"mass", ENTRY_WORD, .words = SCENE_MASS_CHOICES,
      .summary = "mass of members: lumped at the nodes, or consistent (alpha and radau only)",
-     .left_out =
-         "consistent with alpha and radau; lumped with the others, or as given for the scene",
+     .left_out = "as given for the scene; otherwise consistent with alpha and radau, and lumped "
+                 "with the other integrators",
      ENTRY_IN(scene_analysis, of.motion.mass), .first = SCENE_LUMPED},
-    ABOUT("static analysis, continuation or rotation, whose last state "
-          "is the start; or a motion, which is continued with its "
-          "velocities and time"),
+    ABOUT("static analysis, continuation or rotation, whose last state is the initial state; or a "
+          "motion, which is continued from its last state and time"),
     {"damping", ENTRY_MAP, .below = of_masses,
-     .summary =
-         "mass-proportional damping; stiffness-proportional: 'damping' of members and springs",
+     .summary = "mass-proportional damping; for stiffness-proportional damping, use 'damping' of "
+                "members and springs",
      .left_out = "none"},
     {"start", ENTRY_MAP, .below = start,
      .summary = "velocities at the start, added to those of a rotation in 'about'",
@@ -276,18 +276,19 @@ static const entry_field harmonic[] = {
     {"frequencies", ENTRY_NUMBERS, .needed = 1, .unit = "Hz", .summary = "frequencies, ascending",
      ENTRY_IN(scene_analysis, of.harmonic)},
     {"solution", ENTRY_WORD, .words = "direct|modal",
-     .summary =
-         "direct: factorisation at each frequency; modal: undamped modes, with an error bound",
+     .summary = "direct: factorisation at each frequency; modal: superposition of undamped modes, "
+                "with an error bound",
      .usual = "direct", ENTRY_IN(scene_analysis, by_modes)},
     {"modes", ENTRY_WHOLE,
      .summary = "number of modes for the modal solution and for damping ratios; 0: all",
      .usual = "0", ENTRY_IN(scene_analysis, modes), .most = 1000000},
     {"damping", ENTRY_MAP, .below = of_modes,
-     .summary =
-         "Rayleigh damping and modal damping ratios, in addition to damping of members and springs",
+     .summary = "Rayleigh damping and modal damping ratios, in addition to the damping of members "
+                "and springs",
      .left_out = "none"},
     LOOPS,
-    ABOUT("static or linear analysis: its last state is the base state; or motion: an instant"),
+    ABOUT("static or linear analysis, whose last state is the base state; or motion, whose state "
+          "at 'time' is the base state"),
     INSTANT,
     {.name = NULL}};
 
@@ -315,6 +316,6 @@ const entry_field entry_analysis[] = {
      .summary = "transient analysis; requires masses", ENTRY_IN(scene_analysis, kind),
      .first = SCENE_MOTION},
     {"harmonic", ENTRY_MAP, .needed = 1, .group = 1, .below = harmonic,
-     .summary = "steady harmonic response over frequency; requires masses",
+     .summary = "steady-state harmonic response over frequency; requires masses",
      ENTRY_IN(scene_analysis, kind), .first = SCENE_HARMONIC},
     {.name = NULL}};

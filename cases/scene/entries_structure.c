@@ -13,7 +13,7 @@ static const entry_field drive[] = {
     {.name = NULL}};
 
 static const entry_field fork_[] = {
-    {"axis", ENTRY_DIRECTION, .needed = 1, .count = 3, .summary = "the section's own axis",
+    {"axis", ENTRY_DIRECTION, .needed = 1, .count = 3, .summary = "axis of the section",
      ENTRY_IN(scene_node, axis[0])},
     {"web", ENTRY_DIRECTION, .needed = 1, .count = 3,
      .summary = "direction of the web, which the guides of the fork hold",
@@ -22,7 +22,7 @@ static const entry_field fork_[] = {
 
 static const entry_field turn[] = {
     {"axis", ENTRY_FORMS, .needed = 1,
-     .summary = "x, y, z or [3]; it rotates with the preceding angles"},
+     .summary = "rotation axis, x, y, z or [3], which rotates with the preceding angles"},
     {"angle", ENTRY_NAME, .needed = 1, .summary = "free, held or the name of a motion"},
     {.name = NULL}};
 
@@ -41,25 +41,25 @@ static const entry_field axes[] = {
     {"z", ENTRY_DIRECTION, .count = 3, .summary = "direction of the z axis, instead of x or y",
      .left_out = "perpendicular to the other two"},
     {"member", ENTRY_NAME,
-     .summary = "straight member that ends at the node, instead of directions",
+     .summary =
+         "straight member that ends at the node and whose axes are used instead of directions",
      .left_out = "directions"},
     {.name = NULL}};
 
 const entry_field entry_node[] = {
     {"at", ENTRY_POSITION, .needed = 1, .count = 3, .unit = "m", .summary = "position",
      ENTRY_IN(scene_node, position)},
-    {"part_of", ENTRY_NAME, .summary = "node to which it is rigidly connected",
+    {"part_of", ENTRY_NAME, .summary = "node to which this node is rigidly connected",
      .left_out = "no rigid connection", ENTRY_IN(scene_node, attached), .of = SCENE_NODES},
     {"axes", ENTRY_MAP, .below = axes,
      .summary = "axes of hold, drive and reactions of the node, for inclined supports",
      .left_out = "axes of the scene"},
     {"hold", ENTRY_WORDS, .words = "all|" ENTRY_COMPONENTS,
-     .summary = "fixed components; a single rotation is about an axis fixed in space",
+     .summary = "fixed components; a single fixed rotation is about an axis fixed in space",
      .usual = "[]"},
     {"drive", ENTRY_MAP, .below = drive, .summary = "components that follow a motion, by its name",
      .left_out = "none"},
-    {"rotation", ENTRY_MAP, .below = rotation,
-     .summary = "rotation of the node, if it is constrained",
+    {"rotation", ENTRY_MAP, .below = rotation, .summary = "constraint of the node's rotation",
      .left_out = "as given by hold, drive and fork"},
     {"fork", ENTRY_MAP, .below = fork_,
      .summary = "no rotation about the axis of the rotated section", .left_out = "none",
@@ -67,10 +67,10 @@ const entry_field entry_node[] = {
     {"mass", ENTRY_NUMBER, .unit = "kg", .summary = "mass of a rigid body fixed to the node",
      .usual = "0", ENTRY_IN(scene_node, body.mass), .most = INFINITY},
     {"centre", ENTRY_DIRECTION, .count = 3, .unit = "m",
-     .summary = "centre of that mass, relative to the node", .usual = "[0, 0, 0]",
+     .summary = "centre of mass, relative to the node", .usual = "[0, 0, 0]",
      ENTRY_IN(scene_node, body.centre)},
     {"inertia", ENTRY_VECTOR, .count = 6, .unit = "kg m^2",
-     .summary = "inertia tensor about that centre: [xx, yy, zz, xy, yz, zx]",
+     .summary = "inertia tensor about the centre of mass: [xx, yy, zz, xy, yz, zx]",
      .usual = "[0, 0, 0, 0, 0, 0]", ENTRY_IN(scene_node, body.inertia)},
     {.name = "velocity", .kind = ENTRY_LATER},
     {.name = "spin", .kind = ENTRY_LATER},
@@ -78,12 +78,12 @@ const entry_field entry_node[] = {
 
 static const entry_field release[] = {
     {"from", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
-     .summary = "released components at this end, in the member's axes: [rz] is a hinge, [rx, ry, "
+     .summary = "released components at the start, in the member's axes: [rz] is a hinge, [rx, ry, "
                 "rz] a ball joint",
      .usual = "[]"},
     {"to", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
-     .summary = "released components at that end; of two rotations, the first axis moves with the "
-                "node and the second with the member",
+     .summary = "released components at the end; if two rotations are released, the first axis "
+                "moves with the node and the second with the member",
      .usual = "[]"},
     {.name = NULL}};
 
@@ -98,19 +98,20 @@ static const entry_field imperfection[] = {
     {"amplitude", ENTRY_VECTOR, .needed = 1, .count = 2, .unit = "m",
      .summary = "amplitude along the section's y and z axes", ENTRY_IN(scene_member, bow),
      .mirrors = "-+"},
-    {"half_waves", ENTRY_WHOLE, .summary = "number of half-waves of a sine between its ends",
-     .usual = "1", ENTRY_IN(scene_member, half_waves), .least = 1, .most = 1000},
+    {"half_waves", ENTRY_WHOLE,
+     .summary = "number of half-waves of the sine between the ends of the member", .usual = "1",
+     ENTRY_IN(scene_member, half_waves), .least = 1, .most = 1000},
     {.name = NULL}};
 
 static const entry_field foundation[] = {
     {"translation", ENTRY_VECTOR, .count = 3, .unit = "N/m^2",
-     .summary = "stiffness along its x, y, z: force per length and displacement",
+     .summary = "stiffness along the member's x, y and z axes: force per length and displacement",
      .usual = "[0, 0, 0]", .at = offsetof(scene_member, foundation), .size = 3 * sizeof(double),
      .most = INFINITY},
     {"rotation", ENTRY_VECTOR, .count = 3, .unit = "N",
-     .summary = "stiffness about its x, y, z: moment per length and rotation", .usual = "[0, 0, 0]",
-     .at = offsetof(scene_member, foundation) + 3 * sizeof(double), .size = 3 * sizeof(double),
-     .most = INFINITY},
+     .summary = "stiffness about the member's x, y and z axes: moment per length and rotation",
+     .usual = "[0, 0, 0]", .at = offsetof(scene_member, foundation) + 3 * sizeof(double),
+     .size = 3 * sizeof(double), .most = INFINITY},
     {.name = NULL}};
 
 #define KEY(type, name, dimensions, ...) {__VA_ARGS__, ENTRY_IN(scene_member, name)},
@@ -120,9 +121,8 @@ const entry_field entry_member[] = {
     {.name = NULL}};
 
 #define FILE_OF_TABLE                                                                              \
-    "CSV file, path relative to the scene file; then 'at' and 'value' are its columns, by header " \
-    "or "                                                                                          \
-    "number"
+    "CSV file, relative to the scene file; 'at' and 'value' are then columns of the file, by "     \
+    "header or number"
 #define NO_FILE "none: numbers here"
 #define TABLE(which, k, length, force)                                                             \
     static const entry_field table_##which[] = {                                                   \
@@ -130,8 +130,8 @@ const entry_field entry_member[] = {
         {"at", ENTRY_NUMBERS, .needed = 1, .unit = (length),                                       \
          .summary = "displacements or rotations, ascending", ENTRY_IN(scene_spring, table[k].at)}, \
         {"value", ENTRY_NUMBERS, .needed = 1, .unit = (force),                                     \
-         .summary =                                                                                \
-             "forces or moments at these, not decreasing, 0 at 0; linear between and beyond them", \
+         .summary = "forces or moments at the values of 'at'; they must not decrease and must be " \
+                    "0 at 0, and are linear between and beyond the points",                        \
          ENTRY_IN(scene_spring, table[k].value)},                                                  \
         {.name = NULL}};
 TABLE(ux, 0, "m", "N")
@@ -152,7 +152,8 @@ static const entry_field tables[] = {
     {.name = NULL}};
 
 const entry_field entry_spring[] = {
-    {"from", ENTRY_NAME, .summary = "first node; deformations are measured in its axes",
+    {"from", ENTRY_NAME,
+     .summary = "first node; deformations are measured along the axes of this node",
      .left_out = "the ground", ENTRY_IN(scene_spring, p), .of = SCENE_NODES},
     {"to", ENTRY_NAME, .needed = 1, .summary = "second node", ENTRY_IN(scene_spring, q),
      .of = SCENE_NODES},
@@ -160,9 +161,9 @@ const entry_field entry_spring[] = {
      .summary = "force and moment tables, in addition to stiffness: gaps, stops, one-sided springs",
      .left_out = "none"},
     {"stiffness", ENTRY_NUMBERS,
-     .summary = "for ux, uy, uz [N/m], rx, ry, rz [N m]: six values, or the 36 "
-                "entries of a matrix, which for bearings may be unsymmetric",
-     .left_out = "none; required without damping and tables"},
+     .summary = "for ux, uy, uz [N/m], rx, ry, rz [N m]: six values, or the 36 entries of a "
+                "matrix, which may be unsymmetric for bearings",
+     .left_out = "none; required if there is no damping and no table"},
     {"damping", ENTRY_NUMBERS,
      .summary = "dashpot coefficients for ux, uy, uz [N s/m], rx, ry, rz [N m s]: six values, or "
                 "36 entries",
@@ -174,7 +175,7 @@ static const entry_field condition[] = {
      ENTRY_IN(scene_driver, condition_node), .of = SCENE_NODES},
     {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS,
      .summary = "coordinate of the node", ENTRY_IN(scene_driver, condition_component)},
-    {"motion", ENTRY_NAME, .needed = 1, .summary = "motion that prescribes it",
+    {"motion", ENTRY_NAME, .needed = 1, .summary = "motion that prescribes that coordinate",
      ENTRY_IN(scene_driver, condition_driver), .of = SCENE_DRIVERS},
     {.name = NULL}};
 
@@ -192,29 +193,33 @@ static const entry_field table[] = {
     {.name = NULL}};
 
 const entry_field entry_driver[] = {
-    {"unit", ENTRY_WORD, .words = "m|rad", .summary = "unit of its values",
+    {"unit", ENTRY_WORD, .words = "m|rad", .summary = "unit of the values",
      .left_out = "unit of the driven component"},
     {"path", ENTRY_NUMBERS, .summary = "path parameter, ascending",
      .left_out = "none; required with value"},
     {"value", ENTRY_NUMBERS,
-     .summary = "values at these, linear in between; a motion in time uses the last value",
-     .left_out = "none; for a motion in time, or unknown"},
+     .summary = "values at the path parameters, linear in between; a transient analysis uses the "
+                "last value",
+     .left_out = "none, for a function of time or an unknown motion"},
     {"such_that", ENTRY_MAP, .group = 1, .below = condition,
      .summary = "condition that determines an unknown motion", .left_out = "the motion is known"},
     {"unknown", ENTRY_WORD, .words = "true|yes",
-     .summary = "a remark for readers of the file, without effect",
+     .summary = "a remark for readers of the file; it has no effect",
      .left_out = "as given by such_that"},
     {"time", ENTRY_TEXT, .group = 1,
-     .summary = "motion in time: expression of the time t [s], in m or rad (30*deg*t)",
+     .summary =
+         "value as a function of time: expression of the time t [s], in m or rad, such as 30*deg*t",
      .left_out = "a motion along the path"},
     {"pieces", ENTRY_LIST, .group = 1, .below = piece,
-     .summary = "motion in time by successive expressions; value and velocity must be continuous",
+     .summary = "value as a function of time, given by successive expressions; value and velocity "
+                "must be continuous",
      .left_out = "a motion along the path"},
     {"table", ENTRY_MAP, .group = 1, .below = table,
-     .summary = "motion in time as a table: a cubic spline that starts and ends at rest",
+     .summary = "value as a function of time, given by a table: a cubic spline that starts and "
+                "ends at rest",
      .left_out = "a motion along the path"},
-    {"case", ENTRY_NAME, .summary = "load case of the motion",
-     .left_out = "none: it acts in all load cases", ENTRY_IN(scene_driver, load_case),
+    {"case", ENTRY_NAME, .summary = "load case to which the motion belongs",
+     .left_out = "none: the motion acts in all load cases", ENTRY_IN(scene_driver, load_case),
      .of = SCENE_CASES},
     {.name = NULL}};
 
@@ -224,16 +229,17 @@ static const entry_field feedback[] = {
     {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS,
      .summary = "displacement or rotation that is measured, along fixed axes",
      ENTRY_IN(scene_load, feedback.component)},
-    {"from", ENTRY_NAME, .summary = "node whose same component is subtracted",
+    {"from", ENTRY_NAME, .summary = "node of which the same component is subtracted",
      .left_out = "none: the displacement itself", ENTRY_IN(scene_load, feedback.from),
      .of = SCENE_NODES},
     {"proportional", ENTRY_NUMBER,
-     .summary = "gain of the error: reference minus measured [1/m, 1/rad]", .usual = "0",
-     ENTRY_IN(scene_load, feedback.proportional)},
-    {"derivative", ENTRY_NUMBER, .summary = "gain of its rate [s/m, s/rad]", .usual = "0",
-     ENTRY_IN(scene_load, feedback.derivative)},
+     .summary = "gain of the error, which is the reference minus the measured value [1/m, 1/rad]",
+     .usual = "0", ENTRY_IN(scene_load, feedback.proportional)},
+    {"derivative", ENTRY_NUMBER, .summary = "gain of the rate of the error [s/m, s/rad]",
+     .usual = "0", ENTRY_IN(scene_load, feedback.derivative)},
     {"integral", ENTRY_NUMBER,
-     .summary = "gain of its integral over time, from the start of the motion [1/(m s), 1/(rad s)]",
+     .summary = "gain of the integral of the error over time, from the start of the motion [1/(m "
+                "s), 1/(rad s)]",
      .usual = "0", ENTRY_IN(scene_load, feedback.integral)},
     {"limit", ENTRY_NUMBER, .summary = "largest magnitude of the factor", .left_out = "none",
      ENTRY_IN(scene_load, feedback.limit), .most = INFINITY},
@@ -250,21 +256,21 @@ const entry_field entry_constraint[] = {
     {"equal", ENTRY_FORMS, .summary = "[NODE, NODE, ...]: nodes with equal components",
      .left_out = "components of two nodes have a ratio"},
     {"components", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
-     .summary = "components of 'equal', along the nodes' axes; all of rx, ry "
-                "and rz, or one of them if the others are fixed",
+     .summary = "components that are equal, along the nodes' axes; of the rotations, all three, or "
+                "one if the others are fixed",
      .left_out = "required with 'equal'"},
     {"node", ENTRY_NAME, .summary = "node whose component is 'ratio' times that of 'of'",
      .left_out = "none, with 'equal'"},
     {"component", ENTRY_WORD, .words = ENTRY_COMPONENTS,
-     .summary = "component of both nodes, along their axes; a rotation only if "
-                "the others are fixed",
+     .summary = "component of both nodes, along their axes; a rotation only if the other rotations "
+                "are fixed",
      .left_out = "none, with 'equal'"},
     {"ratio", ENTRY_NUMBER, .unit = "1", .summary = "nonzero; may be negative",
      .left_out = "1, with 'equal'"},
     {"of", ENTRY_NAME, .summary = "the other node", .left_out = "none, with 'equal'"},
     {"diaphragm", ENTRY_FORMS,
-     .summary = "[NODE, ...]: nodes that move with 'master' perpendicular to "
-                "'normal' and about it, as a rigid floor",
+     .summary = "[NODE, ...]: nodes that follow 'master' as in a rigid floor: they translate "
+                "perpendicular to 'normal' and rotate about 'normal' with it",
      .left_out = "none, with 'equal'"},
     {"master", ENTRY_NAME, .summary = "node that the nodes of the diaphragm follow",
      .left_out = "none, with 'equal'"},
@@ -275,19 +281,21 @@ const entry_field entry_constraint[] = {
 
 const entry_field entry_imperfection[] = {
     {"mode_of", ENTRY_NAME,
-     .summary = "buckling or modal analysis, which uses the perfect structure",
+     .summary = "buckling or modal analysis that provides the mode, of the perfect structure",
      .left_out = "none, with 'shifts'", ENTRY_IN(scene_imperfection, analysis),
      .of = SCENE_ANALYSES},
     {"which", ENTRY_WHOLE,
-     .summary = "index of the mode, from 0; for buckling, among the positive "
-                "critical loads",
+     .summary = "index of the mode, counted from 0; buckling modes are counted over positive "
+                "critical loads only",
      .usual = "0", ENTRY_IN(scene_imperfection, order), .most = ENTRY_MOST_ORDER},
     {"amplitude", ENTRY_NUMBER, .unit = "m",
-     .summary = "largest shift of a point of a member, with 'mode_of'",
+     .summary = "largest displacement of a point of a member, with 'mode_of'",
      .left_out = "none, with 'shifts'", ENTRY_IN(scene_imperfection, amplitude)},
     {"direction", ENTRY_DIRECTION, .count = 3,
-     .summary = "direction of that shift; required if two modes have the same load or frequency",
-     .left_out = "its largest component is positive", ENTRY_IN(scene_imperfection, direction)},
+     .summary = "direction of the largest displacement; required if two modes have the same load "
+                "or frequency",
+     .left_out = "largest component of the displacement is positive",
+     ENTRY_IN(scene_imperfection, direction)},
     {"shifts", ENTRY_FORMS, .unit = "m",
      .summary = "{NODE: [dx, dy, dz], ...}, or {file: CSV} with the columns node, dx, dy, dz",
      .left_out = "none, with 'mode_of'"},
@@ -371,8 +379,8 @@ static const entry_field constants[] = {
     .left_out = "as computed", ENTRY_IN(section_spec, given.constant), .otherwise = NAN
 static const entry_field given[] = {
     {"A", ENTRY_NUMBER, .unit = "m^2", .summary = "walls: area", GIVEN(A)},
-    {"Iy", ENTRY_NUMBER, .unit = "m^4", .summary = "walls: int z^2 dA", GIVEN(Iy)},
-    {"Iz", ENTRY_NUMBER, .unit = "m^4", .summary = "walls: int y^2 dA", GIVEN(Iz)},
+    {"Iy", ENTRY_NUMBER, .unit = "m^4", .summary = "walls: integral of z^2 dA", GIVEN(Iy)},
+    {"Iz", ENTRY_NUMBER, .unit = "m^4", .summary = "walls: integral of y^2 dA", GIVEN(Iz)},
     {"Iw", ENTRY_NUMBER, .unit = "m^6", .summary = "warping constant", GIVEN(Iw)},
     {"beta", ENTRY_NUMBER, .unit = "rad",
      .summary = "walls: angle from the y axis of the points to the principal y axis", GIVEN(beta),
@@ -398,7 +406,7 @@ static const entry_field given[] = {
 static const entry_field flanged[] = {
     {"depth", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "distance between the flanges"},
     {"flange", ENTRY_NUMBER, .needed = 1, .unit = "m",
-     .summary = "width of a flange; channel, zed: from the web"},
+     .summary = "width of a flange; channel and zed: measured from the web"},
     {"flange_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m",
      .summary = "thickness of both flanges"},
     {"web_thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "thickness of the web"},
@@ -434,7 +442,7 @@ const entry_field entry_section[] = {
     {"zed", ENTRY_MAP, .needed = 1, .group = 1, .below = flanged,
      .summary = "upper flange towards -y"},
     {"angle", ENTRY_MAP, .needed = 1, .group = 1, .below = legs,
-     .summary = "angle section: legs from the corner"},
+     .summary = "angle section, whose legs start at the corner"},
     {"box", ENTRY_MAP, .needed = 1, .group = 1, .below = flanged,
      .summary = "closed box with two webs"},
     {"tube", ENTRY_MAP, .needed = 1, .group = 1, .below = tube,
@@ -446,17 +454,17 @@ const entry_field entry_section[] = {
          "rolled section: IPE200, HEA200, HEB200, HEM200, UPN200, L100x10, SHS100x5, RHS200x100x5, "
          "CHS114.3x5"},
     {"stiffness", ENTRY_NUMBERS, .needed = 1, .group = 1,
-     .summary = "(N, Qy, Qz, Mx, My, Mz) from (gx, gy, gz, kx, ky, kz) on the member's line: the "
-                "36 entries of a symmetric matrix, or its diagonal"},
+     .summary = "stiffness matrix that gives (N, Qy, Qz, Mx, My, Mz) from (gx, gy, gz, kx, ky, kz) "
+                "on the member's line: 36 entries, symmetric, or the six of the diagonal"},
     {"mass", ENTRY_NUMBERS,
-     .summary = "with stiffness: mass per length for (vx, vy, vz, wx, wy, wz), 36 entries, or the "
-                "diagonal",
+     .summary = "with 'stiffness': matrix of mass per length for (vx, vy, vz, wx, wy, wz): 36 "
+                "entries, or the six of the diagonal",
      .usual = "[0, 0, 0, 0, 0, 0]"},
     {"shear_factor", ENTRY_FORMS, .summary = "rectangle: k, or [k_y, k_z]",
      .left_out = "5/6, including the shear of warping"},
     {"thickness_terms", ENTRY_WORD, .words = "no|yes", .summary = "walls: include t^3 terms",
      .usual = "no", ENTRY_IN(section_spec, thickness_terms)},
-    {"cells", ENTRY_WHOLE, .summary = "number of closed cells that the walls form", .usual = "0",
+    {"cells", ENTRY_WHOLE, .summary = "number of closed cells formed by the walls", .usual = "0",
      ENTRY_IN(section_spec, cells), .most = SECTION_MAX_WALLS},
     {"given", ENTRY_MAP, .below = given, .summary = "constants that replace the computed constants",
      .left_out = "none"},

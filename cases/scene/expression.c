@@ -347,9 +347,9 @@ static status read_literal(reader *r)
     const int from = r->at, length = number_length(r->text + from, r->end - from);
     char digits[NUMBER_TEXT];
     if (length == 0 || (length == 1 && !is_digit(r->text[from])))
-        return WRONG(r, from, "a decimal point without digits; write a number");
+        return WRONG(r, from, "decimal point without digits; write a number");
     if (length >= NUMBER_TEXT)
-        return WRONG(r, from, "a number of more than 60 characters; shorten it");
+        return WRONG(r, from, "the number has more than 60 characters; shorten it");
     memcpy(digits, r->text + from, (size_t)length);
     digits[length] = '\0';
     errno = 0;
@@ -361,8 +361,8 @@ static status read_literal(reader *r)
         return WRONG(r, from, "'%s' is too large; the largest number is 1.8e308", digits);
     if (here(r) != '\0' && expression_name_length(r->text + r->at) > 0)
         return WRONG(r, r->at,
-                     "'%.20s' after a number; values are SI without units: write 20e-3 for 20 mm, "
-                     "45*deg for degrees, and * between factors",
+                     "'%.20s' after a number; values are in SI units and have no unit: write 20e-3 "
+                     "for 20 mm, 45*deg for 45 degrees, and * between factors",
                      r->text + r->at);
     return emit(r, JET_NUMBER, value, 1);
 }
@@ -377,10 +377,11 @@ static status read_arguments(reader *r, const expression_function *f, int word, 
         TRY(read_sum(r));
         const double *given = number_from(r, first);
         if (given == NULL && f->in_time == JET_NUMBER)
-            return WRONG(r, word, "%s accepts only numbers, but its argument contains t; %s",
-                         f->name,
-                         f->kinked ? "it has kinks, where steps must end; give pieces instead"
-                                   : "write it with atan or sqrt");
+            return WRONG(
+                r, word, "%s accepts only numbers, but its argument contains t; %s", f->name,
+                f->kinked
+                    ? "the function has kinks, at which time steps must end; give pieces instead"
+                    : "write it with atan or sqrt");
         if ((*count)++ == 0 || given == NULL)
             continue;
         double *before = &r->to->step[first - 1].number;
@@ -452,16 +453,17 @@ static status read_primary(reader *r)
     if (c != '\0' && expression_name_length(r->text + from) > 0)
         return read_name(r);
     return c == '\0'
-               ? WRONG(r, from, "the expression ends where a number, name or '(' is expected")
-               : WRONG(r, from, "'%c' where a number, name or '(' is expected", c >= ' ' ? c : '?');
+               ? WRONG(r, from, "the expression ends where a number, a name or '(' is expected")
+               : WRONG(r, from, "found '%c' where a number, a name or '(' is expected",
+                       c >= ' ' ? c : '?');
 }
 
 static status deeper(reader *r)
 {
-    return ++r->nested <= DEEPEST
-               ? STATUS_OK
-               : WRONG(r, r->at,
-                       "signs, powers or parentheses are nested too deeply; split it with 'let'");
+    return ++r->nested <= DEEPEST ? STATUS_OK
+                                  : WRONG(r, r->at,
+                                          "signs, powers or parentheses are nested too deeply; "
+                                          "split the expression with 'let'");
 }
 
 static status read_signed(reader *r);

@@ -50,8 +50,8 @@ status function_check(const scene_function *s, fault *f)
         }
         if (i > 0 && i < s->pieces - 1 && !(s->piece[i].until > s->piece[i - 1].until))
             return fault_set(f, STATUS_REFUSED,
-                             "a function of time in pieces: the end of piece %d, %g s, is not "
-                             "after the end of the previous piece; sort the pieces",
+                             "a function of time in pieces: piece %d ends at %g s, not after the "
+                             "end of the previous piece; sort the pieces",
                              i + 1, s->piece[i].until);
     }
     return STATUS_OK;

@@ -78,8 +78,8 @@ static status check_shifts(const scene *s, int i, fault *f)
                              scene_called(s, SCENE_NODES, p->node[k]).text);
         for (int other = 0; other < k; other++)
             if (p->node[other] == p->node[k])
-                return fault_set(f, STATUS_REFUSED, "%s: %s is shifted twice; give one shift", who,
-                                 scene_called(s, SCENE_NODES, p->node[k]).text);
+                return fault_set(f, STATUS_REFUSED, "%s: %s is shifted twice; give only one shift",
+                                 who, scene_called(s, SCENE_NODES, p->node[k]).text);
     }
     return STATUS_OK;
 }
@@ -94,8 +94,8 @@ status scene_validate_imperfections(const scene *s, fault *f)
                                                       : check_shifts(s, i, f));
     return used ? STATUS_OK
                 : fault_set(f, STATUS_REFUSED,
-                            "%s: no analysis uses this imperfection, because analyses "
-                            "about the state of its mode use the perfect structure; add an "
-                            "analysis about another state",
+                            "%s: no analysis uses this imperfection, because an analysis whose "
+                            "base state is that of the mode uses the perfect structure; add an "
+                            "analysis with another base state",
                             scene_called(s, SCENE_IMPERFECTIONS, 0).text);
 }

@@ -4,7 +4,8 @@
 KEY(int, p, , "from", ENTRY_NAME, .needed = 1, .summary = "start node", .of = SCENE_NODES)
 KEY(int, q, , "to", ENTRY_NAME, .needed = 1, .summary = "end node", .of = SCENE_NODES)
 ROW("section", ENTRY_FORMS, .needed = 1,
-    .summary = "NAME, or [at from, at to]: dimensions vary linearly, each element is prismatic")
+    .summary =
+        "NAME, or [at from, at to]: the dimensions vary linearly, and each element is prismatic")
 /* only its component normal to the member is used */
 KEY(double, y_axis, [3], "y", ENTRY_DIRECTION, .needed = 1, .count = 3,
     .summary = "direction of the section's y axis", .mirrors = "---")
@@ -21,33 +22,34 @@ KEY(double, curvature, [3], "curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m"
 KEY(double, strain, [3], "strain", ENTRY_VECTOR, .group = 1, .count = 3, .unit = "1",
     .summary = "elongation and shears of the unstressed member", .usual = "[0, 0, 0]")
 KEY(double, pretension, , "pretension", ENTRY_NUMBER, .group = 1, .unit = "N",
-    .summary = "axial force with the nodes at their given positions, before equilibrium",
+    .summary =
+        "axial force while the nodes are at their given positions, before equilibrium is computed",
     .left_out = "none")
 /* 0 for the length as drawn */
 KEY(double, unstressed_length, , "unstressed_length", ENTRY_NUMBER, .group = 1, .unit = "m",
-    .summary = "its length before it is mounted between its nodes",
-    .left_out = "its length between the given positions", .most = INFINITY)
+    .summary = "length of the member before it is mounted between its nodes",
+    .left_out = "length between the given positions of its ends", .most = INFINITY)
 KEY(double, free_curvature, [2], "free_curvature", ENTRY_VECTOR, .count = 2, .unit = "1/m",
     .summary = "curvatures about y and z of the unstressed member, in addition to 'curvature'",
     .usual = "[0, 0]", .mirrors = "+-")
 ROW("offset", ENTRY_MAP, .below = offset,
-    .summary = "positions of its ends relative to the nodes, with rigid connections",
+    .summary = "positions of the member's ends relative to the nodes, with rigid connections",
     .left_out = "at the nodes")
 ROW("imperfection", ENTRY_MAP, .below = imperfection,
-    .summary = "initial deviation from its line, without stress", .left_out = "none")
+    .summary = "stress-free initial deviation from the line of the member", .left_out = "none")
 ROW("foundation", ENTRY_MAP, .below = foundation,
     .summary = "springs to the ground along the member, with directions fixed in space",
     .left_out = "none")
 ROW("release", ENTRY_MAP, .below = release, .summary = "end releases: hinges, slides",
     .left_out = "none")
 KEY(double, damping, , "damping", ENTRY_NUMBER, .unit = "s",
-    .summary = "stiffness-proportional damping: adds this value times the "
-               "undeformed stiffness times the strain rates to the stresses",
+    .summary = "stiffness-proportional damping: the value times the undeformed stiffness times the "
+               "strain rates is added to the stresses",
     .usual = "0", .most = INFINITY)
 /* 0 for the number set by the mesh */
 KEY(int, divisions, , "divisions", ENTRY_WHOLE,
-    .summary = "number of elements, independent of the mesh; of each piece if loads start, end or "
-               "act within the member",
+    .summary = "number of elements, independent of the mesh; it applies to each piece if loads "
+               "start, end or act within the member",
     .left_out = "as given by the mesh", .most = 10000000)
 #undef KEY
 #undef ROW

@@ -101,10 +101,9 @@ status scene_member_elongation(const scene *s, int member, double length, double
     *out = m->unstressed_length != 0 ? (m->unstressed_length - length) / length : 0;
     if (!(fabs(*out) <= most_misfit) && !is_moved(s))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: unstressed_length = %g m differs by more than 1 %% from "
-                         "the length as drawn%s, %g m, to which strains refer; give a "
-                         "length within 1 %%, or draw the member unstressed and move "
-                         "its end",
+                         "%s: unstressed_length = %g m differs by more than 1 %% from the drawn "
+                         "length%s, %g m, to which strains refer; give a length within 1 %% of it, "
+                         "or draw the member unstressed and move its end",
                          scene_called(s, SCENE_MEMBERS, member).text, m->unstressed_length,
                          s->imperfections > 0 ? " and shifted" : "", length);
     if (m->pretension == 0)
@@ -113,7 +112,7 @@ status scene_member_elongation(const scene *s, int member, double length, double
     if (!(EA > 0))
         return fault_set(f, STATUS_REFUSED,
                          "%s: pretension requires one section along the whole member, in which an "
-                         "axial force causes elongation only; give its unstressed_length instead",
+                         "axial force causes only elongation; give 'unstressed_length' instead",
                          scene_called(s, SCENE_MEMBERS, member).text);
     *out = -m->pretension / EA;
     return STATUS_OK;

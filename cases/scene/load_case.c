@@ -107,11 +107,11 @@ static status check_combination(const scene *s, int i, fault *f)
     const scene_combination *c = &s->combination[i];
     const scene_words who = scene_called(s, SCENE_COMBINATIONS, i);
     if (c->terms == 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: it contains no load case of this scene, so no load acts; "
-                         "give it {CASE: FACTOR}, or the same 'if' conditions as its "
-                         "loads",
-                         who.text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: it contains no load case of this scene, so no load acts; give the combination "
+            "{CASE: FACTOR}, or the same 'if' conditions as the loads have",
+            who.text);
     for (int k = 0; k < s->cases; k++)
         if (strcmp(s->load_case[k].name, c->name) == 0)
             return fault_set(f, STATUS_REFUSED,
@@ -158,24 +158,25 @@ status scene_validate_acting(const scene *s, int i, fault *f)
                                                                 a->kind != SCENE_HARMONIC;
     if (own > 0 && a->follows != SCENE_NONE)
         return fault_set(
-            f, STATUS_REFUSED, "%s: its base state is that of %s, whose loads act; remove its %s",
+            f, STATUS_REFUSED,
+            "%s: its base state is that of %s, whose loads also act here; remove the key '%s'",
             scene_called(s, SCENE_ANALYSES, i).text, scene_name(s, SCENE_ANALYSES, a->follows).text,
             a->acting.combination != SCENE_NONE ? "combination" : "case");
     if (own > 0 && !loaded)
         return fault_set(f, STATUS_REFUSED,
                          "%s: no load acts in this analysis; name a base state with 'about', and "
-                         "give that analysis the loads",
+                         "apply the loads in the analysis of that state",
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (a->follows != SCENE_NONE && scene_solves_all(s, a->follows))
         return fault_set(f, STATUS_REFUSED,
                          "%s: its base state is that of %s, which solves every load case and "
-                         "combination; give that analysis %s",
+                         "combination; in that analysis, select one with %s",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          scene_name(s, SCENE_ANALYSES, a->follows).text, example(s).text);
     if (s->cases == 0 || own > 0 || !loaded || a->follows != SCENE_NONE || scene_solves_all(s, i))
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%s: loads have cases, but this analysis does not select any; give it %s%s",
+                     "%s: the loads have cases, but this analysis does not select one; add %s%s",
                      scene_called(s, SCENE_ANALYSES, i).text, example(s).text,
                      s->combinations > 0 ? "" : ", or combinations: {all: {CASE: 1, CASE: 1}}");
 }
@@ -199,8 +200,8 @@ status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f)
                          q->name, of.text);
     if (!all && says)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: %s is solved for %s alone; remove 'case', 'combination' and "
-                         "'envelope', or name a linear analysis without one",
+                         "quantity %s: %s is solved only for %s; remove 'case', 'combination' and "
+                         "'envelope', or name a linear analysis that selects no load case",
                          q->name, of.text,
                          scene_acting_called(s, scene_acting_of(s, q->analysis)).text);
     for (int i = 0; i < q->overs; i++)

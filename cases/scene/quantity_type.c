@@ -5,11 +5,12 @@
 QUANTITY_TYPES(DECLARED)
 
 static const entry_field abscissa[] = {
-    {"quantity", ENTRY_NAME, .summary = "quantity whose curve along the same path is the abscissa",
+    {"quantity", ENTRY_NAME,
+     .summary = "quantity whose curve over the same path is used as the abscissa",
      .left_out = "the path, time or frequency"},
     {"name", ENTRY_TEXT, .summary = "its name", .left_out = "path, time or frequency"},
     {"unit", ENTRY_TEXT, .summary = "its unit",
-     .left_out = "1; with factor 1: s over time, Hz over frequency"},
+     .left_out = "1; if the factor is 1, s for time and Hz for frequency"},
     {"factor", ENTRY_NUMBER, .summary = "factor of the path parameter", .usual = "1"},
     {"offset", ENTRY_NUMBER, .summary = "added to it", .usual = "0"},
     {.name = NULL}};
@@ -19,17 +20,18 @@ static const entry_field when[] = {
      .summary = "direction of the crossing", .usual = "rising",
      ENTRY_IN(scene_quantity, passing.direction), .always = 1},
     {"level", ENTRY_NUMBER,
-     .summary = "level that is crossed, in the units of the scene, before factor and offset",
+     .summary =
+         "level that is crossed, in the units of the scene, before factor and offset are applied",
      .usual = "0", ENTRY_IN(scene_quantity, passing.level)},
-    {"which", ENTRY_WHOLE, .summary = "crossing, counted from 0", .usual = "0",
+    {"which", ENTRY_WHOLE, .summary = "index of the crossing, counted from 0", .usual = "0",
      ENTRY_IN(scene_quantity, passing.order), .most = ENTRY_MOST_ORDER},
     {"from", ENTRY_NUMBER, .summary = "start of the window [s]", .usual = "0",
      ENTRY_IN(scene_quantity, passing.from)},
     {"until", ENTRY_NUMBER, .summary = "its end [s]", .left_out = "that of the motion",
      ENTRY_IN(scene_quantity, passing.until)},
     {"taper", ENTRY_WORD, .words = SCENE_TAPER_CHOICES,
-     .summary = "taper of a spectrum; hann: the history is weighted with sin^2", .usual = "none",
-     ENTRY_IN(scene_quantity, passing.taper)},
+     .summary = "window function of a spectrum; hann: the history is weighted by sin^2",
+     .usual = "none", ENTRY_IN(scene_quantity, passing.taper)},
     {.name = NULL}};
 
 static const entry_field prediction[] = {
@@ -64,7 +66,7 @@ const entry_field entry_quantity[] = {
     {"when", ENTRY_MAP, .below = when, .summary = "crossing and window of a motion",
      .left_out = "the first rising crossing of 0"},
     {"prediction", ENTRY_MAP, .below = prediction,
-     .summary = "analytic estimate: shown, gets no verdict", .left_out = "none"},
+     .summary = "analytic estimate, which is shown but has no verdict", .left_out = "none"},
     {.name = NULL}};
 
 void quantity_type_begin(const quantity_type *type, scene_quantity *q)

@@ -1621,14 +1621,14 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
     {"case",                                                                                       \
      ENTRY_NAME,                                                                                   \
      .group = 3,                                                                                   \
-     .summary = "load case, of a linear analysis that solves all",                                 \
+     .summary = "load case, if the linear analysis solves all load cases",                         \
      .left_out = "as given by the analysis",                                                       \
      ENTRY_IN(scene_quantity, acting.load_case),                                                   \
      .of = SCENE_CASES},                                                                           \
         {"combination",                                                                            \
          ENTRY_NAME,                                                                               \
          .group = 3,                                                                               \
-         .summary = "combination of load cases, of a linear analysis that solves all",             \
+         .summary = "combination of load cases, if the linear analysis solves all combinations",   \
          .left_out = "as given by the analysis",                                                   \
          ENTRY_IN(scene_quantity, acting.combination),                                             \
          .of = SCENE_COMBINATIONS},                                                                \
@@ -1642,13 +1642,13 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
          ENTRY_IN(scene_quantity, envelope),                                                       \
          .first = SCENE_ENVELOPE_MAX},                                                             \
         {"combinations", ENTRY_WORDS, .summary = "of the envelope",                                \
-         .left_out = "all; without combinations all load cases"}
+         .left_out = "all; all load cases if there are no combinations"}
 /* Keys for a position on a member and its side. */
 #define QUANTITY_SIDE(member)                                                                      \
     {"side",                                                                                       \
      ENTRY_WORD,                                                                                   \
      .words = "from|to",                                                                           \
-     .summary = "of 'where', towards that node: resultants jump where a "                          \
+     .summary = "side of 'where', towards that node; resultants jump where a "                     \
                 "load acts",                                                                       \
      .usual = "to",                                                                                \
      ENTRY_IN(scene_quantity, what.of.member),                                                     \

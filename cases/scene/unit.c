@@ -74,8 +74,8 @@ static status scale_drivers(scene *s, double x, fault *f)
         const int length = is_length(s, i);
         if (length < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "driver '%s' prescribes both lengths and angles, so it has no unit of "
-                             "length; use one driver for each",
+                             "driver '%s' prescribes both lengths and angles, so its unit is not "
+                             "defined; use one driver for lengths and one for angles",
                              s->driver[i].name);
         if (s->driver[i].value == NULL || !length)
             continue;
@@ -185,7 +185,7 @@ status scene_change_unit(scene *s, double x, fault *f)
 {
     if (!(x > 0 && isfinite(x)))
         return fault_set(f, STATUS_REFUSED,
-                         "%g is not a number of length units per metre; give a positive number", x);
+                         "%g length units per metre are not possible; give a positive number", x);
     for (int i = 0; i < s->sections; i++)
         scale_section(&s->section[i], x);
     scale_entries(s, ENTRY_LENGTH, x);
@@ -268,20 +268,20 @@ int scene_looks_foreign(const scene *s, char words[FAULT_TEXT])
             continue;
         if (E >= soft[0] && E <= soft[1] && length >= 10 && size >= 0.1) {
             snprintf(words, FAULT_TEXT,
-                     "Young's modulus of %g Pa with members of %g m looks like mm, N and MPa", E,
-                     length);
+                     "Young's modulus of %g Pa and members of %g m suggest units of mm, N and MPa",
+                     E, length);
             return 1;
         }
         if (E >= stiff && size >= wide && length >= wide) {
             snprintf(words, FAULT_TEXT,
-                     "a section %g m wide with Young's modulus of %g Pa looks like lengths in mm",
+                     "a section width of %g m and Young's modulus of %g Pa suggest lengths in mm",
                      size, E);
             return 1;
         }
         if ((rho >= 300 && speed < slow) || (E >= soft[0] && speed > fast)) {
             snprintf(words, FAULT_TEXT,
-                     "Young's modulus of %g Pa with a density of %g kg/m^3 is not a solid, and "
-                     "looks like other units",
+                     "no solid has Young's modulus of %g Pa and a density of %g kg/m^3; the values "
+                     "seem to be in other units",
                      E, rho);
             return 1;
         }

@@ -27,7 +27,7 @@ static status check_member(const scene *s, int i, fault *f)
     const scene_member *m = &s->member[i];
     if (m->section < 0 || m->section >= s->sections || m->section_q < 0 ||
         m->section_q >= s->sections)
-        return fault_set(f, STATUS_REFUSED, "%s: its section does not exist; add the section first",
+        return fault_set(f, STATUS_REFUSED, "%s: the section does not exist; add the section first",
                          scene_called(s, SCENE_MEMBERS, i).text);
     double d[3], length = 0, along = 0, across = 0;
     scene_chord(s, i, d);
@@ -93,25 +93,26 @@ static const char *table_mistake(const scene_table *t)
     for (int i = 0; i < n; i++)
         if (!isfinite(t->at.value[i]) || !isfinite(t->value.value[i]) ||
             (i > 0 && !(t->at.value[i] > t->at.value[i - 1])))
-            return "'at' does not ascend; give finite, ascending numbers";
+            return "the values of 'at' do not ascend; give finite, ascending numbers";
     for (int i = 1; i < n; i++)
         if (!(t->value.value[i] >= t->value.value[i - 1]))
-            return "'value' decreases, which is unstable; give values that do not decrease";
+            return "the values of 'value' decrease, which is unstable; give values that do not "
+                   "decrease";
     double most = fmax(fabs(t->value.value[0]), fabs(t->value.value[n - 1]));
     return fabs(scene_table_at(t, 0, &slope)) <= 1e-12 * most
                ? NULL
-               : "its value at 0 is not 0, but springs have no stress at rest; "
-                 "give values that are 0 at 0";
+               : "the value at 0 is not 0, but a spring has no force at rest; give a table whose "
+                 "value at 0 is 0";
 }
 
 static status check_spring(const scene *s, int i, fault *f)
 {
     const scene_spring *p = &s->spring[i];
     if (p->p == p->q)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: both its ends are at %s; connect two nodes, or one node and the ground",
-            scene_called(s, SCENE_SPRINGS, i).text, scene_called(s, SCENE_NODES, p->q).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: both ends are at %s; connect two nodes, or one node and the ground",
+                         scene_called(s, SCENE_SPRINGS, i).text,
+                         scene_called(s, SCENE_NODES, p->q).text);
     for (int k = 0; k < 6; k++) {
         static const char *const component[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
         const char *mistake = table_mistake(&p->table[k]);
@@ -166,7 +167,8 @@ static status check_driver(const scene *s, int i, fault *f)
     if (!is_used(s, i))
         return fault_set(
             f, STATUS_REFUSED,
-            "driver %s: it prescribes no coordinate; prescribe one with it, or remove it", d->name);
+            "driver %s prescribes no coordinate; use it to prescribe a coordinate, or remove it",
+            d->name);
     if (d->value == NULL) {
         const int known = d->condition_driver >= 0 && d->condition_driver < s->drivers &&
                           s->driver[d->condition_driver].value != NULL;
@@ -177,8 +179,8 @@ static status check_driver(const scene *s, int i, fault *f)
                              d->name);
         if (!is_conditioned(s, d))
             return fault_set(f, STATUS_REFUSED,
-                             "driver %s: %s does not drive the coordinate of its condition at %s; "
-                             "drive it there, too",
+                             "driver %s: the coordinate in its condition is not driven by %s at "
+                             "%s; drive it there as well",
                              d->name, s->driver[d->condition_driver].name,
                              scene_called(s, SCENE_NODES, d->condition_node).text);
         return STATUS_OK;
@@ -186,12 +188,12 @@ static status check_driver(const scene *s, int i, fault *f)
     for (int k = 0; k < d->stations; k++) {
         if (!isfinite(d->value[k]) || !isfinite(d->path[k]))
             return fault_set(f, STATUS_REFUSED,
-                             "driver %s: station %d is not a number; give finite values", d->name,
-                             k);
+                             "driver %s: value %d is NaN or Inf; give finite values", d->name, k);
         if (k > 0 && !(d->path[k] > d->path[k - 1]))
-            return fault_set(f, STATUS_REFUSED,
-                             "driver %s: its stations must ascend; sort them, without repetition",
-                             d->name);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "driver %s: its path parameters must ascend; sort them and remove repetitions",
+                d->name);
     }
     return STATUS_OK;
 }
@@ -205,19 +207,19 @@ static status check_range(const scene *s, int i, fault *f)
     const double *r = load->range;
     if (load->varies && (!spread || within))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: only a distributed load changes along its member; give one vector",
+                         "%s: only a distributed load can vary along its member; give one vector",
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->lumped && (!scene_load_along(load) || within))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the load acts at one position, but only loads along a "
-                         "member can be lumped; remove 'lumped'",
+                         "%s: the load acts at one position, but only distributed loads can be "
+                         "lumped; remove 'lumped'",
                          scene_called(s, SCENE_LOADS, i).text);
     if (within)
         return r[0] >= 0 && r[0] <= 1 && r[1] == r[0]
                    ? STATUS_OK
                    : fault_set(f, STATUS_REFUSED,
-                               "%s: its position is %g of the member's length; give a fraction "
-                               "from 0 to 1",
+                               "%s: its position is the fraction %g of the member's length; give a "
+                               "fraction from 0 to 1",
                                scene_called(s, SCENE_LOADS, i).text, r[0]);
     if (spread)
         return r[0] >= 0 && r[0] < r[1] && r[1] <= 1
@@ -229,7 +231,7 @@ static status check_range(const scene *s, int i, fault *f)
     if (r[0] != 0 || r[1] != (load->kind == SCENE_GRAVITY))
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: 'from' and 'to' select part of a member, but the load is %s; remove these",
+            "%s: 'from' and 'to' select a part of a member, but the load is %s; remove both keys",
             scene_called(s, SCENE_LOADS, i).text,
             load->kind == SCENE_GRAVITY ? "the weight of a whole member" : "at a node");
     return STATUS_OK;
@@ -247,12 +249,13 @@ static status check_temperature(const scene *s, int i, fault *f)
     if (load->lumped || load->follower || load->axes != SCENE_AXES_FIXED ||
         vec3_norm(load->at) > 0 || load->varies)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: %s belongs to the sections of its member; remove 'to_value', "
-                         "'lumped', 'at', 'axes' and 'follower'",
+                         "%s: %s acts on the sections of its member; remove 'to_value', 'lumped', "
+                         "'at', 'axes' and 'follower'",
                          scene_called(s, SCENE_LOADS, i).text, scene_heat_word(load));
     if (load->elongation != 0 && (load->temperature != 0 || vec3_norm(gradient) > 0))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: an elongation has no temperature and no gradient; give a second load",
+                         "%s: an elongation has no temperature and no gradient; give the "
+                         "temperature in a second load",
                          scene_called(s, SCENE_LOADS, i).text);
     if (!isfinite(load->temperature) || !isfinite(load->gradient[0]) ||
         !isfinite(load->gradient[1]))
@@ -283,8 +286,8 @@ static status check_load_kind(const scene *s, int i, fault *f)
     if (vec3_norm(load->at) > 0 &&
         (scene_load_turns(load) || load->kind == SCENE_GRAVITY || load->kind == SCENE_WEIGHT))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: only forces act at an offset; moments are the same everywhere, and "
-                         "gravity acts at the centres of mass; remove 'at'",
+                         "%s: only forces act at an offset; the position of a moment has no "
+                         "effect, and gravity acts at the centres of mass; remove 'at'",
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->axes == SCENE_AXES_MEMBER && !scene_load_along(load))
         return fault_set(f, STATUS_REFUSED,
@@ -324,8 +327,8 @@ static status check_feedback(const scene *s, int i, fault *f)
         return STATUS_OK;
     if (load->kind != SCENE_FORCE && load->kind != SCENE_MOMENT)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: feedback applies only to a force or a moment at a node; "
-                         "add a node where the load acts",
+                         "%s: feedback is supported only for a force or a moment at a node; add a "
+                         "node where the load acts",
                          who.text);
     if (b->proportional == 0 && b->derivative == 0 && b->integral == 0)
         return fault_set(f, STATUS_REFUSED,
@@ -333,8 +336,8 @@ static status check_feedback(const scene *s, int i, fault *f)
                          who.text);
     return b->from != b->node ? STATUS_OK
                               : fault_set(f, STATUS_REFUSED,
-                                          "%s: feedback of %s from itself is 0; name another node, "
-                                          "or remove 'from'",
+                                          "%s: the component of %s minus itself is always 0; name "
+                                          "another node in 'from', or remove 'from'",
                                           who.text, scene_called(s, SCENE_NODES, b->node).text);
 }
 
@@ -353,8 +356,8 @@ static status check_tension(const scene *s, int i, fault *f)
     if (load->kind != SCENE_FORCE || vec3_norm(load->vector) > 0 || load->follower ||
         vec3_norm(load->at) > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: 'towards' applies only to a tension, which has no vector, "
-                         "'where', 'at' or 'follower'; remove these",
+                         "%s: 'towards' applies only to a tension, and a tension has no vector, "
+                         "'where', 'at' or 'follower'; remove these keys",
                          who.text);
     for (int k = 0; k < 3; k++)
         apart[k] = s->node[load->towards].position[k] - s->node[load->where].position[k];

@@ -6,18 +6,18 @@
 static status check_steps(const scene *s, const scene_motion *m, int i, fault *f)
 {
     if (!(m->step > 0 && isfinite(m->step)))
-        return fault_set(f, STATUS_REFUSED, "%s: its step is %g s; give a positive step",
+        return fault_set(f, STATUS_REFUSED, "%s: the time step is %g s; give a positive step",
                          scene_called(s, SCENE_ANALYSES, i).text, m->step);
     if (!(m->tolerance >= 0 && m->tolerance < 1))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: its tolerance is %g; give a fraction of the size of the structure, "
+                         "%s: the tolerance is %g; give a fraction of the size of the structure, "
                          "such as 1e-4, or 0 for equal steps",
                          scene_called(s, SCENE_ANALYSES, i).text, m->tolerance);
     for (int k = 0; k < m->path.stations; k++)
         if (!(m->path.value[k] >= 0 && isfinite(m->path.value[k])))
             return fault_set(
                 f, STATUS_REFUSED,
-                "%s: a station is at %g s, but a motion starts at 0 s; give later times",
+                "%s: a station is at %g s, but a motion starts at 0 s; give times from 0 s",
                 scene_called(s, SCENE_ANALYSES, i).text, m->path.value[k]);
     return STATUS_OK;
 }
@@ -56,14 +56,15 @@ static status check_resumed(const scene *s, const scene_analysis *a, int i, faul
     for (int k = 0; k < 3; k++)
         if (start->velocity[k] != 0 || start->spin[k] != 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: it continues another motion with the velocities of that motion; "
-                             "remove 'start'",
+                             "%s: the motion continues another motion with the velocities of that "
+                             "motion; remove 'start'",
                              scene_called(s, SCENE_ANALYSES, i).text);
     if (scene_path_of(a)->value[0] < before->value[before->stations - 1])
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: it continues a motion that ends at %g s; give stations at this time or later",
-            scene_called(s, SCENE_ANALYSES, i).text, before->value[before->stations - 1]);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the motion continues another one that ends at %g s; give stations at "
+                         "this time or later",
+                         scene_called(s, SCENE_ANALYSES, i).text,
+                         before->value[before->stations - 1]);
     return STATUS_OK;
 }
 
@@ -86,8 +87,8 @@ static status check_follows(const scene *s, int i, fault *f)
         s->analysis[follows].kind != SCENE_ROTATION && s->analysis[follows].kind != SCENE_MOTION)
         return fault_set(f, STATUS_REFUSED,
                          "%s: a motion starts from the last state of a static path, a "
-                         "continuation, a rotation or a motion, but this one follows "
-                         "%s; follow one of these, or none",
+                         "continuation, a rotation or a motion, but this motion follows %s; name "
+                         "one of these analyses, or remove 'about'",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          scene_analysis_name(s->analysis[follows].kind));
     if (follows != SCENE_NONE && s->analysis[follows].kind == SCENE_MOTION)
@@ -117,10 +118,10 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     double time, at[3];
     int derivative;
     if (driver->value == NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "driver %s: its value is unknown, but motions in time require "
-                         "known values; give its values",
-                         driver->name);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "driver %s: its value is unknown, but a motion requires known values; give the values",
+            driver->name);
     const scene_path *before = origin != SCENE_NONE ? scene_path_of(&s->analysis[origin]) : NULL;
     const double starts = before == NULL
                               ? 0
@@ -128,29 +129,30 @@ static status check_driver(const scene *s, int d, int i, fault *f)
                                             before->value[before->stations - 1]);
     if (driver->function.pieces == 0) {
         if (before == NULL && (driver->stations > 1 || driver->value[0] != 0))
-            return fault_set(f, STATUS_REFUSED,
-                             "driver %s: its values are given over a path, but a motion "
-                             "does not follow a path; give a function of time, or a static "
-                             "path to follow",
-                             driver->name);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "driver %s: its values are given over a path, but the motion does not follow a "
+                "path; give a function of time, or name a static path in 'about'",
+                driver->name);
         return STATUS_OK;
     }
     if (!function_finite(&driver->function, end, 2, &time))
         return fault_set(f, STATUS_REFUSED,
-                         "driver %s: at %g s its value, velocity or acceleration is not "
-                         "finite; give another function, or define it in pieces",
+                         "driver %s: at %g s its value, velocity or acceleration is not finite; "
+                         "give another function, or define the function in pieces",
                          driver->name, time);
     if (!function_smooth(&driver->function, end, &time, &derivative))
         return fault_set(f, STATUS_REFUSED,
-                         "driver %s: its %s jumps at %g s, which is an impact; join its pieces "
-                         "smoothly",
+                         "driver %s: the %s jumps at %g s, which would be an impact; make the "
+                         "pieces join smoothly",
                          driver->name, derivative == 0 ? "value" : "velocity", time);
     function_at(&driver->function, 0, at);
     if (!(fabs(at[0] - starts) <= 1e-9 * (1 + fabs(starts))))
-        return fault_set(f, STATUS_REFUSED,
-                         "driver %s: at 0 s its value is %g, but a motion starts from %g; start "
-                         "there, or follow a static path that ends at the start value",
-                         driver->name, at[0], starts);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "driver %s: its value at 0 s is %g, but the motion starts from %g; give a function "
+            "with this initial value, or follow a static path that ends at the initial value",
+            driver->name, at[0], starts);
     return STATUS_OK;
 }
 
@@ -175,13 +177,13 @@ static status check_temperature(const scene *s, int l, int i, fault *f)
                          scene_called(s, SCENE_LOADS, l).text);
     if (!(fabs(at[0] - begin) <= 1e-9 * (1 + fabs(begin))))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: at 0 s its factor is %g, but the motion starts with %s of factor %g; "
-                         "start with that factor",
+                         "%s: its factor at 0 s is %g, but the motion starts with %s of factor %g; "
+                         "give a function with this initial factor",
                          scene_called(s, SCENE_LOADS, l).text, at[0], scene_heat_word(load), begin);
     if (!function_smooth(&load->function, path->value[path->stations - 1], &time, &derivative) &&
         derivative == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: %s cannot jump, as it does at %g s; change it gradually",
+                         "%s: %s cannot jump, but jumps at %g s; let the factor change gradually",
                          scene_called(s, SCENE_LOADS, l).text, scene_heat_word(load), time);
     return STATUS_OK;
 }
@@ -200,25 +202,25 @@ static status check_load(const scene *s, int l, int i, fault *f)
                          scene_called(s, SCENE_LOADS, l).text);
     if (load->towards != SCENE_NONE && scene_motion_of(&s->analysis[i])->scheme == SCENE_CONSERVING)
         return fault_set(f, STATUS_REFUSED,
-                         "%s (conserving): it does not support %s, a tension between "
+                         "%s (conserving): the integrator does not support %s, a tension between "
                          "nodes; use integrator: radau, alpha or explicit",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          scene_called(s, SCENE_LOADS, l).text);
     if (load->function.pieces == 0) {
         if (load->stations > 0 && s->analysis[i].follows == SCENE_NONE &&
             load->feedback.node == SCENE_NONE)
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: its factors are given over a path, but a motion does not "
-                             "follow a path; give a function of time, or a static path to "
-                             "follow",
-                             scene_called(s, SCENE_LOADS, l).text);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: its factors are given over a path, but the motion does not follow a path; "
+                "give a function of time, or name a static path in 'about'",
+                scene_called(s, SCENE_LOADS, l).text);
         return STATUS_OK;
     }
     if (!function_finite(&load->function, path->value[path->stations - 1], 0, &time))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: at %g s its factor is not finite; give another function, or define it in pieces",
-            scene_called(s, SCENE_LOADS, l).text, time);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: at %g s the factor is not finite; give another function, or define "
+                         "the function in pieces",
+                         scene_called(s, SCENE_LOADS, l).text, time);
     return load->kind == SCENE_TEMPERATURE ? check_temperature(s, l, i, f) : STATUS_OK;
 }
 
@@ -265,8 +267,8 @@ static status check_function(const scene_function *of, int idle, fault *f)
         return STATUS_OK;
     TRY(function_check(of, f));
     return idle ? fault_set(f, STATUS_REFUSED,
-                            "it is a function of time, but no analysis is a motion; add a "
-                            "motion, or give values over a path")
+                            "it is a function of time, but no analysis is a motion; add a motion "
+                            "analysis, or give values over a path")
                 : STATUS_OK;
 }
 
@@ -301,10 +303,10 @@ static status check_continuation(const scene *s, int i, fault *f)
 {
     const scene_control *c = &scene_continuation_of(&s->analysis[i])->control;
     if (!(c->step > 0) || !(c->step_max >= c->step))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: steps of %g to %g; the first must be positive, the largest not smaller",
-            scene_called(s, SCENE_ANALYSES, i).text, c->step, c->step_max);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the initial step is %g and the largest step is %g; give a positive "
+                         "initial step and a largest step that is not smaller",
+                         scene_called(s, SCENE_ANALYSES, i).text, c->step, c->step_max);
     return STATUS_OK;
 }
 
@@ -312,13 +314,13 @@ static status check_path(const scene *s, const scene_analysis *a, int i, fault *
 {
     const scene_path *path = scene_path_of(a);
     if (path->stations < 1)
-        return fault_set(f, STATUS_REFUSED, "%s: a path needs stations; give at least one",
+        return fault_set(f, STATUS_REFUSED, "%s: the path has no stations; give at least one",
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (a->kind != SCENE_CONTINUATION)
         for (int k = 1; k < path->stations; k++)
             if (!(path->value[k] > path->value[k - 1]))
                 return fault_set(f, STATUS_REFUSED,
-                                 "%s: its stations must ascend; sort them, without repetition",
+                                 "%s: the stations must ascend; sort them and remove repetitions",
                                  scene_called(s, SCENE_ANALYSES, i).text);
     return STATUS_OK;
 }
@@ -327,8 +329,8 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
 {
     if (a->follows != SCENE_NONE && scene_path_of(&s->analysis[a->follows]) == NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a compliance belongs to a static path or to the "
-                         "undeformed structure; name a static analysis",
+                         "%s: a compliance is computed about a static path or the undeformed "
+                         "structure; name a static analysis",
                          scene_called(s, SCENE_ANALYSES, i).text);
     const scene_compliance *what = scene_compliance_of(a);
     const scene_node *n = what->node >= 0 && what->node < s->nodes ? &s->node[what->node] : NULL;
@@ -338,8 +340,8 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
         if ((what->released >> c & 1u) &&
             (at < SCENE_RX ? n->translation[at] : n->angle[at - SCENE_RX]) == SCENE_HELD)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: %s of %s is fixed, and only driven components can be "
-                             "released; remove it from 'released', or free the node",
+                             "%s: %s of %s is fixed, but only driven components can be released; "
+                             "remove the component from 'released', or free it at the node",
                              scene_called(s, SCENE_ANALYSES, i).text, component_name[c],
                              scene_called(s, SCENE_NODES, what->node).text);
     }
@@ -383,9 +385,8 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
             scene_called(s, SCENE_ANALYSES, i).text, scene_name(s, SCENE_ANALYSES, a->follows).text,
             scene_analysis_name(about));
     return fault_set(f, STATUS_REFUSED,
-                     "%s: %s about a state require the last state of a static "
-                     "path%s, but %s is a %s analysis; name a static analysis, or "
-                     "remove 'about'%s",
+                     "%s: %s require the last state of a static path%s as their base state, but %s "
+                     "is a %s analysis; name a static analysis, or remove 'about'%s",
                      scene_called(s, SCENE_ANALYSES, i).text,
                      a->kind == SCENE_MODAL ? "frequencies" : "critical loads",
                      a->kind == SCENE_MODAL ? ", or a linear analysis" : "",
@@ -413,21 +414,20 @@ static status check_about_motion(const scene *s, const scene_analysis *a, int i,
     const scene_words who = scene_called(s, SCENE_ANALYSES, i);
     const scene_words motion = scene_name(s, SCENE_ANALYSES, a->follows);
     if (a->kind != SCENE_MODAL && a->kind != SCENE_HARMONIC)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: its base state is that of a motion, whose forces are not in "
-            "equilibrium without inertia; follow a static path, or use modal: {damped: "
-            "yes} or a harmonic analysis, which include it",
-            who.text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: its base state belongs to a motion, whose forces are not in "
+                         "equilibrium without inertia forces; follow a static path, or use modal: "
+                         "{damped: yes} or a harmonic analysis, which include inertia forces",
+                         who.text);
     if (a->kind == SCENE_MODAL && !a->damped)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: about an instant of a motion (%s), velocities cause forces that "
+                         "%s: at an instant of a motion (%s), velocities cause forces that "
                          "undamped modes do not include; add damped: yes",
                          who.text, motion.text);
     if (a->by_modes || scene_has_ratios(a))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: modes without damping do not solve small motions about an instant of "
-                         "a motion (%s); remove %s",
+                         "%s: undamped modes do not describe small motions about an instant of a "
+                         "motion (%s); remove %s",
                          who.text, motion.text, a->by_modes ? "'solution'" : "the damping ratios");
     if (a->damping.mass > 0 || a->damping.stiffness > 0)
         return fault_set(
@@ -449,8 +449,8 @@ static status check_instant(const scene *s, const scene_analysis *a, int i, faul
         return STATUS_OK;
     if (isnan(time))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it is not about a motion, and only such an analysis has '%s'; name a "
-                         "motion with 'about', or remove it",
+                         "%s: the analysis is not about a motion, but '%s' requires one; name a "
+                         "motion with 'about', or remove the key",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          !isnan(a->time)            ? "time"
                          : a->axes_of != SCENE_NONE ? "axes_of"
@@ -466,8 +466,8 @@ static status check_instant(const scene *s, const scene_analysis *a, int i, faul
     return time >= begin && time <= end
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "%s: %g s is not an instant of %s, which lasts from %g to %g s; give "
-                           "one of these times",
+                           "%s: %g s is outside motion %s, which lasts from %g to %g s; give a "
+                           "time in this range",
                            scene_called(s, SCENE_ANALYSES, i).text, time,
                            scene_name(s, SCENE_ANALYSES, a->follows).text, begin, end);
 }
@@ -478,13 +478,15 @@ static status check_harmonic(const scene *s, const scene_analysis *a, int i, fau
     const scene_words who = scene_called(s, SCENE_ANALYSES, i);
     for (int k = 0; k < ratios->stations; k++)
         if (!(ratios->value[k] >= 0 && isfinite(ratios->value[k])))
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: a damping ratio is %g; give 0 or more, such as 0.02", who.text,
-                             ratios->value[k]);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: a damping ratio is %g; give zero or a positive number, such as 0.02", who.text,
+                ratios->value[k]);
     if (a->modes > 0 && ratios->stations > a->modes)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: %d ratios for %d modes; increase 'modes', or remove ratios", who.text,
-                         ratios->stations, a->modes);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: there are %d damping ratios for %d modes; increase 'modes', or remove ratios",
+            who.text, ratios->stations, a->modes);
     if (a->modes > 0 && !a->by_modes && !scene_has_ratios(a))
         return fault_set(f, STATUS_REFUSED,
                          "%s: a direct solution without damping ratios does not use modes; add "
@@ -498,7 +500,7 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
     const scene_analysis *a = &s->analysis[i];
     if (a->follows != SCENE_NONE && (a->follows < 0 || a->follows >= i))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it follows an analysis that comes later; name an earlier one",
+                         "%s: the analysis named by 'about' comes later; name an earlier analysis",
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (a->follows != SCENE_NONE && a->kind != SCENE_MOTION &&
         s->analysis[a->follows].kind == SCENE_MOTION)
@@ -515,7 +517,8 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
     if (a->kind == SCENE_MOTION)
         return scene_validate_motion(s, i, f);
     if (a->kind == SCENE_HARMONIC && !(a->of.harmonic.value[0] >= 0))
-        return fault_set(f, STATUS_REFUSED, "%s: a frequency is %g Hz; give 0 or more",
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: a frequency is %g Hz; give zero or positive frequencies",
                          scene_called(s, SCENE_ANALYSES, i).text, a->of.harmonic.value[0]);
     if (a->kind == SCENE_HARMONIC)
         TRY(check_harmonic(s, a, i, f));
@@ -524,8 +527,8 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (a->kind == SCENE_MODAL && !a->damped && (a->damping.mass > 0 || a->damping.stiffness > 0))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: damping is given, but its frequencies are undamped; add damped: yes, "
-                         "or remove the damping",
+                         "%s: 'damping' is given, but the analysis computes undamped frequencies; "
+                         "add damped: yes, or remove 'damping'",
                          scene_called(s, SCENE_ANALYSES, i).text);
     if ((a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC) && is_asked(s, i))
         return scene_validate_mass(s, i, f);
@@ -546,9 +549,8 @@ status scene_spectrum_stations(const scene *s, const scene_quantity *q, int *fir
     *count = end - begin;
     if (*count < 3)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its window contains %d stations, and a spectrum "
-                         "needs at least 3; give %s evenly spaced stations, such as "
-                         "stations: 0..1/1000",
+                         "quantity %s: the window contains %d stations, but a spectrum requires at "
+                         "least 3; give %s evenly spaced stations, such as stations: 0..1/1000",
                          q->name, *count, scene_called(s, SCENE_ANALYSES, q->analysis).text);
     const double step = (at[end - 1] - at[begin]) / (*count - 1);
     for (int i = begin; i < end; i++)
@@ -576,12 +578,12 @@ static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
     if (s->analysis[q->analysis].kind != SCENE_MOTION)
         return fault_set(
             f, STATUS_REFUSED,
-            "quantity %s: spectra require a motion in time; name one, or write take: curve",
+            "quantity %s: a spectrum requires a motion; name a motion, or write take: curve",
             q->name);
     if (!(p->from >= 0) || !isfinite(p->until) || (p->until != 0 && !(p->until > p->from)))
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its window from %g to %g s is invalid; start at 0 s or "
-                         "later, and end after the start",
+                         "quantity %s: the window from %g to %g s is invalid; give a window that "
+                         "starts at 0 s or later and ends after its start",
                          q->name, p->from, p->until);
     return scene_spectrum_stations(s, q, &first, &count, f);
 }
@@ -619,7 +621,7 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
     const scene_passing *p = &q->passing;
     if (q->reduction < SCENE_LAST || q->reduction >= SCENE_REDUCTIONS)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its statistic ('take') does not exist; name a known one",
+                         "quantity %s: the statistic ('take') is unknown; name a known statistic",
                          q->name);
     const int stations =
         scene_path_of(a) != NULL || (a->kind == SCENE_COMPLIANCE && a->follows != SCENE_NONE);
@@ -627,8 +629,8 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
         return refuse_station(s, q, f);
     if (q->reduction > SCENE_CURVE && a->kind != SCENE_MOTION)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: times, crossings and means require a motion in time; name "
-                         "one, or request a station or a curve",
+                         "quantity %s: times, crossings and means require a motion; name a motion, "
+                         "or request a station or a curve",
                          q->name);
     if (!scene_is_passed(q, a->kind))
         return STATUS_OK;
@@ -636,9 +638,9 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
         p->direction > SCENE_EITHER || !(p->from >= 0) || !isfinite(p->until) ||
         (p->until != 0 && !(p->until > p->from)))
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its window from %g to %g s, or its crossing, is invalid; "
-                         "give a finite level, rising, falling or either, and a window that starts "
-                         "at 0 s or later and ends after the start",
+                         "quantity %s: the window from %g to %g s or the crossing is invalid; give "
+                         "a finite level, a direction (rising, falling or either), and a window "
+                         "that starts at 0 s or later and ends after its start",
                          q->name, p->from, p->until);
     return STATUS_OK;
 }
@@ -663,15 +665,15 @@ static status check_abscissa(const scene *s, const scene_quantity *q, fault *f)
     if (x == NULL || x == q || x->reduction != SCENE_CURVE || q->transform != SCENE_HISTORY ||
         x->transform != SCENE_HISTORY)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its curve is over %s, but that is not another "
-                         "quantity with take: curve, or one of the two is a spectrum; "
-                         "add take: curve to it, or name a quantity that has it",
+                         "quantity %s: the abscissa %s must be another quantity with take: curve, "
+                         "and neither of the two may be a spectrum; add take: curve to the "
+                         "abscissa, or name another quantity",
                          q->name, q->x.name);
     if (x->analysis < 0 || x->analysis >= s->analyses ||
         path_of_curve(s, q, &points) != path_of_curve(s, x, &others) || points != others)
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: its curve is over %s, which belongs to another path; name a "
-                         "quantity of the same path",
+                         "quantity %s: the abscissa %s belongs to another path; name a quantity of "
+                         "the same path",
                          q->name, x->name);
     return STATUS_OK;
 }

@@ -33,15 +33,15 @@ static status check_fork(const scene *s, int i, fault *f)
     for (int k = 0; k < 3; k++)
         if (n->angle[k] != SCENE_FREE)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: inconsistent supports, a fork and R%c %s; remove one, or give a "
-                             "sequence of angles",
+                             "%s: the supports are inconsistent, because there is a fork and R%c "
+                             "is %s; remove one of them, or give a sequence of angles",
                              scene_called(s, SCENE_NODES, i).text, "XYZ"[k],
                              n -> angle[k] == SCENE_HELD ? "held" : "driven");
     if (!(lengths > 0) || !(fabs(vec3_dot(axis, web)) <= 1e-9 * lengths))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: axis and web of its fork are not perpendicular; give two perpendicular directions",
-            scene_called(s, SCENE_NODES, i).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the axis and the web of the fork are not perpendicular; give two "
+                         "perpendicular directions",
+                         scene_called(s, SCENE_NODES, i).text);
     if (!has_member_along(s, i, axis))
         return fault_set(f, STATUS_REFUSED,
                          "%s: no member at this node runs along the axis of its fork; give the "
@@ -89,19 +89,20 @@ static status check_body(const scene *s, int i, fault *f)
     const scene_node *n = &s->node[i];
     const double *I = n->body.inertia, *c = n->body.centre;
     if (n->body.mass == 0 && vec3_norm(c) > 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: a centre without a mass; give the mass, or remove the centre",
-                         scene_called(s, SCENE_NODES, i).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: a centre is given without a mass; give the mass, or remove the centre",
+            scene_called(s, SCENE_NODES, i).text);
     if (!is_inertia(I))
         return fault_set(f, STATUS_REFUSED,
                          "%s: no body has this inertia, because a principal moment exceeds the sum "
-                         "of the other two; correct it",
+                         "of the other two; correct the inertia",
                          scene_called(s, SCENE_NODES, i).text);
     if (!is_reached(s, i))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: its mass is not connected; join a member or a spring to it, or remove it",
-            scene_called(s, SCENE_NODES, i).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the mass is not connected; join a member or a spring to the node, or "
+                         "remove the mass",
+                         scene_called(s, SCENE_NODES, i).text);
     return STATUS_OK;
 }
 
@@ -116,8 +117,8 @@ status scene_validate_node(const scene *s, int i, fault *f)
                              scene_called(s, SCENE_NODES, i).text);
         if (n->rotation == SCENE_ROTATION_VECTOR && n->angle[k] < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: a prescribed rotation vector needs three drivers; drive all "
-                             "three of its components",
+                             "%s: a prescribed rotation vector requires three drivers; drive all "
+                             "three components",
                              scene_called(s, SCENE_NODES, i).text);
     }
     const double lengths = vec3_norm(n->axes[0]) * vec3_norm(n->axes[1]);
@@ -137,16 +138,17 @@ status scene_validate_node(const scene *s, int i, fault *f)
         return STATUS_OK;
     if (n->attached == i || s->node[n->attached].attached != SCENE_NONE)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: attached to %s, which is attached to another node; attach it to a "
-                         "node with its own coordinates",
+                         "%s: the node is attached to %s, which is itself attached to another "
+                         "node; name the last node in this chain",
                          scene_called(s, SCENE_NODES, i).text,
                          scene_called(s, SCENE_NODES, n->attached).text);
     for (int k = 0; k < 3; k++)
         if (n->translation[k] != SCENE_FREE || n->angle[k] != SCENE_FREE)
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: its supports prevent its motion with %s; fix that node instead",
-                             scene_called(s, SCENE_NODES, i).text,
-                             scene_called(s, SCENE_NODES, n->attached).text);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: its supports prevent it from moving with %s; fix that node instead",
+                scene_called(s, SCENE_NODES, i).text,
+                scene_called(s, SCENE_NODES, n->attached).text);
     return STATUS_OK;
 }
 
@@ -171,7 +173,7 @@ static status refuse(const scene *s, scene_words who, const char *what, fault *f
 {
     return fault_set(
         f, STATUS_REFUSED,
-        "%s: %s, but the scene is confined to its plane; remove this, or remove plane: %s",
+        "%s: %s, but the scene is confined to its plane; correct this, or remove plane: %s",
         who.text, what, scene_plane_name(s));
 }
 
@@ -228,7 +230,7 @@ static status check_node(const scene *s, int i, fault *f)
     const scene_node *n = &s->node[i];
     const scene_words who = scene_called(s, SCENE_NODES, i);
     if (is_out(s, n->position))
-        return refuse(s, who, "it does not lie in one plane with the first node", f);
+        return refuse(s, who, "its position is not in one plane with the first node", f);
     double R[9];
     int along = scene_normal(s);
     scene_node_axes(n, R);
@@ -348,7 +350,7 @@ static status check_analysis(const scene *s, int i, fault *f)
     const scene_words who = scene_called(s, SCENE_ANALYSES, i);
     if (a->kind == SCENE_CONTINUATION &&
         scene_continuation_of(a)->control.component == scene_normal(s))
-        return refuse(s, who, "its control leaves the plane", f);
+        return refuse(s, who, "the controlled component leaves the plane", f);
     if (a->kind == SCENE_MOTION) {
         const scene_start *start = &scene_motion_of(a)->start;
         if (is_across(s, start->velocity) || is_beside(s, start->spin))
@@ -368,7 +370,7 @@ static status check_driver(const scene *s, int i, fault *f)
     const scene_driver *d = &s->driver[i];
     if (d->value == NULL && d->condition_driver != SCENE_NONE && leaves(s, d->condition_component))
         return refuse(s, scene_called(s, SCENE_DRIVERS, i),
-                      "its value is determined by a motion out of the plane", f);
+                      "its value is determined by a component out of the plane", f);
     return STATUS_OK;
 }
 
@@ -380,8 +382,8 @@ static status check_quantity(const scene *s, int i, fault *f)
         q->what.kind == SCENE_COMPLIANCE_ENTRY || q->what.kind == SCENE_STIFFNESS_ENTRY;
     if (entry && (leaves(s, scene_entry_of(q)->row) || leaves(s, scene_entry_of(q)->column)))
         return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: it refers to a motion out of the plane, but the "
-                         "scene is confined to its plane; remove it, or remove plane: %s",
+                         "quantity %s refers to a component out of the plane, but the scene is "
+                         "confined to its plane; remove the quantity, or remove plane: %s",
                          q->name, scene_plane_name(s));
     return STATUS_OK;
 }

@@ -16,15 +16,16 @@ static status check_end(const scene *s, const scene_release *r, int member, int 
     if (r->count < 0 || r->count > SCENE_RELEASED)
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: its end '%s' transmits nothing; release at most %d of its six components",
+            "%s: the end '%s' transmits nothing; release at most %d of the six components",
             scene_called(s, SCENE_MEMBERS, member).text, name_of_end[end], SCENE_RELEASED);
     for (int k = 0; k < r->count; k++) {
         const int c = r->component[k];
         if (c < SCENE_UX || c > SCENE_RZ || times[c]++ > 0)
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: its end '%s' releases %s; give components of ux to rz once each",
-                             scene_called(s, SCENE_MEMBERS, member).text, name_of_end[end],
-                             c < SCENE_UX || c > SCENE_RZ ? "an unknown component" : "one twice");
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: the end '%s' releases %s; name components from ux to rz, each only once",
+                scene_called(s, SCENE_MEMBERS, member).text, name_of_end[end],
+                c < SCENE_UX || c > SCENE_RZ ? "an unknown component" : "one twice");
     }
     return STATUS_OK;
 }

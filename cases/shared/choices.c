@@ -6,8 +6,9 @@
 #include <stddef.h>
 #include <stdio.h>
 
-static const char omitted[] = "omitted physics: the physics that the source of the case omits, or "
-                              "none; with none, the values of the source do not apply";
+static const char omitted[] =
+    "omitted physics. source: the physics that the source of the case omits; none: nothing is "
+    "omitted, and the values of the source do not apply";
 
 const parameter_type case_omit[] = {
     {"omit", "", 0, 0, 0, "source|none", omitted},
@@ -15,8 +16,8 @@ const parameter_type case_omit[] = {
 };
 const parameter_type case_mass_omit[] = {
     {"mass", "", SCENE_MASS_USUAL, 0, 0, "usual|" SCENE_MASS_CHOICES,
-     "mass of members: distributed if the formulation and the integrator support it, or half at "
-     "each node, or distributed and rejected if not supported"},
+     "mass of members. usual: consistent if the formulation and the integrator support it, "
+     "otherwise lumped; lumped: half at each node; consistent: rejected if not supported"},
     {"omit", "", 0, 0, 0, "source|none", omitted},
     {0},
 };
@@ -72,10 +73,10 @@ const parameter_type hexapod_parameters[] = {
     {"base_radius", "m", 0.40, 1e-3, 1e3, NULL, "radius of the crank pivots"},
     {"crank_length", "m", 0.20, 1e-3, 1e3, NULL, "length of a crank, pointing inwards"},
     {"crank_azimuth", "rad", 12 * JOINT_DEGREE, 0, 1.04, NULL,
-     "azimuth of a crank from the middle of its pair"},
+     "azimuth of a crank, measured from the middle of its pair"},
     {"platform_radius", "m", 0.16, 1e-3, 1e3, NULL, "radius of the platform's joint centres"},
     {"platform_azimuth", "rad", 48 * JOINT_DEGREE, 0, 1.04, NULL,
-     "azimuth of a platform joint from the middle of its pair"},
+     "azimuth of a platform joint, measured from the middle of its pair"},
     {"height", "m", 0.30, 1e-3, 1e3, NULL, "height of the platform above the cranks' plane"},
     {0},
 };
@@ -178,7 +179,8 @@ const parameter_type joint_parameters[] = {
                             "warping of the two sheets at their fold"},
     [JOINT_WAGNER] = {"wagner", "1", 1, 0, 1, NULL, "1: Wagner torque (N Eq. 46)"},
     [JOINT_DIRECTION] = {"element_direction", "", 0, 0, 0, "bodies|chained",
-                         "elements begin at the bodies, or run base - fold - body"},
+                         "direction of the elements: away from the bodies, or from the base via "
+                         "the fold to the body"},
     {0},
 };
 
@@ -188,7 +190,7 @@ status joint_prepare(const double value[], scene *s, int *profile, fault *f)
 {
     if (value[JOINT_RADIUS] <= value[JOINT_WIDTH])
         return fault_set(f, STATUS_REFUSED,
-                         "radius = %g m: a fold line of width %g m would reach through the centre; "
+                         "radius = %g m: a fold line %g m long would extend beyond the centre; "
                          "give a larger radius",
                          value[JOINT_RADIUS], value[JOINT_WIDTH]);
     section_spec spec;

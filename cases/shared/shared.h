@@ -136,22 +136,17 @@ enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETE
  * time-integration error is far below the error of the meshes. Each case specifies its
  * tolerance. */
 #define TIMED_HOW(step, rule, tolerance)                                                           \
-    [TIMED_INTEGRATOR] = {"integrator",                                                            \
-                          "",                                                                      \
-                          SCENE_RADAU,                                                             \
-                          0,                                                                       \
-                          0,                                                                       \
-                          TIMED_INTEGRATORS,                                                       \
-                          "integration method of the motion"},                                     \
+    [TIMED_INTEGRATOR] =                                                                           \
+        {"integrator", "", SCENE_RADAU, 0, 0, TIMED_INTEGRATORS, "time-integration method"},       \
     [TIMED_STEP] = {"step", "s", step, 1e-9, 1e3, NULL, "time step of the integration: " rule},    \
-    [TIMED_TOLERANCE] = {                                                                          \
-        "tolerance",                                                                               \
-        "1",                                                                                       \
-        tolerance,                                                                                 \
-        0,                                                                                         \
-        0.1,                                                                                       \
-        NULL,                                                                                      \
-        "tolerance of the time error, relative to the largest motion; 0: all steps are equal"}
+    [TIMED_TOLERANCE] = {"tolerance",                                                              \
+                         "1",                                                                      \
+                         tolerance,                                                                \
+                         0,                                                                        \
+                         0.1,                                                                      \
+                         NULL,                                                                     \
+                         "tolerance of the time-integration error, relative to the largest "       \
+                         "displacement; 0: all steps are equal"}
 
 /* Adds a motion that ends at the time of observation. `follows` is SCENE_NONE or a static path, and
  * `start` contains the initial velocities. */

@@ -216,10 +216,10 @@ static void refused(void)
     } row[] = {
         {twisted, {SCENE_EDIT_REVERSE, 0}, "member 0: the member is initially twisted"},
         {curved, {SCENE_EDIT_SPLIT, 0.5}, "member 0 is curved"},
-        {unchanged, {SCENE_EDIT_SPLIT, 1}, "split at 1 of its length"},
-        {unchanged, {SCENE_EDIT_SPLIT, NAN}, "split at nan of its length"},
-        {unchanged, {SCENE_EDIT_UNIT, 0}, "not a number of length units"},
-        {unchanged, {SCENE_EDIT_UNIT, INFINITY}, "not a number of length units"},
+        {unchanged, {SCENE_EDIT_SPLIT, 1}, "split at the fraction 1 of its length"},
+        {unchanged, {SCENE_EDIT_SPLIT, NAN}, "split at the fraction nan of its length"},
+        {unchanged, {SCENE_EDIT_UNIT, 0}, "length units per metre are not possible"},
+        {unchanged, {SCENE_EDIT_UNIT, INFINITY}, "length units per metre are not possible"},
     };
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         scene s;

@@ -143,7 +143,7 @@ static void check_refused(const char *text, int character, const char *words)
 static void check_refusals(void)
 {
     char deep[200], wide[1802];
-    check_refused("", 1, "ends where a number, name or '(' is expected");
+    check_refused("", 1, "ends where a number, a name or '(' is expected");
     check_refused("2*", 3, "ends where a number");
     check_refused("sin(t", 6, "arguments of sin are not closed");
     check_refused("sin t", 1, "sin is a function; write sin(...)");
@@ -152,7 +152,7 @@ static void check_refusals(void)
     check_refused("t t", 3, "is an operator missing?");
     check_refused("2 + x*t", 5, "unknown name; known names are t, pi");
     check_refused("abs(t)", 1,
-                  "abs accepts only numbers, but its argument contains t; it has kinks");
+                  "abs accepts only numbers, but its argument contains t; the function has kinks");
     check_refused("max(t, 1)", 1, "give pieces");
     check_refused("2*max(1, t)", 3, "give pieces");
     check_refused("atan2(t, 1)", 1,
@@ -165,7 +165,7 @@ static void check_refusals(void)
     check_refused("2*t + 4t", 8, "* between factors");
     check_refused("2 t", 3, "* between factors");
     check_refused("0x10", 2, "'x10' after a number");
-    check_refused(".", 1, "a decimal point without digits");
+    check_refused(".", 1, "decimal point without digits");
     check_refused("1e999*t", 1, "too large");
     check_refused("1e-999*t", 1, "too small");
     check_refused("1e300*1e300*t", 6, "too large for a number");

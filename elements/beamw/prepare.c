@@ -6,17 +6,18 @@
 enum { OPTION_MASS, OPTION_TORSION, OPTION_INSIDE };
 
 const parameter_type beamw_prepare_mass[] = {
-    [OPTION_MASS] = {"mass", "", BEAMW_INERTIA_CONSISTENT, 0, 0, "lumped|consistent|averaged",
-                     "mass matrix: J Eq. 73, from the shape functions, or the mean of the two"},
+    [OPTION_MASS] =
+        {"mass", "", BEAMW_INERTIA_CONSISTENT, 0, 0, "lumped|consistent|averaged",
+         "mass matrix: J Eq. 73, the matrix of the shape functions, or the mean of both matrices"},
     {0},
 };
 
 const parameter_type beamw_prepare_inside[] = {
     {"torsion", "", BEAMW_TWIST_CUBIC, 0, 0, "cubic|hyperbolic",
-     "twist along the element: J Eq. 38, or the exact functions of non-uniform torsion"},
+     "shape functions of twist: those of J Eq. 38, or the exact functions of non-uniform torsion"},
     {"inside", "", 1, 0, 0, "linear|following",
-     "bending, shear and warping inside the element: as in the stress-free element, or in "
-     "equilibrium under stress"},
+     "shape functions of bending, shear and warping: those of the stress-free element, or those in "
+     "equilibrium under the stresses"},
     {0},
 };
 
@@ -38,7 +39,7 @@ element_order beamw_prepare_order(element_analysis analysis, const double option
 static status length_of(const element_request *request, fault *f)
 {
     if (!(request->length > 0) || !isfinite(request->length))
-        return fault_set(f, STATUS_REFUSED, "element length %g m: it must be positive",
+        return fault_set(f, STATUS_REFUSED, "the element length is %g m; it must be positive",
                          request->length);
     return STATUS_OK;
 }

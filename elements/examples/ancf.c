@@ -169,7 +169,7 @@ const element_type beamwork_element = {
     .abi = ELEMENT_ABI,
     .size = sizeof(element_type),
     .name = "ancf",
-    .summary = "two nodes, a cubic line by slopes along the nodes' x axes; thin, by its energy",
+    .summary = "two nodes, thin, defined by its energy: a cubic line along the nodes' x axes",
     .source = "Gerstmayr and Shabana (2006), Gerstmayr and Irschik (2008); twist as in Meier, Popp "
               "and Wall (2014)",
     .family = "example",

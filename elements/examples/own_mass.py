@@ -22,7 +22,7 @@ def mass(kind, r, _u, R, _a):
 
 if __name__ == "__main__":
     serve(prepare, strain, mass=mass, name="own_mass_py", family="example", strains=6,
-          summary="two nodes, one point, shear-deformable, its own mass, in Python",
+          summary="two nodes, one integration point, flexible in shear, own mass matrix, in Python",
           source="Reissner, J. Appl. Math. Phys. 32 (1981), one point of integration",
           offers=["shear", "geometric", "large rotations", "mass", "rotary inertia"],
           shear_theories=["haringx"], limits=["doubly symmetric"])

@@ -114,8 +114,8 @@ const element_type beamwork_element = {
     .abi = ELEMENT_ABI,
     .size = sizeof(element_type),
     .name = "timoshenko",
-    .summary = "two nodes, one point, shear-deformable, without warping",
-    .source = "Reissner, J. Appl. Math. Phys. 32 (1981), one point of integration",
+    .summary = "two nodes, one integration point, flexible in shear, no warping",
+    .source = "Reissner, J. Appl. Math. Phys. 32 (1981), with one integration point",
     .family = "example",
     .offers =
         FEATURE_SHEAR | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,

@@ -108,7 +108,7 @@ module beam
   end type
 
   character(len=80), target, save :: name = "timoshenko_f90"//c_null_char, &
-    summary = "two nodes, one point, shear-deformable, without warping, in Fortran"//c_null_char, &
+    summary = "two nodes, one integration point, flexible in shear, no warping, in Fortran"//c_null_char, &
     source = "Reissner, J. Appl. Math. Phys. 32 (1981), one point of integration"//c_null_char, &
     family = "example"//c_null_char
   type(element_type), target, save :: this

@@ -33,7 +33,7 @@ def strain(kind, r, _u, R, _a):
 
 if __name__ == "__main__":
     serve(prepare, strain, name="timoshenko_py", family="example", strains=6,
-          summary="two nodes, one point, shear-deformable, without warping, in Python",
+          summary="two nodes, one integration point, flexible in shear, no warping, in Python",
           source="Reissner, J. Appl. Math. Phys. 32 (1981), one point of integration",
           offers=["shear", "geometric", "large rotations", "mass", "rotary inertia"],
           shear_theories=["haringx"], limits=["doubly symmetric"])

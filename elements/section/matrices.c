@@ -17,18 +17,19 @@ static status make_symmetric(double A[36], const char *name, double *asymmetry, 
     for (int i = 0; i < 36; i++)
         if (!isfinite(A[i]))
             return fault_set(f, STATUS_REFUSED,
-                             "section: the %s matrix has an entry that is not a number; give 36 "
-                             "finite entries, or the six on its diagonal",
+                             "section: the %s matrix has an entry that is NaN or Inf; give 36 "
+                             "finite entries, or the six of the diagonal",
                              name);
     for (int i = 0; i < N; i++)
         for (int j = 0; j < i; j++)
             if (fabs(A[N * i + j] - A[N * j + i]) >
                 SECTION_MATRICES_SYMMETRIC * sqrt(fabs(A[7 * i] * A[7 * j])))
-                return fault_set(f, STATUS_REFUSED,
-                                 "section: the %s matrix is not symmetric to %g of its diagonal: "
-                                 "(%d, %d) is %.17g and (%d, %d) is %.17g; make them equal",
-                                 name, SECTION_MATRICES_SYMMETRIC, j + 1, i + 1, A[N * j + i],
-                                 i + 1, j + 1, A[N * i + j]);
+                return fault_set(
+                    f, STATUS_REFUSED,
+                    "section: the %s matrix is not symmetric within %g of its diagonal: entry (%d, "
+                    "%d) is %.17g, but entry (%d, %d) is %.17g; make both equal",
+                    name, SECTION_MATRICES_SYMMETRIC, j + 1, i + 1, A[N * j + i], i + 1, j + 1,
+                    A[N * i + j]);
     memcpy(mean, A, sizeof mean);
     *asymmetry = fmax(*asymmetry, dense_symmetrise(N, mean));
     memcpy(A, mean, sizeof mean);
@@ -49,7 +50,7 @@ static status check_stiffness(const double C[36], fault *f)
     if (dense_cholesky(N, scaled) != 0)
         return fault_set(f, STATUS_REFUSED,
                          "section: the stiffness matrix is not positive definite, so some strain "
-                         "would have negative energy; reduce its terms off the diagonal");
+                         "would have negative energy; reduce the off-diagonal entries");
     return STATUS_OK;
 }
 
@@ -110,11 +111,10 @@ static status check_mass(section *c, fault *f)
     const int slice = make_slice(M);
     const double m = M[0];
     if (!slice)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "section: the mass matrix is not that of a slice of a beam: it needs m in the first "
-            "three entries of the diagonal, (1, 5) = -(2, 4) = m cz, -(1, 6) = (3, 4) = m cy, and "
-            "moments of inertia in the last three rows and columns");
+        return fault_set(f, STATUS_REFUSED,
+                         "section: the mass matrix is not that of a rigid cross-section; give m in "
+                         "the first three diagonal entries, (1, 5) = -(2, 4) = m cz, -(1, 6) = (3, "
+                         "4) = m cy, and moments of inertia in the last three rows and columns");
     section_matrices_centre(c, centre);
     const double square = vec3_dot(centre, centre);
     for (int i = 0; i < 3; i++)
@@ -125,7 +125,7 @@ static status check_mass(section *c, fault *f)
         return fault_set(
             f, STATUS_REFUSED,
             "section: the mass matrix has a negative moment of inertia about the centre of mass "
-            "(0, %g, %g) m; increase the entries in its last three rows",
+            "(0, %g, %g) m; increase the entries in the last three rows",
             centre[1], centre[2]);
     return STATUS_OK;
 }

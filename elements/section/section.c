@@ -95,10 +95,10 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     const double w = s->width, h = s->height;
     if (!(w > 0) || !isfinite(w))
         return fault_set(f, STATUS_REFUSED,
-                         "section: width of the rectangle is %g m; it must be positive", w);
+                         "section: the width of the rectangle is %g m; it must be positive", w);
     if (!(h > 0) || !isfinite(h))
         return fault_set(f, STATUS_REFUSED,
-                         "section: thickness of the rectangle is %g m; it must be positive", h);
+                         "section: the thickness of the rectangle is %g m; it must be positive", h);
     const double wide = fmax(w, h), thin = fmin(w, h);
     out->A = w * h;
     out->Iy = h * w * w * w / 12;
@@ -128,11 +128,12 @@ static status tube(const section_spec *s, section *out, fault *f)
     const double R = s->diameter / 2, t = s->wall_thickness;
     if (!(R > 0) || !isfinite(R))
         return fault_set(f, STATUS_REFUSED,
-                         "section: diameter of the tube is %g m; it must be positive", s->diameter);
+                         "section: the diameter of the tube is %g m; it must be positive",
+                         s->diameter);
     if (!(t > 0) || !(t <= R))
         return fault_set(f, STATUS_REFUSED,
-                         "section: thickness of the tube is %g m; it must be positive and at most "
-                         "half the diameter, %g m",
+                         "section: the wall thickness of the tube is %g m; it must be positive and "
+                         "at most half the diameter, %g m",
                          t, R);
     const double r = R - t, ring = t * (2 * R - t), /* R^2 - r^2 */ square = R * R + r * r,
                  m = R * r / square;
@@ -168,9 +169,9 @@ static status invert_on_support(const double from[9], double to[9], const char *
     }
     if (dense_cholesky(n, scaled) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "section: the shear rigidity matrix %s is not positive definite (its "
-                         "terms off the diagonal are too large "
-                         "for %s_y = %g, %s_z = %g, %s_w = %g); correct the section's data",
+                         "section: the shear rigidity matrix %s is not positive definite, because "
+                         "its off-diagonal entries are too large for %s_y = %g, %s_z = %g, %s_w = "
+                         "%g; correct the data of the section",
                          name, name, from[0], name, from[4], name, from[8]);
     dense_cholesky_solve(n, n, scaled, inverse);
     for (int i = 0; i < n; i++)
@@ -194,10 +195,11 @@ static status apply_given(const section_spec *s, section *out, fault *f)
         {"A", s->given.A}, {"Iy", s->given.Iy}, {"Iz", s->given.Iz}, {"beta", s->given.beta}};
     for (size_t i = 0; i < sizeof whole / sizeof whole[0]; i++)
         if (!isnan(whole[i].value) && s->kind != SECTION_WALLS)
-            return fault_set(f, STATUS_REFUSED,
-                             "section: 'given: {%s}' applies to thin walls; other sections compute "
-                             "it from their dimensions: remove it, or give 'constants'",
-                             whole[i].name);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "section: 'given: {%s}' applies only to thin walls; for other sections the value "
+                "follows from the dimensions; remove it, or give 'constants'",
+                whole[i].name);
     override(&out->A, s->given.A);
     override(&out->Iy, s->given.Iy);
     override(&out->Iz, s->given.Iz);
@@ -233,8 +235,8 @@ static status check_material(const section_spec *s, fault *f)
                          s->young);
     if (!(s->shear_modulus > 0) || !isfinite(s->shear_modulus))
         return fault_set(f, STATUS_REFUSED,
-                         "section: shear_modulus = %g Pa; it must be positive (Poisson's ratio "
-                         "between -1 and 0.5)",
+                         "section: shear_modulus = %g Pa; it must be positive, and Poisson's ratio "
+                         "must be between -1 and 0.5",
                          s->shear_modulus);
     if (!(s->density >= 0) || !isfinite(s->density))
         return fault_set(f, STATUS_REFUSED, "section: density = %g kg/m^3; it must not be negative",
@@ -256,7 +258,8 @@ static status check_constants(const section *c, fault *f)
             return fault_set(f, STATUS_REFUSED, "section: %s = %g; it must be %s", all[i].name,
                              all[i].value, all[i].may_vanish ? "positive or zero" : "positive");
     if (!isfinite(c->ys) || !isfinite(c->zs))
-        return fault_set(f, STATUS_REFUSED, "section: the shear centre (%g, %g) m is not finite",
+        return fault_set(f, STATUS_REFUSED,
+                         "section: the shear centre (%g, %g) m is not finite; give finite values",
                          c->ys, c->zs);
     return STATUS_OK;
 }

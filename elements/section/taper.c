@@ -44,10 +44,11 @@ static status check_walls(const section_spec *p, const section_spec *q, fault *f
     for (int w = 0; !differ && w < p->walls; w++)
         differ = p->wall[w].from != q->wall[w].from || p->wall[w].to != q->wall[w].to;
     if (differ)
-        return fault_set(f, STATUS_REFUSED,
-                         "its section changes from %d walls to %d that are connected differently; "
-                         "give both the same points and walls, with different dimensions",
-                         p->walls, q->walls);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "the section changes from %d walls to %d walls that are connected differently; give "
+            "both ends the same points and walls, with different dimensions",
+            p->walls, q->walls);
     return STATUS_OK;
 }
 
@@ -91,8 +92,8 @@ static int walls_change(const section_spec *p, const section_spec *q)
 static status check_warping(const section_spec *p, const section_spec *q,
                             const section *const ends[2], fault *f)
 {
-    static const char remedy[] = "omit its warping (given: {Iw: 0} at both ends), or change only "
-                                 "dimensions that change neither";
+    static const char remedy[] = "omit warping with given: {Iw: 0} at both ends, or vary only "
+                                 "dimensions that have no such effect";
     const double size = sqrt(ends[0]->Ip / ends[0]->A) + sqrt(ends[1]->Ip / ends[1]->A);
     if (!(ends[0]->Iw > 0) && !(ends[1]->Iw > 0))
         return STATUS_OK;
@@ -103,14 +104,14 @@ static status check_warping(const section_spec *p, const section_spec *q,
             moves |= out_of_plane(p, q, ends, w) > same * size;
     if (moves)
         return fault_set(f, STATUS_REFUSED,
-                         "its section warps, and along the member the shear centre moves or walls "
+                         "the section warps, and along the member the shear centre moves or walls "
                          "leave their planes, which couples warping with torsion; %s",
                          remedy);
     if (p->cells > 0 && walls_change(p, q))
         return fault_set(
             f, STATUS_REFUSED,
-            "its closed cells change along the member, and so does their sectorial coordinate, "
-            "which couples warping with torsion; omit its warping (given: {Iw: 0} at both ends)");
+            "the closed cells and their sectorial coordinate change along the member, which "
+            "couples warping with torsion; omit warping with given: {Iw: 0} at both ends");
     return STATUS_OK;
 }
 
@@ -121,17 +122,18 @@ status section_taper_check(const section_spec *p, const section_spec *q,
     if (p->kind != q->kind)
         return fault_set(
             f, STATUS_REFUSED,
-            "its section changes from %s to %s; give both ends the same kind of section",
+            "the section changes from %s to %s; give both ends the same kind of section",
             form[p->kind], form[q->kind]);
     if (p->sheet_warping != q->sheet_warping || given_once(p, q) != NULL)
+        return fault_set(f, STATUS_REFUSED,
+                         "'%s' is given for the section at one end only; give it at both ends, or "
+                         "at neither end",
+                         given_once(p, q) != NULL ? given_once(p, q) : "sheet_warping");
+    if (p->given.A != q->given.A && !isnan(p->given.A))
         return fault_set(
             f, STATUS_REFUSED,
-            "'%s' is given for its section at one end only; give it at both ends, or at neither",
-            given_once(p, q) != NULL ? given_once(p, q) : "sheet_warping");
-    if (p->given.A != q->given.A && !isnan(p->given.A))
-        return fault_set(f, STATUS_REFUSED,
-                         "its section changes from one rolled profile, or given A, to another, and "
-                         "the constants between them are not known; give both by their dimensions");
+            "the section changes from one rolled profile or given A to another, and the constants "
+            "in between are not known; describe both sections by their dimensions");
     if (p->kind == SECTION_WALLS)
         TRY(check_walls(p, q, f));
     return check_warping(p, q, ends, f);

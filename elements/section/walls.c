@@ -31,8 +31,8 @@ static status connect(const section_spec *s, section_tree *t, fault *f)
                 if (t->cells == s->cells)
                     return fault_set(f, STATUS_REFUSED,
                                      "section: wall %d (points %d-%d) closes a cell; %s", w, a, b,
-                                     s->cells > 0 ? "give the number of cells that the walls close"
-                                                  : "open it, or give the number of cells");
+                                     s->cells > 0 ? "give the number of closed cells"
+                                                  : "open the cell, or give the number of cells");
                 closing[t->cells++] = w;
                 continue;
             }
@@ -78,8 +78,8 @@ status tree_grow(const section_spec *s, section_tree *t, fault *f)
     TRY(connect(s, t, f));
     if (t->cells < s->cells)
         return fault_set(f, STATUS_REFUSED,
-                         "section: the walls close %d of the %d cells; correct the number or close "
-                         "them at shared points",
+                         "section: the walls close %d of the %d cells; correct the number of "
+                         "cells, or close the cells at shared points",
                          t->cells, s->cells);
     for (int c = 0; c < t->cells; c++) {
         const int k = s->walls - t->cells + c;
@@ -235,22 +235,23 @@ static status check_walls(const section_spec *s, fault *f)
 {
     if (s->walls < 1 || s->walls > SECTION_MAX_WALLS || s->points < 2 ||
         s->points > SECTION_MAX_POINTS)
-        return fault_set(f, STATUS_REFUSED, "section: %d walls and %d points; give 1 to %d walls",
-                         s->walls, s->points, SECTION_MAX_WALLS);
+        return fault_set(f, STATUS_REFUSED,
+                         "section: there are %d walls and %d points; give 1 to %d walls", s->walls,
+                         s->points, SECTION_MAX_WALLS);
     for (int w = 0; w < s->walls; w++) {
         const int a = s->wall[w].from, b = s->wall[w].to;
         if (a < 0 || a >= s->points || b < 0 || b >= s->points)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "section: wall %d names point %d, but the %d points are numbered from 0", w,
-                a < 0 || a >= s->points ? a : b, s->points);
+            return fault_set(f, STATUS_REFUSED,
+                             "section: wall %d refers to point %d, but the %d points are numbered "
+                             "from 0; correct the number",
+                             w, a < 0 || a >= s->points ? a : b, s->points);
         if (!(s->wall[w].thickness > 0) || !isfinite(s->wall[w].thickness))
             return fault_set(f, STATUS_REFUSED,
-                             "section: thickness of wall %d is %g m; it must be positive", w,
+                             "section: the thickness of wall %d is %g m; it must be positive", w,
                              s->wall[w].thickness);
         if (!(tree_wall_length(s, w) > 0) || !isfinite(tree_wall_length(s, w)))
             return fault_set(f, STATUS_REFUSED,
-                             "section: length of wall %d is %g m; it must be positive", w,
+                             "section: the length of wall %d is %g m; it must be positive", w,
                              tree_wall_length(s, w));
     }
     return STATUS_OK;
@@ -424,9 +425,8 @@ status walls_lines_of(const section_spec *s, walls_lines *lines, section *out, f
     out->Ip = out->Iy + out->Iz;
     if (!(out->Iy > 1e-14 * out->Ip) || !(out->Iz > 1e-14 * out->Ip))
         return fault_set(f, STATUS_REFUSED,
-                         "section: the walls lie on one line, so the mid-line has no bending "
-                         "stiffness across it; switch "
-                         "thickness_terms on or give a rectangle");
+                         "section: all walls lie on one line and have no bending stiffness across "
+                         "that line; give thickness_terms: yes, or a rectangle");
 
     double *omega = lines->omega, *pole = lines->pole;
     out->It += cell_torsion(s, &lines->tree, y, z, lines->flow);

@@ -12,7 +12,7 @@ status beam_constants_of(const element_request *request, beam_constants *out, fa
     const double l0 = request->length, EI = c->young * fmin(c->Iy, c->Iz), E = c->young / EI,
                  G = c->shear_modulus / EI;
     if (!(l0 > 0) || !isfinite(l0))
-        return fault_set(f, STATUS_REFUSED, "element length %g m: it must be positive", l0);
+        return fault_set(f, STATUS_REFUSED, "the element length is %g m; it must be positive", l0);
     memset(out, 0, sizeof *out);
     out->energy = EI / l0;
     out->EA = E * c->A * l0 * l0;
@@ -78,8 +78,8 @@ int beam_coupled_inverse(int n, const double A[], double inverse[])
 status beam_coupled_too_stiff(double length, fault *f)
 {
     return fault_set(f, STATUS_REFUSED,
-                     "element of length %g m: its stiffness matrix cannot be inverted; bring its "
-                     "entries closer together, or use other lengths of elements",
+                     "element of length %g m: its stiffness matrix cannot be inverted; give "
+                     "entries of more similar size, or elements of another length",
                      length);
 }
 

@@ -91,7 +91,7 @@ status sheet_base_prepare(const element_request *request, sheet_base_shear shear
     for (int i = 0; i < SHEET_STRAINS * SHEET_STRAINS; i++)
         if (!isfinite(out->S[i]))
             return fault_set(f, STATUS_REFUSED,
-                             "element of length %g m: its stiffness overflows; use fewer elements",
+                             "element of length %g m: the stiffness overflows; use fewer elements",
                              l0);
     sheet_strains_set_rest(request, &out->table);
     field_mass_prepare(request, 2, &out->mass);

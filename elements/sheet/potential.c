@@ -227,9 +227,10 @@ status sheet_coefficients_prepare(const element_request *r, int printed, sheet_p
     memset(&total, 0, sizeof total);
     memset(out, 0, sizeof *out);
     if (!(c->shear_modulus * c->It > 0))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "section: It = %g m^4; the third-order element needs a torsional stiffness", c->It);
+        return fault_set(f, STATUS_REFUSED,
+                         "section: It = %g m^4, but the third-order element requires a torsional "
+                         "stiffness; give a positive It",
+                         c->It);
     quadrature_points(POINTS, x, w);
     for (int i = 0; i < POINTS; i++) {
         const sheet_fields at = sheet_fields_at(L, x[i], 0, 0, sheet_fields_warp(r));

@@ -120,7 +120,7 @@ status sheet_strains_prepare(const element_request *request, double Phi_y, doubl
     double x[POINTS], w[POINTS], Q[SHEET_STRAINS_LISTED][N * N] = {{0}};
     memset(out, 0, sizeof *out);
     if (!(l0 > 0) || !isfinite(l0))
-        return fault_set(f, STATUS_REFUSED, "element length %g m: it must be positive", l0);
+        return fault_set(f, STATUS_REFUSED, "the element length is %g m; it must be positive", l0);
     quadrature_points(POINTS, x, w);
     out->Lambda[N * 0 + SHEET_LOCAL_U] = 1;
     out->Lambda[N * 1 + SHEET_LOCAL_PX] = l0;

@@ -67,7 +67,7 @@ static status set_rest(const element_request *request, sheet_inverse_data *out, 
         STATUS_OK)
         return fault_set(
             f, STATUS_REFUSED,
-            "element of length %g m: its initial curvature is too large; use more elements",
+            "element of length %g m: the initial curvature is too large; use more elements",
             request->length);
     out->rest_energy = energy;
     memcpy(out->rest_stress, stress, sizeof stress);
@@ -81,10 +81,10 @@ status sheet_third_prepare(const element_request *request, int printed, element_
     memset(out, 0, sizeof *out);
     TRY(sheet_base_prepare(request, SHEET_BASE_PRINTED, &out->base, f));
     if (request->strain[1] != 0)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "initial shear strain %g along the thickness: N Eq. 50 does not include it; remove it",
-            request->strain[1]);
+        return fault_set(f, STATUS_REFUSED,
+                         "the initial shear strain along the thickness is %g, but N Eq. 50 does "
+                         "not include this strain; remove it",
+                         request->strain[1]);
     out->bending =
         request->length * request->length / (request->section->young * request->section->Iz);
     partial_inverse(request->length, sheet_fields_warp(request), out);

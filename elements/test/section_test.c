@@ -430,7 +430,7 @@ static void cells_refusals(void)
 {
     section_spec spec = box_spec();
     spec.cells = 0;
-    refusal(&spec, "wall 3 (points 3-0) closes a cell; open it, or give the number");
+    refusal(&spec, "wall 3 (points 3-0) closes a cell; open the cell, or give the number");
     spec.cells = 2;
     refusal(&spec, "close 1 of the 2 cells");
     spec = two_cells(0, 0);

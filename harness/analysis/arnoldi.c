@@ -204,9 +204,10 @@ static status iterate(solver *s, int vectors, fault *f)
         if (converged(s, &worst) || grown == 0 || (worst > best / 2 && worst < stalled_residual))
             return worst <= bearable_residual || s->count == s->p->n
                        ? STATUS_OK
-                       : fault_set(f, STATUS_NOT_CONVERGED,
-                                   "unsymmetric eigenvalue problem: residual %.1e with %d vectors",
-                                   worst, s->count);
+                       : fault_set(
+                             f, STATUS_NOT_CONVERGED,
+                             "unsymmetric eigenvalue problem: the residual is %.1e with %d vectors",
+                             worst, s->count);
         best = fmin(best, worst);
     }
 }
@@ -242,7 +243,7 @@ static status find(solver *s, fault *f)
         vectors = MORE + s->p->wanted;
     }
     return fault_set(f, STATUS_NOT_CONVERGED,
-                     "unsymmetric eigenvalue problem: start vector %d still finds new eigenvalues",
+                     "unsymmetric eigenvalue problem: start vector %d still yields new eigenvalues",
                      MAX_STARTS);
 }
 

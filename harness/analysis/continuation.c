@@ -283,7 +283,8 @@ static status walk_to(continuation *p, double station, double *size, fault *f)
     while (p->here.control != station) {
         if (p->o->points >= MOST_POINTS)
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "the path has %d points, none of them at %g m", MOST_POINTS, station);
+                             "the path has %d points, but none of them is at %g m", MOST_POINTS,
+                             station);
         const double length = p->by->constant_steps ? p->by->step : *size;
         TRY(reach(p, next_goal(p, station, length), station, size, f));
     }
@@ -346,7 +347,7 @@ static const char *continuation_sound_doubt(const continuation *p, int last_reso
     const double turned = metric_turn_between(p->c->model, p->n.backup, p->n.state);
     *swing = fmax(fmax(before, after) / largest_swing, turned / largest_turn);
     if (!(before <= largest_swing) || !(after <= largest_swing))
-        return "its direction changes too much";
+        return "the direction of the path changes too much";
     if (!(turned <= largest_turn))
         return "a node rotates too far";
     /* At a limit point, the rate changes its sign, and one pivot changes the sign of the
@@ -372,8 +373,8 @@ static status continuation_sound_report_jump(continuation *p, const rival *r, do
     TRY(history_add_event(p->c->result, &event, f));
     if (p->by->constant_steps)
         return fault_set(f, STATUS_NOT_CONVERGED,
-                         "the step from %g to %g m jumps to another branch (load factor %g, on "
-                         "this one %g): use smaller steps",
+                         "the step from %g to %g m jumps to another branch (load factor %g instead "
+                         "of %g); use smaller steps",
                          from, p->here.control, r->factor, p->here.factor);
     return STATUS_OK;
 }

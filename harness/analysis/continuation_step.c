@@ -28,7 +28,7 @@ status continuation_step_alloc(analysis_context *c, int analysis, outcome_contin
     if (c->options->newton == NEWTON_DENSE)
         return fault_set(
             f, STATUS_REFUSED,
-            "continuation needs a factored tangent; give newton=mixed or newton=displacement");
+            "continuation requires a factorised tangent; give newton=mixed or newton=displacement");
     TRY(newton_alloc(c, 1, &p->n, f));
     TRY(outcome_stations(&o->path, p->path->stations, f));
     TRY(kinematics_state_alloc(c->model, &p->end, f));

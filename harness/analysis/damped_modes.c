@@ -18,8 +18,8 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for damped modes");
 }
 
-static const char *const one_each =
-    "; each integral gain must move what it measures, and no two the same motion";
+static const char *const one_each = "; each integral gain must move the coordinate that it "
+                                    "measures, and no two gains may move the same coordinate";
 
 static status take_frequencies(const harmonic_modes *m, int *count, double **hertz, fault *f)
 {
@@ -57,10 +57,10 @@ static status find_damped_of(vibration *v, const sparse *const of[], sparse clos
         if (found == STATUS_FAULT)
             return fault_set(f, found, "%s", why.text);
         if (found != STATUS_OK && v->loops > 0)
-            return fault_set(f, found,
-                             "whether the loop of feedback is stable is not known (%.150s); use "
-                             "fewer elements",
-                             why.text);
+            return fault_set(
+                f, found,
+                "it is not known whether the feedback loop is stable (%.150s); use fewer elements",
+                why.text);
         enough = all || found != STATUS_OK || r->count < wanted ||
                  hypot(r->growth[r->count - 1], r->frequency[r->count - 1]) > 2 * PI * below;
     }
@@ -89,8 +89,8 @@ static status find_damped(vibration *v, harmonic_modes *m, double below, unsymme
             outcome = find_damped_of(v, of, closed, m->factor, below, r, f);
         else if (v->loops > 0)
             outcome = fault_set(f, STATUS_REFUSED,
-                                "whether the loop of feedback is stable is not known, because one "
-                                "motion has no stiffness: support it by a soft spring, or give "
+                                "it is not known whether the feedback loop is stable, because one "
+                                "motion has no stiffness; support it by a soft spring, or give the "
                                 "feedback a proportional gain%s",
                                 poles_integrals(v) > 0 ? one_each : "");
     }
@@ -141,10 +141,10 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
     m = calloc(1, sizeof *m);
     status outcome = m != NULL ? find_damped(v, m, below, &r, f) : no_memory(f);
     if (outcome == STATUS_OK && r.lost > 0)
-        outcome = fault_set(f, STATUS_NOT_CONVERGED,
-                            "whether the loop of feedback is stable is not known, because a slow "
-                            "mode is lost in round-off: use larger integral gains, or none, or "
-                            "fewer elements");
+        outcome = fault_set(
+            f, STATUS_NOT_CONVERGED,
+            "it is not known whether the feedback loop is stable, because a slow mode is lost in "
+            "round-off; use larger integral gains, no integral gains, or fewer elements");
     for (int i = 0; i < r.count; i++)
         if (grows(v, &r, i) &&
             (v->about == NULL || hypot(r.growth[i], r.frequency[i]) <= 2 * PI * below))
@@ -153,20 +153,20 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
     harmonic_modes_free(m);
     if (v->loops > 0 && 2 * v->free > ALL_STATES && v->c->result->reason[0] == '\0')
         snprintf(v->c->result->reason, sizeof v->c->result->reason,
-                 "stability of the loop of feedback is known up to %.4g Hz only", below);
+                 "the stability of the feedback loop is known only up to %.4g Hz", below);
     if (outcome != STATUS_OK || growth == 0)
         return outcome;
     if (v->about != NULL) { /* growth about a state during a motion is not a loss of stability */
         if (v->c->result->reason[0] == '\0')
             snprintf(v->c->result->reason, sizeof v->c->result->reason,
-                     "a mode of the coefficients at %g s grows at %.4g 1/s: responses are transfer "
-                     "functions, no steady vibration",
+                     "a mode of the coefficients at %g s grows at %.4g 1/s, so the responses are "
+                     "transfer functions and not steady vibrations",
                      v->about->time, growth);
         return STATUS_OK;
     }
     return fault_set(f, STATUS_REFUSED,
-                     "there are no steady vibrations, because a mode grows at %.4g 1/s: see modal: "
-                     "{damped: yes}; add damping, or make %s smaller",
+                     "there are no steady vibrations, because a mode grows at %.4g 1/s (see modal: "
+                     "{damped: yes}); add damping, or reduce %s",
                      growth,
                      v->loops > 0 ? "gains of feedback"
                      : v->rotates ? "the angular velocity"
@@ -233,7 +233,7 @@ static void say_instant(const vibration *v, size_t size, char out[])
     snprintf(out, size, "coefficients at %g s, %s%.40s", v->about->time,
              a->axes_of != SCENE_NONE        ? "axes of "
              : a->axes == SCENE_TURNING_NONE ? "fixed axes"
-                                             : "own axes of the nodes",
+                                             : "axes of the nodes",
              a->axes_of != SCENE_NONE ? scene_name(v->c->scene, SCENE_NODES, a->axes_of).text : "");
 }
 
@@ -247,11 +247,12 @@ static status find_modes_with(vibration *v, const sparse *const of[], matrix_fac
     c->run->counters.factorisations++;
     const status factored = factor_numeric(factor, of[0], &why);
     if (factored == STATUS_SINGULAR)
-        return fault_set(f, STATUS_REFUSED,
-                         "damped modes require stiffness in every direction, but the structure "
-                         "can move freely in one: hold it, or support it by a soft spring%s%s",
-                         closed != NULL ? ", or give feedback a proportional gain" : "",
-                         poles_integrals(v) > 0 ? one_each : "");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "damped modes require stiffness in every direction, but the structure can move freely "
+            "in one direction; hold it, or support it by a soft spring%s%s",
+            closed != NULL ? ", or give feedback a proportional gain" : "",
+            poles_integrals(v) > 0 ? one_each : "");
     if (factored != STATUS_OK)
         return fault_set(f, factored, "%s", why.text);
     unsymmetric_problem p = {.K = of[0],
@@ -269,7 +270,7 @@ static status find_modes_with(vibration *v, const sparse *const of[], matrix_fac
     return found == STATUS_OK
                ? found
                : fault_set(f, found, "%.200s%s", why.text,
-                           closed != NULL ? "; with feedback, use fewer elements" : "");
+                           closed != NULL ? "; if there is feedback, use fewer elements" : "");
 }
 
 /* Removes the integrals of the loops from the modes. */

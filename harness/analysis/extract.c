@@ -29,10 +29,11 @@ static int is_turned(const scene *s, int node, int component, fault *f)
     const int idle = component >= SCENE_RX ? scene_idle_turn(s, node, axis) : 0;
     if (idle == 0 || (idle == SCENE_IDLE_AXIS && fabs(axis[component - SCENE_RX]) <= 1e-9))
         return 1;
-    fault_set(f, STATUS_REFUSED,
-              "%s can rotate freely, since all members there release this rotation: its angle is "
-              "undefined; request the angle of a member's other end, or join one of the members",
-              scene_called(s, SCENE_NODES, node).text);
+    fault_set(
+        f, STATUS_REFUSED,
+        "%s can rotate freely, because all members there release this rotation, so its angle is "
+        "undefined; request the angle of the other end of a member, or join one of the members",
+        scene_called(s, SCENE_NODES, node).text);
     return 0;
 }
 
@@ -60,7 +61,7 @@ static void under_one(const analysis_context *c, const scene_quantity *q, const 
     fault f = {"out of memory for stresses"};
     status outcome = sigma != NULL ? STATUS_OK : STATUS_FAULT;
     if (outcome == STATUS_OK && from.x == NULL)
-        outcome = fault_set(&f, STATUS_FAULT, "its load case was not solved");
+        outcome = fault_set(&f, STATUS_FAULT, "the load case was not solved");
     if (outcome == STATUS_OK && scene_reads_forces(q))
         outcome = linear_whole_stresses(&own.eq, from.x, 1, sigma, &f);
     if (outcome == STATUS_OK)
@@ -249,7 +250,7 @@ static void extract_spectrum_buckling(const analysis_context *c, const scene_qua
         snprintf(why, sizeof why, "no %s load%s: %.250s", sign,
                  side->count > 0 ? " of this order" : "", side->reason);
     else
-        snprintf(why, sizeof why, "no %s critical load of this order", sign);
+        snprintf(why, sizeof why, "there is no %s critical load of this order", sign);
     quantity_no_value(r, side->status, why);
 }
 

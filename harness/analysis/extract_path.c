@@ -17,7 +17,7 @@ static double known(const analysis_context *c, double value, double error, const
     if (error <= EIGEN_LARGEST_ERROR)
         return value;
     snprintf(why, sizeof why,
-             "%s of %d unknowns is lost in round-off (error %.1e): use fewer elements", what,
+             "%s of %d unknowns is lost in round-off (error %.1e); use fewer elements", what,
              model_sizes(c->model).free, error);
     quantity_no_value(r, STATUS_NOT_CONVERGED, why);
     return NAN;
@@ -227,7 +227,7 @@ static void path_ends(const analysis_context *c, const scene_quantity *q, const 
     const int of_frequencies = c->scene->analysis[q->analysis].kind == SCENE_HARMONIC;
     char text[FAULT_TEXT];
     if (o->status == STATUS_OK && of_frequencies && q->reduction == SCENE_AT) {
-        snprintf(text, sizeof text, "%.10g Hz is not among the frequencies of %s; add it", q->at,
+        snprintf(text, sizeof text, "%.10g Hz is not one of the frequencies of %s; add it", q->at,
                  scene_called(c->scene, SCENE_ANALYSES, q->analysis).text);
         quantity_no_value(r, STATUS_NOT_CONVERGED, text);
     } else if (o->status != STATUS_OK)
@@ -325,8 +325,8 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
     } else if (!known) {
         quantity_no_value(r, STATUS_NO_VALUE,
                           q->reduction >= SCENE_CROSSING && q->reduction <= SCENE_PER_SECOND
-                              ? "the motion crosses the level fewer times in this time"
-                              : "no part of the motion lies in that time window");
+                              ? "the quantity crosses the level fewer times during this time"
+                              : "no part of the motion is in the time window");
     } else {
         r->value = quantity_scaled(q, found->value);
         r->x = quantity_abscissa(q, found->time);
@@ -345,7 +345,7 @@ static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quan
         return;
     snprintf(
         why, sizeof why,
-        "unbounded at %.6g Hz, where nothing damps the motion; add damping, or write take: curve",
+        "unbounded at %.6g Hz, where the response is not damped; add damping, or write take: curve",
         peak->hertz);
     if (peak->unbounded) {
         quantity_no_value(r, STATUS_NO_VALUE, why);

@@ -61,7 +61,7 @@ void flutter_take(unsymmetric_result *from, outcome_side *to)
         if (to->status == STATUS_OK)
             snprintf(
                 to->reason, sizeof to->reason,
-                "frequency %d of %d unknowns is lost in round-off (error %.1e): use fewer elements",
+                "frequency %d of %d unknowns is lost in round-off (error %.1e); use fewer elements",
                 i + 1, from->n, to->error[i]);
         to->status = STATUS_NOT_CONVERGED;
     }

@@ -246,8 +246,9 @@ static status walk(search *s, fault *f)
         step *= fmin(quickest, wanted_change / changed);
     }
     return fault_set(f, STATUS_NOT_CONVERGED,
-                     "no critical load from path 0 to %g: there is no divergence%s", s->last.path,
-                     s->of.massless ? ", and flutter needs mass: add a density to a section"
+                     "no critical load from path 0 to %g, because there is no divergence%s",
+                     s->last.path,
+                     s->of.massless ? ", and flutter requires mass; add a density to a section"
                                     : " and no flutter");
 }
 
@@ -305,7 +306,8 @@ static status close_in(search *s, flutter_point *out, fault *f)
     }
     if (isnan(estimate))
         return fault_set(f, STATUS_NOT_CONVERGED,
-                         "the critical load was not found: between path %g and %g", low, high.path);
+                         "the critical load was not found; it is between path %g and %g", low,
+                         high.path);
     out->path = estimate;
     out->error = apart / fabs(estimate);
     out->frequency = high.kind == FLUTTER_OSCILLATES ? high.frequency : 0;

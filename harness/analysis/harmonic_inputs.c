@@ -15,8 +15,8 @@ status harmonic_check_motion(const vibration *v, int driver, fault *f)
         for (int k = 0; k < 3; k++)
             if (model_vertex(m, i)->vector_driver[k] == driver)
                 return fault_set(f, STATUS_REFUSED,
-                                 "motion %s is a component of a rotation vector: drive an angle, "
-                                 "or a translation",
+                                 "motion %s is a component of a rotation vector; drive an angle or "
+                                 "a translation",
                                  model_scene(m)->driver[driver].name);
     return STATUS_OK;
 }
@@ -66,7 +66,7 @@ status harmonic_input(const vibration *v, const scene_response *r, double w, dou
         }
     return moves ? STATUS_OK
                  : fault_set(f, STATUS_REFUSED,
-                             "%s is held or driven, so a force along it moves nothing; name "
+                             "%s is fixed or driven, so a force along it has no effect; name "
                              "another component, or a motion with 'drive'",
                              scene_called(model_scene(m), SCENE_NODES, node).text);
 }
@@ -121,16 +121,17 @@ status harmonic_reacting(const vibration *v, const scene_response *r, int *out, 
         nodes += model_tie(v->c->model, i / 6, i % 6) != NULL &&
                  model_vertex(v->c->model, i / 6)->coordinate[i % 6] == *out;
     if (driver == SCENE_NONE)
-        return fault_set(f, STATUS_REFUSED,
-                         "a reaction of %s requires a motion that drives this component alone, and "
-                         "there is none; replace 'hold' at the node by a motion with value: [0, 0]",
-                         scene_called(s, SCENE_NODES, r->node).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "a reaction of %s requires a motion that drives only this component, but there is "
+            "none; replace 'hold' at the node with a motion with value: [0, 0]",
+            scene_called(s, SCENE_NODES, r->node).text);
     return nodes == 1
                ? STATUS_OK
                : fault_set(
                      f, STATUS_REFUSED,
-                     "motion %s drives more than the component whose reaction is requested; give "
-                     "each component its own motion, or attach the nodes to one driven node",
+                     "motion %s drives more components than the one whose reaction is requested; "
+                     "give each component its own motion, or attach the nodes to one driven node",
                      s->driver[driver].name);
 }
 

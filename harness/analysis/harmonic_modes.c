@@ -100,8 +100,8 @@ static status all_modes(vibration *v, harmonic_modes *m, fault *f)
     const size_t n = (size_t)m->n;
     if (m->n > MOST_DENSE)
         return fault_set(f, STATUS_REFUSED,
-                         "all modes of %d coordinates are too many (at most %d): give a number of "
-                         "modes, such as modes: 50",
+                         "%d coordinates are too many for computing all modes (at most %d); give a "
+                         "number of modes, such as modes: 50",
                          m->n, MOST_DENSE);
     double *K = calloc(n * n + 1, sizeof *K), *x = calloc(n * n + 1, sizeof *x),
            *mu = calloc(n + 1, sizeof *mu);
@@ -230,7 +230,7 @@ static status check_damping(const vibration *v, fault *f)
     for (int i = 0; i < s->springs && s->analysis[v->analysis].by_modes; i++)
         if (scene_spring_gyrates(&s->spring[i]))
             return fault_set(f, STATUS_REFUSED,
-                             "a solution by modes needs symmetric damping, and that of %s is "
+                             "a solution by modes requires symmetric damping, but that of %s is "
                              "unsymmetric; remove 'solution'",
                              scene_called(s, SCENE_SPRINGS, i).text);
     return STATUS_OK;

@@ -94,8 +94,9 @@ static status mode_of(const analysis_context *c, int index, double out[], fault 
     if (same.count > 2 || vec3_norm(p->direction) == 0)
         return fault_set(f, STATUS_REFUSED, "%s: %s is one of %d modes with the same value; %s",
                          who.text, mode, same.count,
-                         same.count > 2 ? "give shifts of nodes, or make parts unequal"
-                                        : "give its direction: [x, y, z]");
+                         same.count > 2
+                             ? "give shifts of nodes, or make the structure less symmetric"
+                             : "give its direction as [x, y, z]");
     double *u = calloc(2 * ((size_t)size.vertices * NODE_COORDINATES + n + (size_t)size.driven) + 1,
                        sizeof *u);
     if (u == NULL)
@@ -143,9 +144,9 @@ static status add_mode(const analysis_context *c, int index, double mode[], doub
     model_largest_shift(c->model, mode, shift);
     const double most = vec3_norm(shift), sign = sign_of(p, shift);
     if (!(most > 0) || sign == 0)
-        return fault_set(f, STATUS_REFUSED, "%s: its mode %s; give another mode%s",
+        return fault_set(f, STATUS_REFUSED, "%s: the mode %s; give another mode%s",
                          scene_called(c->scene, SCENE_IMPERFECTIONS, index).text,
-                         most > 0 ? "does not shift along its direction" : "shifts no member",
+                         most > 0 ? "does not move along the given direction" : "shifts no member",
                          most > 0 ? " or direction" : "");
     for (int i = 0; i < size.free; i++)
         x[i] += sign * p->amplitude / most * mode[i];

@@ -172,7 +172,7 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
         (factored == STATUS_OK && factor_count(s->factor).negative_pivots > 0))
         return fault_set(
             f, STATUS_REFUSED,
-            "%s, which are constant, are critical without the scaled loads; reduce them",
+            "%s are constant and already critical without the scaled loads; reduce them",
             linear_initial(c->model) == 0 ? "the loads at path 0"
             : !loads_begin(&c->eq)        ? "the strains of members"
                                           : "the loads at path 0 and strains of members");
@@ -291,10 +291,9 @@ static void drop_of_mesh(eigen_side *side, const eigen_side *finer, int i)
     if (ratio < diverging)
         return;
     snprintf(side->reason, sizeof side->reason,
-             "%.4g is an artefact of the mesh, whose nodes rotate without moving: %s with elements "
-             "half as "
-             "long",
-             1 / side->mu[i], is_there ? "it is several times as large" : "it is not there");
+             "%.4g is an artefact of the mesh, whose nodes rotate without translation: %s with "
+             "elements half as long",
+             1 / side->mu[i], is_there ? "it is several times as large" : "it does not occur");
     side->count = i;
 }
 

@@ -56,7 +56,7 @@ static status start(analysis_context *c, int analysis, const char *what, newton_
     if (c->options->newton == NEWTON_DENSE)
         return fault_set(f, STATUS_REFUSED,
                          "%s about a loaded state require the condensed tangent, which "
-                         "newton=dense does not form: give newton=mixed",
+                         "newton=dense does not form; give newton=mixed",
                          what);
     TRY(followed_state(c, analysis, &state, f));
     kinematics_state_copy(c->model, state, n->state);
@@ -185,8 +185,8 @@ static status begin_at_rest(newton_run *n, fault *f)
     return factor_count(n->factor).negative_pivots == 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "critical loads require a stable state, but neither the start state nor "
-                           "the state at path 0 is stable; reduce the loads there");
+                           "critical loads require a stable state, but neither the initial state "
+                           "nor the state at path 0 is stable; reduce the loads at path 0");
 }
 
 static int loads_wanted(const analysis_context *c, int analysis)
@@ -404,12 +404,12 @@ static status find_critical(loaded_search *s, fault *f)
                      size = fmax(fabs(s->estimate), s->estimate - s->begin);
         if (isfinite(s->estimate) && (s->change <= wanted_error * size ||
                                       (left <= 2 * closest * size && s->change <= alike * size)))
-            return falls_to_zero(s) ? STATUS_OK
-                                    : fault_set(f, STATUS_NOT_CONVERGED,
-                                                "near path %g the structure jumps "
-                                                "to another equilibrium, before any "
-                                                "loss of stiffness: follow a continuation",
-                                                s->p[0]);
+            return falls_to_zero(s)
+                       ? STATUS_OK
+                       : fault_set(f, STATUS_NOT_CONVERGED,
+                                   "near path %g the structure jumps to another equilibrium before "
+                                   "it loses its stiffness; use a continuation",
+                                   s->p[0]);
         target = fmin(
             s->p[0] + fmax(closest * size,
                            fmin(approached * left, isfinite(left) ? left - closest * size : left)),
@@ -417,12 +417,13 @@ static status find_critical(loaded_search *s, fault *f)
     }
     return isfinite(s->estimate) && target <= farthest_path
                ? fault_set(f, STATUS_NOT_CONVERGED,
-                           "the critical load was not found: near path %g it still changes by %.1e",
+                           "the critical load was not found, because near path %g it still changes "
+                           "by %.1e",
                            s->estimate, s->change)
-               : fault_set(
-                     f, STATUS_NOT_CONVERGED,
-                     "no critical load from path %g to %g: the structure loses no stiffness there",
-                     s->begin, s->p[0]);
+               : fault_set(f, STATUS_NOT_CONVERGED,
+                           "no critical load from path %g to %g, because the structure does not "
+                           "lose its stiffness there",
+                           s->begin, s->p[0]);
 }
 
 /* Counts the negative eigenvalues at `path`. The computation starts from s->stable, which does not
@@ -569,8 +570,8 @@ static status hand_over(loaded_search *s, outcome_side *out, fault *f)
         .count = found.count, .value = found.value, .mode = mode, .error = found.error};
     if (more != STATUS_OK) {
         out->status = more;
-        snprintf(out->reason, sizeof out->reason,
-                 "%.200s; use more elements, or follow the path by a continuation", why.text);
+        snprintf(out->reason, sizeof out->reason, "%.200s; use more elements, or a continuation",
+                 why.text);
     } else if (found.count < s->wanted) {
         snprintf(out->reason, sizeof out->reason, "no critical load up to path %g",
                  kinematics_state_path(s->stable));
@@ -607,9 +608,9 @@ static status judge_massless(const newton_run *n, const flutter_point *first, fa
     return most < 1 ? STATUS_OK
                     : fault_set(f, STATUS_NOT_CONVERGED,
                                 "the divergence near path %.6g is an artefact of the mesh, whose "
-                                "elements carry %.3g times their own Euler load there: use more "
-                                "elements, or give a section a density, because flutter is only "
-                                "searched for in structures with mass",
+                                "elements carry %.3g times their Euler load there; use more "
+                                "elements, or give a section a density, because flutter is "
+                                "searched for only in structures with mass",
                                 first->path, most);
 }
 

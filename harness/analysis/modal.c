@@ -121,9 +121,9 @@ static status explain_massless(analysis_context *c, fault *f)
 {
     c->work->singular = 0;
     fault_set(f, STATUS_SINGULAR,
-              "some coordinate has neither stiffness nor mass (for example, the rotation of a "
-              "point mass, or of a bar without density about its axis): give bodies an inertia or "
-              "sections a density, or fix the coordinate");
+              "a coordinate has neither stiffness nor mass, such as the rotation of a point mass, "
+              "or of a bar without density about its axis; give bodies an inertia or sections a "
+              "density, or fix the coordinate");
     return singular_mechanism(c, STATUS_SINGULAR, f);
 }
 

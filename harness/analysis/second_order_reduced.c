@@ -22,8 +22,8 @@ static status read_node(const scene *s, const char *text, const char *list, cons
     const size_t length = strcspn(at, ",");
     if (length == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "--reduce %.60s: an interface node has no name; name it, as in "
-                         "10:base,tip, or remove the colon or comma before it",
+                         "--reduce %.60s: the name of an interface node is missing; name the node, "
+                         "as in 10:base,tip, or remove the colon or comma",
                          text);
     *node = SCENE_NONE;
     for (int i = 0; i < s->nodes; i++) {
@@ -38,7 +38,7 @@ static status read_node(const scene *s, const char *text, const char *list, cons
     for (const char *one = list; one < at; one += strcspn(one, ",") + 1)
         if (strcspn(one, ",") == length && strncmp(one, at, length) == 0)
             return fault_set(f, STATUS_REFUSED,
-                             "--reduce %.60s: node %.*s is named twice; name it once", text,
+                             "--reduce %.60s: node %.*s is named twice; name it only once", text,
                              (int)length, at);
     return STATUS_OK;
 }

@@ -79,13 +79,13 @@ status second_order_state_space(const vibration *v, const system_matrices *of,
     if (outcome != STATUS_OK && s.improper >= of->outputs)
         fault_set(
             f, outcome,
-            "state space: %s (feedback) has a derivative gain, but what it measures follows "
-            "an input at once, without a mass between them; add a mass there",
+            "state space: %s (feedback) has a derivative gain, but the measured coordinate follows "
+            "an input immediately, without a mass between them; add a mass there",
             scene_called(c->scene, SCENE_LOADS, v->loop[(s.improper - of->outputs) / 2].load).text);
     else if (outcome != STATUS_OK && s.improper >= 0 && reduced)
         fault_set(f, outcome,
-                  "--reduce %.60s: quantity %s has no state space with the modes of coordinates "
-                  "without mass; give fewer modes",
+                  "--reduce %.60s: quantity %s has no state space if modes of coordinates without "
+                  "mass are included; give fewer modes",
                   c->options->reduce, c->scene->quantity[of->output[s.improper].quantity].name);
     else if (outcome != STATUS_OK && s.improper >= 0)
         fault_set(f, outcome, "state space: quantity %s: %s; remove it, or add a mass",

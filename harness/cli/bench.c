@@ -69,19 +69,17 @@ static const verb_option own[] = {
     {"output", 'o', "FILE",
      "write to this results file (HDF5), next to the results of other experiments", IN(output),
      .traits = OPTION_OUTPUT},
-    {"dense", 0, NULL, "also times the published algorithm (newton=dense) on every mesh",
-     IN(dense)},
+    {"dense", 0, NULL, "also time the published algorithm (newton=dense) on every mesh", IN(dense)},
     {"against", 0, "OTHER",
-     "compare in alternation with another formulation (without -n: at equal error), or with "
-     "another program (a path with a '/': at equal n)",
+     "compare in alternating runs with another formulation, at equal error or, with -n, on these "
+     "meshes; or compare with another program (a path that contains a '/'), at equal n",
      IN(against), .traits = OPTION_INPUT},
     {"error", 0, "R[,R...]",
-     "with --against: errors at which to compare, such as 1%,0.1% (default: those of 10, 1, 0.1 "
-     "and 0.01 % that both reach)",
+     "with --against: errors at which to compare, such as 1%,0.1% (default: the errors among 10, "
+     "1, 0.1 and 0.01 % that both formulations reach)",
      IN(error)},
     {"inject-slowdown", 0, "PERCENT",
-     "add this percentage to the time of the other, to check that the comparison "
-     "detects it",
+     "add this percentage to the time of OTHER, to check that the comparison detects the slowdown",
      IN(slowdown), .least = 0, .most = 1000},
     {0}};
 static const verb_group shared[] = {
@@ -91,14 +89,15 @@ static const verb_group shared[] = {
 const verb verb_bench = {
     "bench",
     "[CASE...]",
-    "error against run time, and the lowest cost for an error",
-    "Times every formulation and mesh of the cases named (or, without one, of all cases at all "
-    "parameter points that have a reference value, selected with -k): the minimum of many "
-    "repetitions in five alternating rounds on one processor, separately for set-up and solution, "
-    "with the error. Times whose rounds overlap are undecided. With --against FORMULATION: both at "
-    "equal error, in alternation until noise permits a result. Each uses the smallest number of "
-    "elements from which the error of every quantity (-k: of those selected) is within the "
-    "tolerance; with -n: these meshes. With --against PROGRAM: the same cell of another build.",
+    "measures error against run time, and the lowest cost of reaching an error",
+    "Times every formulation and mesh of the named cases; without a case, of all cases at all "
+    "parameter points that have a reference value (select with -k). Each time is the minimum of "
+    "many repetitions in five alternating rounds on one processor, separately for set-up and "
+    "solution, and is shown with the error. Times whose rounds overlap are undecided. With "
+    "--against FORMULATION, both formulations run alternately at equal error until noise permits a "
+    "result. Each uses the smallest number of elements from which the errors of all quantities (or "
+    "those selected with -k) are within the tolerance, or the meshes given by -n. With --against "
+    "PROGRAM, the same cell of another build is timed.",
     "beamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
     "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"
     "beamwork bench --scene leaf.yaml --against ../before/beamwork",

@@ -21,8 +21,8 @@ static status read_either(const verb_option *o, void *member, const char *value,
         return option_take(&table, &t->own, value, f);
     if (t->packed != NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "--truths is given twice with packed reference values; give it once; "
-                         "tables (.csv) may be added");
+                         "--truths is given twice with packed reference values; give one such "
+                         "file; tables (.csv) may be added");
     t->packed = value;
     return STATUS_OK;
 }
@@ -34,9 +34,8 @@ static const verb_option packed_truths[] = {
     {0}};
 static const verb_option own_truths[] = {
     {"truths", 0, "FILE",
-     "file of reference values (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program); a "
-     "FILE.csv: "
-     "reference values of your own in addition; may be repeated",
+     "file of reference values (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program); "
+     "FILE.csv adds your own reference values; may be repeated",
      .traits = OPTION_REPEATS | OPTION_INPUT, .read = read_either},
     {0}};
 const option_group options_truths = {packed_truths, NULL, NULL, NULL};
@@ -154,7 +153,7 @@ static int check_values(const case_options *r)
 const case_type *case_input_scene(case_options *r)
 {
     if (r->name != NULL) {
-        message_fail(STATUS_REFUSED, "a case and --scene were given; give one of them");
+        message_fail(STATUS_REFUSED, "a case and --scene were given; give only one of them");
         return NULL;
     }
     /* parameters set on the command line replace the defaults */
@@ -176,8 +175,8 @@ void case_input_tell_units(const scene_file *file, const double parameter[])
     if (cell_scene(scene_file_case(file), parameter, NULL, &s, NULL) == STATUS_OK &&
         scene_looks_foreign(&s, words))
         fprintf(stderr, "beamwork: warning: %s; %s\n", words,
-                given ? "numbers are in the 'units' of the scene: with mm, N, MPa densities are in "
-                        "t/mm^3, such as 7.85e-9"
+                given ? "numbers are in the 'units' of the scene; if these are mm, N, MPa, "
+                        "densities are in t/mm^3, such as 7.85e-9"
                       : "numbers are in m, N, Pa and kg, unless the scene gives units: mm, N, MPa");
     scene_free(&s);
 }
@@ -279,14 +278,14 @@ void case_input_tell_analysis(const case_options *r, const scene *s)
         return;
     const scene_analysis *a = &s->analysis[0];
     if (a->kind == SCENE_LINEAR) {
-        fprintf(stderr, "beamwork: the scene has no analysis; a linear one is run, as with "
-                        "analyses: {run: {linear: {}}}\n");
+        fprintf(stderr, "beamwork: the scene has no analysis; a linear analysis is run, as if "
+                        "analyses: {run: {linear: {}}} were given\n");
         return;
     }
     const scene_path *path = scene_path_of(a);
     fprintf(stderr,
-            "beamwork: the scene has no analysis; a static one is run to the end of its motions, "
-            "as with analyses: {run: {static: {stations: [%g]}}}\n",
+            "beamwork: the scene has no analysis; a static analysis is run to the end of the "
+            "motions, as if analyses: {run: {static: {stations: [%g]}}} were given\n",
             path->value[path->stations - 1]);
 }
 
@@ -296,7 +295,7 @@ static status read_assignment(const verb_option *o, void *member, const char *va
     const size_t name = strcspn(value, "=");
     for (int i = 0; i < list->count; i++)
         if (strcspn(list->text[i], "=") == name && strncmp(list->text[i], value, name) == 0)
-            return fault_set(f, STATUS_REFUSED, "--set %.*s is given twice; give it one value",
+            return fault_set(f, STATUS_REFUSED, "--set %.*s is given twice; give one value",
                              (int)(name < 60 ? name : 60), value);
     const verb_option plain = {o->name, .traits = OPTION_REPEATS, .most = CASE_MAX_PARAMETERS};
     return option_take(&plain, member, value, f);
@@ -324,7 +323,7 @@ static void close_case(void *group)
 }
 
 static const verb_option both[] = {
-    {"set", 's', "NAME=VALUE", "value of a case parameter (SI); may be repeated",
+    {"set", 's', "NAME=VALUE", "value of a case parameter, in SI units; may be repeated",
      .member = offsetof(case_options, set), .traits = OPTION_REPEATS, .read = read_assignment},
     {"scene", 0, "FILE", "your scene file (YAML) instead of a case",
      .member = offsetof(case_options, scene_path), .traits = OPTION_INPUT},

@@ -53,7 +53,7 @@ static void print_left(const command_line *l, const stored_results *run[2], cons
                    c->outside[i] == 1 ? "is" : "are", path[1 - i]);
         if (c->fresh[i] == 0)
             continue;
-        printf("%d series of new formulations, which do not affect the exit status, %s in %s only:",
+        printf("%d series of new formulations, which do not affect the exit status, %s only in %s:",
                c->fresh[i], c->fresh[i] == 1 ? "is" : "are", path[i]);
         for (const char *at = run[i]->part.fresh; *at != '\0'; at += *at == '\n') {
             printf(" %.*s", (int)strcspn(at, "\n"), at);
@@ -66,7 +66,8 @@ static void print_left(const command_line *l, const stored_results *run[2], cons
 static void print_partial(const comparison *c)
 {
     if (c->partial > 0)
-        printf("%d series %s compared by limits only: some of their quantities were not computed\n",
+        printf("%d series %s compared only by their limits, because some quantities were not "
+               "computed\n",
                c->partial, c->partial == 1 ? "is" : "are");
 }
 
@@ -108,8 +109,8 @@ static status check_sweeps(const command_line *l, const stored_results *before,
     if (l->argument[1] == NULL || before->swept == after->swept)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%.80s is a sweep, but %.80s is not; give two sweeps, or two runs of verify. "
-                     "For files that contain both, use --experiment sweep",
+                     "%.80s is a sweep, but %.80s is not; give two sweeps or two runs of verify, "
+                     "and use --experiment sweep for files that contain both",
                      before->swept ? l->argument[0] : l->argument[1],
                      before->swept ? l->argument[1] : l->argument[0]);
 }
@@ -162,9 +163,8 @@ static int answer(const command_line *l, void *request)
     if (r->hash && l->arguments > 0)
         return print_hashes(l, r);
     if (l->argument[0] == NULL || (l->argument[1] == NULL) != (r->output != NULL))
-        return message_fail(
-            STATUS_REFUSED,
-            "give two stored runs to compare, or one and -o FILE.csv for its short table");
+        return message_fail(STATUS_REFUSED, "give two stored runs to compare, or one stored run "
+                                            "and -o FILE.csv for its short table");
     const status outcome = read_runs(l, r, &limits, &before, &after, &f);
     int code = SAME;
     if (outcome != STATUS_OK)
@@ -179,32 +179,34 @@ static int answer(const command_line *l, void *request)
 #define IN(at) .member = offsetof(compare_request, at)
 static const verb_option own[] = {
     {"threshold", 0, "NAME=R[,NAME=R]",
-     "changes that count (default error=0.01,floor=1e-8,work=0.02): of an error relative to "
-     "itself, of a value relative to its reference value, of a count relative to itself",
+     "changes that are reported (default error=0.01,floor=1e-8,work=0.02): of an error, relative "
+     "to the error; of a value, relative to its reference value; of a work count, relative to the "
+     "count",
      IN(threshold)},
     {"experiment", 0, "NAME",
-     "experiment in a file that contains several: verify, bench or sweep (default: the first of "
-     "these in the file)",
+     "experiment to compare if a file contains several: verify, bench or sweep (default: the first "
+     "of these in the file)",
      IN(experiment)},
-    {"hash", 0, NULL, "one line for each run: hash of its values, their number, name of the file",
+    {"hash", 0, NULL,
+     "print one line for each run: hash of its values, number of values, name of the file",
      IN(hash)},
     {0}};
 static const verb_group shared[] = {SHARED(output, output), SHARED(select, select), {NULL, 0}};
 const verb verb_compare = {
     "compare",
     "OLD [NEW]",
-    "two stored runs: changes for better or worse",
+    "compares two stored runs: changes for better or worse",
     "Compares errors and work counts of two runs stored by 'verify -o' (HDF5): run by run, or, if "
     "one of them is a short table, by mesh series, with the limits at the default parameters. A "
     "previous run is not a reference value. Two runs of 'sweep -o' are compared point by point, by "
     "the values of their parameters: errors, values, references (a line '.../reference'), statuses "
-    "and costs (threshold work=); points, formulations and meshes that only one of them has are "
-    "named. Results that only one of them requested (verify -k, -f, --scene), and formulations "
-    "that are new in one, are counted, not reported as changes. -o with OLD alone writes its short "
-    "table. --hash prints SHA-256 of all values, without times, machines and versions, and the "
-    "number of values; two runs with equal hashes have equal results. Exit status: 0 the same "
-    "within the thresholds, 1 something is worse, better, changed, gone or new, 2 trouble (file, "
-    "usage, nothing in common).",
+    "and costs (threshold work=); points, formulations and meshes that only one run has are named. "
+    "Results that only one run requested (verify -k, -f, --scene) and formulations that are new in "
+    "one run are counted, but are not reported as changes. If only OLD is given, -o writes its "
+    "short table. --hash prints the SHA-256 of all values, without times, machines and versions, "
+    "and the number of values; two runs with equal hashes have equal results. Exit status: 0 the "
+    "same within the thresholds, 1 a result is worse, better, changed, missing or new, 2 trouble "
+    "(file, usage, nothing in common).",
     "beamwork compare old.h5 new.h5\n"
     "beamwork compare old_sweep.h5 new_sweep.h5\n"
     "beamwork compare harness/baseline.csv build/results.h5 --threshold error=0.1",

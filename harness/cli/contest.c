@@ -123,7 +123,7 @@ static void show(const duel *d, const bout m[])
                      line[0] != '\0' ? ", " : "", d->s.point[0].scene.quantity[q].name);
     const int at = printf("%s, ", d->s.point[0].type->name);
     paragraph_say(stdout, at, 2,
-                  "%s against %s, at equal error (99.9 %% confidence) in every one of: %s",
+                  "%s against %s, at equal error in each quantity (99.9 %% confidence): %s",
                   d->s.series[0].formulation.key, d->s.series[1].formulation.key, line);
     for (int i = 0; i < d->levels; i++)
         show_meeting(d, d->level[i], &m[i]);
@@ -186,9 +186,9 @@ static status check(const duel *d, const bench_options *r, fault *f)
 {
     for (int i = 0; i < d->s.seriess; i++)
         if (d->s.series[i].missing[0] != '\0')
-            return fault_set(f, STATUS_REFUSED, "%.60s does not support %.100s, which %.60s needs",
-                             d->s.series[i].formulation.key, d->s.series[i].missing,
-                             d->s.point[0].type->name);
+            return fault_set(
+                f, STATUS_REFUSED, "%.60s does not support %.100s, which %.60s requires",
+                d->s.series[i].formulation.key, d->s.series[i].missing, d->s.point[0].type->name);
     if (d->s.seriess != 2)
         return fault_set(f, STATUS_REFUSED,
                          "-k '%.100s' selects only one formulation; use it to select quantities",
@@ -196,8 +196,8 @@ static status check(const duel *d, const bench_options *r, fault *f)
     return meeting_asked(&d->s, &d->t) > 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "errors cannot be computed: no quantity has a reference value or an "
-                           "agreement for both formulations; give -n to compare two meshes");
+                           "errors cannot be computed, because no quantity has a reference value "
+                           "or an agreement for both formulations; give -n to compare two meshes");
 }
 
 static status compare(duel *d, const bench_options *r, fault *f)
@@ -205,8 +205,9 @@ static status compare(duel *d, const bench_options *r, fault *f)
     static bout m[LEVELS];
     TRY(check(d, r, f));
     if (choose_levels(d, m) == 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "no error of 10 %% to 0.01 %% is reached by both; give --error or -n");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "no error from 10 %% to 0.01 %% is reached by both formulations; give --error or -n");
     for (int i = 0; i < d->levels; i++)
         if (meeting_holds(&m[i].at))
             TRY(measure(d, r, m, i, &m[i], f));
@@ -221,7 +222,7 @@ static status check_models(const sweep *s, fault *f)
     for (int i = 0; i < s->seriess; i++)
         if (s->series[i].without.other)
             return fault_set(f, STATUS_REFUSED,
-                             "%.60s solves a different model of %.60s, without %.100s, so their "
+                             "%.60s solves a different model of %.60s, without %.100s, so the "
                              "errors cannot be compared; select meshes with -n",
                              s->series[i].formulation.key, s->point[s->series[i].point].type->name,
                              s->series[i].without.words);
@@ -343,7 +344,7 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
                          r->against);
     if (is_program && (r->error != NULL || r->select != NULL))
         return fault_set(f, STATUS_REFUSED,
-                         "another program is compared at equal n: remove --error and -k");
+                         "another program is compared at equal n; remove --error and -k");
     if (is_program && (r->slowdown > 0 || r->meshes.count > 1))
         return fault_set(f, STATUS_REFUSED,
                          "--inject-slowdown and a second mesh require another formulation "
@@ -351,7 +352,7 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
     if (r->meshes.count == 0 && !is_program)
         return against_error(r, type, f);
     if (r->error != NULL || r->select != NULL)
-        return fault_set(f, STATUS_REFUSED, "--error and -k determine the meshes: remove -n");
+        return fault_set(f, STATUS_REFUSED, "--error and -k determine the meshes; remove -n");
     return against_meshes(r, type, is_program, f);
 }
 
@@ -361,8 +362,8 @@ int contest_run(bench_options *r)
     if (r->of.line->arguments + (r->of.scene_path != NULL) != 1 || r->chosen.formulations > 1 ||
         r->meshes.count > 2)
         return message_fail(STATUS_REFUSED,
-                            "--against compares two: give one CASE or --scene, one -f, "
-                            "and at most two -n (for A and for B)");
+                            "--against compares two formulations; give one CASE or --scene, one "
+                            "-f, and at most two numbers of elements with -n (for A and for B)");
     if (r->output != NULL)
         return message_fail(STATUS_REFUSED,
                             "--against does not write a file; remove -o, or give --format json");

@@ -68,7 +68,8 @@ static status read_lap(contestant *c, FILE *from, double *seconds, fault *f)
     json_decref(root);
     return *seconds > 0 ? STATUS_OK
                         : fault_set(f, STATUS_FAULT,
-                                    "%s: the output of its 'solve --format json' contains no times",
+                                    "%s: the output of 'solve --format json' contains no times; "
+                                    "use a newer program",
                                     c->program);
 }
 
@@ -224,7 +225,7 @@ void contestant_unranked(const contestant *a, const contestant *b)
     for (int i = 0; i < 2; i++) {
         const char *why = reach_unranked(both[i]->request.formulation);
         if (why[0] != '\0')
-            printf("%s: %s, its times are not ranked\n", both[i]->name, why);
+            printf("%s: %s, so its times are not ranked\n", both[i]->name, why);
     }
 }
 

@@ -78,8 +78,8 @@ static int answer(const command_line *l, void *request)
 #define IN(at) .member = offsetof(converge_request, at)
 static const verb_option own[] = {
     {"error", 0, "R", "requested error (default 1%)", IN(error), .read = option_error},
-    {"verbose", 'v', NULL, "values, times and limits of each formulation separately", IN(verbose),
-     .traits = OPTION_ASIDE},
+    {"verbose", 'v', NULL, "print values, times and limits of each formulation separately",
+     IN(verbose), .traits = OPTION_ASIDE},
     {0}};
 static const verb_group shared[] = {
     SHARED(case, of),       SHARED(formulations, chosen), SHARED(meshes, meshes),
@@ -88,12 +88,12 @@ static const verb_group shared[] = {
 const verb verb_converge = {
     "converge",
     "CASE",
-    "one case on several meshes: errors, order, limit",
-    "Solves one case on several meshes and prints errors, observed order and limit: for several "
-    "formulations one table for each quantity; for one formulation, or with -v for each, also "
-    "values and times. Without -f: all formulations that support the case; without -n: the meshes "
-    "of the case. The last line lists the formulations that reach 1 %, or the error given by "
-    "--error, with their numbers of elements.",
+    "solves one case on several meshes: errors, order and limit",
+    "Solves one case on several meshes and prints errors, observed order and limit. For several "
+    "formulations it prints one table for each quantity; for a single formulation, or for each one "
+    "with -v, it also prints values and times. Default: all formulations that support the case "
+    "(-f), and the meshes of the case (-n). The last line lists the formulations that reach an "
+    "error of 1 %, or that given by --error, with their numbers of elements.",
     "beamwork converge c_column -k buckling_load\n"
     "beamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32",
     shared,

@@ -72,10 +72,9 @@ static status run(const command_line *l, const element_test_request *r, certific
                                       .time_limit = r->chosen.time_limit,
                                       .hash = hash_of};
     if (r->chosen.formulations == 0)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "element-test: name a formulation, 'all' for every one, or load yours with "
-            "--element ./mine.so; 'beamwork list formulations' shows them");
+        return fault_set(f, STATUS_REFUSED,
+                         "element-test: name a formulation or 'all', or load yours with --element "
+                         "./mine.so; 'beamwork list formulations' shows the names");
     const experiment_output to =
         experiment_output_of(r->output, r->format != NULL ? r->format : "text", r->json);
     TRY(files_check_results(l, to.results != NULL, NULL, f));
@@ -88,10 +87,10 @@ static int answer(const command_line *l, void *request)
     fault f = {""};
     const char *file = file_among(l);
     if (file != NULL) {
-        fault_set(
-            &f, STATUS_REFUSED,
-            "element-test: '%.150s' is not the name of a formulation; --element '%.150s' loads it",
-            file, file);
+        fault_set(&f, STATUS_REFUSED,
+                  "element-test: '%.150s' is not the name of a formulation; use --element '%.150s' "
+                  "to load a file",
+                  file, file);
         return message_fail(STATUS_REFUSED, f.text);
     }
     choose(l, r);
@@ -107,7 +106,8 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(element_test_request, at)
 static const verb_option own[] = {
-    {"verbose", 'v', NULL, "every check with its numbers", IN(verbose), .traits = OPTION_ASIDE},
+    {"verbose", 'v', NULL, "show every check with its numbers", IN(verbose),
+     .traits = OPTION_ASIDE},
     {"quiet", 'q', NULL, "violated requirements only", IN(quiet), .traits = OPTION_ASIDE},
     {"format", 0, "text|json|csv|markdown|latex",
      "form of the output (default text); markdown and latex: tables for a paper", IN(format),
@@ -119,15 +119,14 @@ static const verb_group shared[] = {SHARED(formulations, chosen), SHARED(time_li
 const verb verb_element_test = {
     "element-test",
     "[FORMULATION...|all]",
-    "checks a formulation against the interface: what to correct, and what it supports",
-    "Checks a formulation against the interface requirements: derivatives against differences, "
-    "energy, symmetry, rigid motion, calls that run out of memory, bounds, mass; each failure "
-    "states what "
-    "to correct. It also measures uniform and linear states, locking, orders of "
-    "convergence, and strains after turns and cycles. "
-    "With --element no name is needed. A part that takes longer than the time limit (60 s) fails. "
-    "Exit status: 0 the requirements are satisfied, 1 one is violated, a uniform or linear state "
-    "has a wrong limit (a stiffness of the section), or an order is below the declared one, 2 "
+    "checks a formulation against the interface requirements, and states what to correct",
+    "Checks a formulation against the interface requirements: derivatives compared with finite "
+    "differences, energy, symmetry, rigid motion, calls that run out of memory, array bounds, "
+    "mass; each failure states what to correct. It also measures uniform and linear states, "
+    "locking, orders of convergence, and strains after turns and cycles. With --element no name is "
+    "needed. A part that takes longer than the time limit (60 s) fails. Exit status: 0 the "
+    "requirements are satisfied, 1 a requirement is violated, a uniform or linear state has a "
+    "wrong limit (a stiffness of the section is wrong), or an order is below the declared order, 2 "
     "invalid input, 4 file, disk or memory.",
     "beamwork element-test collocation\n"
     "beamwork element-test --element ./mine.so\n"

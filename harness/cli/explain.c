@@ -95,9 +95,9 @@ static int explain_inputs(const char *word)
             printf(" %c", i->part[k]);
         putchar('\n');
     }
-    printf("  u used   s used, but rejected in a state whose tangent is not symmetric\n"
-           "  i used in rotating axes and where the tangent is not symmetric; no effect elsewhere\n"
-           "  - no effect: the result is the same without it   x rejected by name\n");
+    printf("  u used   s used, but rejected in a state whose tangent is not symmetric\n  i used in "
+           "rotating axes and if the tangent is not symmetric; otherwise no effect\n  - no effect: "
+           "the result does not depend on the input   x rejected by name\n");
     return 1;
 }
 
@@ -127,9 +127,8 @@ static int explain_rule(const dictionary *d, const char *word)
         paragraph_write(stdout, printf("  quantities: "), INDENT, r->quantities);
         list_further("verdicts:", r->verdicts);
         if (isfinite(r->largest_error))
-            printf("  largest distance from the derived limit (without one: from the reference "
-                   "value): "
-                   "%g %%\n",
+            printf("  largest distance from the derived limit, or from the reference value if no "
+                   "limit is derived: %g %%\n",
                    100 * r->largest_error);
         paragraph_write(stdout, printf("  proof: "), INDENT, r->proof);
         return 1;
@@ -304,8 +303,8 @@ static int refuse_word(const dictionary *d, const char *word)
 
 static void list_words(const glossary *g)
 {
-    printf("words ('beamwork explain WORD'); also names of cases, formulations, quantities, known "
-           "deviations\n");
+    printf("terms ('beamwork explain WORD' explains one, or a case, formulation, quantity or known "
+           "deviation)\n");
     for (int i = 0; i < g->entries;) {
         const char *group = g->entry[i].group;
         char line[8192] = "";
@@ -358,10 +357,10 @@ static int answer(const command_line *l, void *request)
 static const verb_group shared[] = {SHARED(truths, truths), {NULL, 0}};
 const verb verb_explain = {"explain",
                            "[WORD...]",
-                           "what a word means: verdicts, theories, physics, known deviations",
+                           "explains a term: verdicts, theories, physics, known deviations",
                            "Explains a term (verdicts, reference values, convergence, analyses, "
                            "physics, elements, times), a case, a formulation, a quantity or a "
-                           "known deviation. Without a word it lists all terms.",
+                           "known deviation. Without a word, explain lists all terms.",
                            "beamwork explain haringx\n"
                            "beamwork explain wrong limit",
                            shared,

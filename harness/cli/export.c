@@ -44,7 +44,7 @@ static status export(const export_request *r, const case_type *type, scene *s, f
         return fault_set(f, STATUS_REFUSED, "the target program is missing; add --to calculix");
     if (r->meshes.count > 1)
         return fault_set(f, STATUS_REFUSED,
-                         "an input deck contains one mesh; give a single number with -n");
+                         "an input deck contains only one mesh; give a single number with -n");
     TRY(files_check(r->of.line, 0, NULL, f));
     TRY(cell_scene(type, r->of.parameter, NULL, s, f));
     name_of(r, type, of, sizeof of);
@@ -71,18 +71,18 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(export_request, at)
 static const verb_option own[] = {
-    {"to", 0, "calculix", "the program that will read the input deck", IN(to)}, {0}};
+    {"to", 0, "calculix", "program that will read the input deck", IN(to)}, {0}};
 static const verb_group shared[] = {
     SHARED(case, of), SHARED(meshes, meshes), SHARED(output, output), {NULL, 0}};
 const verb verb_export = {
     "export",
     "[CASE]",
-    "a structure as a solid model, in an input deck of another program",
+    "writes a structure as a solid model, in an input deck of another program",
     "Writes a case, or your own scene (--scene FILE), as solids in an input deck of another "
-    "program: rectangles and straight walls at right angles become bricks with 20 nodes and "
-    "reduced integration, ends and bodies are rigid; -n elements along each member (default 20), "
-    "denser at its ends. Everything that a deck cannot express is rejected. "
-    "harness/exchange/read_back.py converts the printed results to an import.",
+    "program. Rectangles and straight walls at right angles become 20-node bricks with reduced "
+    "integration; ends and bodies are rigid. Each member has -n elements along its length (default "
+    "20), shorter near its ends. A scene that a deck cannot express is rejected. "
+    "harness/exchange/read_back.py converts the printed results to an import file.",
     "beamwork export --scene cases/examples/leaf_spring_guide.yaml --to calculix -o guide.inp",
     shared,
     own,

@@ -34,7 +34,7 @@ static status read_mapped(const command_line *l, const import_request *r, import
     const status outcome = import_map_read(r->map, l->argument, l->arguments, set, &m, f);
     TRY(print_mistakes(r, &m, f));
     if (m.count > 0)
-        fault_set(f, outcome, "nothing was imported: errors in %.200s", r->map);
+        fault_set(f, outcome, "nothing was imported, because %.200s contains errors", r->map);
     return outcome;
 }
 
@@ -51,7 +51,8 @@ static status read_files(const command_line *l, const import_request *r, import_
             continue;
         outcome = one;
         if (m.count > 0)
-            fault_set(f, one, "nothing was imported: errors in %.200s", l->argument[i]);
+            fault_set(f, one, "nothing was imported, because %.200s contains errors",
+                      l->argument[i]);
         else
             *f = here;
     }
@@ -79,8 +80,8 @@ static status check_again(const sweep *s, fault *f)
             if (s->series[i].point == s->series[k].point &&
                 strcmp(s->series[i].formulation.key, s->series[k].formulation.key) == 0)
                 return fault_set(f, STATUS_REFUSED,
-                                 "%.100s: the same program, case and parameters are in %.80s:%d "
-                                 "and %.80s:%d; give them once",
+                                 "%.100s: results for the same program, case and parameters are in "
+                                 "%.80s:%d and %.80s:%d; remove one of them",
                                  s->series[i].formulation.key, s->series[k].imported->file,
                                  s->series[k].imported->row[0].line, s->series[i].imported->file,
                                  s->series[i].imported->row[0].line);
@@ -112,18 +113,18 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(import_request, at)
 static const verb_option own[] = {{"map", 0, "FILE.yaml",
-                                   "the quantities in the columns of files without a header",
+                                   "map from the columns of files without a header to quantities",
                                    IN(map), .traits = OPTION_INPUT},
                                   {0}};
 static const verb_group shared[] = {SHARED(output, output), SHARED(record, format), {NULL, 0}};
 const verb verb_import = {
     "import",
     "FILE...",
-    "results of other programs, for 'verify --imported'",
+    "reads results of other programs, for 'verify --imported'",
     "Reads results of other programs for a case or scene: CSV with a header "
-    "(harness/exchange/import.md). Names, units and parameters are checked, and values converted. "
-    "-o FILE has the schema of results of verify, whose option --imported compares it as another "
-    "program. --format json: the errors of each file, for editors.",
+    "(harness/exchange/import.md). Names, units and parameters are checked, and values are "
+    "converted. The file given by -o has the schema of the results of verify; 'verify --imported' "
+    "compares it as another program. --format json prints the errors of each file, for editors.",
     "beamwork import theirs.csv -o theirs.h5",
     shared,
     own,

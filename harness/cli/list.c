@@ -157,7 +157,7 @@ static void show_cases(const element_type *t)
             show_alike(all, count, i, "runs, without ");
     for (int i = 0; i < count; i++)
         if (!all[i].runs)
-            show_alike(all, count, i, "not run, because it lacks ");
+            show_alike(all, count, i, "not run, because the formulation lacks ");
 }
 
 static void list_formulation(const formulation *chosen, const rule *rules, int count)
@@ -362,10 +362,10 @@ static const verb_group shared[] = {SHARED(scene, of),
 const verb verb_list = {
     "list",
     "[cases|formulations|CASE|FORMULATION]",
-    "cases and formulations, with parameters, quantities, orders, known deviations",
-    "Lists all cases and formulations; for a case its parameters, quantities and the formulations "
-    "that support it; for a formulation its theory, orders, options, features, limitations, known "
-    "deviations and the cases that it supports.",
+    "lists cases and formulations, with parameters, quantities, orders and known deviations",
+    "Lists all cases and formulations. For a case it lists the parameters, the quantities and the "
+    "formulations that support the case; for a formulation the theory, orders, options, features, "
+    "limitations, known deviations and the supported cases.",
     "beamwork list\n"
     "beamwork list c_column\n"
     "beamwork list collocation",

@@ -152,8 +152,8 @@ void manual_write_program(FILE *to, const manual_program *p)
     fprintf(to, ".Sh SYNOPSIS\n.Nm beamwork\n.Ar VERB\n.Op Ar OPTION ...\n.Nm beamwork\n"
                 ".Cm help\n.Ar VERB\n.Nm beamwork\n.Fl \\-version\n.Sh DESCRIPTION\n");
     roff_text(to, p->question);
-    fprintf(to, "All values are SI.\nEach verb has its own page with its options; they are also "
-                "printed by\n.Ql beamwork VERB \\-h .\n");
+    fprintf(to, "All values are in SI units.\nEach verb has its own page with its options, "
+                "which\n.Ql beamwork VERB \\-h\nprints as well.\n");
     write_verbs(to, p->verbs);
     fprintf(to, ".Sh ENVIRONMENT\n");
     write_rows(to, "BEAMWORK_TRUTHS", variables);
@@ -296,11 +296,11 @@ void manual_write_scene(FILE *to)
 {
     static const roff_reference see[] = {
         {"beamwork", 1}, {"beamwork-scene", 1}, {"beamwork-solve", 1}};
-    roff_page(to, "beamwork-scene", 5, "your structures, for beamwork");
+    roff_page(to, "beamwork-scene", 5, "scene files with your structures");
     fprintf(to, ".Sh DESCRIPTION\n");
-    roff_text(to,
-              "A scene file is YAML; all values are SI, and numbers may be expressions. Nothing is "
-              "compiled. All errors of a file are reported in one run, with line and column.");
+    roff_text(to, "A scene file is written in YAML; all values are in SI units, and numbers may be "
+                  "expressions. Nothing is compiled. All errors of a file are reported in one run, "
+                  "with line and column.");
     fprintf(to, ".Pp\n");
     roff_text(to, key_list_head[0]);
     fprintf(to, ".Ss Every entry\n");
@@ -351,7 +351,7 @@ void manual_write_results(FILE *to, const verb *const *verbs)
         {"beamwork", 1}, {"beamwork-schema", 1}, {"beamwork-verify", 1}};
     char head[60];
     snprintf(head, sizeof head, "Version %d.", SCHEMA_VERSION);
-    roff_page(to, "beamwork-results", 5, "results files that beamwork writes");
+    roff_page(to, "beamwork-results", 5, "results files written by beamwork");
     fprintf(to, ".Sh DESCRIPTION\n");
     roff_text(to, head);
     for (int i = 0; results_about[i] != NULL; i++) {

@@ -22,7 +22,7 @@ static status add(again *out, const char *text, fault *f)
 {
     char *copy = out->count < MOST ? strdup(text) : NULL;
     if (copy == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a command line");
+        return fault_set(f, STATUS_FAULT, "out of memory for the command line");
     out->argument[out->count] = out->owned[out->count] = copy;
     out->count++;
     return STATUS_OK;
@@ -69,7 +69,7 @@ static status add_all(const batch_label *label, const command_line *l, again *ou
     const char *name = json_string_value(json_object_get(label->origin, "verb"));
     if (name == NULL)
         return fault_set(f, STATUS_FAULT,
-                         "%.200s: the batches do not say which request they belong to",
+                         "%.200s: the batches do not contain their request; compute them again",
                          l->argument[0]);
     TRY(add(out, "beamwork", f));
     TRY(add(out, name, f));
@@ -101,7 +101,8 @@ static int ask(again *a, const verb *const *verbs)
     const verb *v = verb_find(verbs, a->argument[1]);
     if (v != NULL)
         return command_run(v, verbs, a->count - 1, a->argument + 1);
-    snprintf(text, sizeof text, "batches of '%.40s' are of another version of the program",
+    snprintf(text, sizeof text,
+             "the batches of '%.40s' were computed by another version of the program",
              a->argument[1]);
     return message_fail(STATUS_REFUSED, text);
 }
@@ -112,8 +113,9 @@ static int answer(const command_line *l, void *request)
     fault f = {""};
     (void)request;
     if (l->arguments == 0)
-        return message_fail(STATUS_REFUSED,
-                            "merge: which folders? Give those of --shard K/N --into FOLDER");
+        return message_fail(
+            STATUS_REFUSED,
+            "merge: no folder is given; give the folders of --shard K/N --into FOLDER");
     const status outcome = again_make(l, &a, &f);
     const int code = outcome == STATUS_OK ? ask(&a, l->verbs) : message_fail(outcome, f.text);
     again_free(&a);
@@ -130,7 +132,7 @@ typedef struct merge_request {
 #define IN(at) .member = offsetof(merge_request, at)
 static const verb_option own[] = {
     {"partial", 0, NULL, "continue without missing batches", IN(on)},
-    {"verbose", 'v', NULL, "verify: every limit, not only the overview", IN(on)},
+    {"verbose", 'v', NULL, "verify: print every limit, not only the overview", IN(on)},
     {"quiet", 'q', NULL, "print only unexpected verdicts and the final PASS or FAIL sentence",
      IN(on)},
     {0}};
@@ -142,12 +144,12 @@ static const verb_group shared[] = {SHARED(output, output),
 const verb verb_merge = {
     "merge",
     "FOLDER...",
-    "merges the batches of shards of verify or sweep into one run",
+    "merges the batches of all shards of verify or sweep into one run",
     "Merges the batches that shards of verify or sweep wrote with --into, and writes the same "
     "output as a single run. Use the verb, options and files of the shards. Exit status: that of "
-    "the verb; 2 if batches belong to another request, build or input, or two of them differ; 5 if "
-    "batches are missing, which are listed: without --partial nothing is written, and with it the "
-    "existing part, in files named .partial",
+    "the verb; 2 if batches belong to another request, build or input, or if two batches differ; 5 "
+    "if batches are missing. Missing batches are listed, and nothing is written unless --partial "
+    "is given, which writes the existing part to files named .partial",
     "beamwork merge parts -o results.h5\n"
     "beamwork merge first/parts second/parts -o results.h5 --junit junit.xml",
     shared,

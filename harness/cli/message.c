@@ -76,9 +76,9 @@ static void asked(int number)
 static void crashed(int number)
 {
     if (getpid() == program) {
-        say("beamwork: crashed; check an element of your own with 'beamwork element-test'; in the "
-            "source tree, run valgrind on a program built with 'make DEBUG=1'; libraries also "
-            "crash when memory runs out\n");
+        say("beamwork: the program crashed; check your own element with 'beamwork element-test'; "
+            "in the source tree, run valgrind on a program built with 'make DEBUG=1'; libraries "
+            "can also crash if memory runs out\n");
         output_abandon();
     }
     end_by(number);
@@ -90,7 +90,7 @@ static void ended(int code, void *unused)
     (void)unused;
     if (getpid() != program || (code >= EXIT_AS_EXPECTED && code <= EXIT_INTERRUPTED))
         return;
-    say("beamwork: a library or an element ended the program; libraries do this when memory runs "
+    say("beamwork: a library or an element ended the program; libraries do so if memory runs "
         "out\n");
     output_abandon();
     _exit(EXIT_FAULT);
@@ -245,10 +245,12 @@ static status refuse_word(const verb *v, const verb *const *verbs, const char *t
     char word[64];
     snprintf(word, sizeof word, "%.*s", (int)strcspn(text, "="), text);
     if (begun > 1)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s begins several options; 'beamwork %s -h' lists them", word, v->name);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s is an abbreviation of several options; 'beamwork %s -h' lists the options", word,
+            v->name);
     if (others_take(verbs, word + 2))
-        return fault_set(f, STATUS_REFUSED, "%s takes no %s; 'beamwork %s -h' lists its options",
+        return fault_set(f, STATUS_REFUSED, "%s has no %s; 'beamwork %s -h' lists its options",
                          v->name, word, v->name);
     const char *near = choice_nearest(word + 2, name_of, v);
     return fault_set(f, STATUS_REFUSED,
@@ -263,7 +265,8 @@ static void report_former(const verb_option *o, const char *word)
     const size_t length = strcspn(word, "=");
     if (was != NULL && length == strlen(was) + 2 && strncmp(word + 2, was, length - 2) == 0)
         fprintf(stderr,
-                "beamwork: --%s is --%s now; the old name will be removed in the next version\n",
+                "beamwork: --%s has been renamed to --%s; the old name will be removed in the next "
+                "version\n",
                 was, o->name);
 }
 
@@ -283,11 +286,11 @@ static status check_word(const verb *v, const verb *const *verbs, const char *wo
     if (o == NULL)
         return refuse_word(v, verbs, word, begun, f);
     if (value != NULL && o->argument == NULL)
-        return fault_set(f, STATUS_REFUSED, "--%s takes no value", o->name);
+        return fault_set(f, STATUS_REFUSED, "--%s has no value; remove it", o->name);
     report_former(o, word);
     *more = value == NULL && o->argument != NULL && !verb_optional(o);
     return *more && last
-               ? fault_set(f, STATUS_REFUSED, "--%s needs a value: %s", o->name, o->argument)
+               ? fault_set(f, STATUS_REFUSED, "--%s requires a value: %s", o->name, o->argument)
                : STATUS_OK;
 }
 
@@ -326,7 +329,7 @@ static void add_given(command_line *l, const verb_option *o, const char *value)
     char text[160];
     const int once = o->argument != NULL && (o->traits & OPTION_REPEATS) == 0;
     if (once && given_value(l, o->name) != NULL) {
-        snprintf(text, sizeof text, "--%s is given twice; give it one value", o->name);
+        snprintf(text, sizeof text, "--%s is given twice; give one value", o->name);
         message_refuse(text);
     }
     if (l->givens == COMMAND_MOST_GIVEN)
@@ -360,8 +363,9 @@ static error_t take(int key, char *value, struct argp_state *state)
         key >= FIRST_KEY ? verb_option_at(v, key - FIRST_KEY, &at) : verb_letter(v, (char)key, &at);
     if (o != NULL && key < FIRST_KEY && key != o->letter)
         fprintf(stderr,
-                "beamwork: -%c is --%s now; the letter will be removed in the next version\n", key,
-                o->name);
+                "beamwork: -%c has been renamed to --%s; the letter will be removed in the next "
+                "version\n",
+                key, o->name);
     if (o == NULL || o == verb_help) { /* includes the letter -? */
         help_write(stdout, v);
         exit(message_finish(EXIT_AS_EXPECTED));
@@ -430,7 +434,7 @@ int command_run(const verb *v, const verb *const *verbs, int count, char **argum
         v->before(arguments);
     char *request = calloc(1, v->request + 1);
     if (request == NULL)
-        return message_fail(STATUS_FAULT, "out of memory for a command line");
+        return message_fail(STATUS_FAULT, "out of memory for the command line");
     command_parse(v, verbs, count, arguments, &line, request);
     const int code = v->answer(&line, request);
     for (const verb_group *g = v->shared; g->group != NULL; g++)

@@ -27,10 +27,11 @@ static status ask(motion_options *r, motion_request *out, fault *f)
     out->formulation = r->chosen.formulation;
     out->formulations = r->chosen.formulations;
     if (r->meshes.count > 1)
-        return fault_set(f, STATUS_REFUSED, "motion takes one mesh: give one number with -n");
-    return r->vary.count < 2 ? STATUS_OK
-                             : fault_set(f, STATUS_REFUSED,
-                                         "motion takes one --vary, as NAME=A..B/N or NAME=A,B,C");
+        return fault_set(f, STATUS_REFUSED, "motion accepts one mesh; give one number with -n");
+    return r->vary.count < 2
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "motion accepts one --vary, in the form NAME=A..B/N or NAME=A,B,C");
 }
 
 static status run(motion_options *r, motions *m, fault *f)
@@ -85,27 +86,28 @@ static int answer(const command_line *l, void *request)
 #define IN(at) .member = offsetof(motion_options, at)
 static const verb_option own[] = {
     {"vary", 0, "NAME=A..B/N|A,B,C",
-     "the parameter to vary: N equal parts (N + 1 values), with ':log' added: equal ratios; a list "
-     "of values or words",
+     "parameter to vary: NAME=A..B/N for N equal parts (N + 1 values), NAME=A..B/N:log for equal "
+     "ratios, or a list of values or words",
      IN(vary), .traits = OPTION_REPEATS},
     {"integrator", 0, "NAME[,NAME...]",
      "alpha, alpha:rho=R, hht, hht:alpha=A, trapezoidal, conserving, radau, explicit (default: six "
      "of them)",
      IN(integrators)},
     {"step", 0, "H[,H...]|H..H",
-     "time steps [s]; a range is halved from the first to the last (default: 2, 1, 1/2 and 1/4 of "
-     "the step of the motion)",
+     "time steps [s]; in a range A..B, the step is halved from A to B (default: 2, 1, 1/2 and 1/4 "
+     "of the step of the motion)",
      IN(step_lengths)},
     {"tolerance", 0, "R[,R...]|R..R",
-     "error per step that controls the step size, for integrators that estimate it; a range is "
-     "divided by 100 repeatedly",
+     "tolerance for the error of a step, for integrators that estimate the error; in a range A..B, "
+     "the tolerance is divided by 100 from A to B",
      IN(tolerances)},
     {"conservation-only", 0, NULL,
-     "check only energy and momenta, without a reference solution and without halved steps",
+     "check only the energy and the momenta, without a reference solution and without halved steps",
      IN(conservation_only)},
     {"expected", 0, "FILE.csv", "table of expected verdicts, instead of a case", IN(expected),
      .traits = OPTION_INPUT},
-    {"verbose", 'v', NULL, "with --expected: every motion", IN(verbose), .traits = OPTION_ASIDE},
+    {"verbose", 'v', NULL, "with --expected: print every motion", IN(verbose),
+     .traits = OPTION_ASIDE},
     {0}};
 static const verb_group shared[] = {
     SHARED(case, of),           SHARED(formulations, chosen), SHARED(meshes, meshes),
@@ -114,13 +116,13 @@ static const verb_group shared[] = {
 const verb verb_motion = {
     "motion",
     "[CASE]",
-    "comparison of integrators: time error, energy, momenta, cost",
+    "compares integrators: time-integration error, energy, momenta, cost",
     "Runs a transient analysis with several integrators and several steps or tolerances. Prints "
-    "for each the time error (against radau at 1e-10 on the same mesh), its order, the change of "
-    "energy and momenta, and the cost. With --conservation-only: long motions with large steps, to "
-    "see whether the energy grows or a step fails. With --expected: the verdicts of a table. Exit "
-    "status: 0 as expected, 1 a verdict differs or no motion reaches its end, 2 invalid input, 3 "
-    "nothing was run, 4 file, disk or memory.",
+    "for each run the time-integration error (relative to radau at 1e-10 on the same mesh) and its "
+    "order, the changes of the energy and the momenta, and the cost. --conservation-only runs long "
+    "motions with large steps and reports whether the energy grows or a step fails. --expected "
+    "compares the verdicts with a table. Exit status: 0 as expected, 1 a verdict differs or no "
+    "motion reaches its end, 2 invalid input, 3 nothing was run, 4 file, disk or memory.",
     "beamwork motion free_flight_space -f collocation -n 8 --integrator alpha,radau "
     "--step 0.1..0.0125\n"
     "beamwork motion --expected harness/experiments/expected.csv",

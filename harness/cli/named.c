@@ -55,21 +55,21 @@ int named_alone(const chosen_formulations *o)
 
 static const verb_option both[] = {
     {"formulation", 'f', "NAME[:KEY=VALUE,...]",
-     "formulation and its options; may be repeated, 'all' for every one",
+     "formulation with its options, or 'all'; may be repeated",
      .member = offsetof(chosen_formulations, named), .traits = OPTION_REPEATS},
     {"element", 0, "FILE|exec:COMMAND",
-     "a formulation of your own: a shared object (with a '/': ./mine.so), or a command that uses "
-     "the protocol of harness/formulations/protocol.md ('exec:python3 my_beam.py'); may be "
-     "repeated",
+     "your own formulation: a shared object (a path with a '/', such as ./mine.so), or a command "
+     "that uses the protocol of harness/formulations/protocol.md (such as 'exec:python3 "
+     "my_beam.py'); may be repeated",
      .member = offsetof(chosen_formulations, element), .traits = OPTION_REPEATS | OPTION_INPUT,
      .most = FORMULATIONS_MOST_LOADED},
     {0}};
-static const verb_option limit[] = {{"time-limit", 0, "SECONDS",
-                                     "time limit of a cell (default 120; element-test: 60 for each "
-                                     "part; 0: none); a cell that exceeds it fails as 'timeout'",
-                                     .member = offsetof(chosen_formulations, time_limit),
-                                     .most = 1000000},
-                                    {0}};
+static const verb_option limit[] = {
+    {"time-limit", 0, "SECONDS",
+     "time limit of a cell (default 120; element-test: 60 for each part; 0: no limit); a cell that "
+     "exceeds the limit fails with status 'timeout'",
+     .member = offsetof(chosen_formulations, time_limit), .most = 1000000},
+    {0}};
 const option_group options_formulations = {both, begin, end, NULL};
 const option_group options_element = {both + 1, begin, end, NULL};
 const option_group options_time_limit = {limit, NULL, NULL, NULL};
@@ -88,7 +88,7 @@ static void add_note(char note[DEFAULTS_NOTE], const char *choice, const char *w
                      const char *option)
 {
     const size_t used = strlen(note);
-    snprintf(note + used, DEFAULTS_NOTE - used, "%s: %s; %s selects another\n", choice, why,
+    snprintf(note + used, DEFAULTS_NOTE - used, "%s: %s; %s selects a different one\n", choice, why,
              option);
 }
 

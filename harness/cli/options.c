@@ -182,11 +182,11 @@ static status add_text(const verb_option *o, text_list *list, const char *value,
     const int most = o->most > 0 ? (int)o->most : COMMAND_MOST_WORDS;
     for (int i = 0; (o->traits & (OPTION_INPUT | OPTION_ASIDE)) != 0 && i < list->count; i++)
         if (strcmp(list->text[i], value) == 0)
-            return fault_set(f, STATUS_REFUSED, "--%s %.200s is given twice; give it once", o->name,
-                             value);
+            return fault_set(f, STATUS_REFUSED, "--%s %.200s is given twice; give it only once",
+                             o->name, value);
     if (list->count == most)
-        return fault_set(f, STATUS_REFUSED, "--%s is given too often; give at most %d", o->name,
-                         most);
+        return fault_set(f, STATUS_REFUSED, "--%s is given too often; give it at most %d times",
+                         o->name, most);
     list->text[list->count++] = value;
     return STATUS_OK;
 }
@@ -199,7 +199,8 @@ static status read_whole(const verb_option *o, int *out, const char *text, fault
     *out = (int)value;
     return text != NULL && (end == text || *end != '\0' || errno != 0 || value < o->least ||
                             value > o->most)
-               ? fault_set(f, STATUS_REFUSED, "--%s '%.40s': give a whole number from %ld to %ld",
+               ? fault_set(f, STATUS_REFUSED,
+                           "--%s '%.40s' is not valid; give a whole number from %ld to %ld",
                            o->name, text, o->least, o->most)
                : STATUS_OK;
 }
@@ -240,10 +241,10 @@ status errors_parse(const char *text, int most, double level[], int *count, faul
     do {
         at = *count < most ? parse_one(at, &level[*count]) : NULL;
         if (at == NULL)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "--error '%.60s': give at most %d values between 0 and 100 %%, such as 1%%", text,
-                most);
+            return fault_set(f, STATUS_REFUSED,
+                             "--error '%.60s' is not valid; give at most %d values between 0 and "
+                             "100 %%, such as 1%%",
+                             text, most);
         ++*count;
     } while (*at++ == ',');
     return STATUS_OK;
@@ -254,9 +255,10 @@ status option_error(const verb_option *o, void *member, const char *value, fault
     const char *end = parse_one(value, member);
     return end != NULL && *end == '\0'
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED,
-                           "--%s '%.60s': give a value between 0 and 100 %%, such as 1%%", o->name,
-                           value);
+               : fault_set(
+                     f, STATUS_REFUSED,
+                     "--%s '%.60s' is not valid; give a value between 0 and 100 %%, such as 1%%",
+                     o->name, value);
 }
 
 static status read_format(const verb_option *o, void *member, const char *value, fault *f)
@@ -301,12 +303,13 @@ static void begin_jobs(void *group, command_line *l)
     *(int *)group = (int)sysconf(_SC_NPROCESSORS_ONLN);
 }
 
-static const verb_option output_option[] = {
-    {"output", 'o', "FILE", "write there instead of to standard output", .traits = OPTION_OUTPUT},
-    {0}};
+static const verb_option output_option[] = {{"output", 'o', "FILE",
+                                             "write to this file instead of standard output",
+                                             .traits = OPTION_OUTPUT},
+                                            {0}};
 static const verb_option cli_options_results[] = {
     {"output", 'o', "FILE",
-     "write there instead of to standard output; NAME.h5: to this results file, next to the "
+     "write to this file instead of standard output; NAME.h5: to this results file, next to the "
      "results of other experiments",
      .traits = OPTION_OUTPUT},
     {0}};
@@ -323,34 +326,38 @@ static const verb_option table[] = {{"format", 0, "text|csv", "format of the out
                                     {0}};
 static const verb_option selection[] = {
     {"select", 'k', "EXPRESSION",
-     "words joined by and, or, not and brackets; each is matched against "
-     "case/parameters/formulation/quantity, also inside names; =NAME: the whole name",
+     "words joined by and, or, not and brackets; each word is matched against "
+     "case/parameters/formulation/quantity and may be a part of a name; =NAME matches only the "
+     "whole name",
      .traits = 0},
     {0}};
-static const verb_option jobs[] = {{"jobs", 'j', "N", "processes (default: one for each processor)",
+static const verb_option jobs[] = {{"jobs", 'j', "N",
+                                    "number of processes (default: one for each processor)",
                                     .traits = OPTION_ASIDE, .least = 1, .most = 64},
                                    {0}};
 static const verb_option json[] = {{"json", 0, "FILE", "verdicts as JSON", .traits = OPTION_OUTPUT},
                                    {0}};
-static const verb_option meshes[] = {
-    {"elements", 'n', "N[,N...]",
-     "elements per member; per piece of a member where loads begin, end or act within the member",
-     .traits = OPTION_REPEATS, .read = read_meshes},
-    {0}};
+static const verb_option meshes[] = {{"elements", 'n', "N[,N...]",
+                                      "number of elements per member, or per piece of a member if "
+                                      "loads begin, end or act within the member",
+                                      .traits = OPTION_REPEATS, .read = read_meshes},
+                                     {0}};
 static const verb_option reports[] = {
     {"junit", 0, "FILE", "verdicts as JUnit XML", offsetof(report_options, junit), OPTION_OUTPUT,
      .read = NULL},
     {"markdown", 0, "FILE", "summary as Markdown, for a pull request",
      offsetof(report_options, markdown), OPTION_OUTPUT, .read = NULL},
     {"propose-deviations", 0, "FILE",
-     "known deviations that new formulations would need, as rows (CSV)",
+     "known deviations that new formulations would require, as rows of CSV",
      offsetof(report_options, propose), OPTION_OUTPUT, .read = NULL},
     {0}};
 static const verb_option solver[] = {
-    {"all-dofs", 0, NULL, "keep all degrees of freedom: same answer, more work",
+    {"all-dofs", 0, NULL,
+     "keep all degrees of freedom, which gives the same results with more work",
      .member = offsetof(solver_options, keep_all)},
     {"threads", 0, "N",
-     "threads that share the loop over elements (default 1); results are the same",
+     "number of threads that share the loop over elements (default 1); the results do not depend "
+     "on it",
      .member = offsetof(solver_options, threads), .least = 1, .most = TEAM_MOST},
     {0}};
 
@@ -392,8 +399,8 @@ static status check_pair(const named_place *a, const named_place *b, fault *f)
     if (!place_same(&a->where, &b->where) || a->where.shared)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%s %.100s and %s %.100s are the same file; give them two names", a->option,
-                     a->path, b->option, b->path);
+                     "%s %.100s and %s %.100s are the same file; give two different names",
+                     a->option, a->path, b->option, b->path);
 }
 
 static status find_scenes(const char *folder, glob_t *found, fault *f)

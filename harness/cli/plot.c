@@ -150,10 +150,9 @@ static status make_curves(scene *s, fault *f)
     }
     s->quantities = kept;
     if (kept == 0)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "no quantity has a curve; add one of a motion, of a path with stations or of "
-            "a harmonic analysis");
+        return fault_set(f, STATUS_REFUSED,
+                         "no quantity has a curve; add a quantity of a motion, of a path with "
+                         "stations or of a harmonic analysis");
     for (int i = 0; i < kept; i++)
         TRY(add_phase(s, i, f));
     for (int i = 0; i < s->analyses; i++)
@@ -222,7 +221,7 @@ static status solve_all(const plot_request *r, const case_type *type, FILE *to, 
     return fflush(to) == 0 && fseek(to, 0, SEEK_SET) == 0
                ? STATUS_OK
                : fault_set(f, STATUS_FAULT,
-                           "a temporary file cannot be written (is the disk full?)");
+                           "a temporary file cannot be written; check whether the disk is full");
 }
 
 /* Replaces the child process by the plotting program. from, to: descriptors of its input and
@@ -246,7 +245,7 @@ static status draw(FILE *solutions, const char *folder, const char *form, FILE *
     if (child > 0 && WIFEXITED(how) && WEXITSTATUS(how) == COULD_NOT)
         return fault_set(f, STATUS_FAULT, "no figure was drawn; the reason is above");
     return fault_set(f, STATUS_FAULT,
-                     "the plotting program cannot be run; it needs %s and python3-matplotlib (sudo "
+                     "the plotting program cannot be run; install %s and python3-matplotlib (sudo "
                      "apt-get install python3-matplotlib)",
                      python);
 }
@@ -259,7 +258,9 @@ static const char *form_of(const char *path, fault *f)
         if (strcasecmp(dot + 1, forms[i]) == 0)
             return forms[i];
     fault_set(f, STATUS_REFUSED,
-              "-o %.200s: plot writes .png, .svg, .pdf or .csv; name one of them", path);
+              "-o %.200s: plot writes only .png, .svg, .pdf or .csv; give a name that ends in one "
+              "of these",
+              path);
     return NULL;
 }
 
@@ -314,7 +315,8 @@ static int answer(const command_line *l, void *request)
     const status outcome =
         solutions != NULL
             ? draw_from(r, type, solutions, path, &f)
-            : fault_set(&f, STATUS_FAULT, "a temporary file cannot be written (is the disk full?)");
+            : fault_set(&f, STATUS_FAULT,
+                        "a temporary file cannot be written; check whether the disk is full");
     if (solutions != NULL)
         fclose(solutions);
     return message_exit(outcome, &f);
@@ -324,7 +326,7 @@ static int answer(const command_line *l, void *request)
 static const verb_option own[] = {
     {"output", 'o', "FILE",
      "figure (.png, .svg, .pdf), or table with a column for each quantity (.csv); default: "
-     "NAME.png in this folder",
+     "NAME.png in the current folder",
      IN(output), .traits = OPTION_OUTPUT},
     {"steps", 0, "N",
      "initial number of load steps between two stations of a path; the step size adapts", IN(steps),
@@ -340,13 +342,13 @@ static const verb_group shared[] = {SHARED(case, of),
 const verb verb_plot = {
     "plot",
     "CASE",
-    "curves of quantities as a figure: histories, paths, responses",
+    "draws curves of quantities: histories, paths, responses",
     "Solves one case, or your own scene (CASE is then the path of the file), and draws its "
     "quantities as curves: over time, over a path, over frequency (Bode diagrams: amplitudes by "
-    "decades, with phases), or over the quantity that 'x' of the scene names. A quantity that is a "
-    "single value of a motion, a path or a harmonic analysis is drawn as a curve, too (except "
-    "times and periods). Motions without spectra are sampled at 300 instants, static paths with "
-    "one station at 20 states. Each -f adds a line; -k selects quantities. Figures need "
+    "decades, with phases), or over the quantity that the key 'x' names. A quantity that is a "
+    "single value of a motion, a path or a harmonic analysis is also drawn as a curve (except "
+    "times and periods). Motions without spectra are sampled at 300 times, static paths with one "
+    "station at 20 states. Each -f adds a line; -k selects quantities. Figures require "
     "python3-matplotlib.",
     "beamwork plot lee_frame -f collocation -n 4 -o frame.png\n"
     "beamwork plot elastica -k theta -f beamw -f collocation -n 4 -o angle.pdf",

@@ -66,10 +66,10 @@ const verb verb_scene = {
     "scene",
     "[CASE]",
     "writes a case, or your own structure, as a scene file",
-    "Writes a case at a parameter point as a scene file, or rewrites your own (--scene FILE): "
-    "names are kept, loops and expressions are expanded, numbers have all their digits. Reading it "
-    "gives the same scene, bit for bit. --keys: keys of scene files; --schema: the same as JSON "
-    "Schema, for editors.",
+    "Writes a case at a parameter point as a scene file, or rewrites your own scene file (--scene "
+    "FILE): names are kept, loops and expressions are expanded, and numbers have all their digits. "
+    "The file that is written gives the same scene, bit for bit. --keys lists the keys of scene "
+    "files; --schema describes them as JSON Schema, for editors.",
     "beamwork scene c_column -o column.yaml\n"
     "beamwork scene --keys",
     shared,

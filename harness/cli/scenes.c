@@ -22,10 +22,10 @@ static status check_name(const case_type *one, const case_type *const *others, c
 {
     for (; *others != NULL; others++)
         if (strcmp((*others)->name, one->name) == 0)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "%.200s: a case or scene '%s' is already in this run; give the scene another name",
-                path, one->name);
+            return fault_set(f, STATUS_REFUSED,
+                             "%.200s: a case or scene named '%s' is already in this run; give the "
+                             "scene another name",
+                             path, one->name);
     return STATUS_OK;
 }
 

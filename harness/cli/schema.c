@@ -8,26 +8,26 @@
 #include "harness/terminal/terminal.h"
 
 const char *const results_about[] = {
-    "HDF5, followed by a last line with its length and checksum. Attributes of the "
+    "HDF5, followed by a line with the length and the checksum of the file. Attributes of the "
     "root: schema, schema_version, program_version, commit, compiler, flags, libraries, processor, "
     "clock (UTC), threads, unfinished_cells (of an interrupted run). Below /cases/CASE "
-    "(attributes: summary, source) there is a table for each kind of record; attributes of a "
-    "table: "
-    "units and summaries of its columns, in their order.",
-    "JSON and CSV use the same names. Fields marked * exist there only; in HDF5 the group or "
-    "attribute gives them. Missing numbers are NaN (JSON: null). [unit]: see the column 'unit'.",
-    "curve_x, curve_value: the points of all curves of a case, one after the other.",
+    "(attributes: summary, source) there is a table for each kind of record; the attributes of a "
+    "table are the units and summaries of its columns, in order.",
+    "JSON and CSV use the same names. Fields marked * exist only in JSON and CSV; in HDF5, the "
+    "group or an attribute gives them. Missing numbers are NaN (JSON: null). [unit]: see the "
+    "column 'unit'.",
+    "curve_x, curve_value: points of all curves of a case, one curve after the other.",
     "shapes/POINT (verify --shapes, solve --shapes; attributes formulation, elements): members "
     "(nodes p, q, section), first_point, bodies of the nodes (body or -1, held components as "
     "bits), released (components at both ends of members, as bits), sections/I (corners of walls, "
     "y and z in m), and of every state kind, analysis, value, scale and [states x points] "
     "position, orientation (quaternion), force, moment, bimoment, nodes.",
-    "points also has a column for each parameter of the case. The keys are point, formulation and "
-    "elements.",
-    "/experiments/NAME contains the results of the verb NAME (option -o; all but verify), each "
-    "with the root attributes of its own run. A later run of the same experiment replaces its "
-    "group; verify replaces everything outside /experiments. bench and converge: declarations and "
-    "cases/CASE, as in the root. The tables of the others also have the fields marked * as "
+    "The table 'points' also has a column for each parameter of the case. The keys are point, "
+    "formulation and elements.",
+    "/experiments/NAME contains the results of the verb NAME (option -o; all verbs except verify), "
+    "with the root attributes of the run. A later run of the same experiment replaces its group; "
+    "verify replaces everything outside /experiments. bench and converge: declarations and "
+    "cases/CASE, as in the root. The tables of the other verbs also have the fields marked * as "
     "columns.",
     NULL};
 
@@ -124,7 +124,8 @@ static int answer(const command_line *l, void *request)
     const schema_request *r = request;
     fault f = {""};
     if (l->arguments > 0)
-        return message_fail(STATUS_REFUSED, "schema takes no case; it describes the files of all");
+        return message_fail(STATUS_REFUSED,
+                            "schema accepts no case; it describes the files of all cases");
     if (r->format[0] == 'j')
         return message_exit(write_json(l->verbs, &f), &f);
     printf("%s, version %d\n", SCHEMA_NAME, SCHEMA_VERSION);
@@ -139,7 +140,7 @@ static int answer(const command_line *l, void *request)
 static const verb_group shared[] = {SHARED(record, format), {NULL, 0}};
 const verb verb_schema = {"schema",
                           "",
-                          "what the result file consists of: tables, columns, units",
+                          "describes results files: tables, columns, units",
                           "Describes the results file that experiments share (-o FILE), the file "
                           "of solve, and the records of JSON and CSV.",
                           "beamwork schema --format json",

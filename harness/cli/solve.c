@@ -100,9 +100,9 @@ static void tell_apart(const scene *s, const state_matrices *m)
 {
     if (m->model.apart > 0)
         fprintf(stderr,
-                "beamwork: state space of %s: the mass inside elements (M_inside) is omitted; its "
-                "responses differ by at most %.1e of the largest (%s); use more elements, or "
-                "'mass: lumped', which has no mass inside elements\n",
+                "beamwork: state space of %s: the mass inside elements (M_inside) is omitted; the "
+                "responses differ by at most %.1e of the largest response (%s); use more elements, "
+                "or 'mass: lumped', which has no mass inside elements\n",
                 scene_name(s, SCENE_ANALYSES, m->analysis).text, m->model.apart,
                 s->quantity[m->model.farthest].name);
 }
@@ -123,7 +123,7 @@ static void tell_reduced_transfer(const scene *s, const system_matrices *all,
         }
     }
     if (zeros < functions)
-        fprintf(stderr, "; transfer functions by at most %.1e of the largest (%s)", apart,
+        fprintf(stderr, "; transfer functions differ by at most %.1e of the largest (%s)", apart,
                 s->quantity[all->output[largest].quantity].name);
     if (zeros > 0)
         fprintf(stderr, "; %d of %d transfer functions are zero and not counted", zeros, functions);
@@ -147,9 +147,12 @@ static void tell_reduced(const scene *s, const system_matrices *all, const state
                 "%d modes instead of %d, so that modes with the same frequency stay together; ",
                 r->taken, r->requested);
     if (r->modes > 0)
-        fprintf(stderr, "first %d natural frequencies off by at most %.1e", r->modes, frequency);
+        fprintf(stderr, "the first %d natural frequencies have relative errors of at most %.1e",
+                r->modes, frequency);
     else
-        fputs("natural frequencies not compared (no modes, or free to move)", stderr);
+        fputs("natural frequencies were not compared, because there are no modes or the structure "
+              "is free to move",
+              stderr);
     tell_reduced_transfer(s, all, r);
     fprintf(stderr, "\n");
 }
@@ -164,10 +167,10 @@ static void tell_loops(const scene *s, const system_matrices *of)
     for (int i = 0; i < s->loads; i++)
         if (s->load[i].feedback.node != SCENE_NONE)
             fprintf(stderr,
-                    "beamwork: matrices: the loop of %s (feedback) is open: the load is an input, "
-                    "its gains are in no matrix%s\n",
+                    "beamwork: matrices: the feedback loop of %s is open, so the load is an input "
+                    "and no matrix contains its gains%s\n",
                     scene_called(s, SCENE_LOADS, i).text,
-                    closed ? " but those in state_space of harmonic analyses" : "");
+                    closed ? " except those in state_space of harmonic analyses" : "");
 }
 
 /* Writes the matrices of all states, if they were requested. */
@@ -200,8 +203,8 @@ static status range_of(const solve_request *r, const case_type *type, follow_req
     if (slash == NULL || sscanf(slash + 1, "%d%n", &out->parts, &used) != 1 ||
         slash[1 + used] != '\0' || out->parts < 1 || out->parts > 100000)
         return fault_set(f, STATUS_REFUSED,
-                         "--follow '%.60s': give NAME=A..B/N with N from 1 to 100000, such as "
-                         "width=0.01..0.03/20",
+                         "--follow '%.60s' is not valid; give NAME=A..B/N with N from 1 to 100000, "
+                         "such as width=0.01..0.03/20",
                          r->follow);
     memcpy(value, r->of.parameter, sizeof value);
     snprintf(text, sizeof text, "%.*s", (int)(dots - r->follow), r->follow);
@@ -245,7 +248,7 @@ static status follow_modes(solve_request *r, const case_type *type, fault *f)
     if (r->shapes > 0 || r->matrices != NULL || r->ends != NULL || r->restart != NULL ||
         r->select != NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "--follow computes curves of modes only; remove -k, --shapes, --matrices, "
+                         "--follow computes only curves of modes; remove -k, --shapes, --matrices, "
                          "--save-state and --restart");
     TRY(range_of(r, type, &what, f));
     snprintf(name, sizeof name, "%.*s", (int)strcspn(r->follow, "="), r->follow);
@@ -288,18 +291,18 @@ static status prepare_ends(const solve_request *r, const restart *from, solution
 static status prepare(solve_request *r, const case_type *type, solve_work *w, fault *f)
 {
     if (r->error > 0 && (r->meshes.count > 0 || r->restart != NULL))
-        return fault_set(f, STATUS_REFUSED, "--error chooses the mesh: remove it, or %s",
+        return fault_set(f, STATUS_REFUSED, "--error chooses the mesh; remove --error, or %s",
                          r->meshes.count > 0 ? "-n" : "--restart");
     if (r->state_space && r->matrices == NULL)
         return fault_set(
             f, STATUS_REFUSED,
-            "--state-space adds to the matrices of --matrices FOLDER; give the folder");
+            "--state-space adds to the matrices written by --matrices; add --matrices FOLDER");
     if (r->reduce != NULL && !r->state_space)
         return fault_set(f, STATUS_REFUSED, "--reduce requires --state-space; add it");
     TRY(files_check(r->of.line, r->shapes > 0, own_tables_packed(&r->truths), f));
     const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
     if (known != STATUS_OK && r->truths.packed == NULL && r->of.scene == NULL)
-        fprintf(stderr, "beamwork: without reference values: %s\n",
+        fprintf(stderr, "beamwork: no reference values are used: %s\n",
                 f->text); /* a solution does not need them */
     else
         TRY(known);
@@ -320,7 +323,7 @@ static status write_ends(const solve_request *r, const solution_request *what, c
         return STATUS_OK;
     if (s->series[0].cell[0].solve.ends > 0)
         return restart_write(r->ends, what, s, f);
-    fprintf(stderr, "beamwork: no motion reached its end: --save-state %s is not written\n",
+    fprintf(stderr, "beamwork: no motion reached its end, so --save-state %s is not written\n",
             r->ends);
     return STATUS_OK;
 }
@@ -393,7 +396,7 @@ static int answer(const command_line *l, void *request)
         return r->of.refusal;
     if (r->chosen.formulations > 1 || r->meshes.count > 1)
         return message_fail(STATUS_REFUSED,
-                            "solve takes one -f and one -n; 'beamwork converge' takes several");
+                            "solve accepts one -f and one -n; 'beamwork converge' accepts several");
     if (r->follow != NULL)
         return message_exit(follow_modes(r, type, &f), &f);
     if (r->shapes > 0 && r->output == NULL)
@@ -407,23 +410,23 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(solve_request, at)
 static const verb_option own[] = {
-    {"error", 0, "R", "change from mesh to mesh that is negligible (default 0.1%)", IN(error),
-     .read = option_error},
+    {"error", 0, "R", "change from mesh to mesh that counts as negligible (default 0.1%)",
+     IN(error), .read = option_error},
     {"steps", 0, "N",
      "initial number of load steps between two stations of a path; the step size adapts", IN(steps),
      .least = 1, .most = 1000000},
     {"shapes", 0, "[STATES]",
-     "store centre lines, sections and resultants of at most STATES states of a path (default: "
-     "all), and as many frames of a motion, evenly over its time (60 by default or at "
-     "most 5); -o FILE becomes HDF5 for ParaView",
+     "store centre lines, sections and resultants for ParaView (-o FILE is then HDF5), for at most "
+     "STATES states of a path (default: all) and STATES frames of a motion, evenly distributed "
+     "over time (60 by default, or if STATES is at most 5)",
      IN(shapes), .least = 1, .most = SHAPES_ALL},
     {"follow", 0, "NAME=A..B/N",
-     "computes modes over a parameter, in N equal or smaller steps; modes are matched by their "
-     "shapes, so that modes whose frequencies cross keep their numbers",
+     "compute modes over a parameter, in N equal or smaller steps; modes are matched by their "
+     "shapes, so modes whose frequencies cross keep their numbers",
      IN(follow)},
     {"matrices", 0, "FOLDER",
      "also write the stiffness, mass and gyroscopic matrices about every state (Matrix Market), "
-     "with a table of their rows, into a new folder",
+     "with a table of the rows, to a new folder",
      IN(matrices), .traits = OPTION_OUTPUT | OPTION_FOLDER},
     {"state-space", 0, NULL,
      "with --matrices: also write x' = A x + B u, y = C x + D u about every state, and the same "
@@ -431,16 +434,18 @@ static const verb_option own[] = {
      "and displacements",
      IN(state_space)},
     {"reduce", 0, "MODES[:NODE,...]",
-     "with --state-space: also write reduced models of N modes: with interface nodes their static "
-     "shapes and modes with them fixed (Craig-Bampton), without nodes free modes and static shapes "
-     "of the forces; the errors of the reduced models are printed",
+     "with --state-space: also write reduced models of N modes; with interface nodes, they contain "
+     "the static shapes of these nodes and modes with these nodes fixed (Craig-Bampton); without "
+     "nodes, free modes and the static shapes of the forces; the errors of the reduced models are "
+     "printed",
      IN(reduce)},
     {"save-state", 0, "FILE",
      "also store the last state of motions (HDF5), from which --restart continues", IN(ends),
      .traits = OPTION_OUTPUT | OPTION_HDF5},
     {"restart", 0, "FILE",
-     "continue the motions of another run from its --save-state file: the same scene with later "
-     "stations; bit-for-bit as an uninterrupted run where the steps are the same",
+     "continue the motions of another run from its --save-state file; give the same scene with "
+     "later stations; the results are bit-for-bit equal to those of an uninterrupted run if the "
+     "steps are the same",
      IN(restart), .traits = OPTION_INPUT},
     {0}};
 static const verb_group shared[] = {SHARED(case, of),           SHARED(formulations, chosen),
@@ -451,18 +456,18 @@ static const verb_group shared[] = {SHARED(case, of),           SHARED(formulati
 const verb verb_solve = {
     "solve",
     "CASE",
-    "one case, one formulation, one mesh: every quantity with its error",
+    "solves one case with one formulation and one mesh: every quantity with its error",
     "Solves one case with one formulation and one mesh and shows every quantity with its error. "
-    "Without -n the mesh is refined until no value changes by more than 0.1 % (--error) from the "
-    "previous mesh: first the meshes of the case, then doubling, up to 1024 elements or 2 s of "
-    "counted work. If values still change then, the status is not_converged. Values are printed to "
-    "the "
-    "second digit of their last change between meshes, which is not a bound of their error. "
-    "Without -f up to five formulations are tried that support the physics of the case and have no "
-    "known defect there, the cheapest next mesh first; the first that converges is used, with -n "
-    "the one of the highest order. The output gives the choice and the reason. An analysis that no "
-    "quantity uses is not run, unless the scene has no quantities, or its states are drawn or "
-    "written; -k selects quantities.",
+    "Without -n, the mesh is refined until no value changes by more than 0.1 % (--error) from the "
+    "previous mesh: first through the meshes of the case, then by doubling, up to 1024 elements or "
+    "2 s of counted work. If values still change after that, the status is not_converged. Values "
+    "are printed to the second digit of their last change between meshes, which is not a bound of "
+    "their error. Without -f, up to five formulations are tried that support the physics of the "
+    "case and have no known defect there, in the order of the cost of their next mesh. The first "
+    "formulation that converges is used, or, if -n is given, the formulation of the highest order. "
+    "The output states the choice and the reason. An analysis that no quantity uses is not run, "
+    "unless the scene has no quantities or the states of the analysis are drawn or written. -k "
+    "selects quantities.",
     "beamwork solve elastica\n"
     "beamwork solve c_column -f beamw -n 8 --set section_data=printed\n"
     "beamwork solve c_column -k buckling_load\n"

@@ -35,7 +35,7 @@ static int answer(const command_line *l, void *request)
     extreme_sweep s = {0};
     fault f = {""};
     if (l->arguments > 0)
-        return message_fail(STATUS_REFUSED, "stress takes no case; select with -k");
+        return message_fail(STATUS_REFUSED, "stress accepts no case; select cases with -k");
     const status outcome = run(l, r, &s, &f);
     int code = extreme_sweep_exit(&s);
     if (outcome != STATUS_OK)
@@ -52,10 +52,11 @@ static const verb_group shared[] = {SHARED(formulations, chosen), SHARED(select,
 const verb verb_stress = {
     "stress",
     "",
-    "every formulation at extremes: is each result accurate, or a reported failure?",
+    "runs every formulation at extremes: is each result accurate, or a reported failure?",
     "Runs every formulation at extremes where numerical errors become critical, and classifies "
-    "every result: accurate, under-resolved, a reported failure, or wrong. Exit status: 0 all as "
-    "expected, 1 one differs, 2 invalid input, 3 nothing was run, 4 file, disk or memory.",
+    "every result: accurate, under-resolved, a reported failure, or wrong. Exit status: 0 all "
+    "results as expected, 1 a result differs, 2 invalid input, 3 nothing was run, 4 file, disk or "
+    "memory.",
     "beamwork stress -k \"thin_sheet and collocation\"",
     shared,
     NULL,

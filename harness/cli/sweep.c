@@ -146,12 +146,12 @@ static int tell(const sweep_options *r, const sweeping *s)
         return s->end.code;
     if (s->sweep.lost == 0)
         return EXIT_AS_EXPECTED;
-    fprintf(stderr, "beamwork: %d of %d batches are missing; ", s->sweep.lost,
+    fprintf(stderr, "beamwork: %d of %d batches are missing;  ", s->sweep.lost,
             s->sweep.ranges.batches);
     if (r->output != NULL)
-        fprintf(stderr, "the others are in %s: run the same command again\n", s->sweep.batches);
+        fprintf(stderr, "the others are in %s; run the same command again\n", s->sweep.batches);
     else
-        fprintf(stderr, "with -o FILE the others would be kept\n");
+        fprintf(stderr, "with -o FILE, the others would be stored\n");
     return EXIT_INTERRUPTED;
 }
 
@@ -175,23 +175,23 @@ static int answer(const command_line *l, void *request)
 #define IN(at) .member = offsetof(sweep_options, at)
 static const verb_option own[] = {
     {"vary", 0, "NAME=A..B/N|A,B,C",
-     "parameter of the sweep: N equal parts (N + 1 values), with ':log' added: equal ratios; a "
-     "list of values or words; may be repeated for another parameter",
+     "parameter of the sweep: NAME=A..B/N for N equal parts (N + 1 values), NAME=A..B/N:log for "
+     "equal ratios, or a list of values or words; may be repeated for other parameters",
      IN(vary), .traits = OPTION_REPEATS, .most = CASE_MAX_PARAMETERS},
     {"design", 0, "grid|sobol|halton|random",
-     "points of the sweep: all of the grid (default), or --points N that fill the box of --vary "
-     "NAME=A..B",
+     "points of the sweep: all points of the grid (default), or --points N points that fill the "
+     "box of --vary NAME=A..B",
      IN(design)},
     {"points", 0, "N", "number of points of a design that is not a grid", IN(points), .least = 1,
      .most = 1000000000},
     {"seed", 0, "S", "seed of --design random (default 1)", IN(seed), .least = 0, .most = INT_MAX},
     {"compute-references", 0, NULL,
-     "compute a reference value where none is stored: about half a second for each point (for a "
-     "scene 4 s)",
+     "compute a reference value at points where none is stored; this takes about half a second per "
+     "point (4 s for a scene)",
      IN(derive)},
     {"error", 0, "R", "required error (default 1%)", IN(error), .read = option_error},
-    {"verbose", 'v', NULL, "also the smallest number of elements for each quantity", IN(verbose),
-     .traits = OPTION_ASIDE},
+    {"verbose", 'v', NULL, "also print the smallest number of elements for each quantity",
+     IN(verbose), .traits = OPTION_ASIDE},
     {"quiet", 'q', NULL, "no tables", IN(shards.quiet), .traits = OPTION_ASIDE},
     {0}};
 static const verb_group shared[] = {SHARED(case, of),
@@ -208,20 +208,21 @@ static const verb_group shared[] = {SHARED(case, of),
 const verb verb_sweep = {
     "sweep",
     "CASE",
-    "one case over ranges of its parameters: where is the error target met?",
-    "Solves a case, or a structure of your own (--scene FILE), at many points of its parameters "
-    "and shows where formulations reach an error (--error, default 1 %): the share of points "
+    "solves one case over ranges of its parameters: where is the error target met?",
+    "Solves a case, or a structure of your own (--scene FILE), at many points of its parameter "
+    "space and shows where formulations reach an error (--error, default 1 %): the share of points "
     "for each mesh, the smallest number of elements over the parameters, and the worst points. "
-    "--vary NAME=A..B/N: N equal parts, ends included; A..B/N:log: equal ratios; A,B,C: these "
-    "values, or words of a choice. Several options make a grid; the last one varies fastest. "
-    "--design sobol, halton or random --points N: N points in the box of --vary NAME=A..B (or "
-    "A..B:log). Errors refer to a reference value stored for the point, with --compute-references "
-    "to one computed there, otherwise to the limit of the meshes of all formulations with the same "
-    "physics; points whose limit has an uncertainty above half of the error are reported. A point "
-    "without a scene and a failed run are reported as results. -o FILE: all values in a results "
-    "file, and the worst points as scenes in FILE.worst. Finished batches are stored in "
-    "FILE.batches until all are complete: the same command resumes from them. Exit status: 0 done, "
-    "2 refused, 4 file, disk or memory, 5 incomplete.",
+    "--vary NAME=A..B/N gives N equal parts, including both ends; A..B/N:log gives equal ratios; "
+    "A,B,C gives these values, or words of a choice. Several --vary options make a grid; the last "
+    "one varies fastest. --design sobol, halton or random with --points N gives N points in the "
+    "box of --vary NAME=A..B (or A..B:log). Errors refer to the reference value stored for the "
+    "point; or, with --compute-references, to one computed there; otherwise to the limit of the "
+    "meshes of all formulations with the same physics. Points whose limit has an uncertainty above "
+    "half of the error are reported. A point at which no scene can be built and a failed run are "
+    "reported as results. -o FILE writes all values to a results file, and the worst points as "
+    "scenes to FILE.worst. Finished batches are stored in FILE.batches until all are complete; the "
+    "same command resumes from them. Exit status: 0 done, 2 invalid input, 4 file, disk or memory, "
+    "5 incomplete.",
     "beamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
     "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --compute-references -o "
     "column.h5\n"
@@ -244,8 +245,9 @@ status spread_asked(const shard_options *r, int *asked, fault *f)
     const int writes = given_next(r->line, OPTION_OUTPUT, &first) != NULL;
     *asked = r->into != NULL || r->shard != NULL || r->from.count > 0;
     if (r->from.count > 0 && (r->into != NULL || r->shard != NULL))
-        return fault_set(f, STATUS_REFUSED,
-                         "--from reads batches and --into computes them; give one of them");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--from reads batches and --into computes them; give only one of these options");
     if (r->shard != NULL && r->into == NULL)
         return fault_set(f, STATUS_REFUSED, "--shard %.40s requires a folder; give --into FOLDER",
                          r->shard);
@@ -266,7 +268,8 @@ static int tell_shard(const shard_options *r, const shard_request *q, const shar
     const int left = o->mine - o->before - o->done;
     if (left > 0) {
         fprintf(
-            stderr, "beamwork: %s: %d of %d batches of shard %d/%d are missing; start it again\n",
+            stderr,
+            "beamwork: %s: %d of %d batches of shard %d/%d are missing; start the shard again\n",
             o->interrupted ? "interrupted" : "incomplete", left, o->mine, q->index + 1, q->count);
         return EXIT_INTERRUPTED;
     }
@@ -308,7 +311,7 @@ static status take(const shard_options *r, const shard_work *w, const stock *s, 
     stock_missing(s, w, missing, sizeof missing);
     if (s->there < s->batches) {
         fprintf(stderr, "beamwork: incomplete: %s%s\n", missing,
-                r->partial ? "" : "; compute them, or use the rest with --partial");
+                r->partial ? "" : "; compute them, or use the existing batches with --partial");
         out->code = EXIT_INTERRUPTED;
         out->ended = !r->partial;
         if (out->ended)
@@ -348,11 +351,11 @@ void spread_free(spread_end *out)
 
 static const verb_option shards[] = {
     {"shard", 0, "K/N",
-     "compute the K-th of N shards only, each batch into a file below --into; a restart computes "
-     "only "
-     "missing batches",
+     "compute only the K-th of N shards, and write each batch to a file in the folder of --into; a "
+     "restart computes only missing batches",
      .member = offsetof(shard_options, shard), .traits = OPTION_ASIDE},
-    {"into", 0, "FOLDER", "folder of the batches of --shard (without it: of all); it is created",
+    {"into", 0, "FOLDER",
+     "folder for the batches of --shard, or for all batches without --shard; the folder is created",
      .member = offsetof(shard_options, into), .traits = OPTION_ASIDE},
     {"from", 0, "FOLDER",
      "use existing batches instead of computing, as 'beamwork merge' does; may be repeated",

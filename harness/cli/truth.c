@@ -129,11 +129,12 @@ static status show_derived(json_t *list, const case_type *type, const double par
     derived_value *value;
     int count;
     if (case_omits_nothing(type, parameter))
-        return fault_set(f, STATUS_REFUSED,
-                         "no reference value of %s is stored for omit=none, and the program of the "
-                         "case derives only the model of its source; write a scene with 'beamwork "
-                         "scene %s --set omit=none' and derive its values with --scene",
-                         type->name, type->name);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "no reference value of %s is stored for omit=none, and the deriving program of the "
+            "case covers only the model of its source; write a scene with 'beamwork scene %s --set "
+            "omit=none' and derive its values with --scene",
+            type->name, type->name);
     TRY(derive_script("at.py", script, f));
     parameters_source_text(type, parameter, text, sizeof text);
     const status outcome = derive_values(script, type->name, text, &value, &count, f);
@@ -193,7 +194,7 @@ static status show_scene_of(json_t *list, const case_type *type, const double pa
     TRY(outcome);
     TRY(derive_scene(script, text, &value, &count, f));
     if (list == NULL)
-        printf("derived values, as lines for the scene file\ntruths:\n");
+        printf("derived values, in the form of lines for the scene file\ntruths:\n");
     for (int i = 0; i < count; i++) {
         const shown_value v = derived_as(&value[i]);
         if (list != NULL)
@@ -219,8 +220,8 @@ static status show_scene(json_t *list, const case_type *type, const double param
     const fault why = *f;
     return fault_set(
         f, outcome,
-        "%.140s; give `truths` of the scene, numbers or formulas with their source, or "
-        "compare formulations: 'beamwork converge --scene FILE' looks for an agreement",
+        "%.140s; give `truths` in the scene (numbers or formulas with their source), or compare "
+        "formulations: 'beamwork converge --scene FILE' looks for an agreement",
         why.text);
 }
 
@@ -286,12 +287,12 @@ static const verb_group shared[] = {
 const verb verb_truth = {
     "truth",
     "CASE",
-    "reference values of a case at a parameter point; computed on demand",
+    "prints reference values of a case at a parameter point, computed on demand",
     "Prints the reference values of a parameter point: value, uncertainty, unit, kind, model, "
     "source. If none is stored for the model of the case, the deriving program computes them. Your "
     "own scene (--scene FILE) is solved as a network of geometrically exact beams and rigid "
-    "bodies; the output lines can be added to its 'truths'. Exit status: 0 printed, 1 none is "
-    "stored and no program can compute it, 2 invalid input, 4 file, disk or memory.",
+    "bodies; the output lines can be added to 'truths' of the scene. Exit status: 0 printed, 1 no "
+    "value is stored and no program can compute one, 2 invalid input, 4 file, disk or memory.",
     "beamwork truth elastica --set load=3",
     shared,
     NULL,

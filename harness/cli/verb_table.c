@@ -54,17 +54,15 @@ static const manual_row statuses[] = {
     {"2", "refused input"},
     {"3", "no verdict was assigned"},
     {"4", "file, disk or memory"},
-    {"5",
-     "incomplete: interrupted (the verdicts so far are in *.partial.*), or parts are missing; the "
-     "same command continues"},
+    {"5", "incomplete: interrupted (the verdicts so far are in *.partial.*), or parts are missing; "
+          "the same command continues the run"},
     {NULL, NULL},
 };
 static const manual_program about = {
     .verbs = verbs,
     .summary = "verification and benchmarking of three-dimensional beam finite elements",
-    .question =
-        "Which formulation, with how many elements, reaches my tolerance at the lowest cost, and "
-        "what is its verdict?",
+    .question = "Which formulation reaches my tolerance at the lowest cost, with how many "
+                "elements, and what is its verdict?",
     .examples = examples,
     .statuses = statuses,
     .of_compare = "compare, as diff: 0 the same, 1 different, 2 trouble.",
@@ -74,7 +72,7 @@ static int refuse(const char *name)
 {
     char text[200];
     const char *near = choice_nearest(name, name_at, NULL);
-    snprintf(text, sizeof text, "unknown verb '%.60s'%s%s%s; 'beamwork -h' shows them all", name,
+    snprintf(text, sizeof text, "unknown verb '%.60s'%s%s%s; 'beamwork -h' shows all verbs", name,
              near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
              near != NULL ? "'?" : "");
     return message_fail(STATUS_REFUSED, text);
@@ -95,7 +93,8 @@ static int help(void)
 {
     printf("beamwork: %s.\n", about.summary);
     paragraph_write(stdout, 0, 0, about.question);
-    printf("\nusage: beamwork VERB [OPTION...]     beamwork help VERB (or VERB -h): its options\n");
+    printf("\nusage: beamwork VERB [OPTION...]     beamwork help VERB (or VERB -h): options of the "
+           "verb\n");
     for (int i = 0; i < COUNT; i++)
         if (verbs[i]->answer == NULL)
             printf("\n%s\n", verbs[i]->name);
@@ -106,8 +105,8 @@ static int help(void)
         printf("  %-45s %s\n", row->name, row->text);
     printf("\n");
     write_statuses();
-    printf("\nbeamwork --version: versions of the program and its libraries\n"
-           "beamwork help --man: names of its manual pages; with one of them: that page\n");
+    printf("\nbeamwork --version: versions of the program and its libraries\nbeamwork help --man: "
+           "names of the manual pages; with a name: that page\n");
     return EXIT_AS_EXPECTED;
 }
 

@@ -33,7 +33,7 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
     if (e->ended)
         return e->code;
     if (s->unfinished > 0) {
-        fprintf(stderr, "beamwork: %s: %d cells were not run; the verdicts so far are ",
+        fprintf(stderr, "beamwork: %s: %d cells were not run; the existing verdicts are ",
                 r->shards.partial ? "incomplete" : "interrupted", s->unfinished);
         if (file != NULL && output_partial(file->value, partial, NULL) == STATUS_OK)
             fprintf(stderr, "in %s\n", partial);
@@ -133,11 +133,12 @@ static int answer(const command_line *l, void *request)
     verify_request *r = request;
     scenes own;
     if (l->arguments > 0)
-        return message_fail(STATUS_REFUSED, "verify takes no case; select with -k");
+        return message_fail(STATUS_REFUSED, "verify accepts no case; select cases with -k");
     if (r->imported_must_pass && r->imported.count == 0)
         return message_fail(STATUS_REFUSED, "--imported-must-pass requires --imported FILE.h5");
     if (r->verbose && r->shards.quiet)
-        return message_fail(STATUS_REFUSED, "--verbose and --quiet: give one of them");
+        return message_fail(STATUS_REFUSED,
+                            "--verbose and --quiet are both given; give only one of them");
     int code = scenes_read(l, &r->scenes, &own);
     if (code == EXIT_AS_EXPECTED)
         code = verify_scenes(r, &own);
@@ -151,23 +152,23 @@ static const verb_option own[] = {
     {"scene", 0, "FILE",
      "your scene file (YAML) instead of a case, or a folder of them; may be repeated",
      IN(scenes.scene), .traits = OPTION_REPEATS | OPTION_INPUT},
-    {"built-in", 0, NULL, "the built-in cases in addition to those of --scene",
+    {"built-in", 0, NULL, "also run the built-in cases, in addition to the scenes of --scene",
      IN(scenes.built_in)},
     {"deviations", 0, "FILE.csv",
-     "table of your known deviations, in addition to those listed; may be repeated",
+     "table of your known deviations, in addition to the built-in ones; may be repeated",
      IN(scenes.findings), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
     {"imported", 0, "FILE",
-     "results of other programs, stored by 'beamwork import': shown, without effect on the exit "
-     "status; may be repeated",
+     "results of other programs, stored by 'beamwork import'; they are shown but do not affect the "
+     "exit status; may be repeated",
      IN(imported), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
-    {"imported-must-pass", 0, NULL, "verdicts of --imported affect the exit status too",
-     IN(imported_must_pass)},
+    {"imported-must-pass", 0, NULL,
+     "verdicts on the values of --imported also affect the exit status", IN(imported_must_pass)},
     {"shapes", 0, "[STATES]",
-     "store centre lines, sections and resultants of at most STATES states of a path (default: "
-     "5), and 60 frames of a motion, evenly over its time",
+     "store centre lines, sections and resultants of at most STATES states of a path (default: 5), "
+     "and 60 frames of a motion, evenly distributed over time",
      IN(shapes), .least = 1, .most = SHAPES_ALL},
     {"refine", 0, "N",
-     "N more meshes of each series, each with twice the elements, to see whether the verdicts "
+     "add N meshes to each series, each with twice as many elements, to see whether the verdicts "
      "change",
      IN(refine), .least = 1, .most = 10},
     {"tolerance", 0, "R",
@@ -176,12 +177,13 @@ static const verb_option own[] = {
      IN(tolerance), .traits = OPTION_VERDICT, .read = option_error},
     {"not-worse-than", 0, "FILE",
      "results of a previous 'verify -o', or their short table from 'compare FILE -o'. The run "
-     "fails if the error of a mesh is larger by more than 2 %, if a value is missing, if a limit "
-     "changed by more than 0.001 % (unless an exact value checks it as closely), or if an imported "
-     "program is not in this run",
+     "fails if the error of a mesh has grown by more than 2 %, if a value is missing, if a limit "
+     "has changed by more than 0.001 % (unless an exact value checks the limit as accurately), or "
+     "if an imported program is not in this run",
      IN(former), .traits = OPTION_INPUT | OPTION_VERDICT},
-    {"exit-zero", 0, NULL, "exit status 0 for any verdicts; the output files contain the result",
-     IN(exit_zero), .traits = OPTION_ASIDE},
+    {"exit-zero", 0, NULL,
+     "exit status 0 whatever the verdicts; the output files contain the result", IN(exit_zero),
+     .traits = OPTION_ASIDE},
     {"verbose", 'v', NULL, "print every limit, not only the overview", IN(verbose),
      .traits = OPTION_ASIDE},
     {"quiet", 'q', NULL, "print only unexpected verdicts and the final PASS or FAIL sentence",
@@ -194,18 +196,19 @@ static const verb_group shared[] = {
 const verb verb_verify = {
     "verify",
     "",
-    "every formulation on every case, with verdicts against stored reference values",
+    "runs every formulation on every case, with verdicts according to stored reference values",
     "Computes every formulation on every case and parameter point that has a reference value, and "
     "assigns verdicts. A formulation that is named with -f or loaded with --element affects the "
     "exit status: its own known deviations apply (--deviations; none by default), and the "
     "interface requirements are checked first (element-test). A built-in formulation that is not "
-    "accepted yet affects it only if it is named. Exit status: 0 every verdict as expected; 1 a "
-    "verdict differs, or an interface requirement is violated ('undecided' counts as different "
-    "unless a known deviation expects it; more meshes, --refine, or a larger --tolerance may "
-    "decide it); 2 invalid input; 3 no verdict; 4 file, disk or memory; 5 interrupted (Ctrl-C, "
-    "SIGTERM): finished verdicts are in files named .partial. With --exit-zero 0 instead of 1 and "
-    "3. With --shard K/N --into FOLDER: computes a part, 0 when it is complete, 5 when batches are "
-    "missing (start it again); 'beamwork merge' assigns the verdicts",
+    "accepted yet affects the exit status only if it is named. Exit status: 0 every verdict as "
+    "expected; 1 a verdict differs, or an interface requirement is violated ('undecided' counts as "
+    "different unless a known deviation expects it; more meshes, --refine, or a larger --tolerance "
+    "may decide it); 2 invalid input; 3 no verdict; 4 file, disk or memory; 5 interrupted (Ctrl-C, "
+    "SIGTERM): finished verdicts are in files named .partial. With --exit-zero, the status is 0 "
+    "instead of 1 and 3. --shard K/N --into FOLDER computes a part and returns 0 if the part is "
+    "complete, 5 if batches are missing (start the shard again); 'beamwork merge' assigns the "
+    "verdicts",
     "beamwork verify -k \"c_column and collocation\"\n"
     "beamwork verify --shard 1/4 --into parts\n"
     "beamwork verify -o build/results.h5",

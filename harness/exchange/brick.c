@@ -306,8 +306,8 @@ static status fill_walls(const section_spec *spec, const double centroid[2], fac
     for (int i = 0; i < spec->walls; i++) {
         if (axis_of(spec, i) < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "wall %d is oblique: only walls along y and z of the section can be "
-                             "written as solids",
+                             "wall %d is oblique, but only walls along y and z of the section can "
+                             "be written as solids; change it",
                              i);
         strips[i] = strip_of(spec, i);
     }
@@ -344,9 +344,9 @@ static status face_of(const section_spec *spec, const section *constants, face *
     if (spec->kind == SECTION_WALLS)
         return fill_walls(spec, constants->centroid, out, f);
     if (spec->kind != SECTION_RECTANGLE)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "only rectangles and straight walls can be written as solids; give it one of them");
+        return fault_set(f, STATUS_REFUSED,
+                         "only rectangles and straight walls can be written as solids; give the "
+                         "member such a section");
     fill_rectangle(spec, out);
     return STATUS_OK;
 }

@@ -20,8 +20,8 @@ static status check_section(const scene *s, int member, fault *f)
     const section_spec *profile = &s->section[s->member[member].section];
     if (scene_member_tapers(&s->member[member]))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: its section changes along it, which cannot be written as solids; "
-                         "give it one section",
+                         "%s: the section changes along the member, which cannot be written as "
+                         "solids; give the member one section",
                          scene_called(s, SCENE_MEMBERS, member).text);
     brick mesh;
     fault why = {""};
@@ -31,10 +31,10 @@ static status check_section(const scene *s, int member, fault *f)
     const double poisson = profile->young / (2 * profile->shear_modulus) - 1;
     if (poisson > -1 && poisson < 0.5)
         return STATUS_OK;
-    return fault_set(
-        f, STATUS_REFUSED,
-        "%s: E/(2 G) - 1 = %g is impossible for a solid; Poisson's ratio is between -1 and 0.5",
-        scene_called(s, SCENE_MEMBERS, member).text, poisson);
+    return fault_set(f, STATUS_REFUSED,
+                     "%s: E/(2 G) - 1 = %g is impossible for a solid; give moduli with Poisson's "
+                     "ratio between -1 and 0.5",
+                     scene_called(s, SCENE_MEMBERS, member).text, poisson);
 }
 
 static int ends_at_node(const scene *s, int node)
@@ -51,14 +51,14 @@ static status check_member(const scene *s, int member, fault *f)
     const int end[2] = {m->p, m->q};
     if (!is_zero(m->curvature) || !is_zero(m->strain) || m->bow[0] != 0 || m->bow[1] != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: it is curved or strained before it is loaded, which cannot be "
-                         "written as solids; remove that",
+                         "%s: the member is curved or strained before it is loaded, which cannot "
+                         "be written as solids; remove the initial curvature and strain",
                          scene_called(s, SCENE_MEMBERS, member).text);
     for (int i = 0; i < 2; i++)
         if (ends_at_node(s, end[i]) > 1)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: corners of members cannot be written as solids; make it a rigid "
-                             "body with a node for each end (part_of)",
+                             "%s: corners of members cannot be written as solids; make the node a "
+                             "rigid body with a node for each end (part_of)",
                              scene_called(s, SCENE_NODES, end[i]).text);
     if (m->release[0].count + m->release[1].count > 0)
         return fault_set(f, STATUS_REFUSED,
@@ -67,7 +67,7 @@ static status check_member(const scene *s, int member, fault *f)
                          scene_called(s, SCENE_MEMBERS, member).text);
     if (scene_is_founded(m))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a foundation cannot be written with solids; remove it",
+                         "%s: a foundation cannot be written as solids; remove it",
                          scene_called(s, SCENE_MEMBERS, member).text);
     if (scene_is_beside(m, 0) || scene_is_beside(m, 1))
         return fault_set(f, STATUS_REFUSED,
@@ -75,10 +75,10 @@ static status check_member(const scene *s, int member, fault *f)
                          "node at the end (part_of)",
                          scene_called(s, SCENE_MEMBERS, member).text);
     if (m->warp_p != SCENE_WARP_FIXED || m->warp_q != SCENE_WARP_FIXED)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: its ends can warp, but the rigid faces of solids cannot; write warping: fixed",
-            scene_called(s, SCENE_MEMBERS, member).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the ends of the member can warp, but the rigid faces of solids "
+                         "cannot; write warping: fixed",
+                         scene_called(s, SCENE_MEMBERS, member).text);
     return check_section(s, member, f);
 }
 
@@ -101,8 +101,8 @@ static status check_node(const scene *s, int node, fault *f)
     double R[9];
     if (scene_node_axes(n, R))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: supports in rotated axes cannot be written with solids; hold it "
-                         "along the axes of the scene",
+                         "%s: supports along rotated axes cannot be written as solids; hold the "
+                         "node along the axes of the scene",
                          scene_called(s, SCENE_NODES, node).text);
     for (int i = 0; i < 3; i++)
         driven += n->angle[i] >= 0;
@@ -111,15 +111,15 @@ static status check_node(const scene *s, int node, fault *f)
         return STATUS_OK;
     if (n->rotation != SCENE_ROTATION_SPATIAL)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: sequences of rotations and forks cannot be written with solids; hold "
+                         "%s: sequences of rotations and forks cannot be written as solids; fix "
                          "the rotations, or use a rotation vector",
                          scene_called(s, SCENE_NODES, node).text);
     if (!large || held >= 2 || (held == 0 && driven == 0))
         return STATUS_OK;
-    return fault_set(f, STATUS_REFUSED,
-                     "%s: hold none, two or all of its rotations, because rigid faces rotate by a "
-                     "rotation vector",
-                     scene_called(s, SCENE_NODES, node).text);
+    return fault_set(
+        f, STATUS_REFUSED,
+        "%s: rigid faces rotate by a rotation vector; fix none, two or all rotations of the node",
+        scene_called(s, SCENE_NODES, node).text);
 }
 
 static status check_load(const scene *s, int load, fault *f)
@@ -128,23 +128,23 @@ static status check_load(const scene *s, int load, fault *f)
     if (l->kind != SCENE_FORCE && l->kind != SCENE_MOMENT)
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: loads on members and weight cannot be written with solids; put it on nodes",
+            "%s: loads on members and weight cannot be written as solids; apply the load to nodes",
             scene_called(s, SCENE_LOADS, load).text);
     if (l->follower || l->axes != SCENE_AXES_FIXED || !is_zero(l->at))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: only dead loads at nodes, in fixed axes, can be written with solids; change it",
-            scene_called(s, SCENE_LOADS, load).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: only dead loads at nodes, along fixed axes, can be written as "
+                         "solids; change the load",
+                         scene_called(s, SCENE_LOADS, load).text);
     if (!rigid_moves(s, l->where))
         return fault_set(
-            f, STATUS_REFUSED, "%s: no solid ends at its %s; apply it to the moving body",
+            f, STATUS_REFUSED, "%s: no solid ends at its %s; apply the load to the moving body",
             scene_called(s, SCENE_LOADS, load).text, scene_called(s, SCENE_NODES, l->where).text);
     if (l->kind == SCENE_MOMENT && carried_static(s) != SCENE_NONE &&
         rigid_single_axis(&s->node[l->where]) == SCENE_NONE &&
         held_rotations(&s->node[l->where]) < 2)
         return fault_set(f, STATUS_REFUSED,
                          "%s: a moment on a node that can rotate about any axis differs from that "
-                         "of a rotation vector; hold two of its rotations",
+                         "of a rotation vector; fix two rotations of the node",
                          scene_called(s, SCENE_LOADS, load).text);
     return STATUS_OK;
 }
@@ -154,18 +154,18 @@ static status check_analysis(const scene *s, int analysis, fault *f)
     const scene_analysis *a = &s->analysis[analysis];
     if (a->kind != SCENE_LINEAR && a->kind != SCENE_STATIC && a->kind != SCENE_COMPLIANCE)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: linear, static and compliance analyses can be written with solids, "
-                         "but %s cannot; remove it and its quantities",
+                         "%s: linear, static and compliance analyses can be written as solids, but "
+                         "%s cannot; remove the analysis and its quantities",
                          scene_called(s, SCENE_ANALYSES, analysis).text,
                          scene_analysis_name(a->kind));
     if (a->kind == SCENE_STATIC && (analysis != carried_static(s) || scene_rotates(a)))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: only one static path, in axes at rest, can be written with solids; "
-                         "remove this one",
-                         scene_called(s, SCENE_ANALYSES, analysis).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: only one static path, in axes at rest, can be written as solids; remove this path",
+            scene_called(s, SCENE_ANALYSES, analysis).text);
     if (a->kind == SCENE_COMPLIANCE && !rigid_moves(s, scene_compliance_of(a)->node))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: no solid ends at its node; request the value of the moving body",
+                         "%s: no solid ends at the node; request the value of the moving body",
                          scene_called(s, SCENE_ANALYSES, analysis).text);
     return STATUS_OK;
 }
@@ -173,19 +173,20 @@ static status check_analysis(const scene *s, int analysis, fault *f)
 status carried_check(const scene *s, fault *f)
 {
     if (s->members == 0)
-        return fault_set(f, STATUS_REFUSED, "a scene without members has no solid");
+        return fault_set(f, STATUS_REFUSED,
+                         "the scene has no members, so there is no solid; add a member");
     if (s->springs > 0)
         return fault_set(
             f, STATUS_REFUSED,
-            "springs cannot be written with solids; remove them, or replace them by members");
+            "springs cannot be written as solids; remove them, or replace them with members");
     if (s->constraints > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: a constraint cannot be written with solids; make the nodes one body "
-                         "by part_of, or remove it",
+                         "%s: a constraint cannot be written as solids; join the nodes to one body "
+                         "by part_of, or remove the constraint",
                          scene_called(s, SCENE_CONSTRAINTS, 0).text);
     if (s->imperfections > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: an imperfection cannot be written with solids; remove it",
+                         "%s: an imperfection cannot be written as solids; remove it",
                          scene_called(s, SCENE_IMPERFECTIONS, 0).text);
     for (int i = 0; i < s->members; i++)
         TRY(check_member(s, i, f));
@@ -216,7 +217,7 @@ static status check_component(const scene *s, const scene_quantity *q, fault *f)
     const scene_component *c = scene_component_of(q);
     const scene_node *n = &s->node[c->node];
     if (!rigid_moves(s, c->node))
-        return refuse(q, "no solid ends at its node; request the moving body", f);
+        return refuse(q, "no solid ends at the node; request the moving body", f);
     if (q->what.kind != SCENE_REACTION || c->component < SCENE_RX ||
         rigid_single_axis(n) == c->component - SCENE_RX)
         return STATUS_OK;
@@ -260,7 +261,7 @@ static status check_entry(const scene *s, const scene_quantity *q, fault *f)
     if (s->analysis[q->analysis].follows != SCENE_NONE &&
         (e->row >= SCENE_RX || e->column >= SCENE_RX))
         return refuse(
-            q, "rotations about a loaded state cannot be written with solids; remove the quantity",
+            q, "rotations about a loaded state cannot be written as solids; remove the quantity",
             f);
     return check_last(s, q, f);
 }
@@ -269,17 +270,15 @@ static status check_quantity(const scene *s, const scene_quantity *q, fault *f)
 {
     if (q->reduction == SCENE_MAX || q->reduction == SCENE_MIN)
         return refuse(q,
-                      "the maximum and minimum of a path cannot be written with solids; request a "
+                      "the maximum and minimum over a path cannot be written as solids; request a "
                       "value at a station",
                       f);
     if (q->envelope != SCENE_ENVELOPE_NONE)
         return refuse(
-            q,
-            "an envelope cannot be written with solids; request each combination that may govern",
+            q, "an envelope cannot be written as solids; request each combination that may govern",
             f);
     if (scene_abscissa_of(s, q) != SCENE_NONE)
-        return refuse(q, "a curve over another quantity cannot be written with solids; remove x",
-                      f);
+        return refuse(q, "a curve over another quantity cannot be written as solids; remove x", f);
     switch (q->what.kind) {
     case SCENE_COORDINATE:
     case SCENE_REACTION:
@@ -288,7 +287,8 @@ static status check_quantity(const scene *s, const scene_quantity *q, fault *f)
     case SCENE_STIFFNESS_ENTRY:
         return check_entry(s, q, f);
     default:
-        return refuse(q, "quantities of this kind are not printed for solids; remove it", f);
+        return refuse(q, "quantities of this kind are not printed for solids; remove the quantity",
+                      f);
     }
 }
 

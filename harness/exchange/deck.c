@@ -26,11 +26,12 @@ static int path_points_asked(const scene *s, int analysis, const scene_quantity 
 status deck_check(const deck_request *r, fault *f)
 {
     if (r->elements < 1 || r->elements > DECK_MOST_ELEMENTS)
-        return fault_set(f, STATUS_REFUSED, "%d elements along a member: give 1 to %d with -n",
+        return fault_set(f, STATUS_REFUSED,
+                         "%d elements along a member are not possible; give 1 to %d with -n",
                          r->elements, DECK_MOST_ELEMENTS);
     if (r->scene->plane != SCENE_SPACE)
         return fault_set(f, STATUS_REFUSED,
-                         "scene %.60s is held in a plane, but solids are not: remove plane: %s",
+                         "scene %.60s is confined to a plane, but solids are not; remove plane: %s",
                          r->scene->name, scene_plane_name(r->scene));
     TRY(carried_check(r->scene, f));
     return carried_asked_check(r->scene, f);

@@ -131,7 +131,7 @@ static void check_convention(const import_block *b, const import_header *h)
     if (strcmp(ours, h->convention) != 0)
         mistakes_add(b->m, h->convention_line, 1,
                      "convention '%.40s': the moments of the case are %s; give the parameter that "
-                     "changes them, or convert the values",
+                     "changes the convention, or convert the values",
                      h->convention, ours);
 }
 
@@ -141,7 +141,7 @@ static void name_series(import_block *b, const import_header *h, int line)
     if (h->program[0] == '\0')
         mistakes_add(b->m, line, 1, "the program is not named; write '# program: NAME, ELEMENT'");
     else if (strlen(h->program) >= FORMULATION_KEY || strchr(h->program, '/') != NULL)
-        mistakes_add(b->m, h->program_line, 1, "program: at most %d bytes without '/'",
+        mistakes_add(b->m, h->program_line, 1, "program: give at most %d bytes without '/'",
                      FORMULATION_KEY - 1);
     else if (formulation_find(h->program) != NULL)
         mistakes_add(b->m, h->program_line, 1,
@@ -149,7 +149,7 @@ static void name_series(import_block *b, const import_header *h, int line)
                      h->program);
     if (strlen(h->model) >= IMPORTED_WORD || strlen(h->convention) >= IMPORTED_WORD)
         mistakes_add(b->m, h->model_line > 0 ? h->model_line : h->convention_line, 1,
-                     "model and convention are words of at most %d bytes", IMPORTED_WORD - 1);
+                     "model and convention must be words of at most %d bytes", IMPORTED_WORD - 1);
     if (strlen(h->version) >= IMPORTED_WORD)
         mistakes_add(b->m, h->version_line, 1, "version: at most %d bytes", IMPORTED_WORD - 1);
     snprintf(to->version, sizeof to->version, "%.*s", IMPORTED_WORD - 1, h->version);
@@ -210,13 +210,13 @@ static void check_row(const import_block *b, const imported_row *row, const scen
 {
     const int is_curve = q->reduction == SCENE_CURVE;
     if (is_curve && !isfinite(row->x))
-        mistakes_add(b->m, line_of(b, row), 2, "'%s' is a curve: give x, its %s [%s]", q->name,
+        mistakes_add(b->m, line_of(b, row), 2, "'%s' is a curve; give x, its %s [%s]", q->name,
                      q->x.name, q->x.unit);
     if (!is_curve && !isnan(row->x))
-        mistakes_add(b->m, line_of(b, row), 2, "'%s' is not a curve: leave x empty", q->name);
+        mistakes_add(b->m, line_of(b, row), 2, "'%s' is not a curve; leave x empty", q->name);
     if (has_moments(q) && b->found->convention[0] == '\0')
         mistakes_add(b->m, line_of(b, row), 3,
-                     "'%s' depends on the convention of moments on rotating nodes; write '# "
+                     "'%s' depends on the convention for moments on rotating nodes; write '# "
                      "convention: spatial|semitangential|symmetrised'",
                      q->name);
 }

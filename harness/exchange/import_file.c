@@ -175,8 +175,8 @@ static int count_of(const file_reader *r, const char *text, column c)
         return 0;
     if (value >= 1 && value <= MOST_ELEMENTS && value == floor(value))
         return (int)value;
-    mistakes_add(r->m, r->line, 10 + c, "%s '%.40s': give a whole number from 1 to %d", names[c],
-                 text, MOST_ELEMENTS);
+    mistakes_add(r->m, r->line, 10 + c, "%s '%.40s' is not valid; give a whole number from 1 to %d",
+                 names[c], text, MOST_ELEMENTS);
     return 0;
 }
 
@@ -200,14 +200,16 @@ static void read_row(file_reader *r, char *const field[], int count)
     const char *at[COLUMNS] = {0};
     imported_row row;
     if (count > r->fields) {
-        mistakes_add(r->m, r->line, 1, "the row has %d fields for %d columns", count, r->fields);
+        mistakes_add(r->m, r->line, 1, "the row has %d fields, but there are %d columns", count,
+                     r->fields);
         return;
     }
     for (int i = 0; i < count; i++)
         if (r->place[i] >= 0)
             at[r->place[i]] = field[i];
     if (at[QUANTITY] == NULL || at[UNIT] == NULL) {
-        mistakes_add(r->m, r->line, 1, "the row has %d fields for %d columns", count, r->fields);
+        mistakes_add(r->m, r->line, 1, "the row has %d fields, but there are %d columns", count,
+                     r->fields);
         return;
     }
     take_fields(r, at, &row);
@@ -222,7 +224,7 @@ static void read_fields(file_reader *r, char *line)
 {
     char *field[FIELDS];
     if (!r->versioned) {
-        mistakes_add(r->m, r->line, 1, "the file begins with '# beamwork-import: 1'");
+        mistakes_add(r->m, r->line, 1, "the file must begin with '# beamwork-import: 1'");
         r->versioned = 1;
     }
     const int count = line_split(line, field, FIELDS);

@@ -83,7 +83,7 @@ static wanted read_value(const map_reader *r, const document_node *key, const do
     const char *column = map_keys_text(r->m, of, "column", NULL),
                *x = map_keys_text(r->m, of, "abscissa", NULL);
     if (column == NULL || map_keys_text(r->m, of, "unit", NULL) == NULL)
-        document_mistake(r->m, key, 0, "%s: column and unit are needed", key->text);
+        document_mistake(r->m, key, 0, "%s: column and unit are required", key->text);
     else
         w.column = column_named(r, of, column);
     if (x != NULL)
@@ -253,7 +253,7 @@ static status read_keys(map_reader *r, const char *map, const char *const file[]
 {
     map_keys_check(r->root, map_keys, r->m);
     if (strcmp(map_keys_text(r->m, r->root, "beamwork_map", ""), "1") != 0)
-        mistakes_add(r->m, 1, 1, "the map begins with 'beamwork_map: 1'");
+        mistakes_add(r->m, 1, 1, "the map must begin with 'beamwork_map: 1'");
     r->elements = map_keys_count(r->m, r->root, "elements", 0);
     r->unknowns = map_keys_count(r->m, r->root, "unknowns", 0);
     r->seconds = map_keys_number(r->m, r->root, "seconds", NAN);

@@ -131,7 +131,7 @@ static status take_series(store_reader *r, const char *of, const tables *t, cons
     }
     if (is_there(r->s, place, first->formulation))
         return fault_set(r->f, STATUS_REFUSED,
-                         "%.100s: %.60s/%.60s of %.100s is already in this run; give it once",
+                         "%.100s: %.60s/%.60s of %.100s is already in this run; give it only once",
                          r->path, of, parameters[0] != '\0' ? parameters : "default",
                          first->formulation);
     imported *found = gather_rows(first, count);
@@ -207,19 +207,20 @@ static status read_file(store_reader *r, hid_t file)
         strcmp(schema, SCHEMA_NAME) != 0 ||
         !table_reader_attribute_count(file, "schema_version", &version) ||
         version < SCHEMA_OLDEST || version > SCHEMA_VERSION)
-        return fault_set(r->f, STATUS_FAULT,
-                         "%.120s: not a results file; write it with 'beamwork import FILE -o'",
-                         r->path);
+        return fault_set(
+            r->f, STATUS_FAULT,
+            "%.120s: the file is not a results file; write it with 'beamwork import FILE -o'",
+            r->path);
     const hid_t cases = H5Gopen2(file, "cases", H5P_DEFAULT);
     const status outcome = read_cases(r, cases);
     if (cases >= 0)
         H5Gclose(cases);
     TRY(outcome);
     if (r->left->all == 0)
-        return fault_set(
-            r->f, STATUS_REFUSED,
-            "%.120s: it contains no imported results; write it with 'beamwork import FILE -o'",
-            r->path);
+        return fault_set(r->f, STATUS_REFUSED,
+                         "%.120s: the file contains no imported results; write it with 'beamwork "
+                         "import FILE -o'",
+                         r->path);
     return STATUS_OK;
 }
 

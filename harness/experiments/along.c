@@ -19,7 +19,7 @@ static const double rounding =
 
 typedef enum support { CANTILEVER, CLAMPED, PROPPED, HINGED, SUPPORTS } support;
 static const char *const support_name[SUPPORTS] = {
-    "held at its first node", "clamped at both nodes",
+    "clamped at its first node", "clamped at both nodes",
     "clamped at one node and propped at the other", "hinged at both nodes"};
 /* Fixed components of the two nodes for each support, one bit for each component. */
 static const unsigned held[SUPPORTS][2] = {{63, 0}, {63, 63}, {63, 15}, {15, 7}};
@@ -120,10 +120,10 @@ static status measure(const formulation *chosen, softness *out, fault *f)
         out->shear[k] = shear_of(chosen, &c, k);
         if (!(fabs(C[v * SIX + v] / (tip + out->shear[k] * L) - 1) < rounding &&
               fabs(cross / (out->bend[k] * L * L / 2) - 1) < rounding))
-            return fault_set(f, STATUS_REFUSED,
-                             "one element is not exact under a force at its end (along %c by "
-                             "%.2g)",
-                             "yz"[k], C[v * SIX + v] / (tip + out->shear[k] * L) - 1);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "under a force at its end one element is not exact (along %c: relative error %.2g)",
+                "yz"[k], C[v * SIX + v] / (tip + out->shear[k] * L) - 1);
     }
     return STATUS_OK;
 }
@@ -225,9 +225,9 @@ static void compare(const formulation *chosen, support of, const softness *soft,
         char words[SPECIMEN_WORDS];
         claims_departs(
             one, fabs(a - b) / size_of(soft, c, reaction),
-            "loads along it: one element %s has %.9g instead of %.9g as %s%s; if 'measured' names "
-            "a stiffness, correct that first; otherwise the strains: they use r and R of "
-            "node_state, and x axes that lie along the element at rest",
+            "loads along it: one element %s gives %.9g instead of %.9g as %s%s; if 'measured' "
+            "names a stiffness, correct that stiffness first; otherwise correct the strains, which "
+            "use r and R of node_state and x axes that lie along the element at rest",
             support_name[of], a, b, reaction ? "reaction to the " : "",
             specimen_coordinate(NODE_COORDINATES * node + c, words));
     }
@@ -321,16 +321,14 @@ static void check_taken(const specimen *s, claims *c)
     specimen_state(s, 0.0002, 5, bent);
     specimen_carry(s, turn, bent, x);
     claim *derives =
-              claims_open(c, "under a load of its own, K is the derivative of the forces", 1e-7),
-          *sums = claims_open(c, "and the load is the sum of the forces", 1e-9);
+              claims_open(c, "K is the derivative of the forces under a distributed load", 1e-7),
+          *sums = claims_open(c, "the forces add up to the distributed load", 1e-9);
     specimen_rest(s, inner);
     status outcome = forces_under(&of, x, F, K);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
         outcome = stencil_first(forces_of, &of, X, a, found[a]) ? STATUS_NOT_CONVERGED : STATUS_OK;
-    claims_asks(
-        derives, outcome == STATUS_OK,
-        "along: a state under a small load is outside the range that the element can evaluate%s",
-        s->words);
+    claims_asks(derives, outcome == STATUS_OK,
+                "along: the element cannot evaluate a state under a small load%s", s->words);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
         for (int b = 0; b < X;
              b++) { /* differences along the exponential chart give the symmetric part of K */
@@ -351,7 +349,7 @@ static void check_taken(const specimen *s, claims *c)
         for (int j = 0; j < ELEMENT_ALONG_POINTS; j++)
             load += l * weight[j] * of.q[3 * j + i];
         claims_departs(sums, fabs(F[i] + F[NODE_COORDINATES + i] + load) / (size * l),
-                       "along: forces on the nodes are %.6g for a load of %.6g%s",
+                       "along: the sum of the nodal forces is %.6g for a load of %.6g%s",
                        -F[i] - F[NODE_COORDINATES + i], load, s->words);
     }
 }

@@ -161,7 +161,9 @@ void batch_clean(const char *folder, const char *name, int gone)
 
 static status no_batch(const char *path, fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "%.200s: not a batch of this program, or damaged", path);
+    return fault_set(f, STATUS_FAULT,
+                     "%.200s: the file is not a batch of this program, or it is damaged; delete it",
+                     path);
 }
 
 /* Copies a string of the label. Returns 0, or -1 if the string is missing or too long. */
@@ -253,7 +255,8 @@ status batch_open(const char *path, batch_label *out, FILE **from, long *end, fa
     long size;
     memset(out, 0, sizeof *out);
     if (checksum_check(path, NULL) != STATUS_OK)
-        return fault_set(f, STATUS_FAULT, "%.200s: cut short, damaged or altered", path);
+        return fault_set(f, STATUS_FAULT,
+                         "%.200s: the file is truncated, damaged or altered; delete it", path);
     FILE *file = fopen(path, "rbe");
     if (file == NULL)
         return unreadable(path, f);
@@ -281,19 +284,20 @@ status batch_belongs(const batch_label *b, const shard_work *w, const char *path
 {
     if (strcmp(b->verb, w->verb) != 0 || strcmp(b->request, w->request) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%.120s: a batch of another request (%.20s %.100s); use a separate folder "
-                         "for each request",
+                         "%.120s: the batch belongs to another request (%.20s %.100s); use a "
+                         "separate folder for each request",
                          path, b->verb, b->request);
     if (strcmp(b->build, w->build) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%.120s: a batch of another build (%.60s; this is %.60s); use the program "
-                         "that computed it, or a new folder",
+                         "%.120s: the batch was computed by another build (%.60s; this is %.60s); "
+                         "use that build, or a new folder",
                          path, b->build, w->build);
     if (strcmp(b->plan, w->plan) != 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "%.120s: a batch of the same request, computed with other reference "
-                         "values, scenes or formulations; use those, or a new folder",
-                         path);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%.120s: the batch belongs to the same request, but was computed with other reference "
+            "values, scenes or formulations; use those, or a new folder",
+            path);
     return STATUS_OK;
 }
 

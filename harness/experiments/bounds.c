@@ -45,13 +45,14 @@ static int untouched(const double *word)
 /* Checks an output and frees the guarded memory. must 1: the output must be filled completely. */
 static void look(guarded *g, int must, const specimen *s, claims *c)
 {
-    claim *beside = claims_open(c, "no memory outside an output is changed", 0),
+    claim *beside = claims_open(c, "no memory outside an output changes", 0),
           *filled = claims_open(c, "outputs are filled completely", 0);
     for (int i = 0; i < GUARD; i++) {
         claims_asks(beside, untouched(&g->words[GUARD - 1 - i]),
-                    "%s: entry %d is written, before its first%s", g->name, -i - 1 + 1, s->words);
+                    "%s: entry %d, before the first entry, is written%s", g->name, -i - 1 + 1,
+                    s->words);
         claims_asks(beside, untouched(&g->words[GUARD + g->size + i]),
-                    "%s: it has %d entries, and entry %d is written%s", g->name, g->size,
+                    "%s: there are %d entries, but entry %d is written%s", g->name, g->size,
                     g->size + i + 1, s->words);
     }
     for (int i = 0; i < g->size && must; i++)
@@ -204,11 +205,12 @@ static void check(const specimen *s, claims *c)
     in_time(s, x, c);
     forces(s, x, c);
     data(s, c);
-    claims_asks(inputs, memcmp(given, x, (size_t)s->nodes * sizeof *x) == 0,
-                "strain, inertia: the states of the nodes are changed; they are read only%s",
-                s->words);
+    claims_asks(
+        inputs, memcmp(given, x, (size_t)s->nodes * sizeof *x) == 0,
+        "strain, inertia: the element changes the states of the nodes, which are read-only%s",
+        s->words);
     claims_asks(inputs, memcmp(kept, e, (size_t)s->strains * sizeof *e) == 0,
-                "stress: the strains are changed; they are read only%s", s->words);
+                "stress: the element changes the strains, which are read-only%s", s->words);
 }
 
 void checks_bounds(const formulation *chosen, claims *out)
@@ -283,8 +285,8 @@ static void same(const call_account *a, const call_account *b, const char *after
 {
     const char *other = apart(a, b);
     claims_asks(one, other == NULL,
-                "%s differs after %s; store nothing between calls, neither in static variables nor "
-                "in the data%s",
+                "%s differs after %s; do not store anything between calls, neither in static "
+                "variables nor in the data%s",
                 other, after, s->words);
 }
 
@@ -333,7 +335,7 @@ static int in_its_place(const specimen *s, const call_account *before, const nod
                     f.text, s->words);
     } else {
         tell(s, x, &after);
-        same(before, &after, "another element stood in its memory", s, one);
+        same(before, &after, "another element was in its memory", s, one);
     }
     free(kept);
     return again;
@@ -379,7 +381,7 @@ static void two_ways(const specimen *s, const call_account *before, const node_s
     specimen_settled(s, e, inner, &(stress_output){.energy = &energy});
     claims_departs(one, fabs(energy / before->energy - 1),
                    "stress, update: the same strains have an energy of %.9g J, but %.9g J when "
-                   "evaluated after other strains; it must not depend on the path%s",
+                   "evaluated after other strains; the energy must not depend on the path%s",
                    before->energy, energy, s->words);
 }
 
@@ -420,7 +422,7 @@ static void stateless_check(const specimen *s, claims *c)
 {
     call_account first = {0}, before, between, after;
     node_state x[ELEMENT_MAX_NODES], y[ELEMENT_MAX_NODES];
-    claim *one = claims_open(c, "the same call gives the same bits", 0);
+    claim *one = claims_open(c, "the same call gives bit-for-bit equal results", 0);
     specimen_state(s, 0.04, 41, x);
     specimen_state(s, 0.06, 43, y);
     tell_first(s, x, &first);
@@ -438,12 +440,12 @@ static void stateless_check(const specimen *s, claims *c)
     claims_doing(c, "outputs one by one%s", s->words);
     alone(s, &before, x, claims_open(c, "outputs do not depend on each other", 0));
     if (s->inner > 0)
-        two_ways(s, &before, x, claims_open(c, "the path does not matter", 1e-9));
+        two_ways(s, &before, x, claims_open(c, "the result does not depend on the path", 1e-9));
 }
 
 void checks_stateless(const formulation *chosen, claims *out)
 {
     specimens_each(chosen, out, stateless_check);
     if (element_inner(chosen->type, chosen->option) == 0)
-        claims_not_made(out, "the path does not matter", "no unknowns of its own");
+        claims_not_made(out, "the result does not depend on the path", "no unknowns of its own");
 }

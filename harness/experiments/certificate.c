@@ -136,7 +136,7 @@ static void stop_late(tester *t, int time_limit)
 static void pass_over(certificate *of, int part)
 {
     char why[CLAIM_SENTENCE];
-    snprintf(why, sizeof why, "not checked: '%s' hit the time limit", of->late);
+    snprintf(why, sizeof why, "not checked: '%s' exceeded the time limit", of->late);
     claims_not_made(&of->part[part].claims, certificate_part_name(part), why);
 }
 
@@ -356,9 +356,9 @@ static void write_measures(FILE *to, screen look, const certificate *c, int part
     for (int i = 0; i < own->measures.count; i++)
         write_measure(to, &own->measures.measure[i], part == CHECKS_FAMILIES + 3, verbose);
     if (part == CHECKS_FAMILIES + 2 && c->chosen.type->inertia == NULL)
-        fputs(
-            "    vibration: with the mass that beamwork computes; the element gives no 'inertia'\n",
-            to);
+        fputs("    vibration: with the mass computed by beamwork, because the element has no "
+              "'inertia'\n",
+              to);
     write_claims(to, look, &own->claims, verbose);
 }
 
@@ -391,9 +391,8 @@ static void write_one(FILE *to, screen look, const certificate *c, int verbose, 
         if (!quiet || claims_outcome(&c->part[i].claims) == CLAIM_BROKEN)
             write_family(to, look, c, i, verbose);
     if (!quiet)
-        fputs("measured: errors by numbers of elements (states: 4 of unequal lengths; orders), and "
-              "by "
-              "thickness\n",
+        fputs("measured: errors over elements (states: 1 and 4 unequal elements) with orders, and "
+              "over thickness\n",
               to);
     for (int i = CHECKS_FAMILIES; i < CERTIFICATE_PARTS; i++)
         if (!quiet)

@@ -279,7 +279,7 @@ static const char *what_is_hashed(const certificate *c)
     const char *from = formulations_element(c->chosen.type);
     if (from == NULL)
         return "of the program, which contains it";
-    return strncmp(from, "exec:", 5) == 0 ? "of the files that its command names" : "of its file";
+    return strncmp(from, "exec:", 5) == 0 ? "of the files named by its command" : "of its file";
 }
 
 /* Writes what was tested, and the version of the program. */
@@ -335,7 +335,7 @@ static void write_one(FILE *to, int latex, const certificate *c)
     for (int i = 0; i < MEASURED_GROUPS; i++) {
         snprintf(words, sizeof words, "%s%s", caption[i],
                  i == 2 && c->chosen.type->inertia == NULL
-                     ? "; vibration with the mass that beamwork computes"
+                     ? "; vibration with the mass computed by beamwork"
                      : "");
         begin(&t, latex, c, certificate_part_name(CHECKS_FAMILIES + i), words);
         fill_measures(&t, c, i);

@@ -6,23 +6,22 @@
 #include "elements/math/dense.h"
 
 const checks_family checks_families[CHECKS_FAMILIES] = {
-    {"declared", "its declarations are consistent", checks_declared},
-    {"features", "what it declares is supported alone, in subsets and in the cases",
-     checks_features},
+    {"declared", "the declarations are consistent", checks_declared},
+    {"features", "each declared feature works alone, in subsets and in the cases", checks_features},
     {"derivatives", "J and H are the derivatives of the strains", checks_derivatives},
     {"energy", "stress, C and G derive from the energy, C and G are symmetric", checks_energy},
     {"force", "force and stiffness derive from the energy", checks_force},
-    {"motion", "rigid motion, order of the nodes and units change nothing", checks_motion},
-    {"stateless", "the same call gives the same bits, regardless of previous calls",
+    {"motion", "rigid motion, node order and units do not change the results", checks_motion},
+    {"stateless", "equal calls give bit-for-bit equal results, whatever came before",
      checks_stateless},
-    {"many", "many elements at once give the same results as one at a time", checks_many},
+    {"many", "many elements at once give the same results as each element alone", checks_many},
     {"bounds", "outputs are filled completely; no memory outside them changes", checks_bounds},
-    {"unsound", "NaN and Inf are reported, not swallowed", checks_unsound},
-    {"mass", "mass matrix: symmetric, positive, mass and moments of the beam", checks_mass},
+    {"unsound", "NaN and Inf are reported and not suppressed", checks_unsound},
+    {"mass", "the mass matrix is positive definite and has the mass of the beam", checks_mass},
     {"along", "loads along one element are as exact as forces at its nodes", checks_along},
     {"rotating", "centrifugal and gyroscopic terms derive from the kinetic energy",
      checks_rotating},
-    {"in_time", "inertia forces in time derive from the kinetic energy", checks_in_time},
+    {"in_time", "inertia forces during a motion derive from the kinetic energy", checks_in_time},
     {"history", "committed values continue the strains", checks_history},
 };
 
@@ -41,8 +40,8 @@ static void rigid(const specimen *s, double size, const double turn[3], claim *o
     s->type.strain(s->data, carried, &(strain_output){.e = carried_e, .history = s->history});
     for (int i = 0; i < s->strains; i++)
         claims_departs(one, fabs(carried_e[i] - e[i]) / s->request.length,
-                       "strain: when the element is rotated by (%g, %g, %g) rad and shifted as a "
-                       "whole, strain %d changes from %.6g to %.6g m; measure it in axes that "
+                       "strain: if the element is rotated by (%g, %g, %g) rad and shifted as a "
+                       "whole, strain %d changes from %.6g to %.6g m; measure strains in axes that "
                        "rotate with the element%s",
                        turn[0], turn[1], turn[2], i + 1, e[i], carried_e[i], s->words);
 }
@@ -84,8 +83,8 @@ static void node_order(const specimen *s, double size, claim *one)
     energy_of(s, x, &there);
     energy_of(s, reversed, &back);
     claims_departs(one, claims_share(fabs(back - there), fabs(there)),
-                   "strain, stress: with its nodes exchanged the element has an energy of %.9g J "
-                   "instead of %.9g J; correct it, or declare LIMIT_ORDER_DEPENDENT%s",
+                   "strain, stress: if its nodes are exchanged, the element has an energy of %.9g "
+                   "J instead of %.9g J; correct the functions, or declare LIMIT_ORDER_DEPENDENT%s",
                    back, there, s->words);
 }
 
@@ -95,11 +94,10 @@ static void has_energy(const specimen *s, claim *one)
     node_state x[ELEMENT_MAX_NODES];
     specimen_state(s, 0.05, 3, x);
     energy_of(s, x, &energy);
-    claims_asks(
-        one, energy != 0,
-        "strain, stress: the deformed element has no energy: its strains or its stresses are "
-        "all zero%s",
-        s->words);
+    claims_asks(one, energy != 0,
+                "strain, stress: the deformed element has no energy, because all its strains or "
+                "all its stresses are zero%s",
+                s->words);
 }
 
 /* Checks the same element in m, mm and um: the energies in joules must be equal. */
@@ -124,16 +122,17 @@ static void units(const specimen *s, claim *one)
         specimen_free(&other);
     }
     for (int k = 1; k < 3; k++)
-        claims_departs(one, claims_share(fabs(energy[k] - energy[0]), fabs(energy[0])),
-                       "prepare, stress: the same element in units of %g m has an energy of %.9g J "
-                       "instead of %.9g J; is a bare number compared with a length?%s",
-                       unit[k], energy[k], energy[0], s->words);
+        claims_departs(
+            one, claims_share(fabs(energy[k] - energy[0]), fabs(energy[0])),
+            "prepare, stress: the same element in units of %g m has an energy of %.9g J instead of "
+            "%.9g J; check that no length is compared with a dimensionless number%s",
+            unit[k], energy[k], energy[0], s->words);
 }
 
 static void check(const specimen *s, claims *c)
 {
     static const double turn[][3] = {{0.71, -1.93, 1.37}, {0, 0, 2.2}, {3.1, 0, 0}, {0, -1.6, 0}};
-    claims_doing(c, "strain of an element that is turned%s", s->words);
+    claims_doing(c, "strain of a rotated element%s", s->words);
     for (size_t k = 0; k < sizeof turn / sizeof turn[0] && !(s->type.limits & LIMIT_NOT_OBJECTIVE);
          k++) {
         rigid(s, 0, turn[k], claims_open(c, "rigid motion causes no strain", 1e-14));
@@ -144,23 +143,25 @@ static void check(const specimen *s, claims *c)
     if (!(s->type.limits & LIMIT_ORDER_DEPENDENT) && s->values == 0 && s->made.curvature[0] == 0 &&
         s->made.form == PROFILES_RECTANGLE) {
         if (s->type.offers & FEATURE_LARGE)
-            node_order(s, 0.05,
-                       claims_open(c, "exchanging the nodes does not change the energy", 1e-9));
+            node_order(
+                s, 0.05,
+                claims_open(c, "the energy does not change if the nodes are exchanged", 1e-9));
         else /* relative to the energy, second-order terms are as large as the strains */
-            node_order(s, 1e-5,
-                       claims_open(c, "exchanging the nodes does not change the energy", 5e-5));
+            node_order(
+                s, 1e-5,
+                claims_open(c, "the energy does not change if the nodes are exchanged", 5e-5));
     }
     claims_doing(c, "strain and stress of a deformed element%s", s->words);
     has_energy(s, claims_open(c, "a deformed element has energy", 0));
     claims_doing(c, "prepare, strain and stress in units of mm and um%s", s->words);
-    units(s, claims_open(c, "the unit of length does not change the energy", 1e-10));
+    units(s, claims_open(c, "the energy does not depend on the unit of length", 1e-10));
 }
 
 void checks_motion(const formulation *chosen, claims *out)
 {
     specimens_each(chosen, out, check);
     if (chosen->type->limits & LIMIT_ORDER_DEPENDENT)
-        claims_not_made(out, "exchanging the nodes does not change the energy",
+        claims_not_made(out, "the energy does not change if the nodes are exchanged",
                         "declares LIMIT_ORDER_DEPENDENT");
     else if (element_history(chosen->type, chosen->option) > 0)
         claims_not_made(out, "exchanging the nodes does not change the energy",
@@ -209,7 +210,7 @@ static void spoil(const specimen *s, double by, claim *one)
                 x[k].R[j] = by;
             claims_asks(one, !swallowed(s, x),
                         "strain, stress: a %s of node %d that is %g gives finite strains and "
-                        "stresses; pass it on, or return a status%s",
+                        "stresses; let NaN and Inf propagate, or return a status%s",
                         what[i == 3], k + 1, by, s->words);
         }
 }
@@ -233,8 +234,8 @@ static void spoil_strains(const specimen *s, double by, claim *one)
             s->type.stress(s->data, e, inner, &(stress_output){.energy = &energy, .sigma = sigma});
         claims_asks(one,
                     outcome != STATUS_OK || !isfinite(energy) || !all_finite(s->strains, sigma),
-                    "stress: strain %d that is %g gives a finite energy and finite stresses; pass "
-                    "it on, or return a status%s",
+                    "stress: strain %d that is %g gives a finite energy and finite stresses; let "
+                    "NaN and Inf propagate, or return a status%s",
                     i + 1, by, s->words);
     }
 }
@@ -265,7 +266,7 @@ static void unsound_check(const specimen *s, claims *c)
         const double size = far[k];
         claims_doing(c, "strain and stress of a state %g lengths and radians away%s", size,
                      s->words);
-        far_away(s, size, claims_open(c, "calls with far states return", 0));
+        far_away(s, size, claims_open(c, "calls with states far from rest return", 0));
     }
 }
 

@@ -98,15 +98,14 @@ static void theories(const element_type *t, claim *one)
         one,
         ((t->offers & FEATURE_ENGESSER) != 0) == ((t->shear_theories & SHEAR_ENGESSER) != 0) &&
             ((t->offers & FEATURE_HARINGX) != 0) == ((t->shear_theories & SHEAR_HARINGX) != 0),
-        "shear_theories: FEATURE_ENGESSER or FEATURE_HARINGX is offered without its theory, "
-        "or the other way round");
+        "shear_theories: FEATURE_ENGESSER and SHEAR_ENGESSER, or FEATURE_HARINGX and "
+        "SHEAR_HARINGX, are not declared together; declare both or neither");
     claims_asks(one, !own || t->shear_theories == SHEAR_OWN,
-                "shear_theories: SHEAR_OWN excludes other theories; "
-                "set it alone");
+                "shear_theories: SHEAR_OWN excludes other theories; set only SHEAR_OWN");
     claims_asks(one, own == (t->own_theory != NULL),
                 own ? "own_theory: describe SHEAR_OWN and its source in one line"
-                    : "own_theory: is given, but shear_theories has no SHEAR_OWN; remove it, or "
-                      "set SHEAR_OWN");
+                    : "own_theory: it is given, but shear_theories has no SHEAR_OWN; remove "
+                      "own_theory, or set SHEAR_OWN");
 }
 
 static void words(const element_type *t, claim *one)
@@ -118,19 +117,19 @@ static void words(const element_type *t, claim *one)
                 "summary: give one line");
     claims_asks(one, t->source != NULL && t->source[0] != '\0',
                 "source: name the paper and its equations");
-    claims_asks(
-        one, (t->lacks != 0) == (t->lacks_by != NULL),
-        t->lacks != 0
-            ? "lacks_by: name the equations that omit it"
-            : "lacks_by: is given, but 'lacks' is empty; remove it, or declare what is lacking");
+    claims_asks(one, (t->lacks != 0) == (t->lacks_by != NULL),
+                t->lacks != 0
+                    ? "lacks_by: name the equations that omit the physics declared in 'lacks'"
+                    : "lacks_by: it is given, but 'lacks' is empty; remove lacks_by, or declare "
+                      "the omitted physics in 'lacks'");
     claims_asks(one, !(t->lacks & LACKS_SHEAR_Y) || t->offers & FEATURE_SHEAR,
-                "lacks: LACKS_SHEAR_Y is for types that support shear; remove it");
+                "lacks: LACKS_SHEAR_Y is only for types that support shear; remove it");
     claims_asks(one, !(t->offers & FEATURE_ROTARY_INERTIA) || t->offers & FEATURE_MASS,
                 "offers: FEATURE_ROTARY_INERTIA requires FEATURE_MASS");
     claims_asks(one, ((t->limits & LIMIT_TENSION) != 0) == (t->tension != NULL),
-                "tension: requires LIMIT_TENSION; give both or none");
+                "tension: it requires LIMIT_TENSION; give both or neither");
     claims_asks(one, !t->spreads || (t->inertia != NULL && t->offers & FEATURE_MASS),
-                "spreads: requires 'inertia' and FEATURE_MASS; add them, or remove 'spreads'");
+                "spreads: it requires 'inertia' and FEATURE_MASS; add them, or remove 'spreads'");
 }
 
 static void orders(const formulation *chosen, claim *one)
@@ -140,8 +139,9 @@ static void orders(const formulation *chosen, claim *one)
         const element_order order =
             element_order_in(chosen->type, (element_analysis)a, chosen->option);
         claims_asks(one, order.least >= 1 && order.highest >= order.least,
-                    "order: %d to %d in %s; give least >= 1 and highest >= least", order.least,
-                    order.highest, analysis[a]);
+                    "order: %d to %d in %s; give a lowest order of at least 1 and a highest order "
+                    "that is not smaller",
+                    order.least, order.highest, analysis[a]);
     }
 }
 
@@ -150,19 +150,23 @@ static void sizes(const formulation *chosen, claim *one)
     const element_type *t = chosen->type;
     const int inner = element_inner(t, chosen->option), memory = element_memory(t, chosen->option);
     claims_asks(one, inner == 0 || t->update != NULL,
-                "update: the type has %d internal unknowns, but no function that corrects them",
+                "update: the type has %d internal unknowns but no function that corrects them; add "
+                "'update'",
                 inner);
-    claims_asks(one, inner == 0 || memory > 0,
-                "memory: the type has %d internal unknowns, but no memory for update", inner);
-    claims_asks(one, inner >= 0 && memory >= 0, "inner, memory: %d and %d; neither may be negative",
-                inner, memory);
+    claims_asks(
+        one, inner == 0 || memory > 0,
+        "memory: the type has %d internal unknowns but no memory for 'update'; set 'memory'",
+        inner);
+    claims_asks(one, inner >= 0 && memory >= 0,
+                "inner, memory: the values are %d and %d; neither may be negative", inner, memory);
 }
 
 static void options(const element_type *t, claim *one)
 {
     const int count = parameter_count(t->options);
     claims_asks(one, count <= ELEMENT_MAX_OPTIONS,
-                "options: there are %d, but at most %d are allowed", count, ELEMENT_MAX_OPTIONS);
+                "options: there are %d options, but at most %d are allowed", count,
+                ELEMENT_MAX_OPTIONS);
     for (int i = 0; i < count; i++) {
         const parameter_type *o = parameter_at(t->options, i);
         const int choices = parameter_choices(o);

@@ -9,7 +9,7 @@ enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 /* allowed error, relative to the largest entry for the same strain */
 static const double allowed = 1e-9;
 static const char *const claim_J = "J is the derivative of the strains",
-                         *const claim_H = "H is the second derivative";
+                         *const claim_H = "H is the second derivative of the strains";
 
 static int strains_at(const void *context, int i, double si, int j, double sj, double values[])
 {
@@ -89,8 +89,8 @@ static void compare_H(const specimen *s, int strain, const double H[], const dou
             const double given = H[a * n + b] * ua * ub;
             claims_departs(one, claims_share(fabs(given - found), size),
                            "H: the second derivative of strain %d with respect to coordinates %d "
-                           "and %d (%s, %s) "
-                           "is %.6g, differences of J give %.6g: a relative difference of %.1e%s",
+                           "and %d (%s, %s) is %.6g, but finite differences of J give %.6g, a "
+                           "relative difference of %.1e%s",
                            strain + 1, a + 1, b + 1, specimen_coordinate(a, first),
                            specimen_coordinate(b, other), H[a * n + b], found / (ua * ub),
                            claims_share(fabs(given - found), size), s->words);
@@ -143,7 +143,7 @@ void checks_derivatives(const formulation *chosen, claims *out)
 {
     const element_type *t = chosen->type;
     if (t->force != NULL) {
-        claims_not_made(out, claim_J, "provides forces: has no strains of its own");
+        claims_not_made(out, claim_J, "the element provides forces and has no strains");
         return;
     }
     if (t->leaves & LEAVES_J)
@@ -162,7 +162,8 @@ void checks_derivatives(const formulation *chosen, claims *out)
 enum { MANY_M = SPECIMEN_STRAINS, MANY_N = SPECIMEN_COORDINATES, MANY = 5 };
 
 static const double longer = 1.7 * 0.2385; /* [m] length of an element of the second kind */
-static const char *const claim_name = "many at once give the same results as one by one";
+static const char *const claim_name =
+    "results for many elements at once equal those for each alone";
 
 /* Results of one element. They exclude values that would be computed by finite differences. */
 typedef struct many_answers {
@@ -224,8 +225,8 @@ static void differ(const many_batch *b, int k, const char *what, const char *ent
                    double together, double size, claim *one)
 {
     claims_departs(one, fabs(together - alone) / (size > 0 ? size : 1),
-                   "many at once: the %s differ from those one by one: element %d of %d, %s: %.9g "
-                   "instead of %.9g; each element has its own values%s",
+                   "many at once: the %s differ from those of single evaluations (element %d of "
+                   "%d, %s: %.9g instead of %.9g); compute separate values for each element%s",
                    what, k + 1, MANY, entry, together, alone, b->of[k]->words);
 }
 
@@ -280,7 +281,8 @@ static void compare_stresses(const many_batch *b, int k, claim *one)
     const double sigma = many_largest(m, a->sigma), C = many_largest(m * m, a->C);
     char what[SPECIMEN_WORDS];
     claims_asks(one, a->outcome == t->outcome,
-                "many at once: element %d of %d has status '%s', but '%s' when evaluated alone%s",
+                "many at once: the status of element %d of %d is '%s', but '%s' if the element is "
+                "evaluated alone%s",
                 k + 1, MANY, status_name(t->outcome), status_name(a->outcome), b->of[k]->words);
     if (a->outcome != STATUS_OK || t->outcome != STATUS_OK)
         return;
@@ -339,7 +341,7 @@ void checks_many(const formulation *chosen, claims *out)
 {
     const element_type *t = chosen->type;
     if (t->strain_many == NULL && t->stress_many == NULL && t->force_many == NULL)
-        claims_not_made(out, claim_name, "it evaluates one element at a time");
+        claims_not_made(out, claim_name, "the formulation evaluates one element at a time");
     else
         specimens_each(chosen, out, many_check);
 }

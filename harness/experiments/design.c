@@ -19,15 +19,15 @@ static status count_grid(design *d, fault *f)
     for (int i = 0; i < d->axes; i++) {
         const sweep_axis *a = &d->axis[i];
         if (a->count == 0)
+            return fault_set(f, STATUS_REFUSED,
+                             "--vary %s: the number of parts is missing; write %s=%g..%g/N, or "
+                             "--design sobol --points N",
+                             a->of->name, a->of->name, a->from, a->to);
+        if (d->points > DESIGN_MOST_POINTS / a->count)
             return fault_set(
                 f, STATUS_REFUSED,
-                "--vary %s: give the number of parts: write %s=%g..%g/N, or --design sobol "
-                "--points N",
-                a->of->name, a->of->name, a->from, a->to);
-        if (d->points > DESIGN_MOST_POINTS / a->count)
-            return fault_set(f, STATUS_REFUSED,
-                             "more than %d points; give fewer parts, or --design sobol --points N",
-                             DESIGN_MOST_POINTS);
+                "the sweep has more than %d points; give fewer parts, or --design sobol --points N",
+                DESIGN_MOST_POINTS);
         d->points *= a->count;
     }
     return STATUS_OK;
@@ -39,13 +39,13 @@ static status check_box(const design *d, fault *f)
                                              : (int)gsl_qrng_halton->max_dimension;
     for (int i = 0; i < d->axes; i++)
         if (d->axis[i].count > 0 && d->axis[i].value == NULL)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "--vary %s: '/%d' is for a grid; remove it; --points gives the number of points",
-                d->axis[i].of->name, d->axis[i].count - 1);
+            return fault_set(f, STATUS_REFUSED,
+                             "--vary %s: '/%d' applies only to a grid; remove it, and give the "
+                             "number of points with --points",
+                             d->axis[i].of->name, d->axis[i].count - 1);
     if (d->kind != DESIGN_RANDOM && d->axes > most)
         return fault_set(f, STATUS_REFUSED,
-                         "--design %s supports at most %d parameters; use random",
+                         "--design %s supports at most %d parameters; use --design random",
                          design_name(d->kind), most);
     return STATUS_OK;
 }
@@ -118,7 +118,8 @@ static status set_marks(design *d, fault *f)
 static status fill_box(design *d, long points, fault *f)
 {
     if (points < 1 || points > DESIGN_MOST_POINTS)
-        return fault_set(f, STATUS_REFUSED, "--design %s: give the number of points: --points N",
+        return fault_set(f, STATUS_REFUSED,
+                         "--design %s: the number of points is missing; add --points N",
                          design_name(d->kind));
     d->points = points;
     TRY(check_box(d, f));
@@ -269,8 +270,8 @@ static status read_end(const sweep_axis *a, const char *text, size_t length, dou
     if (length > 0 && length < TEXT && number_read(one, &end, out) && *end == '\0')
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "--vary %s: '%.60s' is not a number; values are SI without units, as "
-                     "%s=0.1..0.5/4",
+                     "--vary %s: '%.60s' is not a number; give values in SI units, without the "
+                     "unit, such as %s=0.1..0.5/4",
                      a->of->name, one, a->of->name);
 }
 
@@ -282,9 +283,10 @@ static status read_parts(const char *text, size_t length, sweep_axis *a, fault *
     errno = 0;
     const long parts = strtol(one, &end, 10);
     if (end == one || *end != '\0' || errno != 0 || parts < 1 || parts >= AXIS_MOST_VALUES)
-        return fault_set(f, STATUS_REFUSED,
-                         "--vary %s: '%.40s' parts; give a whole number from 1 to %d", a->of->name,
-                         one, AXIS_MOST_VALUES - 1);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--vary %s: '%.40s' is not a valid number of parts; give a whole number from 1 to %d",
+            a->of->name, one, AXIS_MOST_VALUES - 1);
     a->count = (int)parts + 1;
     return STATUS_OK;
 }
@@ -293,13 +295,13 @@ static status check_ends(const case_type *type, const sweep_axis *a, fault *f)
 {
     if (a->kind == AXIS_LOG && !(a->from > 0 && a->to > 0) && !(a->from < 0 && a->to < 0))
         return fault_set(f, STATUS_REFUSED,
-                         "--vary %s: equal ratios from %g to %g do not exist; give ends of one "
-                         "sign, or remove ':log'",
+                         "--vary %s: equal ratios from %g to %g do not exist; give ends of the "
+                         "same sign, or remove ':log'",
                          a->of->name, a->from, a->to);
     if (a->from == a->to)
         return fault_set(f, STATUS_REFUSED,
-                         "--vary %s: from %g to %g is one value; set it by --set", a->of->name,
-                         a->from, a->to);
+                         "--vary %s: the range from %g to %g is a single value; set it with --set",
+                         a->of->name, a->from, a->to);
     TRY(check(type, a, a->from, f));
     TRY(check(type, a, a->to, f));
     /* An inner value is checked as well, because a parameter may allow only the values 0 and 1, for
@@ -315,12 +317,13 @@ static status read_range(const case_type *type, const char *text, const char *do
     const size_t rest = colon != NULL ? (size_t)(colon - to) : strlen(to);
     const size_t end = strcspn(to, "/:");
     if (a->of->choices != NULL)
-        return fault_set(f, STATUS_REFUSED, "--vary %s: words have no range; list those of %s",
+        return fault_set(f, STATUS_REFUSED,
+                         "--vary %s: the values are words, which have no range; list words from %s",
                          a->of->name, a->of->choices);
     if (colon != NULL && strcmp(colon, ":log") != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "--vary %s: '%.40s' is not a kind of steps; write %s=A..B/N for equal "
-                         "steps, %s=A..B/N:log for equal ratios",
+                         "--vary %s: the kind of steps '%.40s' is unknown; write %s=A..B/N for "
+                         "equal steps, or %s=A..B/N:log for equal ratios",
                          a->of->name, colon, a->of->name, a->of->name);
     a->kind = colon != NULL ? AXIS_LOG : AXIS_LINEAR;
     TRY(read_end(a, text, (size_t)(dots - text), &a->from, f));
@@ -347,8 +350,8 @@ status axis_read(const case_type *type, const char *text, sweep_axis *out, fault
     *out = (sweep_axis){.index = -1};
     if (length == 0 || length > 60 || text[length] == '\0' || text[length + 1] == '\0')
         return fault_set(f, STATUS_REFUSED,
-                         "--vary '%.60s': write it as NAME=A..B/N or NAME=A,B,C; 'beamwork list "
-                         "%.170s' shows names",
+                         "--vary '%.60s': write NAME=A..B/N or NAME=A,B,C; 'beamwork list %.170s' "
+                         "shows the names",
                          text, shown);
     snprintf(name, sizeof name, "%.*s=*", (int)length, text);
     TRY(assignment_set(&list, name, values, any, &out->index, f));

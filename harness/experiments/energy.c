@@ -71,8 +71,7 @@ static void check_gradient(const energy_place *at, const double sigma[], const d
             fmax(fabs(sigma[i]), size_of(s, C, i, i) * moved_by * s->request.length);
         claims_departs(one, outcome == 0 ? claims_share(fabs(sigma[i] - found), size) : NAN,
                        "stress: sigma %d is %.6g, but the derivative of the energy with respect to "
-                       "strain %d is "
-                       "%.6g: one of them is wrong%s",
+                       "strain %d is %.6g; correct the stress or the energy%s",
                        i + 1, sigma[i], i + 1, found, s->words);
     }
 }
@@ -94,11 +93,10 @@ static void check_stiffness(const energy_place *at, const double C[], claims *c)
                            "finite differences of "
                            "the stress give %.6g%s",
                            i + 1, j + 1, C[i * m + j], found, s->words);
-            claims_departs(
-                symmetric, claims_share(fabs(C[i * m + j] - C[j * m + i]), size),
-                "C: entry %d, %d is %.6g and entry %d, %d is %.6g; a stress that derives "
-                "from an energy has a symmetric C%s",
-                i + 1, j + 1, C[i * m + j], j + 1, i + 1, C[j * m + i], s->words);
+            claims_departs(symmetric, claims_share(fabs(C[i * m + j] - C[j * m + i]), size),
+                           "C: entry %d, %d is %.6g, but entry %d, %d is %.6g; C is symmetric if "
+                           "the stress derives from an energy%s",
+                           i + 1, j + 1, C[i * m + j], j + 1, i + 1, C[j * m + i], s->words);
         }
     }
 }
@@ -115,8 +113,8 @@ static void check_rest(const specimen *s, claims *c)
         return;
     const double scale = size_of(s, C, 0, 0) * s->request.length * s->request.length;
     claims_departs(one, fabs(energy) / scale,
-                   "stress: the undeformed element has an energy of %.3g J; measure the energy "
-                   "from that state%s",
+                   "stress: the undeformed element has an energy of %.3g J; define the energy as "
+                   "zero in that state%s",
                    energy, s->words);
     for (int i = 0; i < s->strains; i++)
         claims_departs(one, fabs(sigma[i]) / (size_of(s, C, i, i) * s->request.length),
@@ -151,12 +149,12 @@ static void check_geometric(const specimen *s, const double C[], claims *c)
             const int ij = i * m + j, ji = j * m + i;
             const double size = size_of(s, C, i, j) * moved_by;
             claims_departs(symmetric, claims_share(fabs(Ga[ij] - Ga[ji]), size),
-                           "geometric: G entry %d, %d is %.6g and entry %d, %d is %.6g; make it "
+                           "geometric: entry %d, %d of G is %.6g, but entry %d, %d is %.6g; make G "
                            "symmetric%s",
                            i + 1, j + 1, Ga[ij], j + 1, i + 1, Ga[ji], s->words);
             claims_departs(linear, claims_share(fabs(Gs[ij] - 2 * Ga[ij] + 3 * Gb[ij]), size),
-                           "geometric: G entry %d, %d of a sum of prestresses is not the sum of "
-                           "theirs%s",
+                           "geometric: entry %d, %d of G for the sum of two prestresses is not the "
+                           "sum of the entries for each prestress%s",
                            i + 1, j + 1, s->words);
         }
 }
@@ -174,14 +172,14 @@ static void check(const specimen *s, claims *c)
     const status outcome = specimen_settled(
         s, e, inner,
         &(stress_output){.energy = &energy, .sigma = sigma, .C = C, .residual = &residual});
-    claims_asks(claims_open(c, "moderate strains have a stress", 0), outcome == STATUS_OK,
-                "stress: strains of a few hundredths of the length give status '%s'%s",
+    claims_asks(claims_open(c, "moderate strains have stresses", 0), outcome == STATUS_OK,
+                "stress: strains of a few hundredths of the length end with status '%s'%s",
                 status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;
-    claims_departs(claims_open(c, "its internal equations are solved", 1e-9), fabs(residual),
-                   "update: after %d corrections the residual of its internal unknowns is %.1e; "
-                   "check memory and update%s",
+    claims_departs(claims_open(c, "the internal equations are solved", 1e-9), fabs(residual),
+                   "update: after %d corrections the residual of the internal unknowns is %.1e; "
+                   "check 'memory' and 'update'%s",
                    30, residual, s->words);
     check_gradient(&at, sigma, C, c);
     check_stiffness(&at, C, c);
@@ -193,12 +191,12 @@ void checks_energy(const formulation *chosen, claims *out)
 {
     if (chosen->type->force != NULL) {
         claims_not_made(out, "stress is the gradient of the energy",
-                        "provides forces: has no stresses of its own");
+                        "the element provides forces and has no stresses");
         return;
     }
     specimens_each(chosen, out, check);
     if (chosen->type->geometric == NULL)
-        claims_not_made(out, "G is symmetric", "has no geometric stiffness inside the element");
+        claims_not_made(out, "G is symmetric", "the element has no internal geometric stiffness");
 }
 
 /* Inertia in a rotating frame. The centrifugal force and stiffness derive from a potential, and the
@@ -239,8 +237,8 @@ static void check_force(const specimen_place *at, const double force[], claim *o
         double found = NAN;
         stencil_first(potential_at, at, 1, i, &found);
         claims_departs(one, claims_share(fabs(force[i] * unit + found), size),
-                       "inertia: the centrifugal force in coordinate %d (%s) is %.6g, minus the "
-                       "derivative of the potential is %.6g%s",
+                       "inertia: the centrifugal force in coordinate %d (%s) is %.6g, but minus "
+                       "the derivative of the potential is %.6g%s",
                        i + 1, specimen_coordinate(i, where), force[i], -found / unit, s->words);
     }
 }
@@ -265,12 +263,12 @@ static void rotating_check_stiffness(const specimen_place *at, const double stif
                          b = stiffness[j * n + i],
                          found = -(column[j][i] * ui + column[i][j] * uj) / 2;
             claims_departs(derives, claims_share(fabs(a * ui * uj - found), size),
-                           "inertia: N entry %d, %d (%s, %s) is %.6g, differences of the "
-                           "centrifugal force give %.6g%s",
+                           "inertia: entry %d, %d (%s, %s) of N is %.6g, but finite differences of "
+                           "the centrifugal force give %.6g%s",
                            i + 1, j + 1, specimen_coordinate(i, first),
                            specimen_coordinate(j, other), a, found / (ui * uj), s->words);
             claims_departs(symmetric, claims_share(fabs(a - b) * ui * uj, size),
-                           "inertia: N entry %d, %d is %.6g, but its transposed entry is %.6g%s",
+                           "inertia: entry %d, %d of N is %.6g, but the transposed entry is %.6g%s",
                            i + 1, j + 1, a, b, s->words);
         }
 }
@@ -289,8 +287,8 @@ static void check_skew(const specimen *s, const double G[], claim *one)
                 claims_share(fabs(G[i * n + j] + G[j * n + i]) * chart_unit(i, s->request.length) *
                                  chart_unit(j, s->request.length),
                              size),
-                "inertia: G entry %d, %d is %.6g, but its transposed entry is %.6g; the "
-                "gyroscopic matrix is skew%s",
+                "inertia: entry %d, %d of G is %.6g, but the transposed entry is %.6g; the "
+                "gyroscopic matrix must be skew-symmetric%s",
                 i + 1, j + 1, G[i * n + j], G[j * n + i], s->words);
 }
 
@@ -312,7 +310,7 @@ static void own_motion(const specimen *s, const node_state x[], const inertia_ou
     dense_mul_vec(n, n, out->M, v, Mv);
     dense_mul_vec(n, n, out->G, v, Gv);
     if (s->section.matrices || s->made.features & FEATURE_ROTARY_INERTIA)
-        claims_departs(claims_open(c, "the frame's motion has the centrifugal energy", 1e-11),
+        claims_departs(claims_open(c, "the motion of the frame has the centrifugal energy", 1e-11),
                        fabs(dense_dot(n, v, Mv) / 2 / -*out->potential - 1),
                        "inertia: the potential is %.6g J, but minus the kinetic energy of the "
                        "motion of the frame, 1/2 v^T M v, is %.6g J%s",
@@ -320,7 +318,7 @@ static void own_motion(const specimen *s, const node_state x[], const inertia_ou
     for (int i = 0; i < n; i++)
         largest = fmax(largest, fabs(out->force[i]) * chart_unit(i, s->request.length));
     for (int i = 0; i < n; i++)
-        claims_departs(claims_open(c, "Coriolis is twice the centrifugal force", 1e-11),
+        claims_departs(claims_open(c, "the Coriolis force is twice the centrifugal force", 1e-11),
                        fabs(Gv[i] + 2 * out->force[i]) * chart_unit(i, s->request.length) / largest,
                        "inertia: G times the motion of the frame is %.6g in coordinate %d (%s), "
                        "not minus twice the centrifugal force, %.6g%s",
@@ -336,11 +334,13 @@ static void in_frame(const specimen *s, claims *c)
     specimen_state(s, 0.05, 31, x);
     claims_doing(c, "inertia in a rotating frame%s", s->words);
     const status outcome = s->type.inertia(s->data, x, &turning, &out);
-    claims_asks(claims_open(c, "it has inertia in a rotating frame", 0), outcome == STATUS_OK,
-                "inertia: status '%s' in a rotating frame%s", status_name(outcome), s->words);
+    claims_asks(claims_open(c, "the element has inertia in a rotating frame", 0),
+                outcome == STATUS_OK, "inertia: status '%s' in a rotating frame%s",
+                status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;
-    check_force(&at, F, claims_open(c, "centrifugal force is the gradient", 1e-9));
+    check_force(&at, F,
+                claims_open(c, "the centrifugal force is the gradient of its energy", 1e-9));
     rotating_check_stiffness(&at, stiffness, c);
     check_skew(s, G, claims_open(c, "G is skew", 1e-12));
     own_motion(s, x, &out, c);
@@ -428,7 +428,7 @@ void checks_rotating(const formulation *chosen, claims *out)
     if (!(chosen->type->offers & FEATURE_MASS) || chosen->type->inertia == NULL) {
         claims_not_made(out, "G is skew",
                         chosen->type->offers & FEATURE_MASS
-                            ? "uses the inertia of the displacement field"
+                            ? "the inertia of the displacement field is used"
                             : "offers no mass");
         return;
     }

@@ -244,8 +244,9 @@ static const schema_field fields_of_certificate[] = {
     {"hash", "", FIELD_TEXT,
      "SHA-256 of the shared object, of the files that the command names, or of the program",
      .get = get_hash},
-    {"kept", "", FIELD_FLAG, "no requirement is violated", .get = get_kept},
-    {"compared", "1", FIELD_INT, "numbers compared and yes/no checks", .get = get_compared},
+    {"kept", "", FIELD_FLAG, "true if no requirement is violated", .get = get_kept},
+    {"compared", "1", FIELD_INT, "number of compared values, plus yes/no checks",
+     .get = get_compared},
     {0}};
 static const record_type record_certificate = {"certificate",
                                                "formulations",
@@ -253,7 +254,7 @@ static const record_type record_certificate = {"certificate",
                                                {key_of_formulation, fields_of_certificate}};
 
 static const schema_field fields_of_part[] = {
-    {"what", "", FIELD_TEXT, "summary of what is satisfied", .get = get_what}, {0}};
+    {"what", "", FIELD_TEXT, "summary of the satisfied requirements", .get = get_what}, {0}};
 static const record_type record_part = {
     "part", "parts", "a group of checks or measurements", {key_of_family, fields_of_part}};
 
@@ -267,8 +268,9 @@ static const schema_field fields_of_claim[] = {
     {"claim", "", FIELD_TEXT, "name of the requirement", AT(claim, name), .key = KEY},
     {"outcome", "", FIELD_ENUM, "outcome of the check", AT(claim, outcome), .word = word_of_claim,
      .words = CLAIM_OUTCOMES},
-    {"compared", "1", FIELD_INT, "numbers compared, or yes/no checks", AT(claim, compared)},
-    {"worst", "1", FIELD_DOUBLE, "largest deviation; infinite: a failed yes/no check",
+    {"compared", "1", FIELD_INT, "number of compared numbers, or of yes/no checks",
+     AT(claim, compared)},
+    {"worst", "1", FIELD_DOUBLE, "largest deviation; infinite if a yes/no check failed",
      AT(claim, worst)},
     {"allowed", "1", FIELD_DOUBLE, "allowed deviation", AT(claim, allowed)},
     {"sentence", "", FIELD_TEXT, "description of the worst violation", AT(claim, sentence)},
@@ -276,7 +278,7 @@ static const schema_field fields_of_claim[] = {
 static const record_type record_claim = {
     "claim",
     "claims",
-    "a requirement of the interface, and the deviation of a formulation from it",
+    "a requirement of the interface and the deviation of a formulation from this requirement",
     {key_of_formulation, key_of_family, fields_of_claim}};
 
 static const schema_field key_of_measure[] = {
@@ -284,14 +286,15 @@ static const schema_field key_of_measure[] = {
     {0}};
 static const schema_field fields_of_measure[] = {
     {"order", "1", FIELD_DOUBLE, "order of the errors", AT(element_measure, order)},
-    {"least", "1", FIELD_INT, "lowest order that the formulation declares; 0: none is required",
+    {"least", "1", FIELD_INT, "lowest order declared by the formulation; 0: no order is required",
      AT(element_measure, least)},
-    {"highest", "1", FIELD_INT, "highest order that it declares", AT(element_measure, highest)},
-    {"locks", "", FIELD_FLAG, "the errors grow as the structure becomes thin",
+    {"highest", "1", FIELD_INT, "highest order declared by the formulation",
+     AT(element_measure, highest)},
+    {"locks", "", FIELD_FLAG, "true if the errors increase as the structure becomes thinner",
      AT(element_measure, locks)},
-    {"wrong_limit", "", FIELD_FLAG, "a linear state has the same error on every mesh",
+    {"wrong_limit", "", FIELD_FLAG, "true if a linear state has the same error on every mesh",
      AT(element_measure, astray)},
-    {"words", "", FIELD_TEXT, "reason for a missing value, or a description of it",
+    {"words", "", FIELD_TEXT, "reason for a missing value, or description of the value",
      AT(element_measure, words)},
     {0}};
 static const record_type record_measure = {
@@ -314,12 +317,12 @@ static void get_error(const subject *s, field_value *out)
 static const schema_field fields_of_point[] = {
     {"at", "1", FIELD_DOUBLE, "number of elements, thickness over length, or number of turns",
      .get = get_at},
-    {"error", "1", FIELD_DOUBLE, "relative to the exact value", .get = get_error},
+    {"error", "1", FIELD_DOUBLE, "error relative to the exact value", .get = get_error},
     {0}};
 static const record_type record_measured_point = {
     "measured_point",
     "measured_points",
-    "an error of what is measured",
+    "an error of a measured value",
     {key_of_formulation, key_of_family, key_of_measure, fields_of_point}};
 
 static void gather_points(const element_measure *m, subject one, subjects *out)

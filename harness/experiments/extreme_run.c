@@ -291,21 +291,23 @@ static const schema_field fields_of_outcome[] = {
     {"reference", "unit", FIELD_DOUBLE, "exact value, or the value without the extreme",
      AT(extreme_outcome, reference)},
     {"error", "1", FIELD_DOUBLE, "relative error", AT(extreme_outcome, error)},
-    {"neighbour_error_1", "1", FIELD_DOUBLE, "error on another mesh, if needed",
+    {"neighbour_error_1", "1", FIELD_DOUBLE, "error on another mesh, if one is needed",
      AT(extreme_outcome, neighbour_error[0])},
     {"neighbour_error_2", "1", FIELD_DOUBLE, "error on the mesh with more elements",
      AT(extreme_outcome, neighbour_error[1])},
-    {"condition", "1", FIELD_DOUBLE, "estimated condition of the tangent", .get = get_condition},
+    {"condition", "1", FIELD_DOUBLE, "estimated condition number of the tangent matrix",
+     .get = get_condition},
     {"iterations", "1", FIELD_LONG, "Newton iterations",
      OF(CELL, cell_result, counters.iterations)},
     {"reason", "", FIELD_TEXT, "reason for a missing value",
      TEXT_OF(RECORD, extreme_outcome, reason)},
-    {"proof", "", FIELD_TEXT, "proof of the known deviation that expects it", .get = get_proof},
+    {"proof", "", FIELD_TEXT, "proof of the known deviation that expects this outcome",
+     .get = get_proof},
     {0}};
 const record_type record_outcome = {
     "outcome",
     "outcomes",
-    "a formulation at a value of an extreme",
+    "results of a formulation at one value of an extreme",
     {fields_of_place, keys_of_series, key_of_mesh, fields_of_outcome}};
 
 static const char *word_of_judge(int judge)
@@ -323,23 +325,25 @@ static const schema_field fields_of_extreme[] = {
      TEXT_OF(RECORD, extreme, fixed)},
     {"x_name", "", FIELD_TEXT, "extreme value", TEXT_OF(RECORD, extreme, x_name)},
     {"x_unit", "", FIELD_TEXT, "unit of the varied value", TEXT_OF(RECORD, extreme, x_unit)},
-    {"judge", "", FIELD_ENUM, "an exact value, or the value at another x", AT(extreme, judge),
-     .word = word_of_judge, .words = EXTREME_SAME + 1},
+    {"judge", "", FIELD_ENUM, "base value: an exact value, or the value at another x",
+     AT(extreme, judge), .word = word_of_judge, .words = EXTREME_SAME + 1},
     {"tolerance", "1", FIELD_DOUBLE, "relative tolerance of a value", AT(extreme, tolerance)},
     {0}};
 const record_type record_extreme = {
     "extreme", "extremes", "extremes of cases", {fields_of_extreme}};
 
 static const schema_field fields_of_count[] = {
-    {"tried", "1", FIELD_INT, "cells: an extreme at one x, counted by its worst quantity",
+    {"tried", "1", FIELD_INT,
+     "number of cells; a cell is an extreme at one x and is counted by its worst quantity",
      AT(extreme_count, tried)},
-    {"survived", "1", FIELD_INT, "accurate or under-resolved cells", AT(extreme_count, survived)},
+    {"survived", "1", FIELD_INT, "number of accurate or under-resolved cells",
+     AT(extreme_count, survived)},
     {"coarse", "1", FIELD_INT, "under-resolved cells", AT(extreme_count, coarse)},
     {"named_failures", "1", FIELD_INT,
-     "cells with a reported failure: not converged, singular, rejected, no value",
+     "number of cells with a reported failure: not converged, singular, rejected, no value",
      AT(extreme_count, named)},
-    {"wrong", "1", FIELD_INT, "cells with wrong values", AT(extreme_count, wrong)},
-    {"faults", "1", FIELD_INT, "cells that crashed or ran out of memory",
+    {"wrong", "1", FIELD_INT, "number of cells with wrong values", AT(extreme_count, wrong)},
+    {"faults", "1", FIELD_INT, "number of cells that crashed or ran out of memory",
      AT(extreme_count, faults)},
     {0}};
 static const schema_field key_of_count[] = {

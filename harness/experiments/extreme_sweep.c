@@ -162,7 +162,8 @@ static void judge_value(const scene_quantity *q, double value, double uncertaint
     o->result = value;
     o->error = verdict_error(q, value, o->reference);
     if (e->judge == EXTREME_SAME && !isfinite(o->reference))
-        set_kind(o, OUTCOME_WRONG, "no comparison is possible: the base has no value");
+        set_kind(o, OUTCOME_WRONG,
+                 "no comparison is possible, because the base state has no value");
     else
         o->kind = fabs(o->error) <= e->tolerance + uncertainty ? OUTCOME_VALUE : OUTCOME_WRONG;
 }
@@ -179,10 +180,10 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
     o->reference = extreme_reference_of(s, t, o, 0, &uncertainty);
     const int other = e->judge == EXTREME_EXACT && has_other_theory(s, t, o);
     if (e->judge == EXTREME_EXACT && !isfinite(o->reference) && !other)
-        return fault_set(f, STATUS_FAULT,
-                         "extreme %s: no exact value of %s at %s; derive it "
-                         "(reference/derive/extremes.py)",
-                         e->name, e->quantity[o->quantity].name, p->text);
+        return fault_set(
+            f, STATUS_FAULT,
+            "extreme %s: %s has no exact value at %s; derive one with reference/derive/extremes.py",
+            e->name, e->quantity[o->quantity].name, p->text);
     const solve_result *solved = &one->cell[0].solve;
     const quantity_result *r = extreme_sweep_result(s, o, &one->cell[0]);
     if (one->missing[0] != '\0')
@@ -244,7 +245,7 @@ void extreme_judge_neighbours(const extreme_sweep *s, const truths *t, extreme_o
     if (falls(&r))
         o->kind = OUTCOME_COARSE;
     else
-        set_kind(o, OUTCOME_WRONG, "the error does not fall with more elements");
+        set_kind(o, OUTCOME_WRONG, "the error does not decrease with more elements");
 }
 
 enum { NAME_WIDTH = 23, INDENT = 4, WIDEST_CELL = 10, CONDITION_WIDTH = 7 };
@@ -306,7 +307,8 @@ static void print_head(FILE *to, const extreme *e)
     fputc('\n', to);
     paragraph_say(to, 0, 0, "%s: %s", e->name, e->summary);
     paragraph_say(to, 0, 2, "%s%s, %s", e->base, fixed,
-                  e->judge == EXTREME_EXACT ? "against exact values" : "against its own value");
+                  e->judge == EXTREME_EXACT ? "against exact values"
+                                            : "compared with the formulation's own value");
     if (fprintf(to, "  %-*s", INDENT - 2 + NAME_WIDTH, e->x_name) > INDENT + NAME_WIDTH)
         fprintf(to, "\n%*s", INDENT + NAME_WIDTH, "");
     for (int k = 0; k < e->values; k++)
@@ -414,9 +416,8 @@ static void print_unexpected(FILE *to, const extreme_sweep *s)
 
 static void print_legend(FILE *to)
 {
-    fprintf(
-        to,
-        "\nerrors in %%; ~ coarse: falls with more elements; ! wrong; ? not expected; - skip\n");
+    fprintf(to, "\nerrors in %%; ~ coarse: decreases with more elements; ! wrong; ? not expected; "
+                "- skip\n");
     for (int k = 0, named = 0; k < OUTCOME_KINDS; k++)
         if (failures[k].letter != '\0')
             fprintf(to, "%s%c %s", named++ > 0 ? "; " : "", failures[k].letter, failures[k].words);
@@ -434,8 +435,9 @@ void extreme_table(FILE *to, const void *found)
     if (s->is_new > 0)
         paragraph_say(to, 0, 0,
                       "%d outcomes of new formulations are neither accurate nor under-resolved and "
-                      "would need known deviations; they do not affect the exit status",
+                      "would require known deviations; they do not affect the exit status",
                       s->is_new);
-    fprintf(to, "%d outcomes differ from the expected ones, %d findings not observed\n",
+    fprintf(to,
+            "%d outcomes differ from the expected ones; %d known deviations were not observed\n",
             s->unexpected, s->unobserved);
 }

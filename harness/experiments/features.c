@@ -55,9 +55,10 @@ static void accepted(const formulation *chosen, unsigned features, const char *w
     fault why = {""};
     claims_doing(c, "prepare, strain and stress with %s", what);
     const feature_outcome found = evaluated(chosen, features, &why);
-    claims_asks(claims_open(c, "all declared features are supported", 0), found == FINITE,
-                "offers: with %s the element fails (%s%s); support it, or do not declare it", what,
-                why.text[0] != '\0' ? "rejected: " : "the stiffness is not finite", why.text);
+    claims_asks(
+        claims_open(c, "all declared features are supported", 0), found == FINITE,
+        "offers: with %s the element fails (%s%s); support the feature, or do not declare it", what,
+        why.text[0] != '\0' ? "rejected: " : "the stiffness is not finite", why.text);
 }
 
 /* Checks that a type accepts an element without features, each supported feature with its
@@ -100,7 +101,7 @@ static void features_of_cases(const formulation *chosen, claims *c)
     }
     if (registry_cases[0] != NULL)
         claims_asks(claims_open(c, "cases", 0), runs > 0,
-                    "features, limits: the formulation supports none of the built-in cases");
+                    "features, limits: the formulation supports no built-in case");
 }
 
 /* Checks that a type gives a finite stiffness for subsets of its features, or rejects a subset
@@ -124,14 +125,14 @@ static void feature_subsets(const formulation *chosen, claims *c)
         claims_doing(c, "prepare, strain and stress with %s", words);
         const feature_outcome found = evaluated(chosen, features, &why);
         count[found]++;
-        claims_asks(
-            finite, found != BAD,
-            "prepare: with only %s the element fails (%s); support it, or reject it with a reason",
-            words, why.text[0] != '\0' ? why.text : "the stiffness is not finite");
+        claims_asks(finite, found != BAD,
+                    "prepare: with only %s the element fails (%s); support the feature, or reject "
+                    "it with a reason",
+                    words, why.text[0] != '\0' ? why.text : "the stiffness is not finite");
     }
     claims_departs(few, (double)count[REFUSED] / (1 << OPTIONAL),
                    "prepare: %d of %d subsets of the declared features are rejected; at most half "
-                   "may be, where one feature requires another",
+                   "of the subsets may be rejected, because one feature requires another",
                    count[REFUSED], 1 << OPTIONAL);
 }
 
@@ -276,16 +277,16 @@ static void effects_check(const formulation *chosen, claims *c)
         claim *one = claims_open(c, name, 0);
         if (bit == FEATURE_WARPING)
             claims_asks(one, anywhere(chosen, all, 0) != 0,
-                        "declares warping, but no result depends on the warping amplitudes; let "
-                        "strains depend on them, or do not declare warping");
+                        "the formulation declares warping, but no result depends on the warping "
+                        "amplitudes; let strains depend on them, or do not declare warping");
         else /* shear theories are requested only together with shear */
             claims_asks(
                 one,
                 anywhere(chosen, all,
                          bit == FEATURE_SHEAR ? bit | FEATURE_ENGESSER | FEATURE_HARINGX : bit) !=
                     0,
-                "declares %s, but no result depends on it: strains, energy, stress and C are those "
-                "of the element without it; let them depend on it, or do not declare it",
+                "the formulation declares %s, but strains, energy, stresses and C are the same "
+                "without this feature; let them depend on the feature, or do not declare it",
                 feature_name(bit));
     }
 }
@@ -312,7 +313,7 @@ static void symmetric(const specimen *s, const double A[], claim *one)
         for (int j = 0; j < i; j++)
             claims_departs(
                 one, fabs(A[i * n + j] - A[j * n + i]) / size_of(A, n, i, j),
-                "inertia: M entry %d, %d (%s, %s) is %.6g, but its transposed entry is %.6g%s",
+                "inertia: entry %d, %d (%s, %s) of M is %.6g, but the transposed entry is %.6g%s",
                 i + 1, j + 1, specimen_coordinate(i, first), specimen_coordinate(j, other),
                 A[i * n + j], A[j * n + i], s->words);
 }
@@ -331,8 +332,8 @@ static void positive(const specimen *s, const double A[], claim *one)
         }
     const int pivot = dense_cholesky(n, scaled);
     claims_asks(one, pivot == 0,
-                "inertia: M is not positive definite: some motion of the nodes up to coordinate %d "
-                "(%s) has negative kinetic energy%s",
+                "inertia: M is not positive definite; a motion of the nodes in the coordinates up "
+                "to %d (%s) has negative kinetic energy%s",
                 pivot, specimen_coordinate(pivot > 0 ? pivot - 1 : 0, where), s->words);
 }
 
@@ -395,8 +396,8 @@ static void carried(const specimen *s, const node_state x[], const double M[], c
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             claims_departs(one, fabs(back[i * n + j] - M[i * n + j]) / size_of(M, n, i, j),
-                           "inertia: M entry %d, %d (%s, %s) of an element rotated as a whole is, "
-                           "rotated back, %.6g instead of %.6g%s",
+                           "inertia: if the element is rotated as a whole and M is rotated back, "
+                           "entry %d, %d (%s, %s) is %.6g instead of %.6g%s",
                            i + 1, j + 1, specimen_coordinate(i, first),
                            specimen_coordinate(j, second), back[i * n + j], M[i * n + j], s->words);
 }
@@ -436,7 +437,7 @@ static void moments(const specimen *s, claim *one)
             if (axis == 0)
                 claims_departs(one, fabs(thin / moment - 1),
                                "inertia: without rotary inertia the twist has %.6g kg m^2, not rho "
-                               "l Ip = %.6g kg m^2: the twist always has inertia%s",
+                               "l Ip = %.6g kg m^2; the twist must always have inertia%s",
                                thin, moment, s->words);
         }
     }
@@ -456,9 +457,9 @@ static void check(const specimen *s, claims *c)
         return;
     symmetric(s, M, claims_open(c, "M is symmetric", 1e-13));
     positive(s, M, claims_open(c, "M is positive", 0));
-    total(s, x, M, claims_open(c, "the mass is that of the beam", 1e-12));
+    total(s, x, M, claims_open(c, "the mass is equal to that of the beam", 1e-12));
     carried(s, x, M, claims_open(c, "M rotates with the element", 1e-11));
-    moments(s, claims_open(c, "moments of inertia are those of the beam", 1e-9));
+    moments(s, claims_open(c, "the moments of inertia are equal to those of the beam", 1e-9));
 }
 
 void checks_mass(const formulation *chosen, claims *out)
@@ -466,7 +467,7 @@ void checks_mass(const formulation *chosen, claims *out)
     if (!(chosen->type->offers & FEATURE_MASS) || chosen->type->inertia == NULL) {
         claims_not_made(out, "M is symmetric",
                         chosen->type->offers & FEATURE_MASS
-                            ? "uses the inertia of the displacement field"
+                            ? "the inertia of the displacement field is used"
                             : "offers no mass");
         return;
     }

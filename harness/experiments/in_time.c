@@ -67,7 +67,8 @@ static void compare(const specimen *s, const double found[], const double right[
     for (int i = 0; i < s->coordinates; i++)
         claims_departs(
             one, claims_share(fabs(found[i] - right[i]) * chart_unit(i, s->request.length), size),
-            "inertia: the inertia force in coordinate %d (%s) is %.6g, but by %s it is %.6g%s",
+            "inertia: the inertia force in coordinate %d (%s) is %.6g, but according to %s it is "
+            "%.6g%s",
             i + 1, specimen_coordinate(i, where), found[i], what, right[i], s->words);
 }
 
@@ -92,8 +93,8 @@ static void check_rates(const specimen *s, const node_state x[], const double ra
             const double found = (taken[1][i] - taken[0][i]) / (2 * step);
             claims_departs(
                 one, fabs(C[n * i + j] - found) * chart_unit(i, s->request.length) * step / size,
-                "inertia: C entry %d, %d (%s, %s) is %.6g, but differences of the inertia forces "
-                "give %.6g%s",
+                "inertia: entry %d, %d (%s, %s) of C is %.6g, but finite differences of the "
+                "inertia forces give %.6g%s",
                 i + 1, j + 1, specimen_coordinate(i, first), specimen_coordinate(j, other),
                 C[n * i + j], found, s->words);
         }
@@ -142,13 +143,13 @@ static void check_one(const specimen *s, claims *c)
     claims_doing(c, "inertia in time%s", s->words);
     inertia_output out = {.M = M, .rate = rate, .taken = h, .C = C};
     const status outcome = s->type.inertia(s->data, x, NULL, &out);
-    claims_asks(claims_open(c, "the element has inertia in time", 0), outcome == STATUS_OK,
+    claims_asks(claims_open(c, "the element has inertia during a motion", 0), outcome == STATUS_OK,
                 "inertia: status '%s' in time%s", status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;
     by_differences(&place, M, right);
     const double size = size_of(s, right);
-    compare(s, h, right, size, "differences of the kinetic energy",
+    compare(s, h, right, size, "finite differences of the kinetic energy",
             claims_open(c, "inertia forces derive from the energy", 1e-8));
     check_rates(s, x, rate, C, size,
                 claims_open(c, "C is the derivative with respect to the rates", 1e-11));
@@ -158,7 +159,7 @@ static void check_one(const specimen *s, claims *c)
     out = (inertia_output){.rate = rate, .acceleration = acceleration, .taken = taken};
     s->type.inertia(s->data, x, NULL, &out);
     compare(s, taken, right, size_of(s, right),
-            "M times the accelerations plus the forces without them",
+            "M times the accelerations plus the forces without accelerations",
             claims_open(c, "accelerations take M", 1e-12));
     check_turned(s, x, &out, size_of(s, right),
                  claims_open(c, "inertia forces rotate with the element", 1e-11));
@@ -184,7 +185,7 @@ void checks_in_time(const formulation *chosen, claims *out)
 {
     if (!element_spreads(chosen->type, chosen->option)) {
         claims_not_made(out, "inertia forces derive from the energy",
-                        "in motions the mass of the element is lumped at its nodes");
+                        "during motions the mass of the element is lumped at its nodes");
         return;
     }
     specimens_each(chosen, out, check);

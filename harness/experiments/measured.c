@@ -7,9 +7,10 @@
 #include "elements/math/scalar.h"
 
 const measured_group measured_groups[MEASURED_GROUPS] = {
-    {"states", "uniform and linear states of a cantilever: error with 1 element, 4 unequal ones",
+    {"states",
+     "uniform and linear states of a cantilever: error with 1 element and with 4 unequal elements",
      measured_states},
-    {"locking", "8 elements, thickness by length from 1 to 1e-6", measured_locking},
+    {"locking", "8 elements, thickness-to-length ratio from 1 to 1e-6", measured_locking},
     {"orders", "orders of convergence, and errors with 1 to 32 elements", measured_orders},
     {"paths", "changes by superposed turns and after closed cycles, 24 steps each", measured_paths},
 };
@@ -41,7 +42,8 @@ static void conclude(element_measure *one)
     one->locks = thin > 10 * thick + 0.01;
     if (one->locks)
         snprintf(one->words, sizeof one->words,
-                 "the element locks: its error grows from %.2g %% to %.2g %% as it becomes thin",
+                 "the element locks: its error increases from %.2g %% to %.2g %% as the element "
+                 "becomes thinner",
                  100 * thick, 100 * thin);
 }
 
@@ -77,16 +79,16 @@ void measured_locking(const formulation *chosen, claims *c, measures *out)
                       .needs = shear,
                       .load = SCENE_FORCE,
                       .component = SCENE_UY};
-    claims_doing(c, "a cantilever that becomes thin");
+    claims_doing(c, "a cantilever that becomes thinner");
     over_thickness(&r, shear ? "cantilever with shear, force" : "cantilever, force", out);
     r.quarter = 1;
-    claims_doing(c, "a quarter ring that becomes thin");
+    claims_doing(c, "a quarter ring that becomes thinner");
     over_thickness(&r, "quarter ring, straight elements", out);
     r.quarter = 0;
     r.load = SCENE_MOMENT;
     r.needs = shear | FEATURE_LARGE;
     r.analysis = BEAM_LARGE;
-    claims_doing(c, "a beam bent by a quarter turn that becomes thin");
+    claims_doing(c, "a beam that is bent by a quarter turn and becomes thin");
     over_thickness(&r, "bent by a quarter turn, moment", out);
 }
 
@@ -118,10 +120,10 @@ static const state states[] = {
      "E Iz, or does it lock?"},
     {"tip force along z", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_FORCE, 2, SCENE_UZ,
      "E Iy, or does it lock?"},
-    {"constant shear along y, short", 0.5, 0.4, 0, FEATURE_SHEAR, BEAM_LINEAR, SCENE_FORCE, 1,
-     SCENE_UY, "G A with its shear factor, E Iz?"},
-    {"constant shear along z, short", 0.5, 0.4, 0, FEATURE_SHEAR, BEAM_LINEAR, SCENE_FORCE, 2,
-     SCENE_UZ, "G A with its shear factor, E Iy?"},
+    {"constant shear along y, short beam", 0.5, 0.4, 0, FEATURE_SHEAR, BEAM_LINEAR, SCENE_FORCE, 1,
+     SCENE_UY, "G A times the shear factor, or E Iz?"},
+    {"constant shear along z, short beam", 0.5, 0.4, 0, FEATURE_SHEAR, BEAM_LINEAR, SCENE_FORCE, 2,
+     SCENE_UZ, "G A times the shear factor, or E Iy?"},
     {"torsion, warping held", 0, 0, 1, 0, BEAM_LINEAR, SCENE_MOMENT, 0, SCENE_RX, "G It, E Iw?"},
 };
 
@@ -151,14 +153,13 @@ static void states_conclude(const state *s, element_measure *one)
     one->astray = fine > 1e-6 && fine > 0.5 * coarse;
     if (one->astray && coarse < 1e-9)
         snprintf(one->words, sizeof one->words,
-                 "exact with one element and not with four, %.2g %%: a coupling of its nodes, its "
-                 "sign, or "
-                 "a power of the length is wrong",
+                 "the result is exact with one element, but has an error of %.2g %% with four: a "
+                 "coupling of the nodes, its sign, or a power of the length is wrong",
                  100 * fine);
     else if (one->astray)
         snprintf(one->words, sizeof one->words,
-                 "%.2g %% with one element and %.2g %% with four: a stiffness of the section is "
-                 "wrong (%s)",
+                 "the error is %.2g %% with one element and %.2g %% with four: a stiffness of the "
+                 "section is wrong (%s)",
                  100 * coarse, 100 * fine, s->doubt);
 }
 
@@ -206,7 +207,7 @@ static void compare_units(measures *out)
     const double thousands = log10(times) / 3;
     if (!(fabs(thousands) > 0.5) || fabs(thousands - round(thousands)) > 1e-3)
         return;
-    snprintf(out->words, sizeof out->words, "every value is %.0e times too %s: check the units",
+    snprintf(out->words, sizeof out->words, "every value is %.0e times too %s; check the units",
              fmax(times, 1 / times), times > 1 ? "soft" : "stiff");
 }
 
@@ -322,16 +323,17 @@ static void hold_against_declared(const orders_question *q, int last, const elem
     if (last == 0 && fabs(one->error[one->points - 1]) <= noise)
         claims_asks(claimed, 1, "%s", "");
     else if (last > 1 && one->order < 0.1 && one->least > 0)
-        claims_asks(claimed, 0,
-                    "order: its errors do not fall: %.2g, %.2g, %.2g with %g, %g and %g elements "
-                    "(%s): the limit is wrong; correct the element, or its section's constants",
-                    fabs(one->error[last - 2]), fabs(one->error[last - 1]), fabs(one->error[last]),
-                    one->at[last - 2], one->at[last - 1], one->at[last], q->name);
+        claims_asks(
+            claimed, 0,
+            "order: the errors do not decrease (%.2g, %.2g, %.2g with %g, %g and %g elements, %s), "
+            "so the limit is wrong; correct the element, or the constants of its section",
+            fabs(one->error[last - 2]), fabs(one->error[last - 1]), fabs(one->error[last]),
+            one->at[last - 2], one->at[last - 1], one->at[last], q->name);
     else if (last > 0)
         claims_departs(
             claimed, one->least - one->order,
-            "order: at least %d is declared in %s, but %s shows %.1f: errors of %.2g and %.2g with "
-            "%g and %g elements; declare the measured order, or correct the element",
+            "order: at least %d is declared in %s, but %s shows %.1f (errors of %.2g and %.2g with "
+            "%g and %g elements); declare the measured order, or correct the element",
             one->least, analysis[q->declared], q->name, one->order, fabs(one->error[last - 1]),
             fabs(one->error[last]), one->at[last - 1], one->at[last]);
 }

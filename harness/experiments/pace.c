@@ -291,12 +291,12 @@ static void print_reference(FILE *to, const pace *p, const pace_group *g)
     char stopped[160] = "";
     if (pace_order_is_stopped(g))
         snprintf(stopped, sizeof stopped,
-                 "; between these two its order is %.1f instead of %d: motions faster than its "
-                 "steps contribute",
+                 "; between these two steps the order is %.1f instead of %d, because motions "
+                 "faster than the steps contribute",
                  g->order, PACE_REFERENCE_ORDER);
     paragraph_say(to, 0, 2,
-                  "time errors: against radau at %g on the same mesh (%d steps), whose error is "
-                  "at most %.1e, by radau at %g and %g%s",
+                  "time-integration errors: relative to radau at %g on the same mesh (%d steps), "
+                  "whose error is at most %.1e according to radau at %g and %g%s",
                   pace_reference[0], pace_cell_of(p, g->reference)->solve.steps, g->uncertainty,
                   pace_reference[1], pace_reference[2], stopped);
 }
@@ -312,8 +312,10 @@ static void print_head(FILE *to, const pace *p, const pace_group *g)
     if (g->reference >= 0 && isfinite(g->uncertainty))
         print_reference(to, p, g);
     else if (g->reference >= 0)
-        paragraph_say(to, 0, 2, "no errors: the reference solution cannot be checked: %s",
-                      g->reason);
+        paragraph_say(
+            to, 0, 2,
+            "no errors are available, because the reference solution cannot be checked: %s",
+            g->reason);
     if (isfinite(g->from) && g->from < g->end)
         paragraph_say(to, 0, 2, "energy and momenta: their largest change since %g s", g->from);
     fprintf(to, "  %-*s%*s%*s%*s%6s%*s%*s%6s%5s%*s%*s  %s\n", NAME, "integrator", NUMBER, "step",
@@ -362,9 +364,10 @@ static void print_orders(FILE *to, const pace *p, const pace_group *g)
             paragraph_say(to, 0, 2, "order of %s: %.2f, %.2f (nominal %d): %s", l.method->name,
                           l.before, l.order, l.method->order, pace_order_name(l.kind));
         else if (l.count > 2)
-            paragraph_say(to, 0, 2,
-                          "order of %s: %s, it cannot be measured from the errors (nominal %d)",
-                          l.method->name, pace_order_name(l.kind), l.method->order);
+            paragraph_say(
+                to, 0, 2,
+                "order of %s: %s; the order cannot be measured from the errors (nominal %d)",
+                l.method->name, pace_order_name(l.kind), l.method->order);
         i += l.count;
     }
 }
@@ -410,7 +413,7 @@ static void print_level(FILE *to, const pace *p, int group, double level)
     double behind = 0;
     paragraph words;
     FILE *text = paragraph_begin(&words, to);
-    fprintf(text, "lowest cost to an error of %g, the first three:", level);
+    fprintf(text, "the three integrators with the lowest cost for an error of %g:", level);
     for (int place = 0; place < 3; place++) {
         pace_reach best = {NULL, INFINITY};
         for (int i = 0; i < count; i++) {
@@ -466,5 +469,5 @@ void pace_table(FILE *to, const pace *p, const pace_verdicts *all, int runs)
     fputc('\n', to);
     for (int i = 0; i < all->count; i++)
         print_verdict(to, &all->verdict[i]);
-    fprintf(to, "%d verdicts, %d differ from the expected ones\n", all->count, all->unexpected);
+    fprintf(to, "%d verdicts; %d differ from the expected verdicts\n", all->count, all->unexpected);
 }

@@ -38,9 +38,10 @@ status pace_plan_usual(pace_plan_request *r, fault *f)
     status outcome = cell_scene(r->type, r->parameter, NULL, &s, f);
     const int analysis = outcome == STATUS_OK ? motion_of(&s) : -1;
     if (outcome == STATUS_OK && analysis < 0)
-        outcome = fault_set(f, STATUS_REFUSED,
-                            "%s is not a motion in time; 'beamwork list' shows the motions",
-                            r->type->name);
+        outcome = fault_set(
+            f, STATUS_REFUSED,
+            "%s is not a transient analysis; 'beamwork list' shows the cases with motions",
+            r->type->name);
     if (outcome == STATUS_OK) {
         if (r->elements == 0)
             r->elements = s.meshes > 1 ? s.mesh[1] : 4;
@@ -219,7 +220,7 @@ status pace_plan_add(pace *p, const pace_plan_request *q, fault *f)
     memcpy(g->parameter, q->parameter, sizeof g->parameter);
     TRY(look(g, q, f));
     if (g->analysis < 0)
-        return fault_set(f, STATUS_REFUSED, "%s is not a motion in time", q->type->name);
+        return fault_set(f, STATUS_REFUSED, "%s is not a transient analysis", q->type->name);
     p->groups++;
     if (q->errors)
         TRY(add_reference(p, g, q, f));
@@ -294,7 +295,8 @@ status pace_method_read_list(const char *text, int most, pace_method list[], int
     for (const char *at = text;; at++) {
         const int length = (int)strcspn(at, ",");
         if (*count == most)
-            return fault_set(f, STATUS_REFUSED, "--integrator: more than %d; give fewer", most);
+            return fault_set(f, STATUS_REFUSED,
+                             "--integrator: more than %d integrators are given; give fewer", most);
         TRY(pace_method_read(at, length, &list[*count], f));
         for (int i = 0; i < *count; i++)
             if (strcmp(list[i].name, list[*count].name) == 0)

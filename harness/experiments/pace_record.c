@@ -23,10 +23,10 @@ static void get_wanted(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_run[] = {
-    {"integrator", "", FIELD_TEXT, "integrator with its parameter, if any",
+    {"integrator", "", FIELD_TEXT, "integrator, with its parameter if it has one",
      AT(pace_run, method.name), .key = KEY},
-    {"step", "s", FIELD_DOUBLE, "time step; with a tolerance the initial one", AT(pace_run, step),
-     .key = KEY},
+    {"step", "s", FIELD_DOUBLE, "time step; initial time step if a tolerance is given",
+     AT(pace_run, step), .key = KEY},
     {"tolerance", "1", FIELD_DOUBLE, "tolerance for the error of a step; 0: equal steps",
      AT(pace_run, tolerance), .key = KEY},
     {"status", "", FIELD_ENUM, "status of the motion", AT(pace_run, status),
@@ -34,11 +34,12 @@ static const schema_field fields_of_run[] = {
     {"reason", "", FIELD_TEXT, "reason for an early end", TEXT_OF(RECORD, pace_run, reason)},
     {"stopped", "s", FIELD_DOUBLE, "end time of a motion that ended early", AT(pace_run, stopped)},
     {"error", "1", FIELD_DOUBLE,
-     "largest time error over stations, of positions relative to the size and of rotations [rad]",
+     "largest time-integration error at any station: positions relative to the size of the "
+     "structure, rotations in rad",
      AT(pace_run, error)},
     {"order", "1", FIELD_DOUBLE,
      "order of the error, compared with the previous run with a longer step", AT(pace_run, order)},
-    {"cost", "s", FIELD_DOUBLE, "counted work at the project's cost coefficients",
+    {"cost", "s", FIELD_DOUBLE, "cost of the counted work, with the project's cost coefficients",
      AT(pace_run, cost)},
     {"seconds", "s", FIELD_DOUBLE, "processor time", AT(pace_run, seconds)},
     {"steps", "1", FIELD_LONG, "accepted steps", AT(pace_run, steps)},
@@ -46,23 +47,28 @@ static const schema_field fields_of_run[] = {
     {"iterations_per_step", "1", FIELD_DOUBLE, "Newton iterations per step",
      AT(pace_run, iterations)},
     {"energy_drift", "1", FIELD_DOUBLE,
-     "largest relative change of the energy after the last load; with fixed or prescribed "
-     "coordinates: of energy minus work",
+     "largest relative change of the energy after the last load has ended; if coordinates are "
+     "fixed or prescribed, of energy minus work",
      AT(pace_run, energy)},
     {"momentum_drift", "1", FIELD_DOUBLE,
-     "largest relative change of momentum and angular momentum after the last load",
+     "largest relative change of momentum and angular momentum after the last load has ended",
      AT(pace_run, momentum)},
     {"largest_energy", "1", FIELD_DOUBLE,
-     "largest energy, relative to the energy after the last load", AT(pace_run, largest)},
-    {"last_energy", "1", FIELD_DOUBLE, "final energy, relative to the energy after the last load",
-     AT(pace_run, last)},
-    {"outcome", "", FIELD_ENUM, "grows, stops, bounded or exact; empty: loads act until the end",
+     "largest energy, relative to the energy after the last load has ended", AT(pace_run, largest)},
+    {"last_energy", "1", FIELD_DOUBLE,
+     "final energy, relative to the energy after the last load has ended", AT(pace_run, last)},
+    {"outcome", "", FIELD_ENUM,
+     "outcome: grows, stops, bounded or exact; empty if loads act until the end",
      AT(pace_run, fate), .word = word_of_fate, .words = PACE_FATES},
-    {"has_reference", "", FIELD_FLAG, "0: only energy and momenta are compared", .get = get_wanted},
+    {"has_reference", "", FIELD_FLAG, "0 if only energy and momenta are compared",
+     .get = get_wanted},
     {0}};
 #define KEYS keys_of_point, keys_of_series, key_of_mesh
 const record_type record_pace_run = {
-    "run", "runs", "a motion by one integrator with one step or tolerance", {KEYS, fields_of_run}};
+    "run",
+    "runs",
+    "a motion computed by one integrator with one step or tolerance",
+    {KEYS, fields_of_run}};
 
 /* Returns the error of a quantity of a run. The index of the subject is the index of the
  * quantity. */
@@ -157,14 +163,14 @@ static void get_standing(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_ladder[] = {
-    {"integrator", "", FIELD_TEXT, "integrator with its parameter, if any", .get = get_integrator,
-     .key = KEY},
+    {"integrator", "", FIELD_TEXT, "integrator, with its parameter if it has one",
+     .get = get_integrator, .key = KEY},
     {"nominal", "1", FIELD_DOUBLE, "nominal order of the integrator", .get = get_nominal},
-    {"order", "1", FIELD_DOUBLE, "order from the last two errors above the floor",
+    {"order", "1", FIELD_DOUBLE, "order from the last two errors above the error floor",
      AT(pace_ladder, order)},
-    {"order_before", "1", FIELD_DOUBLE, "order from the two errors before them",
+    {"order_before", "1", FIELD_DOUBLE, "order from the preceding two errors",
      AT(pace_ladder, before)},
-    {"floor", "1", FIELD_DOUBLE, "error level of the reference solution and of rounding",
+    {"floor", "1", FIELD_DOUBLE, "error floor due to the reference solution and rounding",
      AT(pace_ladder, floor)},
     {"verdict", "", FIELD_ENUM, "verdict on the order", AT(pace_ladder, kind),
      .word = word_of_order, .words = PACE_ORDER_KINDS},
@@ -195,12 +201,13 @@ static const schema_field fields_of_reached[] = {
     {"error", "1", FIELD_DOUBLE, "time error", AT(record_reached, error)},
     {"integrator", "", FIELD_TEXT, "integrator that reaches the error",
      TEXT_OF(RECORD, record_reached, integrator)},
-    {"cost", "s", FIELD_DOUBLE, "counted work at this error", AT(record_reached, way.cost)},
+    {"cost", "s", FIELD_DOUBLE, "cost of the counted work at this error",
+     AT(record_reached, way.cost)},
     {"step", "s", FIELD_DOUBLE, "step of the run that reaches the error", .get = get_reached_step},
     {"tolerance", "1", FIELD_DOUBLE, "tolerance of that run", .get = get_reached_tolerance},
     {0}};
 static const record_type record_pace_reached = {
-    "reached", "reached", "cost of reaching an error", {KEYS, fields_of_reached}};
+    "reached", "reached", "lowest cost of reaching an error level", {KEYS, fields_of_reached}};
 
 static const schema_field fields_of_verdict[] = {
     {"judged", "", FIELD_TEXT,
@@ -212,14 +219,14 @@ static const schema_field fields_of_verdict[] = {
     {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
      TEXT_OF(RECORD, pace_verdict, formulation)},
     {"elements", "1", FIELD_INT, "elements of each member", AT(pace_verdict, elements)},
-    {"integrator", "", FIELD_TEXT, "integrator with its parameter, if any",
+    {"integrator", "", FIELD_TEXT, "integrator, with its parameter if it has one",
      TEXT_OF(RECORD, pace_verdict, integrator)},
-    {"steps", "", FIELD_TEXT, "steps or tolerances, as in the table",
+    {"steps", "", FIELD_TEXT, "steps or tolerances, as in the table of expected verdicts",
      TEXT_OF(RECORD, pace_verdict, steps)},
     {"verdict", "", FIELD_TEXT, "observed verdict", AT(pace_verdict, found)},
     {"expected", "", FIELD_TEXT, "verdict that the table expects",
      TEXT_OF(RECORD, pace_verdict, expected)},
-    {"as_expected", "", FIELD_FLAG, "observed and expected verdict agree",
+    {"as_expected", "", FIELD_FLAG, "true if the observed and the expected verdict agree",
      AT(pace_verdict, as_expected)},
     {"why", "", FIELD_TEXT, "reason for the expectation", TEXT_OF(RECORD, pace_verdict, why)},
     {0}};
@@ -248,11 +255,11 @@ static void get_momentum(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_all[] = {
-    {"growth", "1", FIELD_DOUBLE, "relative growth of energy above which the outcome is 'grows'",
-     .get = get_growth},
-    {"exact_energy", "1", FIELD_DOUBLE, "relative drift up to which energy is exact",
+    {"growth", "1", FIELD_DOUBLE,
+     "relative increase of the energy above which the outcome is 'grows'", .get = get_growth},
+    {"exact_energy", "1", FIELD_DOUBLE, "relative drift up to which the energy counts as exact",
      .get = get_energy},
-    {"exact_momentum", "1", FIELD_DOUBLE, "relative drift up to which momentum is exact",
+    {"exact_momentum", "1", FIELD_DOUBLE, "relative drift up to which the momentum counts as exact",
      .get = get_momentum},
     {"unexpected", "1", FIELD_INT, "verdicts that the table does not expect",
      AT(motions, verdicts.unexpected)},
@@ -367,7 +374,7 @@ static status plan_axis(const motion_request *r, motions *m, const pace_plan_req
     double value[CASE_MAX_PARAMETERS];
     if (a->count == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "motion takes one --vary, as NAME=A..B/N or NAME=A,B,C");
+                         "motion accepts one --vary, in the form NAME=A..B/N or NAME=A,B,C");
     memcpy(value, r->parameter, sizeof value);
     for (int i = 0; i < a->count; i++) {
         pace_plan_request one = *q;

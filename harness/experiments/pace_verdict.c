@@ -133,10 +133,10 @@ static status read_kind(const char *word, pace_verdict *v, fault *f)
     while (i < PACE_JUDGED && strcmp(judged_names[i], word) != 0)
         i++;
     if (i == PACE_JUDGED)
-        return fault_set(f, STATUS_REFUSED,
-                         "'%.40s' is not a property with a verdict; give order, energy, momentum, "
-                         "tolerance or fate",
-                         word);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "property '%.40s' has no verdict; give order, energy, momentum, tolerance or fate",
+            word);
     v->kind = (pace_judged)i;
     return STATUS_OK;
 }
@@ -147,7 +147,8 @@ static status read_elements(const char *text, int *out, fault *f)
     double value;
     if (!number_read(text, &end, &value) || *end != '\0' || value < 1 || value > 1e6 ||
         value != (int)value)
-        return fault_set(f, STATUS_REFUSED, "elements '%.40s': give a whole number", text);
+        return fault_set(f, STATUS_REFUSED, "elements '%.40s' is not a whole number; give one",
+                         text);
     *out = (int)value;
     return STATUS_OK;
 }

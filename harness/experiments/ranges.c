@@ -22,7 +22,8 @@ enum { MOST_POINTS_IN_BATCH = 8192, MOST_BATCHES = 100000000 };
 static status add_axis(parameter_ranges *r, const char *text, fault *f)
 {
     if (r->design.axes == CASE_MAX_PARAMETERS)
-        return fault_set(f, STATUS_REFUSED, "more than %d --vary; give fewer", CASE_MAX_PARAMETERS);
+        return fault_set(f, STATUS_REFUSED, "more than %d --vary options; give fewer",
+                         CASE_MAX_PARAMETERS);
     sweep_axis *a = &r->axis[r->design.axes];
     TRY(axis_read(r->request.type, text, a, f));
     r->design.axes++;
@@ -41,7 +42,7 @@ static status read_axes(parameter_ranges *r, fault *f)
     if (r->request.varies == 0)
         return fault_set(
             f, STATUS_REFUSED,
-            "no parameter varies; give --vary NAME=A..B/N; 'beamwork list %.170s' shows names",
+            "no parameter varies; give --vary NAME=A..B/N; 'beamwork list %.170s' shows the names",
             shown);
     for (int i = 0; i < r->request.varies; i++)
         TRY(add_axis(r, r->request.vary[i], f));
@@ -60,9 +61,10 @@ static status cut(parameter_ranges *r, fault *f)
     r->points_in_batch = fits < 1 ? 1 : (long)fmin(fits, (double)most);
     const long batches = (r->design.points + r->points_in_batch - 1) / r->points_in_batch;
     if (batches > MOST_BATCHES)
-        return fault_set(f, STATUS_REFUSED,
-                         "%ld points of about %.2g s each are too many for a sweep; request fewer",
-                         r->design.points, r->point_cost);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%ld points of about %.2g s each are too many for a sweep; request fewer points",
+            r->design.points, r->point_cost);
     r->batches = (int)batches;
     return STATUS_OK;
 }

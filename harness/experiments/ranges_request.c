@@ -189,11 +189,11 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
     } part[] = {
         {kind[ROWS_STORED], "a stored reference value"},
         {kind[ROWS_DERIVED], "a reference value computed for the point"},
-        {kind[ROWS_LIMIT], alone ? "the limit from the same meshes, which only shows convergence"
-                                 : "the limit from the meshes of all formulations of one theory"},
-        {kind[ROWS_NONE], "nothing: no limit has an uncertainty below half of the error (use finer "
-                          "-n, or --compute-references)"},
-        {kind[ROWS_DISPUTED], "nothing: limits of formulations disagree"}};
+        {kind[ROWS_LIMIT], alone ? "the limit of the same meshes, which shows only convergence"
+                                 : "the limit of the meshes of all formulations of one theory"},
+        {kind[ROWS_NONE], "nothing, because no limit has an uncertainty below half of the error "
+                          "(use finer meshes with -n, or --compute-references)"},
+        {kind[ROWS_DISPUTED], "nothing, because the limits of the formulations disagree"}};
     size_t used = 0;
     int parts = 0;
     text[0] = '\0';
@@ -248,7 +248,7 @@ static void write_without_scene(FILE *to, const tally *t)
     paragraph_say(to,
                   fprintf(to, "  no scene can be built at %ld point%s", t->without_scene,
                           t->without_scene == 1 ? "" : "s"),
-                  6, ", the first at %s: %s", where, why.text);
+                  6, "; the first is at %s: %s", where, why.text);
 }
 
 void ranges_table_known(FILE *to, const tally *t)
@@ -390,19 +390,19 @@ void ranges_table_map(FILE *to, const tally *t, int every)
         return;
     }
     fprintf(to, "\n");
-    paragraph_say(
-        to, fprintf(to, "least n "), 2,
-        "from which every mesh is within %g %%; -: not even with n = %d%s%s%s%s%s",
-        100 * r->request.tolerance, r->mesh[r->meshes - 1],
-        has_other(t) ? "; o: another model" : "",
-        has_unknown(t, 0) ? "; ?: without a reference" : "",
-        has_unknown(t, 1) ? "; a number with ?: some of its points have no reference" : "",
-        has_mixed(t) ? "; *: against a reference value, elsewhere against limits of meshes, which "
-                       "do not show what a theory omits"
-                     : "",
-        is_coarse(t) ? "; each field shows the number that suffices for all its points; column and "
-                       "row give its lower bounds"
-                     : "");
+    paragraph_say(to, fprintf(to, "least n "), 2,
+                  "from which every mesh is within %g %%; -: not even with n = %d%s%s%s%s%s",
+                  100 * r->request.tolerance, r->mesh[r->meshes - 1],
+                  has_other(t) ? "; o: another model" : "",
+                  has_unknown(t, 0) ? "; ?: no reference value" : "",
+                  has_unknown(t, 1) ? "; a number with ?: some of its points have no reference"
+                                    : "",
+                  has_mixed(t) ? "; *: relative to a reference value; elsewhere relative to limits "
+                                 "of meshes, which do not show the physics omitted by a theory"
+                               : "",
+                  is_coarse(t) ? "; each field shows the number of elements that suffices for all "
+                                 "its points; column and row give the lower bounds of the field"
+                               : "");
     for (int q = 0; q < r->quantities && every && r->quantities > 1; q++)
         write_maps_of(to, t, q);
     write_maps_of(to, t, r->quantities > 1 ? r->quantities : 0);

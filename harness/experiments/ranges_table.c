@@ -160,9 +160,9 @@ static void write_open(FILE *to, const tally *t)
         open |= tally_of(t, i, t->of->quantities)->open > 0;
     if (open)
         paragraph_say(to, 0, 2,
-                      "a point where a quantity of a formulation has a value but no reference "
-                      "counts, for all quantities together, only if another quantity is outside "
-                      "the error; n?: for the points that have a reference");
+                      "if a quantity of a formulation has a value but no reference at a point, the "
+                      "point counts for all quantities together only if another quantity is "
+                      "outside the error; n?: over the points that have a reference");
 }
 
 static void write_all_shares(FILE *to, const tally *t, int every)
@@ -186,9 +186,10 @@ static void write_others(FILE *to, const tally *t)
         char words[OMIT_WORDS];
         missing_omit_words(t->lacks[i], words);
         if (t->others[i] > 0)
-            paragraph_say(to, 0, 2,
-                          "%s: another model at %ld of %ld points, not counted: %s not modelled",
-                          t->of->formulation[i].key, t->others[i], t->points, words);
+            paragraph_say(
+                to, 0, 2,
+                "%s: another model at %ld of %ld points, which are not counted: %s not modelled",
+                t->of->formulation[i].key, t->others[i], t->points, words);
     }
 }
 
@@ -247,7 +248,7 @@ static void write_command(FILE *to, const parameter_ranges *r, int which, const 
     paragraph words;
     if (design_points(&r->design, w->point, 1, at, f) != STATUS_OK)
         return;
-    const int begun = fprintf(to, "to examine the first: ");
+    const int begun = fprintf(to, "to examine the first point: ");
     FILE *out = paragraph_begin(&words, to);
     fprintf(out, "beamwork converge ");
     char path[PATH_MAX];
@@ -291,5 +292,5 @@ void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault
     if (shown >= 0)
         write_command(to, r, shown, &t->worst[shown][0], folder, f);
     else
-        fprintf(to, "  none: nothing has an error\n");
+        fprintf(to, "  none, because no point has an error\n");
 }

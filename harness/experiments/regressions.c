@@ -81,8 +81,8 @@ static status compare(const stored_results *former, const char *name, const stor
         fclose(to) == 0 ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for a comparison");
     if (outcome == STATUS_OK && c.pairs == 0)
         outcome = fault_set(f, STATUS_REFUSED,
-                            "--not-worse-than %.120s has no results of this run; give a run of the "
-                            "same formulations and cases",
+                            "--not-worse-than %.120s: the file contains no results of this run; "
+                            "give the results of a run with the same formulations and cases",
                             name);
     if (outcome == STATUS_OK)
         outcome = add_lines(text, j, f);
@@ -137,7 +137,8 @@ static status find_moved(const stored_results *former, const sweep *s, judgement
         snprintf(new.of, sizeof new.of, "%s/default/%s", s->point[one->point].type->name,
                  one->formulation.key);
         snprintf(new.why, sizeof new.why,
-                 "limit of %s %.10g -> %.10g %s, which no reference value checks as closely",
+                 "limit of %s %.10g -> %.10g %s; no reference value is accurate enough to check "
+                 "this change",
                  q->name, old->value, v->fit.limit, q->unit);
         TRY(memory_append(&j->regression, &j->regressions, &new, sizeof new, "regressions", f));
     }

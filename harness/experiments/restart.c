@@ -20,14 +20,14 @@ status restart_possible(const scene *s, fault *f)
         if (s->load[i].feedback.node != SCENE_NONE && s->load[i].feedback.integral != 0)
             return fault_set(f, STATUS_REFUSED,
                              "%s (feedback): --save-state does not store the integral of the "
-                             "error; integrate in one run",
+                             "error; compute the whole motion in one run",
                              scene_called(s, SCENE_LOADS, i).text);
     for (int i = 0; i < s->analyses; i++)
         if (s->analysis[i].kind == SCENE_MOTION)
             return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "--save-state and --restart need a motion in time, and the scene has none; "
-                     "remove these options, or add an analysis 'motion'");
+                     "--save-state and --restart require a motion, but the scene has none; remove "
+                     "these options, or add a motion analysis");
 }
 
 void restart_free(restart *r)
@@ -44,11 +44,12 @@ static status check_chosen(const restart *r, const solution_request *of, fault *
     if (strcmp(r->formulation, of->formulation.key) != 0 || r->elements != of->elements)
         return fault_set(
             f, STATUS_REFUSED,
-            "--restart was written with -f %s -n %d, not with -f %s -n %d: a motion continues with "
-            "the formulation and the elements that it began with",
+            "the --restart file was written with -f %s -n %d, not with -f %s -n %d; continue a "
+            "motion with the formulation and the number of elements with which it began",
             r->formulation, r->elements, of->formulation.key, of->elements);
     if (r->keep_all != of->keep_all)
-        return fault_set(f, STATUS_REFUSED, "--restart was written by a run %s --all-dofs: %s",
+        return fault_set(f, STATUS_REFUSED,
+                         "the --restart file was written by a run %s --all-dofs; %s",
                          r->keep_all ? "with" : "without", r->keep_all ? "give it" : "remove it");
     return STATUS_OK;
 }
@@ -65,7 +66,7 @@ static status drop_stations(const outcome_end *e, scene *s, fault *f)
             m->path.value[kept++] = m->path.value[i];
     if (kept == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "the motion continues from %.10g s, but its last station is at %.10g s: "
+                         "the motion continues from %.10g s, but its last station is at %.10g s; "
                          "add a later station",
                          e->time, last);
     m->path.stations = kept;
@@ -80,7 +81,7 @@ status restart_begin(const restart *r, solution_request *of, scene *s, fault *f)
         const int k = r->end[i].analysis;
         if (k < 0 || k >= s->analyses || s->analysis[k].kind != SCENE_MOTION)
             return fault_set(f, STATUS_REFUSED,
-                             "--restart: %s is not a motion of the scene; write its state again "
+                             "--restart: %s is not a motion of the scene; write the file again "
                              "with --save-state",
                              scene_called(s, SCENE_ANALYSES, k).text);
         TRY(drop_stations(&r->end[i], s, f));
@@ -236,8 +237,10 @@ static double *take_values(const source *from, const char *name, long count)
 
 static status damaged(const source *from, fault *f)
 {
-    return fault_set(f, STATUS_FAULT,
-                     "%.200s: not a --save-state file of this version; write it again", from->path);
+    return fault_set(
+        f, STATUS_FAULT,
+        "%.200s: the file was not written by --save-state of this version; write it again",
+        from->path);
 }
 
 static int whole(double x, double most)
@@ -287,7 +290,7 @@ static status read_all(const source *from, restart *out, fault *f)
         return damaged(from, f);
     if (out->end == NULL) {
         out->ends = 0;
-        return fault_set(f, STATUS_FAULT, "out of memory for the end of a motion");
+        return fault_set(f, STATUS_FAULT, "out of memory for the final state of a motion");
     }
     for (int i = 0; i < out->ends; i++)
         TRY(read_end(from, i, &out->end[i], f));
@@ -318,7 +321,7 @@ static void equal_stations(scene *plain, double *zero)
 
 static status restart_text(const scene *s, char **out, fault *f)
 {
-    static const write_head head = {"motion", "a motion that continues another", "none"};
+    static const write_head head = {"motion", "a motion that continues another motion", "none"};
     double zero = 0;
     scene plain = *s;
     *out = NULL;
@@ -337,8 +340,8 @@ static status restart_text(const scene *s, char **out, fault *f)
     free(*out);
     *out = NULL;
     return fault_set(f, STATUS_REFUSED,
-                     "a continued motion is identified by its scene, but scene files cannot "
-                     "express this scene: remove --save-state and --restart");
+                     "a continued motion is identified by its scene file, but scene files cannot "
+                     "express this scene; remove --save-state and --restart");
 }
 
 /* Skips leading spaces and returns the length of the line. */
@@ -366,9 +369,10 @@ static status differ(const char *former, const char *now, fault *f)
             while (same < n && same < k && a[same] == b[same])
                 same++;
             same = same > BEFORE ? same - BEFORE : 0;
-            return fault_set(f, STATUS_REFUSED,
-                             "--restart belongs to another scene: there '%.*s', here '%.*s'",
-                             told(n - same), a + same, told(k - same), b + same);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "the --restart file belongs to another scene: there '%.*s', here '%.*s'",
+                told(n - same), a + same, told(k - same), b + same);
         }
         former = a + n + (a[n] == '\n');
         now = b + k + (b[k] == '\n');

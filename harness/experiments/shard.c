@@ -22,8 +22,8 @@ status shard_parse(const char *text, int *index, int *count, fault *f)
         --*index;
         return STATUS_OK;
     }
-    return fault_set(f, STATUS_REFUSED, "--shard '%.40s': give K/N, shard K of N, such as 1/4",
-                     text);
+    return fault_set(f, STATUS_REFUSED,
+                     "--shard '%.40s': give K/N for shard K of N shards, such as 1/4", text);
 }
 
 typedef struct shard_hand {
@@ -80,8 +80,8 @@ static void tell_lost(const crew *c, int batch, int how)
     child_ended(how, 0, 0, words, sizeof words);
     if (c->todo.request->tell != NULL)
         fprintf(c->todo.request->tell,
-                "beamwork: batch %d is lost: its process %s; start the shard again\n", batch + 1,
-                WIFSIGNALED(how) ? words : "ended before it was done");
+                "beamwork: batch %d is lost, because its process %s; start the shard again\n",
+                batch + 1, WIFSIGNALED(how) ? words : "ended before the batch was complete");
 }
 
 /* Deletes the incomplete files of a batch. batch -1: there are none. */
@@ -178,7 +178,7 @@ static status make_folder(const char *into, fault *f)
 {
     if (mkdir(into, 0777) == 0 || errno == EEXIST)
         return STATUS_OK;
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be created (%s); choose another place", into,
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be created (%s); choose another folder", into,
                      strerror(errno));
 }
 

@@ -94,8 +94,8 @@ static status tell_change(const solution_request *r, const solution_choice *why,
         return out->status;
     out->status = STATUS_NOT_CONVERGED;
     snprintf(out->reason, sizeof out->reason,
-             "values still change with the mesh: %.200s; %.3g %% was requested; use -n %d, or a "
-             "larger --error",
+             "the values still change with the mesh: %.200s; %.3g %% was requested; use -n %d, or "
+             "a larger --error",
              why->elements, 100 * asked, 2 * r->elements);
     return fault_set(f, STATUS_NOT_CONVERGED, "%s", out->reason);
 }
@@ -440,13 +440,14 @@ status meshes_parse(const char *list, int most, int mesh[], int *count, fault *f
         const int length = (int)strcspn(at, ",");
         char *end;
         if (*count == most)
-            return fault_set(f, STATUS_REFUSED, "too many meshes; give at most %d", most);
+            return fault_set(f, STATUS_REFUSED, "-n lists too many meshes; give at most %d", most);
         errno = 0;
         const long value = strtol(at, &end, 10);
         if (end == at || end != at + length || errno != 0 || value < 1 || value > MESHES_FINEST)
-            return fault_set(f, STATUS_REFUSED,
-                             "number of elements '%.*s': give a whole number from 1 to %d",
-                             length < 40 ? length : 40, at, MESHES_FINEST);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "the number of elements '%.*s' is invalid; give a whole number from 1 to %d",
+                length < 40 ? length : 40, at, MESHES_FINEST);
         mesh[(*count)++] = (int)value;
         at = end;
         if (*at == '\0')

@@ -76,7 +76,8 @@ status specimen_make(const specimen_request *what, specimen *out, fault *f)
     out->size = out->type.data_size(&out->request);
     out->data = calloc(1, out->size > 0 ? out->size : 1);
     if (out->data == NULL)
-        return fault_set(f, STATUS_FAULT, "data_size requests %zu bytes, which are not available",
+        return fault_set(f, STATUS_FAULT,
+                         "data_size requests %zu bytes, but so much memory is not available",
                          out->size);
     TRY(out->type.prepare(&out->request, out->data, f));
     return begin(out, f);
@@ -187,7 +188,7 @@ const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS])
 static void describe(const specimen_request *what, const formulation *chosen, specimen *s)
 {
     static const char *const section_words[] = {"", ", unsymmetric section",
-                                                ", section by its matrices"};
+                                                ", section given by its matrices"};
     const char *options = strchr(chosen->key, ':');
     const int curved = what->curvature[0] != 0 || what->curvature[2] != 0;
     snprintf(s->words, sizeof s->words, "%s%.80s%s%s", options != NULL ? ", with " : "",
@@ -202,7 +203,7 @@ typedef struct way {
     int usual; /* 1: the type must accept the element */
 } way;
 
-static const char failure[] = "its functions return results";
+static const char failure[] = "the functions return results";
 
 /* Returns 1 if the element gives results. If the code of the formulation fails, only this failure
  * is reported, because it causes all other deviations. */
@@ -222,7 +223,8 @@ static int gives_answers(const specimen *s, claims *c)
     if (why == NULL)
         return 1;
     c->count = 0;
-    claims_asks(claims_open(c, failure, 0), 0, "%s%s; the rest is not checked", why, s->words);
+    claims_asks(claims_open(c, failure, 0), 0, "%s%s; the other requirements are not checked", why,
+                s->words);
     return 0;
 }
 
@@ -237,8 +239,8 @@ static void one_way(const way *w, claims *c, specimens_check *check)
     describe(&w->made, w->chosen, &s);
     const int refused = outcome == STATUS_REFUSED && f.text[0] != '\0';
     claims_asks(claims_open(c, "prepare", 0), outcome == STATUS_OK || (refused && !w->usual),
-                "prepare: rejects an element%s (%s): %s; support it, or reject it with a reason "
-                "and do not declare the feature",
+                "prepare: an element%s is rejected (%s): %s; support the element, or reject it "
+                "with a reason and do not declare the feature",
                 s.words[0] != '\0' ? s.words + 1
                                    : " with a rectangular section and all declared features",
                 status_name(outcome), f.text[0] != '\0' ? f.text : "no reason is given");
@@ -382,12 +384,12 @@ static void check_stiffness(const specimen_place *at, const double K[], claim *o
                          uj = chart_unit(j, s->request.length);
             const double given = (K[i * n + j] + K[j * n + i]) / 2 * ui * uj,
                          found = (column[j][i] * ui + column[i][j] * uj) / 2;
-            claims_departs(
-                one, claims_share(fabs(given - found), size),
-                "K: the derivative of the force in coordinate %d (%s) with respect to coordinate "
-                "%d (%s) is %.6g, but differences of F give %.6g%s",
-                i + 1, specimen_coordinate(i, first), j + 1, specimen_coordinate(j, other),
-                given / (ui * uj), found / (ui * uj), s->words);
+            claims_departs(one, claims_share(fabs(given - found), size),
+                           "K: the derivative of the force in coordinate %d (%s) with respect to "
+                           "coordinate %d (%s) is %.6g, but finite differences of F give %.6g%s",
+                           i + 1, specimen_coordinate(i, first), j + 1,
+                           specimen_coordinate(j, other), given / (ui * uj), found / (ui * uj),
+                           s->words);
         }
 }
 
@@ -438,7 +440,7 @@ static void check(const specimen *s, claims *c)
         call(s, x,
              &(force_output){
                  .energy = &energy, .F = leaves & LEAVES_FORCE ? NULL : F, .K = leaves ? NULL : K});
-    claims_asks(claims_open(c, "moderate strains have a force", 0), outcome == STATUS_OK,
+    claims_asks(claims_open(c, "moderate strains have forces", 0), outcome == STATUS_OK,
                 "force: a state displaced by a few hundredths ends with status '%s'%s",
                 status_name(outcome), s->words);
     if (outcome != STATUS_OK)
@@ -454,7 +456,7 @@ static void check(const specimen *s, claims *c)
 void checks_force(const formulation *chosen, claims *out)
 {
     if (chosen->type->force == NULL) {
-        claims_not_made(out, claim_F, "defined by its strains and stresses");
+        claims_not_made(out, claim_F, "the element is defined by its strains and stresses");
         return;
     }
     if (chosen->type->leaves & LEAVES_FORCE)

@@ -53,7 +53,7 @@ static status hold_against(stock *s, const batch_label *label, const char *path,
     return same ? STATUS_OK
                 : fault_set(
                       f, STATUS_REFUSED,
-                      "%.130s and %.130s are the same batch with different results; remove one",
+                      "%.130s and %.130s contain different results of the same batch; remove one",
                       other, path);
 }
 
@@ -86,7 +86,8 @@ static status look_inside(stock *s, const shard_work *w, const char *path, int b
     status outcome = batch_belongs(&label, w, path, f);
     if (outcome == STATUS_OK && (label.batch != batch || label.batches != w->batches))
         outcome = fault_set(f, STATUS_REFUSED,
-                            "%.200s is batch %d of %d, which differs from its name; remove it",
+                            "%.200s contains batch %d of %d, which differs from the name of the "
+                            "file; remove the file",
                             path, label.batch + 1, label.batches);
     if (outcome == STATUS_OK)
         outcome = add(s, &label, path, folder, f);
@@ -101,7 +102,7 @@ static status refuse_other(const shard_work *w, const char *path, fault *f)
     if (batch_read_label(path, &label, NULL) != STATUS_OK)
         return fault_set(f, STATUS_REFUSED,
                          "%.200s: its name ends in " BATCH_ENDING
-                         ", but it is not a batch of this program; remove it",
+                         ", but the file is not a batch of this program; remove it",
                          path);
     status outcome = batch_belongs(&label, w, path, f);
     if (outcome == STATUS_OK)
@@ -125,7 +126,7 @@ static status look_at(stock *s, const shard_work *w, const char *name, int folde
 
 static status unreadable(const char *folder, fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be read as a folder (%s)", folder,
+    return fault_set(f, STATUS_FAULT, "%.200s: the folder cannot be read (%s)", folder,
                      strerror(errno));
 }
 
@@ -227,7 +228,8 @@ void stock_tell_kinds(const stock *s, FILE *to)
     if (s->kinds < 2)
         return;
     fprintf(to,
-            "beamwork: the batches come from %d kinds of machines: the last digits may differ\n",
+            "beamwork: the batches were computed on %d kinds of machines, so the last digits may "
+            "differ\n",
             s->kinds);
     for (int i = 0; i < s->kinds; i++)
         fprintf(to, "beamwork:   %d on %s (%s; %s)\n", s->kind[i].batches, s->kind[i].node.host,
@@ -351,9 +353,9 @@ static status take(const shard_work *w, const stock *s, int batch, fault *f)
     batch_label_free(&label);
     status outcome = w->take(w->context, batch, from, f);
     if (outcome == STATUS_OK && ftell(from) != end)
-        outcome =
-            fault_set(f, STATUS_FAULT,
-                      "%.200s: the file is longer or shorter than its contents; remove it", path);
+        outcome = fault_set(
+            f, STATUS_FAULT,
+            "%.200s: the size of the file does not match its contents; remove the file", path);
     fclose(from);
     return outcome;
 }

@@ -35,7 +35,8 @@ static status add_quantity(parameter_ranges *r, const scene_quantity *q, fault *
         if (strcmp(r->quantity[i].name, q->name) == 0)
             return STATUS_OK;
     if (r->quantities == RANGES_QUANTITIES)
-        return fault_set(f, STATUS_REFUSED, "more than %d quantities; choose some with -k",
+        return fault_set(f, STATUS_REFUSED,
+                         "there are more than %d quantities; select some with -k",
                          RANGES_QUANTITIES);
     ranges_quantity *out = &r->quantity[r->quantities++];
     snprintf(out->name, sizeof out->name, "%s", q->name);
@@ -82,8 +83,8 @@ static status check_words(const survey_wanted *w, const sweep_point *p, fault *f
     if (near == NULL)
         return select_all_met(w->select, &w->words, f);
     return fault_set(f, STATUS_REFUSED,
-                     "selection '%.60s': nothing is called '%.60s', did you mean '%s'?", w->select,
-                     word, near);
+                     "selection '%.60s': the name '%.60s' is unknown; did you mean '%s'?",
+                     w->select, word, near);
 }
 
 /* Removes formulations that cannot run or have no selected quantity. REFUSED: the user named a
@@ -100,7 +101,8 @@ static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f
         if (w->runs[i])
             continue;
         if (r->request.formulations > 0)
-            return fault_set(f, STATUS_REFUSED, "%.60s does not support %.160s, which %.60s needs",
+            return fault_set(f, STATUS_REFUSED,
+                             "%.60s does not support %.160s, which %.60s requires",
                              r->formulation[i].key, why, r->request.type->name);
         if (told < (int)sizeof r->left_out)
             told += snprintf(r->left_out + told, sizeof r->left_out - (size_t)told, "%s%s (%s)",
@@ -139,7 +141,7 @@ static status judge(parameter_ranges *r, const sweep *s, fault *f)
         }
     if (known < 0)
         return fault_set(f, STATUS_REFUSED,
-                         "no scene can be built at the points that were tried: %.200s",
+                         "no scene can be built at any point that was tried: %.200s",
                          s->point[0].reason);
     TRY(check_words(&w, &s->point[known], f));
     scene_omission_words(features_omitted(&s->point[known].scene), r->omitted);

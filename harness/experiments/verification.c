@@ -288,18 +288,18 @@ static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
     TRY(import_store_read(path, must_pass, s, &left, f));
     if (left.series == left.all && must_pass)
         return fault_set(f, STATUS_REFUSED,
-                         "--imported-must-pass: nothing of %.150s was run: it belongs to %s; "
-                         "select that with -k, or give its --scene",
+                         "--imported-must-pass: no quantity of %.150s was run, because the file "
+                         "belongs to %s; select that case with -k, or give its --scene",
                          path, left.first);
     if (left.series == left.all)
         fprintf(stderr,
-                "beamwork: %s: nothing of it was run; it belongs to %s; select that with -k, or "
-                "give its --scene\n",
+                "beamwork: %s: no quantity of this file was run, because the file belongs to %s; "
+                "select that case with -k, or give its --scene\n",
                 path, left.first);
     else if (left.series > 0)
         fprintf(stderr,
-                "beamwork: %s: %d of %d series are of cases or parameters that were not run, the "
-                "first %s\n",
+                "beamwork: %s: %d of %d series belong to cases or parameters that were not run; "
+                "the first is %s\n",
                 path, left.series, left.all, left.first);
     return STATUS_OK;
 }
@@ -344,10 +344,10 @@ static status judge(const void *asked, void *found, fault *f)
     if (r->taken)
         TRY(judge_all(&r->cells, r->whole, &v->truths, &v->sweep, &v->judgement, f));
     if (r->imported_must_pass && !imported_was_judged(&v->sweep, &v->judgement))
-        return fault_set(f, STATUS_REFUSED,
-                         "--imported-must-pass: no imported value has a verdict: none of its "
-                         "quantities has a reference value and is selected (-k), or its model is "
-                         "not 'beam'");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--imported-must-pass: no imported value has a verdict, because no imported quantity "
+            "both has a reference value and is selected (-k), or because the model is not 'beam'");
     if (r->former != NULL && v->sweep.unfinished == 0)
         TRY(regressions_find(&v->former, r->former, &v->sweep, &v->judgement, f));
     return overview_make(&v->sweep, &v->judgement, &v->overview, f);
@@ -368,7 +368,7 @@ static void print(FILE *to, const verification *v)
     const judgement *j = &v->judgement;
     char sentence[SENTENCE_OF_RUN];
     if (v->asked->exit_zero)
-        fputs("exploration: the exit status is 0 for any verdicts (--exit-zero)\n\n", to);
+        fputs("exploration: the exit status is 0 whatever the verdicts (--exit-zero)\n\n", to);
     table_breaches(to, look, j);
     if (!v->asked->quiet && shows_limits(v)) {
         table_verdicts(to, s, j);

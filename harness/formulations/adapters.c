@@ -185,19 +185,19 @@ static status check(const element_type *given, const double options[], fault *f)
 {
     const int nodes = element_nodes(given, options);
     if (given->prepare == NULL)
-        return refuse(given,
-                      "'prepare' is missing; without it the element does not know its section", f);
+        return refuse(
+            given, "'prepare' is missing; add it, because it passes the section to the element", f);
     if ((given->force != NULL) == (given->strain != NULL || given->stress != NULL))
         return refuse(given, "give either 'strain' and 'stress', or 'force'", f);
     if (given->force == NULL && (given->strain == NULL || given->stress == NULL))
-        return refuse(given, "'strain' and 'stress' belong together", f);
+        return refuse(given, "give 'strain' and 'stress' together", f);
     if (given->force != NULL && (given->along != NULL || given->tension != NULL))
-        return refuse(given, "'along' and 'tension' belong to 'strain' and 'stress'", f);
+        return refuse(given, "'along' and 'tension' require 'strain' and 'stress'", f);
     if (nodes < 2 || nodes > ELEMENT_MAX_NODES)
-        return refuse(given, "an element has two or three nodes", f);
+        return refuse(given, "an element must have two or three nodes", f);
     if (given->force == NULL && (element_strains(given, options) < 1 ||
                                  element_strains(given, options) > ELEMENT_MAX_STRAINS))
-        return refuse(given, "an element has 1 to 24 strains", f);
+        return refuse(given, "an element must have 1 to 24 strains", f);
     return check_history(given, options, f);
 }
 

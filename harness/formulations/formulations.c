@@ -98,8 +98,9 @@ const char *formulations_element(const element_type *t)
 
 const parameter_type formulation_common[] = {
     {"newton", "", NEWTON_MIXED, 0, 0, "mixed|displacement|dense",
-     "Newton's iteration: coordinates, strains and stresses at once, condensed element by element; "
-     "displacements only; or uncondensed with Gaussian elimination"},
+     "form of Newton's method. mixed: coordinates, strains and stresses are solved together, "
+     "condensed element by element; displacement: displacements only; dense: uncondensed, with "
+     "Gaussian elimination"},
     {0},
 };
 
@@ -228,7 +229,7 @@ status formulation_list_add(const char *text, int most, formulation list[], int 
     TRY(formulation_parse(text, &list[*count], f));
     for (int i = 0; i < *count; i++)
         if (strcmp(list[i].key, list[*count].key) == 0)
-            return fault_set(f, STATUS_REFUSED, "a formulation is given twice; give it once");
+            return fault_set(f, STATUS_REFUSED, "a formulation is given twice; give it only once");
     ++*count;
     return STATUS_OK;
 }
@@ -402,7 +403,7 @@ status select_begin(const char *expression, select_words *words, fault *f)
     if (expression != NULL && select_matches(expression, "") < 0)
         return fault_set(f, STATUS_REFUSED,
                          "selection '%.100s' is malformed; write words joined by and, or, not, "
-                         "with brackets where they belong together",
+                         "with brackets around words that belong together",
                          expression);
     for (int i = 0; registered(NULL, i) != NULL; i++)
         select_meet(expression, registered(NULL, i), words);
@@ -445,7 +446,7 @@ status select_all_met(const char *expression, const select_words *words, fault *
     const char *near = nearest(word);
     return fault_set(
         f, STATUS_REFUSED,
-        "selection '%.60s': nothing is called '%.60s'%s%s%s; 'beamwork list' shows names",
+        "selection '%.60s': the name '%.60s' is unknown%s%s%s; 'beamwork list' shows the names",
         expression, word, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
         near != NULL ? "'?" : "");
 }

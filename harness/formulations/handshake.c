@@ -99,7 +99,7 @@ static status no_such_word(const handshake_reading *r, const char *key, const wo
                                known->word);
     return fault_set(r->f, STATUS_REFUSED,
                      "%.60s: '%s' in its first line contains the unknown word '%.40s'; give %s",
-                     r->who, key, word != NULL ? word : "that is not text", words);
+                     r->who, key, word != NULL ? word : "the value is not text", words);
 }
 
 /* Combines the bits of a list of words. known NULL: the words of feature.h. */
@@ -154,7 +154,7 @@ static status orders_of(const handshake_reading *r, element_order out[])
         out[i] = (element_order){(int)least, (int)highest};
     }
     if (order != NULL && json_object_size(order) != known)
-        return refuse(r, "order", "its keys are statics, vibration and buckling");
+        return refuse(r, "order", "the keys are statics, vibration and buckling");
     return STATUS_OK;
 }
 
@@ -181,11 +181,11 @@ static status inertia_of(const handshake_reading *r, handshake *out)
     if (word == NULL || (strcmp(word, "vibration") != 0 && strcmp(word, "motion") != 0))
         return refuse(r, "inertia", "give vibration or motion, or remove it");
     if (!(out->type.offers & FEATURE_MASS))
-        return refuse(r, "inertia", "it requires mass; add mass to 'offers'");
+        return refuse(r, "inertia", "this requires mass; add mass to 'offers'");
     out->inertia = 1;
     out->type.spreads = strcmp(word, "motion") == 0;
     if (out->type.spreads && out->constants.nodes != 2)
-        return refuse(r, "inertia", "motion is for two nodes; give vibration");
+        return refuse(r, "inertia", "motion is only for elements with two nodes; give vibration");
     return STATUS_OK;
 }
 
@@ -210,8 +210,8 @@ static status protocol_of(const handshake_reading *r)
     if (json_is_integer(number) && json_integer_value(number) == PROCESS_PROTOCOL)
         return STATUS_OK;
     return fault_set(r->f, STATUS_REFUSED,
-                     "%.100s: uses protocol %lld, this program %d; its first line must have "
-                     "\"beamwork\": %d",
+                     "%.100s: the command uses protocol %lld, but this program uses protocol %d; "
+                     "the first line must contain \"beamwork\": %d",
                      r->who, (long long)json_integer_value(number), PROCESS_PROTOCOL,
                      PROCESS_PROTOCOL);
 }
@@ -237,7 +237,7 @@ static status read_all(const handshake_reading *r, handshake *out)
         TRY(number_of(r, "strains", 1, ELEMENT_MAX_STRAINS, -1, &out->constants.strains));
     else if (json_object_get(r->said, "strains") != NULL)
         return refuse(r, "strains",
-                      "formulations of whole elements do not have this key; remove it");
+                      "formulations that provide whole elements do not have this key; remove it");
     TRY(number_of(r, "history", 1, ELEMENT_MAX_HISTORY, 0, &out->constants.history));
     TRY(orders_of(r, out->constants.order));
     TRY(inertia_of(r, out));
@@ -335,8 +335,8 @@ static status read_choice(const char *who, const json_t *one, parameter_type *ou
     }
     return out->choices != NULL && out->unit != NULL && found
                ? STATUS_OK
-               : options_refuse(who, out->name, "'choices' are words and 'default' is one of them",
-                                f);
+               : options_refuse(who, out->name,
+                                "'choices' must be words, and 'default' must be one of them", f);
 }
 
 static status read_number(const char *who, const json_t *one, parameter_type *out, fault *f)
@@ -364,8 +364,9 @@ static status read_one(const char *who, const json_t *one, parameter_type *out, 
     if (out->name == NULL || out->summary == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory");
     if (has_other_keys(one))
-        return options_refuse(who, out->name,
-                              "its keys are name, default, min, max, unit, choices, summary", f);
+        return options_refuse(
+            who, out->name,
+            "the keys of an option are name, default, min, max, unit, choices, summary", f);
     return json_object_get(one, "choices") != NULL ? read_choice(who, one, out, f)
                                                    : read_number(who, one, out, f);
 }
@@ -376,7 +377,7 @@ static status handshake_options(const char *who, const json_t *list, const param
     const size_t count = json_array_size(list);
     *out = NULL;
     if ((list != NULL && !json_is_array(list)) || count > ELEMENT_MAX_OPTIONS)
-        return options_refuse(who, "", "'options' is a list of at most 6", f);
+        return options_refuse(who, "", "'options' must be a list of at most 6 options", f);
     if (count == 0)
         return STATUS_OK;
     parameter_type *table = calloc(count + 1, sizeof *table);

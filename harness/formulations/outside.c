@@ -30,9 +30,9 @@ static status check(const char *path, const element_type *t, fault *f)
     if (!is_name(t->name) || strlen(t->name) > 60)
         why = "its .name must be a word of at most 60 lowercase letters, digits and underscores";
     else if (t->summary == NULL || t->source == NULL || t->family == NULL)
-        why = "give it .summary, .source and .family";
+        why = ".summary, .source or .family is missing; add it";
     else if (t->prepare == NULL || t->data_size == NULL)
-        why = "give it .prepare and .data_size";
+        why = ".prepare or .data_size is missing; add it";
     return why != NULL ? refuse(path, why, f) : STATUS_OK;
 }
 
@@ -41,16 +41,16 @@ static status copy(const char *path, const element_type *loaded, const element_t
 {
     if (loaded->abi != ELEMENT_ABI)
         return fault_set(f, STATUS_REFUSED,
-                         "%.100s: written for version %u of the element interface, this is %d; "
-                         "compile it with the headers of this program",
+                         "%.100s: the element was written for version %u of the element interface, "
+                         "but this is version %d; compile it with the headers of this program",
                          path, loaded->abi, ELEMENT_ABI);
     if (loaded->size < offsetof(element_type, name) + sizeof(char *) ||
         loaded->size > sizeof(element_type))
-        return fault_set(f, STATUS_REFUSED,
-                         "%.100s: its element_type has %zu bytes, at most %zu are known here; set "
-                         ".size = sizeof(element_type) and compile it with the headers of this "
-                         "program",
-                         path, loaded->size, sizeof(element_type));
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%.100s: its element_type has %zu bytes, but this program knows at most %zu; set .size "
+            "= sizeof(element_type), and compile it with the headers of this program",
+            path, loaded->size, sizeof(element_type));
     element_type *t = calloc(1, sizeof *t);
     if (t == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for %.100s", path);
@@ -84,11 +84,10 @@ status plugin_load(const char *path, const element_type **out, fault *f)
         return process_load(path + sizeof exec - 1, out, f);
     void *file = dlopen(path, RTLD_NOW | RTLD_LOCAL);
     if (file == NULL)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "cannot load %.200s: is it a shared object? A path has a '/': ./mine.so; a "
-            "command 'exec:' before it",
-            dlerror());
+        return fault_set(f, STATUS_REFUSED,
+                         "cannot load %.200s; give the path of a shared object with a '/', such as "
+                         "./mine.so, or a command that begins with 'exec:'",
+                         dlerror());
     const element_type *loaded = find_type(file);
     if (loaded == NULL)
         return refuse(path,
@@ -149,7 +148,7 @@ static status start_again(process *p, fault *f)
         again.constants.nodes == p->constants.nodes &&
         again.constants.history == p->constants.history;
     return same ? STATUS_OK
-                : channel_break(&p->to, "gives different declarations when it starts again", f);
+                : channel_break(&p->to, "gives different declarations when it is started again", f);
 }
 
 static void put(char **to, const void *from, size_t bytes)
@@ -247,9 +246,11 @@ static status check_machine(const char *command, fault *f)
     const int64_t one = 1;
     char first;
     memcpy(&first, &one, 1);
-    return first == 1
-               ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED, "exec:%.100s: this machine is big-endian", command);
+    return first == 1 ? STATUS_OK
+                      : fault_set(f, STATUS_REFUSED,
+                                  "exec:%.100s: the protocol requires a little-endian machine, but "
+                                  "this machine is big-endian",
+                                  command);
 }
 
 static status begin(process *p, const char *command, fault *f)

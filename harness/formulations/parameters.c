@@ -41,7 +41,7 @@ status words_split(const char *command, char ***words, fault *f)
     if (from == NULL)
         why = "a quotation mark is not closed";
     else if (*from != '\0')
-        why = "too many words; put them into a script";
+        why = "too many words; write them into a script";
     else if (count == 0 || out[0][0] == '\0')
         why = "no command is given; give one such as 'exec:python3 my_beam.py'";
     if (why == NULL) {
@@ -104,8 +104,8 @@ static status set_value(const assignment_list *l, const parameter_type *p, const
                                "%s %s of %s: unknown choice '%.60s'; give one of %s", l->what,
                                p->name, l->owner, text, p->choices)
                    : fault_set(f, STATUS_REFUSED,
-                               "%s %s of %s: '%.60s' is not a finite number, or too small for one; "
-                               "values are SI without units",
+                               "%s %s of %s: '%.60s' is not a finite number, or is too small; give "
+                               "a value in SI units, without the unit",
                                l->what, p->name, l->owner, text);
     if (p->choices == NULL) {
         const int flag = strcmp(p->unit, "1") == 0 && p->min == 0 && p->max == 1;
@@ -138,7 +138,7 @@ static status unknown(const assignment_list *l, const char *name, fault *f)
     assignment_shown(l, shown);
     const char *near = choice_nearest(name, name_at, l);
     return fault_set(f, STATUS_REFUSED,
-                     "%s has no %s '%.60s'%s%s%s; 'beamwork list %.170s' shows them", l->owner,
+                     "%s has no %s '%.60s'%s%s%s; 'beamwork list %.170s' shows the names", l->owner,
                      l->what, name, near != NULL ? ", did you mean '" : "",
                      near != NULL ? near : "", near != NULL ? "'?" : "", shown);
 }
@@ -150,8 +150,8 @@ status assignment_set(const assignment_list *l, const char *text, double value[]
     const size_t length = strcspn(text, "=");
     if (length == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s '%.60s' of %s: write it as NAME=VALUE, joined by single '%c'", l->what,
-                         text, l->owner, l->separator);
+                         "%s '%.60s' of %s: write NAME=VALUE; join several by a single '%c'",
+                         l->what, text, l->owner, l->separator);
     snprintf(name, sizeof name, "%.*s", (int)length, text);
     const parameter_type *p;
     int i = 0;
@@ -186,7 +186,7 @@ status assignment_parse(const assignment_list *l, const char *text, double value
         snprintf(one, sizeof one, "%.*s", (int)length, at);
         TRY(assignment_set(l, one, value, any, &index, f));
         if (given[index]++)
-            return fault_set(f, STATUS_REFUSED, "%s %s of %s is given twice; give it one value",
+            return fault_set(f, STATUS_REFUSED, "%s %s of %s is given twice; give one value",
                              l->what, parameter_at(l->part, index)->name, l->owner);
         at = at[length] != '\0' ? at + length + 1 : NULL;
     }

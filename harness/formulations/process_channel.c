@@ -296,8 +296,8 @@ static status breach(channel *c, child_event what, const char *when, fault *f)
         snprintf(why, sizeof why, "its process did not answer within %d s%s", c->limit, when);
     } else if (what == CHILD_SPOKE) {
         snprintf(why, sizeof why,
-                 "its process wrote more than an answer to standard output%s; print to standard "
-                 "error",
+                 "its process wrote more than an answer to standard output%s; print other text to "
+                 "standard error",
                  when);
     } else {
         how_it_ended(child_end(&c->process, 0), how, sizeof how);
@@ -318,7 +318,8 @@ static status first_line(channel *c, char line[], fault *f)
         if (what != CHILD_DONE)
             return breach(c, what, " before its first line", f);
         if (count == HANDSHAKE_MOST && memchr(line, '\n', count) == NULL)
-            return channel_break(c, "its process did not begin with a line of JSON", f);
+            return channel_break(c, "the output of its process did not begin with a line of JSON",
+                                 f);
     }
     char *end = memchr(line, '\n', count);
     if (end != line + count - 1 && line[0] == '{')

@@ -31,7 +31,8 @@ static status find(const char *name, bw_scene **out, fault *f)
     if (out != NULL)
         *out = NULL;
     if (name == NULL || out == NULL)
-        return fault_set(f, STATUS_REFUSED, "bw_scene_case: give a name and a place for the scene");
+        return fault_set(f, STATUS_REFUSED,
+                         "bw_scene_case: give a name and a pointer for the scene");
     const case_type *type = case_find(name, f);
     return type != NULL ? new_scene(type, NULL, NULL, out, f) : STATUS_REFUSED;
 }
@@ -84,7 +85,7 @@ bw_status bw_scene_read(const char *bytes, size_t size, const char *name, bw_sce
         *out = NULL;
     if (bytes == NULL || out == NULL)
         return call_end(&c, fault_set(&c.fault, STATUS_REFUSED,
-                                      "bw_scene_read: give a text and a place for the scene"));
+                                      "bw_scene_read: give a text and a pointer for the scene"));
     return call_end(&c, read_scene(bytes, size, name != NULL ? name : "scene", out, &c));
 }
 
@@ -96,7 +97,7 @@ bw_status bw_scene_open(const char *path, bw_scene **out, char **why)
         *out = NULL;
     if (path == NULL || out == NULL)
         return call_end(&c, fault_set(&c.fault, STATUS_REFUSED,
-                                      "bw_scene_open: give a path and a place for the scene"));
+                                      "bw_scene_open: give a path and a pointer for the scene"));
     return call_end(&c, read_scene(NULL, 0, path, out, &c));
 }
 
@@ -134,7 +135,7 @@ static status document(const bw_scene *s, char **out, const char *what,
     if (out != NULL)
         *out = NULL;
     if (s == NULL || out == NULL)
-        return fault_set(f, STATUS_REFUSED, "%s: give a scene and a place for the text", what);
+        return fault_set(f, STATUS_REFUSED, "%s: give a scene and a pointer for the text", what);
     TRY(text_begin(&t, f));
     return text_end(&t, write(t.to, s, f), out, f);
 }
@@ -179,7 +180,7 @@ static status list_of(const char *name, char **json, fault *f)
     truths ledger = {0};
     document_text t;
     if (json == NULL)
-        return fault_set(f, STATUS_REFUSED, "bw_list: give a place for the text");
+        return fault_set(f, STATUS_REFUSED, "bw_list: give a pointer for the text");
     *json = NULL;
     TRY(list_subject_find(name, &what, f));
     TRY(text_begin(&t, f));
@@ -255,8 +256,8 @@ static int contestants_jobs(void)
 static status contestants_finished(const sweep *s, fault *f)
 {
     return s->unfinished == 0 ? STATUS_OK
-                              : fault_set(f, STATUS_TIME_LIMIT, "stopped before %d cells were done",
-                                          s->unfinished);
+                              : fault_set(f, STATUS_TIME_LIMIT,
+                                          "stopped before %d cells were computed", s->unfinished);
 }
 
 /* Request and results. The function converge frees them. */
@@ -316,7 +317,7 @@ static status converge(const bw_scene *from, const char *names, const char *mesh
     if (json != NULL)
         *json = NULL;
     if (from == NULL || json == NULL)
-        return fault_set(f, STATUS_REFUSED, "bw_converge: give a scene and a place for the text");
+        return fault_set(f, STATUS_REFUSED, "bw_converge: give a scene and a pointer for the text");
     status outcome = prepare(&s, names, meshes, options, f);
     if (outcome == STATUS_OK)
         outcome = write_study(&s, json, f);
@@ -444,7 +445,7 @@ static status answer(verify_trial *v, char **json, fault *f)
 static status verify(verify_trial *v, const char *names, const char *options, char **json, fault *f)
 {
     if (json == NULL)
-        return fault_set(f, STATUS_REFUSED, "bw_verify: give a place for the text");
+        return fault_set(f, STATUS_REFUSED, "bw_verify: give a pointer for the text");
     *json = NULL;
     status outcome = verify_prepare(v, names, options, f);
     if (outcome == STATUS_OK)

@@ -116,12 +116,12 @@ static status solve(const bw_scene *from, const char *name, int elements, const 
     if (out != NULL)
         *out = NULL;
     if (from == NULL || out == NULL)
-        return fault_set(f, STATUS_REFUSED, "bw_solve: give a scene and a place for the result");
+        return fault_set(f, STATUS_REFUSED, "bw_solve: give a scene and a pointer for the result");
     if (elements < 0 || elements > MESHES_FINEST)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "number of elements %d: give a whole number from 1 to %d, or 0 to have it chosen",
-            elements, MESHES_FINEST);
+        return fault_set(f, STATUS_REFUSED,
+                         "the number of elements %d is not valid; give a whole number from 1 to "
+                         "%d, or 0 to let the program choose",
+                         elements, MESHES_FINEST);
     solution_request what = {
         .type = source_case(from->from), .parameter = from->parameter, .elements = elements};
     TRY(read_options(options, &what, &stop, f));
@@ -465,7 +465,8 @@ static status load(const char *path, char **name, fault *f)
     if (name != NULL)
         *name = NULL;
     if (path == NULL)
-        return fault_set(f, STATUS_REFUSED, "bw_formulation_load: give the path of an object");
+        return fault_set(f, STATUS_REFUSED,
+                         "bw_formulation_load: give the path of a shared object");
     TRY(plugin_load(path, &type, f));
     TRY(formulations_add(type, NULL, f));
     if (name != NULL && (*name = strdup(type->name)) == NULL)
@@ -489,8 +490,8 @@ static status unknown(const char *key, const call_option table[], fault *f)
 {
     const char *near = choice_nearest(key, name_at, table);
     return fault_set(f, STATUS_REFUSED,
-                     "unknown option '%.60s'%s%s%s; beamwork.h lists those of each function", key,
-                     near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
+                     "unknown option '%.60s'%s%s%s; beamwork.h lists the options of each function",
+                     key, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
                      near != NULL ? "'?" : "");
 }
 

@@ -180,9 +180,9 @@ static status number_vertices(model *m, coordinates_tally *of, fault *f)
     }
     free(used);
     share_coordinates(m);
-    return of->unused > 0
-               ? coordinates_note_left_out(m, f, "%d nodes that no member reaches", of->unused)
-               : STATUS_OK;
+    return of->unused > 0 ? coordinates_note_left_out(
+                                m, f, "%d nodes that are not connected to a member", of->unused)
+                          : STATUS_OK;
 }
 
 int coordinates_held_turn(const model *m, int node)
@@ -266,7 +266,7 @@ static status note_left_out(model *m, const coordinates_tally *of, fault *f)
                                       6 * attached, attached));
     if (absent > 0)
         TRY(coordinates_note_left_out(
-            m, f, "warping amplitudes of %d element ends: nothing warps there", absent));
+            m, f, "warping amplitudes of %d element ends at which nothing warps", absent));
     if (fixed > 0)
         TRY(coordinates_note_left_out(m, f, "%d warping amplitudes held at zero", fixed));
     if (m->mesh.driven > 0)

@@ -143,10 +143,10 @@ static void put_member(model_words *w, const scene *s, const division *d, int me
         model_words_put(w, "n elements ");
     else
         model_words_put(w, "%d elements, %d ", division_elements(d, member), d->each[member]);
-    model_words_put(w, "in each of %d pieces: its loads begin, end or act at", pieces);
+    model_words_put(w, "in each of %d pieces, because loads begin, end or act at", pieces);
     for (int i = 1; i < pieces && i <= MOST_PLACES; i++)
         model_words_put(w, "%s %.6g", i > 1 ? "," : "", place[i]);
-    model_words_put(w, "%s of its length", pieces - 1 > MOST_PLACES ? ", .." : "");
+    model_words_put(w, "%s of the length", pieces - 1 > MOST_PLACES ? ", .." : "");
 }
 
 void division_words(const scene *s, int elements, char *text, size_t room)
@@ -204,7 +204,7 @@ static status check_between(const model *m, int member, const section *c, fault 
     const char *limit =
         missing_in_section(m->mesh.type, c, cells, (m->features & FEATURE_WARPING) != 0);
     if ((c->Iw > 0) != (p->Iw > 0 || q->Iw > 0))
-        limit = "warping in only a part of a member";
+        limit = "warping in only a part of the member";
     else if (features_eccentric(c) && !features_eccentric(p) && !features_eccentric(q))
         limit = "a shear centre that leaves the centroid only between the ends";
     if (limit == NULL)

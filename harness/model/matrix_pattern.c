@@ -226,10 +226,10 @@ static status add_layout(mesh_pattern *p, int entries, const mesh_entry entry[],
 {
     mesh_layout one = {entries, malloc(((size_t)entries + 1) * sizeof *entry)};
     if (one.entry == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the places of matrix entries");
+        return fault_set(f, STATUS_FAULT, "out of memory for the positions of matrix entries");
     memcpy(one.entry, entry, (size_t)entries * sizeof *entry);
-    const status outcome =
-        memory_append(&p->layout, &p->layouts, &one, sizeof one, "the places of matrix entries", f);
+    const status outcome = memory_append(&p->layout, &p->layouts, &one, sizeof one,
+                                         "the positions of matrix entries", f);
     if (outcome != STATUS_OK)
         free(one.entry);
     return outcome;

@@ -316,7 +316,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
         }
         if (rotation_triad(between, y, triad[0]) != 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: its elements turn through too large an angle; use more elements",
+                             "%s: the elements bend by too large an angle; use more elements",
                              scene_called(m->scene, SCENE_MEMBERS, member).text);
         for (int i = 1; i <= last && i < ELEMENT_MAX_NODES; i++)
             memcpy(triad[i], triad[0], sizeof triad[0]);
@@ -506,7 +506,7 @@ static status allocate(model *m, fault *f)
         m->triad == NULL || m->mesh.kind == NULL || m->mesh.warp == NULL ||
         m->mesh.first_element == NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "%.0f elements need more memory than there is; use fewer", total);
+                         "%.0f elements require more memory than is available; use fewer", total);
     return STATUS_OK;
 }
 

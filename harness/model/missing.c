@@ -108,7 +108,7 @@ const char *missing_in_section(const element_type *type, const section *c, int c
     if ((type->limits & LIMIT_DOUBLY_SYMMETRIC) && (features_eccentric(c) || is_coupled(c)))
         return "sections that are not doubly symmetric";
     if ((type->limits & LIMIT_WARPING_RIGID) && warps && cells > 0 && c->Iw > 0)
-        return "shear of warping, by which closed cells warp";
+        return "shear deformation due to warping, by which closed cells warp";
     return NULL;
 }
 
@@ -131,7 +131,7 @@ static int mass_lacks(const scene *s, const element_type *type, char *words, int
 {
     for (int i = 0; i < s->analyses && !type->spreads; i++)
         if (scene_spreads(&s->analysis[i]))
-            return snprintf(words, (size_t)size, "consistent mass in time") > 0;
+            return snprintf(words, (size_t)size, "consistent mass in motions") > 0;
     return 0;
 }
 
@@ -329,8 +329,8 @@ static void put_foundations(model_words *w, const scene *s)
         model_words_put(w, " and %d more", count - MOST_NAMES);
     if (count > 0)
         model_words_put(
-            w, ": springs at nodes, weighted along each member, of order 4 in bending from 6 "
-               "elements on, of 2 below; internal forces jump there");
+            w, ": springs at the nodes, weighted along each member; order 4 in bending for 6 or "
+               "more elements, order 2 for fewer; internal forces jump at the nodes");
 }
 
 void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
@@ -340,14 +340,12 @@ void on_nodes(const scene *s, const element_type *type, const double options[], 
     text[0] = '\0';
     put_loads(&w, s);
     if (w.used > 0)
-        model_words_put(
-            &w, ": half of an element's at both its nodes, of order 2 in its length (at three "
-                "nodes 1/6, 4/6, 1/6, of order 4)");
+        model_words_put(&w, ": half of an element's load at each of its nodes; order 2 in the "
+                            "length of the element (three nodes: 1/6, 4/6, 1/6; order 4)");
     if (is_heavy(s) && put_masses(&w, s, type, options) > 0)
-        model_words_put(
-            &w, ": at nodes, weighted along each member, of order 4 in slender bending from 6 "
-                "elements on, of 2 with shear, stretch and twist (at three nodes 1/6, 4/6, 1/6, "
-                "of order 4)");
+        model_words_put(&w, ": at the nodes, weighted along each member; order 4 in slender "
+                            "bending for 6 or more elements, order 2 with shear, stretch and twist "
+                            "(three nodes: 1/6, 4/6, 1/6; order 4)");
     put_foundations(&w, s);
 }
 

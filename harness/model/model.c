@@ -94,11 +94,11 @@ static status note_dashpots(model *m, fault *f)
     const scene *s = m->scene;
     for (int i = 0; i < s->springs && !has_rates(s); i++)
         if (scene_spring_damps(&s->spring[i]))
-            return coordinates_note_left_out(m, f,
-                                             "damping of %s%s: no analysis of the scene uses it; "
-                                             "add a motion, a harmonic analysis or damped modes",
-                                             scene_called(s, SCENE_SPRINGS, i).text,
-                                             s->springs > i + 1 ? " and others" : "");
+            return coordinates_note_left_out(
+                m, f,
+                "damping of %s%s, which no analysis of the scene uses; add a motion, a harmonic "
+                "analysis or damped modes",
+                scene_called(s, SCENE_SPRINGS, i).text, s->springs > i + 1 ? " and others" : "");
     return STATUS_OK;
 }
 
@@ -144,15 +144,14 @@ static status note_means(model *m, fault *f)
     double axis[3];
     for (int i = 0; i < s->nodes; i++)
         if (scene_idle_turn(s, i, axis) != 0)
-            TRY(coordinates_note_left_out(m, f,
-                                          "the free rotation of %s, which all its members release: "
-                                          "nothing depends on this rotation",
-                                          scene_called(s, SCENE_NODES, i).text));
+            TRY(coordinates_note_left_out(
+                m, f,
+                "the free rotation of %s, which all its members release, so nothing depends on it",
+                scene_called(s, SCENE_NODES, i).text));
     for (int i = 0; i < s->sections; i++)
         if (m->section[i].asymmetry > 0)
             TRY(coordinates_note_left_out(
-                m, f,
-                "the asymmetry of the matrices of %s, %.1e of their diagonal: the mean is used",
+                m, f, "the asymmetry of the matrices of %s, %.1e of the diagonal; the mean is used",
                 scene_called(s, SCENE_SECTIONS, i).text, m->section[i].asymmetry));
     for (int i = 0; i < s->springs; i++) {
         TRY(note_asymmetry(m, i, "stiffness", s->spring[i].asymmetry, f));
@@ -164,9 +163,9 @@ static status note_means(model *m, fault *f)
 static status divide(model *m, fault *f)
 {
     if (m->asked < 1)
-        return fault_set(f, STATUS_REFUSED, "%d elements: give at least 1", m->asked);
+        return fault_set(f, STATUS_REFUSED, "%d elements are too few; give at least 1", m->asked);
     if (m->scene->members < 1)
-        return fault_set(f, STATUS_REFUSED, "scene %s: it has no member", m->scene->name);
+        return fault_set(f, STATUS_REFUSED, "scene %s has no member; add one", m->scene->name);
     TRY(division_make(m->scene, m->asked, &m->division, f));
     return check_memory(m, f);
 }
@@ -207,7 +206,7 @@ static status build(model *m, const model_request *request, fault *f)
     char words[200];
     if (missing_refused(s, type, words, sizeof words))
         return fault_set(f, STATUS_REFUSED,
-                         "formulation %s does not support %s, which scene %s needs", type->name,
+                         "formulation %s does not support %s, which scene %s requires", type->name,
                          words, s->name);
     m->omits = missing_omits(s, type) | request->omit;
     TRY(profile_scene(m, f));
@@ -249,7 +248,7 @@ static status build(model *m, const model_request *request, fault *f)
             m, f, "path independence: results depend on the path and its steps"));
     if (process_serves(type))
         TRY(coordinates_note_left_out(
-            m, f, "of the times: the time that the process of the formulation takes"));
+            m, f, "of the times: the time taken by the process of the formulation"));
     return allocate(m, f);
 }
 

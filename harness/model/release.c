@@ -55,7 +55,8 @@ static status find_length(const scene *s, int member, double distance, member_ar
         a->length += error;
         if (!(a->length > 0) || vec3_norm(a->k) * a->length > 6.28)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: no arc of that curvature joins its ends; give a smaller one",
+                             "%s: no arc of that curvature joins the ends of the member; give a "
+                             "smaller curvature",
                              scene_called(s, SCENE_MEMBERS, member).text);
         if (fabs(error) <= 1e-16 * distance)
             break;
@@ -72,13 +73,16 @@ status member_arc_between(const scene *s, int member, const double chord[3], con
     if (vec3_norm(out->k) > 0)
         TRY(find_length(s, member, distance, out, f));
     if (rotation_triad(chord, y, B) != 0)
-        return fault_set(f, STATUS_REFUSED, "%s: its y axis is parallel to it",
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the y axis is parallel to the member; give another direction",
                          scene_called(s, SCENE_MEMBERS, member).text);
     const double ey[3] = {0, 1, 0};
     chord_of(out->k, out->length, c);
     if (rotation_triad(c, ey, local) != 0)
-        return fault_set(f, STATUS_REFUSED, "%s: its arc becomes parallel to its own y axis",
-                         scene_called(s, SCENE_MEMBERS, member).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: the arc of the member becomes parallel to its y axis; give another direction",
+            scene_called(s, SCENE_MEMBERS, member).text);
     for (int i = 0; i < 3; i++) /* R = B local^T */
         for (int j = 0; j < 3; j++)
             out->R[3 * i + j] = vec3_dot(&B[3 * i], &local[3 * j]);

@@ -9,9 +9,8 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-const char turns_lost[] =
-    "on a full turn about a changing axis its rotation vector loses its direction; use smaller "
-    "steps, or read orientation";
+const char turns_lost[] = "after a full turn about a changing axis the rotation vector has no "
+                          "defined direction; use smaller steps, or request 'orientation'";
 
 static int reads_turn(const scene_quantity *q)
 {
@@ -36,7 +35,7 @@ status turns_build(model *m, fault *f)
     const scene *s = m->scene;
     m->turn = malloc(((size_t)first_between(m) + (size_t)s->quantities + 1) * sizeof *m->turn);
     if (m->turn == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for turns");
+        return fault_set(f, STATUS_FAULT, "out of memory for rotations");
     m->mesh.turns = 0;
     for (int i = 0; i < s->nodes; i++)
         m->turn[m->mesh.turns++] = (mesh_turn){NONE, i};

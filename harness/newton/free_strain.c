@@ -209,7 +209,7 @@ status free_strain_begin(const model *m, run_free **out, fault *f)
     if (made == NULL || element == NULL) {
         free(made);
         free(element);
-        return fault_set(f, STATUS_FAULT, "out of memory for elements with strains without stress");
+        return fault_set(f, STATUS_FAULT, "out of memory for stress-free strains of elements");
     }
     *made = (run_free){size, element};
     *out = made;

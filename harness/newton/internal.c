@@ -276,9 +276,10 @@ static status recover_moved(const equations *eq, const internal_state *s, int i,
     if (jump != SCENE_NONE)
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: %s begins, ends or acts inside one of its elements, where resultants have a kink: "
-            "it is within %g of the length from an end or from another such position; move it "
-            "there, or put a node of the scene at one of them",
+            "%s: %s begins, ends or acts inside one of its elements, so resultants would have a "
+            "kink there: the position is within the fraction %g of the length from an end or from "
+            "another such position; move it there, or put a node of the scene at one of these "
+            "positions",
             scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, i)->member).text,
             scene_called(model_scene(m), SCENE_LOADS, jump).text, DIVISION_LEAST);
     loads.acts = distributed_acts(&loads.loads);
@@ -320,8 +321,8 @@ status internal_moved(const equations *eq, const internal_state *s, int member, 
     memcpy(out + 3, moved.turn, sizeof moved.turn);
     if (s->x == NULL && vec3_norm(moved.turn) > most)
         return fault_set(f, STATUS_NO_VALUE,
-                         "%s has rotated by %.3g rad there, but its rotation vector can be read up "
-                         "to %g rad only; request the rotation of a node",
+                         "%s has rotated by %.3g rad there, but its rotation vector is available "
+                         "only up to %g rad; request the rotation of a node",
                          scene_called(model_scene(m), SCENE_MEMBERS, member).text,
                          vec3_norm(moved.turn), most);
     return STATUS_OK;
@@ -408,9 +409,10 @@ status internal_largest(const equations *eq, const internal_state *s, int member
     span_grid g;
     if (axes_turned(m, member, 0, model_element(m, model_first_element(m, member))) != 0 ||
         axes_turned(m, member, 1, model_element(m, model_first_element(m, member + 1) - 1)) != 0)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: the axes of its sections rotate along it; request single positions",
-                         scene_called(model_scene(m), SCENE_MEMBERS, member).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: the axes of the sections rotate along the member; request single positions",
+            scene_called(model_scene(m), SCENE_MEMBERS, member).text);
     span_grid_make(&g);
     *out = -INFINITY;
     for (int i = model_first_element(m, member); i < model_first_element(m, member + 1); i++) {

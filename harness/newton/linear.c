@@ -335,12 +335,12 @@ status linear_system_alloc(analysis_context *c, linear_system *out, fault *f)
     n->factor_flops += counts.flops;
     context_count_condition(c, out->factor, &out->K);
     return counts.negative_pivots > 0
-               ? fault_set(f, STATUS_NOT_CONVERGED,
-                           "%s: %d negative pivot%s of the stiffness at rest, where nothing is "
-                           "loaded: elements move against their forces; use more elements or "
-                           "another formulation",
-                           model_formulation(c->model), counts.negative_pivots,
-                           counts.negative_pivots > 1 ? "s" : "")
+               ? fault_set(
+                     f, STATUS_NOT_CONVERGED,
+                     "%s: the stiffness of the unloaded structure has %d negative pivot%s, because "
+                     "elements move against their forces; use more elements or another formulation",
+                     model_formulation(c->model), counts.negative_pivots,
+                     counts.negative_pivots > 1 ? "s" : "")
                : STATUS_OK;
 }
 

@@ -42,7 +42,8 @@ status linearise_make_compatible(const equations *eq, model_state *s, fault *f)
     for (int i = 0; i < model_elements(m) && outcome == STATUS_OK; i++) {
         outcome = compatible_element(eq, s, i);
         if (outcome != STATUS_OK)
-            fault_set(f, outcome, "element %d of %s: outside what %s can evaluate", i,
+            fault_set(f, outcome,
+                      "element %d of %s: its state is outside the range that %s can evaluate", i,
                       scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, i)->member).text,
                       model_type(m)->name);
     }
@@ -112,7 +113,8 @@ static status element_equations(const equations *eq, const linear_memory *memory
     const mesh_element *el = model_element(m, of->index);
     const model_slot w = linearise_slot(m, memory, of->index);
     if (of->outcome != STATUS_OK)
-        return fault_set(&part->why, of->outcome, "element %d of %s: outside what %s can evaluate",
+        return fault_set(&part->why, of->outcome,
+                         "element %d of %s: its state is outside the range that %s can evaluate",
                          of->index, scene_called(model_scene(m), SCENE_MEMBERS, el->member).text,
                          model_type(m)->name);
     if (!of->complete)
@@ -401,8 +403,8 @@ status linearise_held_have_potential(const equations *eq, const double sigma[], 
         if (h != NONE && linearise_held_moment(eq, kinematics_rest(m), sigma, path, node, h) != 0)
             return fault_set(
                 f, STATUS_REFUSED,
-                "the moment that holds %s of %s, which is free to rotate about two axes "
-                "perpendicular to it, has no potential: hold one of them, or follow a path",
+                "the moment that holds %s of %s, which is free to rotate about two perpendicular "
+                "axes, has no potential; fix one of these rotations, or follow a static path",
                 turn[h], scene_called(model_scene(m), SCENE_NODES, node).text);
     }
     return STATUS_OK;

@@ -17,7 +17,8 @@ status linear_memory_alloc(const model *m, linear_memory *out, fault *f)
         malloc(((size_t)model_elements(m) * (size_t)model_work_size(m) + 1) * sizeof *out->slot);
     return out->slot != NULL
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED, "%d elements: more than memory allows; give fewer",
+               : fault_set(f, STATUS_REFUSED,
+                           "%d elements require more memory than is available; give fewer",
                            model_elements(m));
 }
 

@@ -290,7 +290,7 @@ status loads_have_potential(const equations *eq, const model_state *s, double pa
             return fault_set(
                 f, STATUS_REFUSED,
                 "%s, a moment about fixed axes, has no potential at %s, which is free to rotate "
-                "about two axes perpendicular to it: hold one of them, or follow a static path",
+                "about two perpendicular axes; fix one of these rotations, or follow a static path",
                 scene_called(model_scene(m), SCENE_LOADS, i).text,
                 scene_called(model_scene(m), SCENE_NODES, load->where).text);
     }

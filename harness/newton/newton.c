@@ -371,12 +371,11 @@ status context_symmetric(const matrix_factor *fa, const char *what, fault *f)
     const factor_counts counts = factor_count(fa);
     return counts.negative_pivots >= 0
                ? STATUS_OK
-               : fault_set(
-                     f, STATUS_REFUSED,
-                     "%s need a symmetric tangent: this one and its transpose differ by %.1e "
-                     "of their diagonal (symmetric: %.0e); moments dead about fixed axes, and "
-                     "loads that follow, have no potential here",
-                     what, counts.asymmetry, FACTOR_SYMMETRIC_WITHIN);
+               : fault_set(f, STATUS_REFUSED,
+                           "%s require a symmetric tangent, but this tangent differs from its "
+                           "transpose by %.1e of the diagonal (limit %.0e); dead moments about "
+                           "fixed axes and follower loads have no potential here",
+                           what, counts.asymmetry, FACTOR_SYMMETRIC_WITHIN);
 }
 
 static void context_leave_factor(analysis_context *c, matrix_factor *fa)

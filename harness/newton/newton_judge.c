@@ -191,8 +191,7 @@ static status judge_twist(const model *m, const model_state *s, fault *f)
     return fault_set(
         f, STATUS_NOT_CONVERGED,
         "element %d of %d of %s is twisted by %.3g rad, more than the eighth of a turn up to which "
-        "the torque of %s increases, at path %g: use more elements or smaller "
-        "steps",
+        "the torque of %s increases, at path %g; use more elements or smaller steps",
         index - first + 1, model_first_element(m, member + 1) - first,
         scene_called(model_scene(m), SCENE_MEMBERS, member).text, twist, model_type(m)->name,
         s->path);
@@ -209,8 +208,8 @@ static status judge_elements(const model *m, const model_state *s, fault *f)
         return STATUS_OK;
     const int member = model_element(m, index)->member, first = model_first_element(m, member);
     return fault_set(f, STATUS_NOT_CONVERGED,
-                     "element %d of %d of %s is rotated by %.3g rad at path %g; %s is valid only "
-                     "below a %s turn per element: use more elements or smaller steps",
+                     "element %d of %d of %s is rotated by %.3g rad at path %g, but %s is valid "
+                     "only below a %s turn per element; use more elements or smaller steps",
                      index - first + 1, model_first_element(m, member + 1) - first,
                      scene_called(model_scene(m), SCENE_MEMBERS, member).text, turn, s->path,
                      model_type(m)->name, quarter ? "quarter" : "half");
@@ -249,8 +248,8 @@ static status judge_tension(const model *m, const model_state *s, fault *f)
               count = model_first_element(m, member + 1) - first;
     return fault_set(f, STATUS_NOT_CONVERGED,
                      "element %d of %d of %s is too long for the axial force in it, by a factor of "
-                     "%.4g, at path %g: %s loses its stiffness across it; use %.0f elements (for "
-                     "four times the force twice as many) or another formulation",
+                     "%.4g, at path %g: %s loses its transverse stiffness; use %.0f elements "
+                     "(twice as many for four times the force) or another formulation",
                      worst - first + 1, count,
                      scene_called(model_scene(m), SCENE_MEMBERS, member).text, most, s->path,
                      model_type(m)->name, floor(count * most) + 1);
@@ -269,8 +268,8 @@ status newton_judge_rest(const model *m, fault *f)
               count = model_first_element(m, member + 1) - first;
     return fault_set(
         f, STATUS_NOT_CONVERGED,
-        "the arc of element %d of %d of %s rises by %.3g radii of gyration of its section, and %s "
-        "is accurate only below %g: use %.0f elements or another formulation",
+        "the arc of element %d of %d of %s rises by %.3g radii of gyration of its section, but %s "
+        "is accurate only below %g; use %.0f elements or another formulation",
         index - first + 1, count, scene_called(model_scene(m), SCENE_MEMBERS, member).text, rise,
         model_type(m)->name, most, floor(count * sqrt(rise / most)) + 1);
 }
@@ -297,9 +296,9 @@ static status judge_springs(const model *m, const model_state *from, const model
         if (turns_swung(turns_of_spring(m, from, i), turn) ||
             across(model_discrete(m, model_discretes(m) - model_springs(m) + i), turn))
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "%s is turned by %.4g rad at path %g: after a full turn about a "
+                             "%s has rotated by %.4g rad at path %g: after a full turn about a "
                              "changing axis, or under a moment perpendicular to its rotation, its "
-                             "rotation vector has no defined direction; hold its other rotations, "
+                             "rotation vector has no defined direction; fix the other rotations, "
                              "use smaller steps, or put two springs in series",
                              model_spring_called(m, i).text, vec3_norm(turn), s->path);
     }
@@ -327,7 +326,7 @@ static status judge_steps(const model *m, const model_state *from, const model_s
                      step = driven_by(m, from, s, i);
         if (!(step < most * (1 + 1e-9)))
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "%s is driven by %.3g rad in one step at path %g: use smaller steps",
+                             "%s is driven by %.3g rad in one step at path %g; use smaller steps",
                              scene_called(model_scene(m), SCENE_NODES, i).text, step, s->path);
     }
     return STATUS_OK;
@@ -393,10 +392,11 @@ static status judge_strayed(const newton_use *use, const watch *w, double path, 
     const double astray = 0.5, behind_first = 2;
     if (use->on == NULL || w->largest <= astray || w->largest <= behind_first * w->first)
         return STATUS_OK;
-    return fault_set(f, STATUS_NOT_CONVERGED,
-                     "at path %g Newton's method moved by %.2g rad or lengths and may have found "
-                     "another equilibrium: use smaller steps or a continuation",
-                     path, w->largest);
+    return fault_set(
+        f, STATUS_NOT_CONVERGED,
+        "at path %g the corrections of Newton's method reached %.2g rad or lengths, so another "
+        "equilibrium may have been found; use smaller steps or a continuation",
+        path, w->largest);
 }
 
 static status accept(const newton_use *use, fault *f)

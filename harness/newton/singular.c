@@ -92,8 +92,8 @@ static void name_motion(const scene *s, int node, const double motion[6], double
     const int turns = vec3_norm(turn) * length > 1e-6 * vec3_norm(shift);
     const double *v = turns ? turn : shift, size = vec3_norm(v);
     fault_set(f, STATUS_SINGULAR,
-              "neither %s at (%.4g, %.4g, %.4g) nor any part joined to it is held: it can %s "
-              "(%.3g, %.3g, %.3g); hold this motion",
+              "neither %s at (%.4g, %.4g, %.4g) nor any part joined to it is supported: it can %s "
+              "(%.3g, %.3g, %.3g); prevent this motion",
               scene_called(s, SCENE_NODES, node).text, at[0], at[1], at[2],
               turns ? "turn about" : "move along", v[0] / size, v[1] / size, v[2] / size);
 }
@@ -113,12 +113,12 @@ status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
         axis[i] = fabs(v[i]) > 1e-9 * size ? v[i] / size : 0;
     return fault_set(f, STATUS_SINGULAR,
                      "%s can %s (%.3g, %.3g, %.3g) without deformation: %s form a mechanism; join "
-                     "one of them, hold this motion, or drive it",
+                     "one of them, prevent this motion, or drive it",
                      node >= 0 ? scene_called(c->scene, SCENE_NODES, node).text
                                : scene_called(c->scene, SCENE_MEMBERS, member).text,
                      turns ? "turn about" : "move along", axis[0], axis[1], axis[2],
                      model_releases(c->model) > 0 ? "the released ends"
-                                                  : "parts that constraints join");
+                                                  : "parts joined by constraints");
 }
 
 /* Returns the ratio of the largest to the smallest stiffness of the coordinates of K. Displacements
@@ -208,14 +208,14 @@ static void explain_loss(const analysis_context *c, fault *f)
     const double coarse = condition_when_coarse(c, &few, &lost);
     if (lost)
         fault_set(f, STATUS_SINGULAR,
-                  "the stiffness matrix is lost in round-off, whatever the mesh: its stiffnesses "
-                  "are too far apart, or one of a "
-                  "section is zero");
+                  "the stiffness matrix is lost in round-off, whatever the mesh: the stiffnesses "
+                  "differ too much, or a stiffness of a section is zero");
     else
-        fault_set(f, STATUS_SINGULAR,
-                  "the stiffness matrix of %d elements is lost in round-off: everything is held, "
-                  "but its condition of about %.0e leaves none of 16 digits; use fewer elements",
-                  elements, coarse * pow((double)elements / few, 4));
+        fault_set(
+            f, STATUS_SINGULAR,
+            "the stiffness matrix of %d elements is lost in round-off: the structure is supported, "
+            "but a condition number of about %.0e leaves none of 16 digits; use fewer elements",
+            elements, coarse * pow((double)elements / few, 4));
 }
 
 void singular_explain(analysis_context *c, fault *f)
@@ -231,11 +231,11 @@ void singular_explain(analysis_context *c, fault *f)
     condition_at_rest(c, &c->eq, &lost);
     if (lost == NO_NUMBER)
         fault_set(f, STATUS_SINGULAR,
-                  "the formulation returned NaN or Inf: check its energy, stresses and derivatives "
+                  "the formulation returned NaN or Inf; check its energy, stresses and derivatives "
                   "in the undeformed state");
     else if (lost)
         explain_loss(c, f);
     else
         fault_set(f, STATUS_SINGULAR,
-                  "the stiffness matrix is singular: the structure is at a critical point");
+                  "the stiffness matrix is singular, because the structure is at a critical point");
 }

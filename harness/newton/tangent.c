@@ -415,7 +415,7 @@ status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f)
                                        dense_dot(t->free, b->V + i * t->free, out->Z + j * t->free);
     return columns > 0 && dense_lu_regular(b->count, out->S, out->pivot) != 0
                ? fault_set(f, STATUS_SINGULAR,
-                           "without its prescribed motion the structure is not held")
+                           "the structure is not supported without its prescribed motion")
                : STATUS_OK;
 }
 

@@ -209,7 +209,7 @@ static void drop_lost(candidates *p, int count, eigen_side *out)
         p->mu[i] = NAN;
         if (out->status == STATUS_OK)
             snprintf(out->reason, sizeof out->reason,
-                     "eigenvalue %d of %d unknowns is lost in round-off (error %.1e): use fewer "
+                     "eigenvalue %d of %d unknowns is lost in round-off (error %.1e); use fewer "
                      "elements",
                      i + 1, p->n, out->error[i]);
         out->status = STATUS_NOT_CONVERGED;
@@ -332,8 +332,9 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
     free(K);
     return info == 0 ? STATUS_OK
                      : fault_set(f, STATUS_NOT_CONVERGED,
-                                 "a dense eigenvalue problem of %d unknowns: LAPACK returned %d", n,
-                                 info);
+                                 "the solution of a dense eigenvalue problem of %d unknowns "
+                                 "failed: LAPACK returned %d",
+                                 n, info);
 }
 
 /* Takes the candidates of one or both sides from all eigenvectors. side[i] NULL: not requested.

@@ -143,9 +143,10 @@ static status iterate(gyroscopic_solver *s, int wanted, fault *f)
             continue;
         return worst <= bearable_residual
                    ? STATUS_OK
-                   : fault_set(f, STATUS_NOT_CONVERGED,
-                               "frequencies in a rotating frame: residual %.1e with %d vectors",
-                               worst, s->basis.count);
+                   : fault_set(
+                         f, STATUS_NOT_CONVERGED,
+                         "frequencies in a rotating frame: the residual is %.1e with %d vectors",
+                         worst, s->basis.count);
     }
 }
 
@@ -267,7 +268,7 @@ static status find_shift(gyroscopic_solver *s, fault *f)
     for (s->shift = fmax(1e-12 * k / mass, s->least);; s->shift *= 10) {
         if (!(s->shift < 1e3 * k / mass))
             return fault_set(f, STATUS_REFUSED,
-                             "the stiffness is indefinite for coordinates without mass, so the "
+                             "the stiffness of coordinates without mass is indefinite, so the "
                              "motion is not defined; elements may be too long for their axial "
                              "force; use more elements, or another formulation");
         for (int i = 0; i < K->column[K->n]; i++)
@@ -388,8 +389,8 @@ static status solve(gyroscopic_solver *s, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for modes");
     if (s->out->negative < 0)
         return fault_set(f, STATUS_REFUSED,
-                         "frequencies in a rotating frame need a symmetric stiffness: no moments "
-                         "about fixed axes");
+                         "frequencies in a rotating frame require a symmetric stiffness; remove "
+                         "moments about fixed axes");
     if (s->out->negative > 0)
         TRY(find_shift(s, f));
     TRY(subspace_alloc(&s->basis, basis_product, s, p->M, p->G, ROOM_PER_MODE * vectors, f));

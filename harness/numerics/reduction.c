@@ -52,8 +52,8 @@ static status decompose(reduction *b, fault *f)
                                                    b->inner, b->K, b->inner, b->mu);
     if (info > b->inner)
         return fault_set(f, STATUS_REFUSED,
-                         "its stiffness with the interface fixed is not positive: a structure that "
-                         "is free to move has no reduced model; name interface nodes that hold it");
+                         "the stiffness with the interface fixed is not positive definite, because "
+                         "the structure is free to move; name interface nodes that support it");
     return info == 0 ? STATUS_OK
                      : fault_set(f, STATUS_NOT_CONVERGED,
                                  "the modes for a reduced model did not converge");
@@ -70,7 +70,7 @@ static status take_modes(reduction *b, int modes, fault *f)
     while (most < n && b->mu[n - 1 - most] > n * DBL_EPSILON * b->mu[n - 1])
         most++;
     if (modes > most)
-        return fault_set(f, STATUS_REFUSED, "more modes than the %d with mass%s; give at most %d",
+        return fault_set(f, STATUS_REFUSED, "there are only %d modes with mass%s; give at most %d",
                          most, b->edge > 0 ? " while the interface is fixed" : "", most);
     b->modes = modes;
     while (b->modes > 0 && b->modes < most &&

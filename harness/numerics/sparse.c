@@ -289,8 +289,9 @@ status memory_check(double bytes, const char *what, const char *remedy, fault *f
     const double giga = 1e9, limit = usable();
     if (bytes <= limit)
         return STATUS_OK;
-    return fault_set(f, STATUS_REFUSED, "%s need more than memory allows (%.3g of %.3g GB); %s",
-                     what, bytes / giga, limit / giga, remedy);
+    return fault_set(f, STATUS_REFUSED,
+                     "%s require more memory than is available (%.3g of %.3g GB); %s", what,
+                     bytes / giga, limit / giga, remedy);
 }
 
 status memory_append(void *list, int *count, const void *entry, size_t size, const char *what,

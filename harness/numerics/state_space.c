@@ -206,7 +206,7 @@ static status eliminate(split *s, fault *f)
     free(block);
     free(pivot);
     return singular ? fault_set(f, STATUS_REFUSED,
-                                "a coordinate has neither mass, damping nor stiffness; hold it, or "
+                                "a coordinate has no mass, no damping and no stiffness; fix it, or "
                                 "give it one of these")
                     : STATUS_OK;
 }
@@ -279,7 +279,7 @@ static status take_modes(split *s, double L[], double G[], double V[], fault *f)
     }
     if (!positive)
         return fault_set(f, STATUS_REFUSED,
-                         "its mass matrix is not positive definite: check the inertias");
+                         "the mass matrix is not positive definite; check the inertias");
     if (s->shift > 0) {
         double least = INFINITY;
         for (size_t i = 0; i < p; i++) {
@@ -455,9 +455,9 @@ static status fill_outputs(const split *s, const double rows[], const double pos
             for (int times = 0; times < rate; times++) {
                 if (passes_through(s, rows, c, out->states)) {
                     out->improper = (int)y;
-                    return fault_set(
-                        f, STATUS_REFUSED,
-                        "no mass separates it from an input, so its rate has no state space");
+                    return fault_set(f, STATUS_REFUSED,
+                                     "no mass separates the quantity from an input, so its rate "
+                                     "has no state space");
                 }
                 memset(d, 0, width * sizeof *d);
                 for (size_t k = 0; k < states; k++)

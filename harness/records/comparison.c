@@ -40,8 +40,8 @@ status comparison_limits_parse(const char *text, comparison_limits *out, fault *
         if (value == NULL || !number_read(at + name + 1, &end, &number) || end != at + length ||
             number < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "threshold '%.40s': write error=R,floor=R,work=R, each once, with "
-                             "numbers that are not negative",
+                             "threshold '%.40s': write error=R,floor=R,work=R, each at most once, "
+                             "with numbers that are not negative",
                              at);
         *value = number;
         more = at[length] == ',';
@@ -69,12 +69,12 @@ static void tell_foreign(const listing *l, int which, const char **last)
     comparison_lines_heading(&here, which == 0 ? CHANGE_GONE : CHANGE_NEW);
     if (which == 0 && instead != NULL)
         fprintf(l->to,
-                ": was it renamed to '%.80s'? Then write the version in '# version:' of the "
-                "imported file, not in '# program:'",
+                ": was the program renamed to '%.80s'? If so, write the version in '# version:' of "
+                "the imported file, not in '# program:'",
                 instead);
     else if (which == 0)
-        fputs(": give the file with --imported (your own element with --element), or accept the "
-              "new run",
+        fputs(": add the file with --imported (your own element with --element), or accept the new "
+              "run",
               l->to);
     fputc('\n', l->to);
 }
@@ -367,7 +367,7 @@ static void compare_errors(const listing *l, const result_series *a, const resul
         return;
     comparison_lines_heading(l, change > 0 ? CHANGE_WORSE : CHANGE_BETTER);
     fprintf(l->to,
-            ": errors between the smallest and the largest moved by %+.4f decades in total\n",
+            ": errors between the smallest and the largest changed by %+.4f decades in total\n",
             change);
 }
 

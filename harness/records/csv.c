@@ -433,8 +433,8 @@ static void titled_state(const contents *c, const char *name, int closed, char o
 {
     snprintf(out, TITLE, "%.120s%s, %.90s", c->title,
              !scene_has_feedback(c->scene) ? ""
-             : closed                      ? ", loops of feedback closed"
-                                           : ", loops of feedback open",
+             : closed                      ? ", feedback loops closed"
+                                           : ", feedback loops open",
              name);
 }
 

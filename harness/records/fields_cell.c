@@ -115,19 +115,25 @@ static const schema_field fields_of_series[] = {
     {"summary", "", FIELD_TEXT, "description", TEXT_OF(FORMULATION, element_type, summary)},
     {"source", "", FIELD_TEXT, "publication", TEXT_OF(FORMULATION, element_type, source)},
     {"missing", "", FIELD_TEXT,
-     "features that the case requires and the formulation does not support: it was not run",
+     "features required by the case but not supported by the formulation, which was therefore not "
+     "run",
      AT(series, missing)},
     {"not_modelled", "", FIELD_TEXT, "physics of the case that the formulation omits",
      AT(series, without.words)},
     {"model_change", "1", FIELD_DOUBLE,
-     "bound of the change of any value of the scene by this omission", .get = get_model_change},
-    {"other_model", "", FIELD_FLAG, "the bound is above 1e-4 or unknown, so there is no verdict",
-     AT(series, without.other)},
-    {"model_words", "", FIELD_TEXT, "the previous three columns in words", .get = get_without},
+     "bound on the change of any value of the scene due to the omitted physics",
+     .get = get_model_change},
+    {"other_model", "", FIELD_FLAG,
+     "1 if the bound is above 1e-4 or unknown, so there is no verdict", AT(series, without.other)},
+    {"model_words", "", FIELD_TEXT, "description of the previous three columns",
+     .get = get_without},
     {"imported", "", FIELD_TEXT,
-     "file of another program with this result; empty: computed by beamwork", .get = get_imported},
-    {"model", "", FIELD_TEXT, "beam, or another model of the other program", .get = get_model},
-    {"shear_theory", "", FIELD_TEXT, "shear theory that it follows in stability; empty: no shear",
+     "file of another program that contains this result; empty if beamwork computed the result",
+     .get = get_imported},
+    {"model", "", FIELD_TEXT, "model of the other program: beam, or another model",
+     .get = get_model},
+    {"shear_theory", "", FIELD_TEXT,
+     "shear theory of the formulation in stability problems; empty if it is rigid in shear",
      .get = get_theory},
     {0}};
 const record_type record_series = {"series",
@@ -137,22 +143,23 @@ const record_type record_series = {"series",
 
 #define CELL(member) AT(cell_result, member)
 static const schema_field fields_of_cell[] = {
-    {"status", "", FIELD_ENUM, "ok, or how it failed", CELL(solve.status),
+    {"status", "", FIELD_ENUM, "ok, or the kind of failure", CELL(solve.status),
      .word = fields_keys_word_of_status, .words = STATUSES},
     {"reason", "", FIELD_TEXT, "reason for the failure", CELL(solve.reason)},
-    {"elements_total", "1", FIELD_INT, "elements in the whole structure", CELL(size.elements)},
-    {"element_kinds", "1", FIELD_INT, "distinct elements; each is prepared once", CELL(size.kinds)},
+    {"elements_total", "1", FIELD_INT, "number of elements in the whole structure",
+     CELL(size.elements)},
+    {"element_kinds", "1", FIELD_INT, "number of distinct elements, each of which is prepared once",
+     CELL(size.kinds)},
     {"free", "1", FIELD_INT, "unknown coordinates", CELL(size.free)},
     {"driven", "1", FIELD_INT, "prescribed coordinates", CELL(size.driven)},
-    {"strains", "1", FIELD_INT, "strains of an element, including internal unknowns",
+    {"strains", "1", FIELD_INT, "number of strains of an element, including internal unknowns",
      .get = get_strains},
     {"features", "", FIELD_TEXT, "physics of the model", .get = get_features},
-    {"omitted", "", FIELD_TEXT, "physics that the scene would require but omits",
+    {"omitted", "", FIELD_TEXT, "physics that the scene requires but omits",
      .get = fields_keys_omitted},
     {"assumed", "", FIELD_TEXT, "assumptions about sections: see the table 'assumptions'",
      .get = fields_keys_assumed},
-    {"left_out", "", FIELD_TEXT, "coordinates that were eliminated, with the reason",
-     .get = get_left_out},
+    {"left_out", "", FIELD_TEXT, "eliminated coordinates, with the reason", .get = get_left_out},
     {"warping", "", FIELD_TEXT, "warping at ends of members: fixed, shared or free",
      .get = get_warping},
     {"divided", "", FIELD_TEXT, "members with more elements than requested, and the reason",
@@ -160,36 +167,42 @@ static const schema_field fields_of_cell[] = {
     {"lumped", "", FIELD_TEXT,
      "loads and masses that are lumped at nodes by convention, with the order of the error",
      .get = get_lumped},
-    {"cost", "s", FIELD_DOUBLE, "counted work at the cost coefficients of the reference machine",
+    {"cost", "s", FIELD_DOUBLE,
+     "cost of the counted work, with the cost coefficients of the reference machine",
      .get = get_cost},
     {"priced", "", FIELD_FLAG,
-     "the formulation has its own cost coefficients, not the general ones", .get = get_priced},
-    {"seconds_setup", "s", FIELD_DOUBLE, "processor time of one run: set-up",
+     "1 if the formulation has its own cost coefficients, 0 if the general cost coefficients are "
+     "used",
+     .get = get_priced},
+    {"seconds_setup", "s", FIELD_DOUBLE, "processor time of the set-up in one run",
      CELL(solve.seconds_setup)},
-    {"seconds_solve", "s", FIELD_DOUBLE, "processor time of one run: solution",
+    {"seconds_solve", "s", FIELD_DOUBLE, "processor time of the solution in one run",
      CELL(solve.seconds_solve)},
     {0}};
 
 /* Add new counters here, in one line each. */
 #define WORK(counter) AT(cell_result, counters.counter)
 static const schema_field fields_of_work[] = {
-    {"strain_evaluations", "1", FIELD_LONG, "deformation functions of elements",
+    {"strain_evaluations", "1", FIELD_LONG, "number of evaluated deformation functions",
      WORK(strain_evaluations)},
-    {"stress_evaluations", "1", FIELD_LONG, "stress functions of elements",
+    {"stress_evaluations", "1", FIELD_LONG, "number of evaluated stress functions",
      WORK(stress_evaluations)},
-    {"inertia_evaluations", "1", FIELD_LONG, "mass matrices of elements",
+    {"inertia_evaluations", "1", FIELD_LONG, "number of computed element mass matrices",
      WORK(inertia_evaluations)},
-    {"geometric_evaluations", "1", FIELD_LONG, "geometric stiffnesses of elements",
-     WORK(geometric_evaluations)},
-    {"iterations", "1", FIELD_LONG, "Newton iterations, rejected steps included", WORK(iterations)},
+    {"geometric_evaluations", "1", FIELD_LONG,
+     "number of computed geometric element stiffness matrices", WORK(geometric_evaluations)},
+    {"iterations", "1", FIELD_LONG, "number of Newton iterations, including rejected steps",
+     WORK(iterations)},
     {"load_steps", "1", FIELD_LONG, "accepted load steps", WORK(steps)},
     {"rejected_steps", "1", FIELD_LONG, "rejected load steps", WORK(rejected_steps)},
     {"factorisations", "1", FIELD_LONG, "factorisations of matrices", WORK(factorisations)},
     {"solutions", "1", FIELD_LONG, "right-hand sides solved", WORK(solutions)},
-    {"factor_entries", "1", FIELD_LONG, "entries of the last factor", WORK(factor_entries)},
-    {"factor_flops", "1", FIELD_DOUBLE, "operations of all factorisations", WORK(factor_flops)},
-    {"dense_operations", "1", FIELD_DOUBLE, "n^3 of the eigenvalue problems solved densely",
-     WORK(dense_operations)},
+    {"factor_entries", "1", FIELD_LONG, "number of entries of the last factor",
+     WORK(factor_entries)},
+    {"factor_flops", "1", FIELD_DOUBLE, "number of floating-point operations of all factorisations",
+     WORK(factor_flops)},
+    {"dense_operations", "1", FIELD_DOUBLE,
+     "sum of n^3 over the eigenvalue problems solved with dense matrices", WORK(dense_operations)},
     {"negative_pivots", "1", FIELD_LONG,
      "largest number of negative pivots of a symmetric tangent along the path",
      WORK(negative_pivots)},
@@ -214,16 +227,19 @@ const schema_field keys_of_point[] = {
 const schema_field keys_of_series[] = {
     {"parameters", "", FIELD_TEXT, "parameters that differ from their defaults",
      OF(POINT, sweep_point, text), .key = KEY_AROUND},
-    {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
+    {"formulation", "", FIELD_TEXT,
+     "name of the formulation, with options that differ from their defaults",
      OF(SERIES, series, formulation.key), .key = KEY},
     {0}};
 
-const schema_field key_of_mesh[] = {
-    {"elements", "1", FIELD_INT, "elements of each member", .get = get_elements, .key = KEY}, {0}};
+const schema_field key_of_mesh[] = {{"elements", "1", FIELD_INT,
+                                     "number of elements of each member", .get = get_elements,
+                                     .key = KEY},
+                                    {0}};
 
 const schema_field names_of_quantity[] = {
     {"quantity", "", FIELD_TEXT, "name of the quantity", OF(QUANTITY, scene_quantity, name)},
-    {"unit", "", FIELD_TEXT, "unit of its value", OF(QUANTITY, scene_quantity, unit)},
+    {"unit", "", FIELD_TEXT, "unit of the value", OF(QUANTITY, scene_quantity, unit)},
     {0}};
 
 const char *fields_keys_word_of_status(int value)
@@ -262,13 +278,16 @@ void fields_keys_assumed(const subject *s, field_value *out)
 }
 
 static const schema_field field_omitted[] = {
-    {"omitted", "", FIELD_TEXT, "physics that the scene would require but omits",
+    {"omitted", "", FIELD_TEXT, "physics that the scene requires but omits",
      .get = fields_keys_omitted},
     {"assumed", "", FIELD_TEXT, "assumptions about sections: see the table 'assumptions'",
      .get = fields_keys_assumed},
     {0}};
 const record_type record_omission = {
-    "omission", "", "physics that the scene of a value omits, and assumptions", {field_omitted}};
+    "omission",
+    "",
+    "physics omitted by the scene of a value, and assumptions about sections",
+    {field_omitted}};
 
 /* Records of benchmarks. */
 
@@ -331,7 +350,7 @@ static void get_dense_whole(const subject *s, field_value *out)
 
 #define TIMES(member) AT(cell_timing, member)
 static const schema_field fields_of_readings[] = {
-    {"repeats", "1", FIELD_INT, "runs; 0: not measured", TIMES(as_is.repeats)},
+    {"repeats", "1", FIELD_INT, "number of runs; 0 if not measured", TIMES(as_is.repeats)},
     {"seconds_setup", "s", FIELD_DOUBLE, "fastest run: set-up", TIMES(as_is.setup),
      .get = get_measured},
     {"seconds_solve", "s", FIELD_DOUBLE, "fastest run: solution", TIMES(as_is.solve),
@@ -350,7 +369,7 @@ static const schema_field fields_of_readings[] = {
      .get = get_round},
     {"round_5", "s", FIELD_DOUBLE, "set-up and solution in one round", TIMES(as_is.round[4]),
      .get = get_round},
-    {"keep_all_repeats", "1", FIELD_INT, "runs with all degrees of freedom",
+    {"keep_all_repeats", "1", FIELD_INT, "number of runs with all degrees of freedom",
      TIMES(keep_all.repeats)},
     {"keep_all_setup", "s", FIELD_DOUBLE, "set-up with all degrees of freedom",
      TIMES(keep_all.setup), .get = get_measured},
@@ -366,7 +385,8 @@ static const schema_field fields_of_readings[] = {
      TIMES(keep_all.round[3]), .get = get_round},
     {"keep_all_round_5", "s", FIELD_DOUBLE, "set-up and solution in one round",
      TIMES(keep_all.round[4]), .get = get_round},
-    {"keep_all_free", "1", FIELD_INT, "unknowns with all degrees of freedom", TIMES(free_keep_all)},
+    {"keep_all_free", "1", FIELD_INT, "number of unknowns with all degrees of freedom",
+     TIMES(free_keep_all)},
     {0}};
 static const schema_field fields_of_parts[] = {
     {"seconds_elements", "s", FIELD_DOUBLE, "Newton iterations: elements",
@@ -377,14 +397,16 @@ static const schema_field fields_of_parts[] = {
      TIMES(phase[PHASE_FACTORISATION])},
     {"seconds_solution", "s", FIELD_DOUBLE, "Newton iterations: solution",
      TIMES(phase[PHASE_SOLUTION])},
-    {"seconds_rest", "s", FIELD_DOUBLE, "outside the iterations: loads, compliance, modes",
+    {"seconds_rest", "s", FIELD_DOUBLE, "time outside the iterations: loads, compliance, modes",
      TIMES(phase[PHASE_REST])},
-    {"dense_unknowns", "1", FIELD_INT, "unknowns of the published algorithm; 0: not measured",
-     TIMES(dense.unknowns)},
+    {"dense_unknowns", "1", FIELD_INT,
+     "number of unknowns of the published algorithm; 0 if not measured", TIMES(dense.unknowns)},
     {"dense_iteration", "s", FIELD_DOUBLE, "its fastest iteration", .get = get_dense_iteration},
-    {"dense_seconds", "s", FIELD_DOUBLE, "all iterations of the published algorithm",
+    {"dense_seconds", "s", FIELD_DOUBLE, "time of all iterations of the published algorithm",
      .get = get_dense_seconds},
-    {"dense_whole", "", FIELD_FLAG, "whole runs were timed, not one iteration times their number",
+    {"dense_whole", "", FIELD_FLAG,
+     "1 if whole runs were timed, 0 if one iteration was timed and multiplied by the number of "
+     "iterations",
      .get = get_dense_whole},
     {0}};
 const record_type record_timing = {
@@ -417,7 +439,8 @@ static void get_version(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_import[] = {
-    {"elements", "1", FIELD_INT, "elements, as given in the file", AT(imported_row, elements)},
+    {"elements", "1", FIELD_INT, "number of elements, as given in the file",
+     AT(imported_row, elements)},
     {"file", "", FIELD_TEXT, "name of the file", .get = get_file},
     {"line", "1", FIELD_INT, "line of the file", AT(imported_row, line)},
     {"model", "", FIELD_TEXT, "beam, or another model", .get = import_get_model},
@@ -426,18 +449,19 @@ static const schema_field fields_of_import[] = {
     {"file_unit", "", FIELD_TEXT, "unit of the value in the file", AT(imported_row, unit)},
     {"factor", "1", FIELD_DOUBLE, "factor by which the value in the file was multiplied",
      AT(imported_row, factor)},
-    {"unknowns", "1", FIELD_INT, "unknown coordinates; 0: not given", AT(imported_row, unknowns)},
+    {"unknowns", "1", FIELD_INT, "number of unknown coordinates; 0 if not given",
+     AT(imported_row, unknowns)},
     {"seconds", "s", FIELD_DOUBLE, "time of the solution, as given in the file",
      AT(imported_row, seconds)},
     {"x_unit", "", FIELD_TEXT, "unit of the abscissa of a curve",
      OF(QUANTITY, scene_quantity, x.unit)},
     {"x", "x_unit", FIELD_DOUBLE, "abscissa of a curve", AT(imported_row, x)},
-    {"value", OWN_UNIT, FIELD_DOUBLE, "in the unit of the quantity", AT(imported_row, value)},
+    {"value", OWN_UNIT, FIELD_DOUBLE, "value in the unit of the quantity", AT(imported_row, value)},
     {"uncertainty", OWN_UNIT, FIELD_DOUBLE, "uncertainty of the value",
      AT(imported_row, uncertainty)},
     {0}};
 const record_type record_import = {
     "import",
     "imports",
-    "a value of another program, and its source",
+    "a value of another program, with its source",
     {keys_of_point, keys_of_series, names_of_quantity, fields_of_import}};

@@ -11,7 +11,7 @@
 
 static const schema_field fields_of_scene[] = {
     {"scene", "", FIELD_TEXT,
-     "scene file with the same solution, bit for bit, and with loops and expressions expanded",
+     "scene file whose solution is the same bit for bit, with loops and expressions expanded",
      .address = 1},
     {0}};
 const record_type record_scene = {
@@ -68,7 +68,7 @@ static const schema_field key_of_case[] = {
     {0}};
 static const schema_field fields_of_parameter[] = {
     {"parameter", "", FIELD_TEXT, "name of the parameter", .get = get_name},
-    {"unit", "", FIELD_TEXT, "unit of its value; 1: a number", .get = get_unit},
+    {"unit", "", FIELD_TEXT, "unit of the value; 1 for a plain number", .get = get_unit},
     {"default", "", FIELD_TEXT, "default value", .get = get_default},
     {"min", OWN_UNIT, FIELD_DOUBLE, "minimum", .get = get_min},
     {"max", OWN_UNIT, FIELD_DOUBLE, "maximum", .get = get_max},
@@ -112,17 +112,17 @@ static void get_assumption(const subject *s, field_value *out)
 
 static const schema_field fields_of_assumption[] = {
     {"kind", "", FIELD_ENUM,
-     "not known: the constants of the section do not determine it; not modelled: no formulation "
-     "supports it",
+     "not known: the constants of the section do not determine the physics; not modelled: no "
+     "formulation supports the physics",
      .get = get_kind, .word = assumptions_kind, .words = ASSUMPTION_KINDS},
     {"section", "", FIELD_TEXT, "name of the section", .get = get_section},
-    {"physics", "", FIELD_TEXT, "physics, in words of 'omit'; empty: none of these",
+    {"physics", "", FIELD_TEXT, "physics, as named by 'omit'; empty if 'omit' has no name for it",
      .get = get_physics},
     {"text", "", FIELD_TEXT, "assumption in words", .get = get_assumption},
     {0}};
 const record_type record_assumption = {"assumption",
                                        "assumptions",
-                                       "an assumption about a section of your scene",
+                                       "an assumption about a section of the scene",
                                        {keys_of_point, fields_of_assumption}};
 
 static void get_meaning(const subject *s, field_value *out)
@@ -138,7 +138,7 @@ static void get_curve(const subject *s, field_value *out)
 
 static const schema_field fields_of_meaning[] = {
     {"meaning", "", FIELD_TEXT, "description in one line", .get = get_meaning},
-    {"curve", "", FIELD_FLAG, "the quantity has a value at every station of a path",
+    {"curve", "", FIELD_FLAG, "1 if the quantity has a value at every station of a path",
      .get = get_curve},
     {0}};
 const record_type record_meaning = {"meaning",
@@ -209,11 +209,11 @@ static const schema_field fields_of_verdict[] = {
      .words = VERDICT_KINDS},
     {"expected", "", FIELD_ENUM, "expected verdict: pass, or as given by a known deviation",
      AT(verdict, expected), .word = word_of_verdict, .words = VERDICT_KINDS},
-    {"as_expected", "", FIELD_FLAG, "verdict as expected; if not, the exit status is 1",
-     AT(verdict, matches)},
-    {"message", "", FIELD_TEXT, "the verdict in words", .get = get_message},
+    {"as_expected", "", FIELD_FLAG,
+     "1 if the verdict is as expected; otherwise the exit status is 1", AT(verdict, matches)},
+    {"message", "", FIELD_TEXT, "description of the verdict", .get = get_message},
     {"reason", "", FIELD_TEXT, "reason for a missing value", AT(verdict, reason)},
-    {"finding", "", FIELD_TEXT, "the known deviation that explains it", .get = get_finding},
+    {"finding", "", FIELD_TEXT, "known deviation that explains the verdict", .get = get_finding},
     {"cause", "", FIELD_TEXT, "cause of the known deviation", .get = get_cause},
     {"proof", "", FIELD_TEXT, "proof of the cause", .get = get_proof},
     {"value", OWN_UNIT, FIELD_DOUBLE, "value on the finest mesh", AT(verdict, finest)},
@@ -231,7 +231,7 @@ static const schema_field fields_of_verdict[] = {
      "rounding scatter of the value on the finest mesh, as used for the verdict",
      AT(verdict, fit.noise)},
     {"noise_measured", "", FIELD_FLAG,
-     "the scatter was measured by an equivalent second run of the finest mesh",
+     "1 if the scatter was measured by an equivalent second run of the finest mesh",
      .get = get_noise_measured},
     {"truth", OWN_UNIT, FIELD_DOUBLE, "reference value of the same continuum model",
      OF(TRUTH, truth, value)},
@@ -241,14 +241,14 @@ static const schema_field fields_of_verdict[] = {
     {"theory", "", FIELD_TEXT, "shear theory in stability of the reference value",
      TEXT_OF(TRUTH, truth, theory)},
     {"source", "", FIELD_TEXT, "source of the reference value", TEXT_OF(TRUTH, truth, source)},
-    {"below_digits", "", FIELD_FLAG, "the error is below the uncertainty of the reference value",
-     AT(verdict, below_digits)},
-    {"predicted", OWN_UNIT, FIELD_DOUBLE, "limit that theory predicts for the formulation",
-     .get = get_predicted},
-    {"contradicted", OWN_UNIT, FIELD_DOUBLE, "published value that the limit excludes",
-     .get = get_contradicted},
+    {"below_digits", "", FIELD_FLAG,
+     "1 if the error is below the uncertainty of the reference value", AT(verdict, below_digits)},
+    {"predicted", OWN_UNIT, FIELD_DOUBLE,
+     "limit predicted for the formulation from its published equations", .get = get_predicted},
+    {"contradicted", OWN_UNIT, FIELD_DOUBLE,
+     "published value that is outside the uncertainty of the limit", .get = get_contradicted},
     {"error", "1", FIELD_DOUBLE, "relative error of the limit", AT(verdict, error)},
-    {"tolerance", OWN_UNIT, FIELD_DOUBLE, "tolerance of the limit, uncertainty included",
+    {"tolerance", OWN_UNIT, FIELD_DOUBLE, "tolerance of the limit, including the uncertainty",
      AT(verdict, tolerance)},
     {"model_truth", OWN_UNIT, FIELD_DOUBLE,
      "reference value of another model or theory; not used for verdicts",
@@ -257,17 +257,23 @@ static const schema_field fields_of_verdict[] = {
      TEXT_OF(MODEL_TRUTH, truth, kind)},
     {"model_theory", "", FIELD_TEXT, "shear theory in stability of this value",
      TEXT_OF(MODEL_TRUTH, truth, theory)},
-    {"model_error", "1", FIELD_DOUBLE, "relative error of the limit against this value",
+    {"model_error", "1", FIELD_DOUBLE, "relative difference of the limit from this value",
      AT(verdict, model_error)},
-    {"omitted", "", FIELD_TEXT, "physics that the scene would require but omits",
+    {"omitted", "", FIELD_TEXT, "physics that the scene requires but omits",
      .get = fields_keys_omitted},
     {"assumed", "", FIELD_TEXT, "assumptions about sections: see the table 'assumptions'",
      .get = fields_keys_assumed},
-    {"reach_10", "1", FIELD_INT, "elements from which every mesh is within 10 %; 0: none",
+    {"reach_10", "1", FIELD_INT,
+     "smallest number of elements from which every mesh is within 10 %; 0: none", .get = get_reach},
+    {"reach_1", "1", FIELD_INT,
+     "smallest number of elements from which every mesh is within 1 %; 0: none", .offset = 1,
      .get = get_reach},
-    {"reach_1", "1", FIELD_INT, "the same, 1 %", .offset = 1, .get = get_reach},
-    {"reach_0.1", "1", FIELD_INT, "the same, 0.1 %", .offset = 2, .get = get_reach},
-    {"reach_0.01", "1", FIELD_INT, "the same, 0.01 %", .offset = 3, .get = get_reach},
+    {"reach_0.1", "1", FIELD_INT,
+     "smallest number of elements from which every mesh is within 0.1 %; 0: none", .offset = 2,
+     .get = get_reach},
+    {"reach_0.01", "1", FIELD_INT,
+     "smallest number of elements from which every mesh is within 0.01 %; 0: none", .offset = 3,
+     .get = get_reach},
     {0}};
 const record_type record_verdict = {
     "verdict",
@@ -280,12 +286,13 @@ static const schema_field fields_of_agreement[] = {
     {"truth", OWN_UNIT, FIELD_DOUBLE, "value stored for this formulation and mesh",
      OF(TRUTH, truth, value)},
     {"source", "", FIELD_TEXT, "source of the reference value", TEXT_OF(TRUTH, truth, source)},
-    {"agrees", "", FIELD_FLAG, "within the reference value's uncertainty", AT(agreement, good)},
+    {"agrees", "", FIELD_FLAG, "1 if the value is within the uncertainty of the reference value",
+     AT(agreement, good)},
     {0}};
 const record_type record_agreement = {
     "agreement",
     "agreements",
-    "a value of one mesh against its own stored value",
+    "a value of one mesh, compared with the stored value of this mesh",
     {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_agreement}};
 
 static void get_formulation(const subject *s, field_value *out)
@@ -306,18 +313,20 @@ static void get_covered(const subject *s, field_value *out)
 static const schema_field fields_of_coverage[] = {
     {"case", "", FIELD_TEXT, "name of the case", TEXT_OF(CASE, case_type, name), .key = KEY_AROUND},
     {"formulation", "", FIELD_TEXT, "name without options", .get = get_formulation, .key = KEY},
-    {"left_out", "1", FIELD_INT, "finest meshes that were not used", OF(SUBJECT, subject, index),
-     .key = KEY},
-    {"series", "1", FIELD_INT, "mesh series with an exact reference value and three meshes",
+    {"left_out", "1", FIELD_INT, "number of finest meshes that were not used",
+     OF(SUBJECT, subject, index), .key = KEY},
+    {"series", "1", FIELD_INT,
+     "number of mesh series with an exact reference value and at least three meshes",
      .get = get_series},
     {"covered", "1", FIELD_INT,
-     "mesh series whose limit is within its uncertainty of the reference value",
+     "number of mesh series whose limit agrees with the reference value within the uncertainty of "
+     "the limit",
      .get = get_covered},
     {0}};
 const record_type record_coverage = {
     "coverage",
     "coverages",
-    "how often limits lie within their uncertainty of exact reference values",
+    "frequency with which limits agree with exact reference values within their uncertainty",
     {fields_of_coverage}};
 
 const record_type *const record_types[] = {

@@ -173,11 +173,12 @@ void junit_write(FILE *to, const sweep *s, const judgement *j)
     write_ledger(to, "truths", j->unmet, "reference values refer to unknown names");
     write_ledger(to, "cells", j->flaws, "inconsistent run records");
     if (judgement_exit(j) == JUDGED_NOTHING)
-        write_ledger(to, "run", 1, "run judged nothing: no verdict against a reference value");
+        write_ledger(to, "run", 1,
+                     "the run assigned no verdict, because there is no reference value");
     if (s->unfinished > 0)
         write_ledger(to, "run", s->unfinished,
-                     s->partial ? "cells were not done: batches are missing"
-                                : "cells were not done: the run was interrupted");
+                     s->partial ? "cells were not computed, because batches are missing"
+                                : "cells were not computed, because the run was interrupted");
     fprintf(to, " </testsuite>\n</testsuites>\n");
 }
 
@@ -194,16 +195,15 @@ static int of_section(const scene *s, assumption *a)
     const scene_words name = scene_name(s, SCENE_SECTIONS, a->section);
     a->physics[0] = '\0';
     if (a->kind == ASSUMPTION_NOT_MODELLED) {
-        snprintf(
-            a->text, sizeof a->text,
-            "the effect of the bimoment of section %s on its torsion (int omega r^2 dA, which is "
-            "not zero there): where warping is restrained, twists in opposite directions differ",
-            name.text);
+        snprintf(a->text, sizeof a->text,
+                 "the effect of the bimoment on the torsion of section %s (int omega r^2 dA is not "
+                 "zero): if warping is restrained, twists in opposite directions differ",
+                 name.text);
         return features_one_sided(s, a->section);
     }
     scene_omission_words(features_not_given(s, a->section), a->physics);
     snprintf(a->text, sizeof a->text,
-             "%s of section %s is not given by its numbers: assumed to be zero", a->physics,
+             "%s of section %s is not given by its constants and is assumed to be zero", a->physics,
              name.text);
     return a->physics[0] != '\0';
 }

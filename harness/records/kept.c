@@ -32,7 +32,7 @@ static int is_hdf5(const char *path)
 static status unfit(const char *path, fault *f)
 {
     return fault_set(f, STATUS_REFUSED,
-                     "%.200s: a damaged HDF5 file, or not a results file; its contents would be "
+                     "%.200s: the file is damaged, or is not a results file; its contents would be "
                      "lost; move the file, or give another name",
                      path);
 }
@@ -60,8 +60,8 @@ static status await_writer(const char *path, int patience, fault *f)
     return held == 0 || why != EWOULDBLOCK
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "%.200s: another program is writing to it; close it in that program, or "
-                           "give another name",
+                           "%.200s: another program is writing to this file; close the file in "
+                           "that program, or give another name",
                            path);
 }
 

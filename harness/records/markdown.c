@@ -49,7 +49,7 @@ static void write_regressions(FILE *to, const judgement *j)
 {
     if (j->regressions == 0)
         return;
-    fprintf(to, "\n| worse than in the former run | |\n|---|---|\n");
+    fprintf(to, "\n| worse than in the previous run | |\n|---|---|\n");
     for (int i = 0; i < j->regressions && i < MOST_ROWS; i++) {
         fputs("| ", to);
         cell(to, j->regression[i].of);
@@ -120,8 +120,8 @@ static void write_legend(FILE *to, const overview *o)
                     overview_words((overview_mark)m));
     }
     fprintf(to,
-            "; **!** not as expected. A mark is the worst verdict over all parameters%s; its "
-            "number: quantities that have it.\n",
+            "; **!** not as expected. A mark is the worst verdict over all parameters%s; the "
+            "number counts the quantities with this verdict.\n",
             o->joined ? " and options" : "");
     if (o->accepted < o->columns)
         fprintf(to, "\n(new): not accepted yet; its verdicts do not affect the exit status.\n");
@@ -235,7 +235,7 @@ static const char *words_before(const sweep *s)
 {
     if (s->unfinished == 0)
         return "";
-    return s->partial ? "incomplete; of the existing part " : "interrupted; until then ";
+    return s->partial ? "incomplete; for the existing part  " : "interrupted; until then ";
 }
 
 void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,
@@ -247,9 +247,8 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview
         fprintf(to, "**%s violates the interface requirements**: %s\n\n", j->breach[i].formulation,
                 j->breach[i].why);
     fprintf(to,
-            "%d verdicts against reference values in %d cells: %d differ from the expected one; %d "
-            "of %d "
-            "stored discrete values agree",
+            "%d verdicts against reference values in %d cells; %d verdicts differ from the "
+            "expected ones; %d of %d stored discrete values agree",
             j->judged, sweep_cells(s), j->unexpected, j->agreements - j->disagreements,
             j->agreements);
     if (s->unfinished > 0)

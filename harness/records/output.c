@@ -96,8 +96,8 @@ void output_abandon(void)
 
 static status fail(const char *path, int why, fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place", path,
-                     strerror(why));
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another location",
+                     path, strerror(why));
 }
 
 /* Calls `make` with an unpredictable name next to `path`. Returns its result, or -1 with errno set.
@@ -166,7 +166,8 @@ static status check_form(const char *path, const file_place *to, output_form for
                          path, strrchr(path, '.'));
     if (to->kind == PLACE_STREAM && form == OUTPUT_WHOLE_FILE)
         return fault_set(
-            f, STATUS_REFUSED, "%.200s is %s; HDF5 needs a regular file; give its name", path,
+            f, STATUS_REFUSED,
+            "%.200s is %s, but HDF5 requires a regular file; give the name of a file", path,
             to->descriptor >= 0 ? "the file of standard output or error" : "a pipe or a device");
     if (to->kind != PLACE_FREE && access(to->path, W_OK) != 0)
         return fail(path, errno, f);
@@ -305,7 +306,7 @@ static status find(const char *path, output_folder *out, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "the name of an output is empty; give the name of a folder");
     if (length >= sizeof plain)
-        return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place",
+        return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another location",
                          path, strerror(ENAMETOOLONG));
     while (length > 1 && path[length - 1] == '/')
         length--;

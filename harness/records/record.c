@@ -62,8 +62,9 @@ static status write_bytes(const char *image, size_t size, const char *path, faul
 static status write_image(const record_file *r, const char *path, fault *f)
 {
     if (r->bad)
-        return fault_set(f, STATUS_FAULT,
-                         "the results could not be put into HDF5 (out of memory?)");
+        return fault_set(
+            f, STATUS_FAULT,
+            "the results could not be stored in HDF5, probably because memory is full");
     if (path == NULL)
         return STATUS_OK;
     const ssize_t size =
@@ -95,11 +96,12 @@ status record_drop(record_file *r, status outcome)
 static status close_on_disk(record_file *r, fault *f)
 {
     char line[CHECKSUM_LENGTH + 1];
-    status outcome =
-        close_file(r) && !r->bad
-            ? checksum_of_file(r->to.temporary, line, f)
-            : fault_set(f, STATUS_FAULT,
-                        "%.200s: the results could not be written (disk or memory)", r->to.to.path);
+    status outcome = close_file(r) && !r->bad
+                         ? checksum_of_file(r->to.temporary, line, f)
+                         : fault_set(f, STATUS_FAULT,
+                                     "%.200s: the results could not be written, because the disk "
+                                     "or the memory is full",
+                                     r->to.to.path);
     if (outcome == STATUS_OK) {
         fseek(r->to.stream, 0, SEEK_END);
         fputs(line, r->to.stream); /* the stream stores an error until it is closed */

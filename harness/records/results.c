@@ -351,8 +351,8 @@ static status take_row(char *line, const char *path, int row, stored_results *ou
         }
     }
     return fault_set(f, STATUS_FAULT,
-                     "%.120s:%d: the row is damaged or cut short; "
-                     "write the table again with 'beamwork compare -o'",
+                     "%.120s:%d: the row is damaged or truncated; write the table again with "
+                     "'beamwork compare -o'",
                      path, row);
 }
 
@@ -362,8 +362,8 @@ status results_table_read(const char *path, FILE *from, stored_results *out, fau
     if (fgets(line, sizeof line, from) == NULL || !take_line(line) ||
         strcmp(line, results_table_head) != 0)
         return fault_set(f, STATUS_FAULT,
-                         "%.120s: neither results of 'beamwork verify -o' (HDF5) nor a table of "
-                         "'beamwork compare -o'",
+                         "%.120s: the file is neither a result of 'beamwork verify -o' (HDF5) nor "
+                         "a table of 'beamwork compare -o'",
                          path);
     for (int row = 2; fgets(line, sizeof line, from) != NULL; row++)
         TRY(take_row(line, path, row, out, f));

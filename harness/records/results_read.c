@@ -86,7 +86,7 @@ status results_read(const char *path, stored_results *out, fault *f)
         return STATUS_OK;
     results_free(out);
     return fault_set(f, STATUS_FAULT,
-                     "%.120s: a sweep, which only 'beamwork compare' reads; give "
+                     "%.120s: the file contains a sweep, which only 'beamwork compare' reads; give "
                      "a file of 'beamwork verify -o'",
                      path);
 }
@@ -438,14 +438,14 @@ static status check_version(const char *path, hid_t file, fault *f)
         strcmp(schema, SCHEMA_NAME) != 0 ||
         !table_reader_attribute_count(file, "schema_version", &version))
         return fault_set(f, STATUS_FAULT,
-                         "%.120s: not a results file; write one with 'beamwork verify -o' or "
-                         "'beamwork sweep -o'",
+                         "%.120s: the file is not a results file; write one with 'beamwork verify "
+                         "-o' or 'beamwork sweep -o'",
                          path);
     if (version >= SCHEMA_OLDEST && version <= SCHEMA_VERSION)
         return STATUS_OK;
     return fault_set(f, STATUS_FAULT,
-                     "%.120s: results of version %ld, this program reads %d to %d; run "
-                     "'beamwork verify -o' again",
+                     "%.120s: the results have version %ld, but this program reads versions %d to "
+                     "%d; run 'beamwork verify -o' again",
                      path, version, SCHEMA_OLDEST, SCHEMA_VERSION);
 }
 
@@ -486,11 +486,12 @@ static status read_file(const char *path, const char *experiment, hid_t file, st
         if (experiment == NULL || strcmp(experiment, of_cells[i]) == 0)
             at = open_group(file, of_cells[i]);
     if (at < 0)
-        return experiment == NULL ? results_case_damaged(path, "", "cases", f)
-                                  : fault_set(f, STATUS_FAULT,
-                                              "%.120s: no results of '%.40s' that can be compared; "
-                                              "verify, bench and sweep write them",
-                                              path, experiment);
+        return experiment == NULL
+                   ? results_case_damaged(path, "", "cases", f)
+                   : fault_set(f, STATUS_FAULT,
+                               "%.120s: the file contains no results of '%.40s' that can be "
+                               "compared; verify, bench and sweep write such results",
+                               path, experiment);
     const status outcome = read_group(path, at, out, f);
     H5Gclose(at);
     return outcome;

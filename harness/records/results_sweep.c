@@ -333,10 +333,10 @@ static status read_file(sweep_file *s, stored_results *out, fault *f)
     const char *bad = NULL;
     table_reader_attribute_count(s->at, KEPT_SWEEP_MARK, &version);
     if (version != VERSION)
-        return fault_set(
-            f, STATUS_FAULT,
-            "%.120s: a sweep of version %ld, this program reads %d; run 'beamwork sweep -o' again",
-            s->path, version, VERSION);
+        return fault_set(f, STATUS_FAULT,
+                         "%.120s: the sweep has version %ld, but this program reads version %d; "
+                         "run 'beamwork sweep -o' again",
+                         s->path, version, VERSION);
     if ((bad = read_request(s, out)) != NULL || (bad = read_lists(s)) != NULL)
         return damaged(s, bad, f);
     if (s->word == NULL)

@@ -104,8 +104,8 @@ const char *place_leaf(const char *path)
 
 static status fail(const char *path, int why, fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another place", path,
-                     strerror(why));
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another location",
+                     path, strerror(why));
 }
 
 /* Replaces a path by the target of the link at this path. Returns 0 if there is no link. */

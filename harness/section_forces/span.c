@@ -213,10 +213,10 @@ status span_recover(const span_grid *g, const span_problem *problem, span_fields
         if (again(&w, strains, made) != 0)
             return fault_set(f, STATUS_SINGULAR, "torsion inside an element is singular");
     } else if (!(fixed_point_find(UNKNOWNS, again, &w, span_enough, strains) <= tolerable)) {
-        return fault_set(
-            f, STATUS_NOT_CONVERGED,
-            "no line between the ends of an element of %g m was found; use more elements",
-            problem->request->length);
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "no equilibrium line between the ends of an element of %g m was found; "
+                         "use more elements",
+                         problem->request->length);
     } else {
         again(&w, strains, made); /* evaluates the fields for the best strains */
     }

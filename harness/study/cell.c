@@ -342,13 +342,13 @@ static void estimate(const scene *s, const element_type *type, omission *out)
             return;
         }
         if (isfinite(last) && isfinite(change))
-            snprintf(out->why, sizeof out->why, "meshes disagree: %.2g and %.2g with %d elements",
-                     last, change, n);
+            snprintf(out->why, sizeof out->why,
+                     "the meshes disagree: %.2g and %.2g with %d elements", last, change, n);
         last = change;
     }
     if (out->why[0] == '\0')
-        snprintf(out->why, sizeof out->why, "no two meshes of up to %d elements have all values",
-                 FINEST);
+        snprintf(out->why, sizeof out->why,
+                 "fewer than two meshes of up to %d elements have all values", FINEST);
 }
 
 static void find_change(const scene *s, omission *out)
@@ -389,10 +389,10 @@ void omission_words(const omission *o, char text[OMISSION_TEXT])
     if (o->what == 0)
         return;
     if (o->exact)
-        snprintf(text, OMISSION_TEXT, "without %s: changes no value", o->words);
+        snprintf(text, OMISSION_TEXT, "without %s, which changes no value", o->words);
     else if (!o->other)
-        snprintf(text, OMISSION_TEXT, "without %s: changes no value by more than %.1g", o->words,
-                 o->change);
+        snprintf(text, OMISSION_TEXT, "without %s, which changes no value by more than %.1g",
+                 o->words, o->change);
     else if (isfinite(o->change))
         snprintf(text, OMISSION_TEXT,
                  "another model: %s not modelled (changes %s by about %.*f %%)", o->words,

@@ -66,7 +66,7 @@ static status start(const derive_question *q, script *s, fault *f)
     s->complains = fdopen(error[0], "r");
     if (s->says != NULL && s->complains != NULL)
         return STATUS_OK;
-    fault_set(f, STATUS_FAULT, "the deriving program cannot be read");
+    fault_set(f, STATUS_FAULT, "the output of the deriving program cannot be read");
     return STATUS_FAULT;
 }
 

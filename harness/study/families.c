@@ -239,7 +239,7 @@ static const char *kept_out(const sweep *s, int index, int quantity, const truth
     if (one->without.other)
         return "another model here";
     if (type->family == NULL || type->misprint != NULL)
-        return type->family == NULL ? "of no family" : "kept with a misprint";
+        return type->family == NULL ? "of no family" : "implemented with a misprint";
     if (!may_vote(s, one, t))
         return "with a known deviation here";
     const mesh_limit fit = verdict_limit(s, index, quantity, 0);
@@ -473,8 +473,8 @@ static status check_words(const sweep_point *p, const char *select, const select
     if (near == NULL)
         return select_all_met(select, words, f);
     return fault_set(f, STATUS_REFUSED,
-                     "selection '%.60s': nothing is called '%.60s', did you mean '%s'?; 'beamwork "
-                     "list %.60s' shows names",
+                     "selection '%.60s': the name '%.60s' is unknown; did you mean '%s'? 'beamwork "
+                     "list %.60s' shows the names",
                      select, word, near, p->type->name);
 }
 
@@ -486,12 +486,11 @@ static status narrow(sweep *s, const char *select, kept *k, fault *f)
     TRY(check_words(&s->point[k->point], select, &words, f));
     drop(s, k); /* omissions still depend on all quantities */
     const sweep_point *p = &s->point[k->point];
-    return p->scene.quantities > 0
-               ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED,
-                           "-k '%.100s' selects no quantity of %.60s; 'beamwork list "
-                           "%.60s' shows them",
-                           select, p->type->name, p->type->name);
+    return p->scene.quantities > 0 ? STATUS_OK
+                                   : fault_set(f, STATUS_REFUSED,
+                                               "-k '%.100s' selects no quantity of %.60s; "
+                                               "'beamwork list %.60s' shows the quantities",
+                                               select, p->type->name, p->type->name);
 }
 
 status narrow_to(sweep *s, const char *select, fault *f)

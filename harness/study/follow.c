@@ -85,7 +85,7 @@ static status step_to(follow_walk *w, double to, fault *f)
         target = least >= follow_sure ? to : at + (target - at) / 2;
         if (fabs(target - at) < least_step && at != to)
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "a mode is lost beyond %.6g: the modes there represent only %.2f of "
+                             "a mode is lost beyond %.6g, where the modes represent only %.2f of "
                              "its shape; start elsewhere, or request more frequencies",
                              at, least);
     }
@@ -230,19 +230,23 @@ int sound_cell(const cell_result *cell, const scene *s, newton_form newton, char
     const char *count =
         wrong_count(cell, most_reused(cell, s), most_stale(cell, s), is_plain(cell, s, newton));
     if (c->steps != r->steps)
-        snprintf(why, FAULT_TEXT, "%ld steps were counted and %d kept", c->steps, r->steps);
+        snprintf(why, FAULT_TEXT, "%ld steps were counted, but %d were recorded", c->steps,
+                 r->steps);
     else if (c->rejected_steps != rejected)
-        snprintf(why, FAULT_TEXT, "%ld rejected steps were counted, %ld by the steps after them",
+        snprintf(why, FAULT_TEXT,
+                 "%ld rejected steps were counted, but the following steps counted %ld",
                  c->rejected_steps, rejected);
     else if (iterations > r->iterations || r->iterations > c->iterations)
-        snprintf(why, FAULT_TEXT, "%d iterations of steps, %d kept, %ld counted", iterations,
-                 r->iterations, c->iterations);
+        snprintf(why, FAULT_TEXT,
+                 "the steps contain %d iterations, but %d were recorded and %ld counted",
+                 iterations, r->iterations, c->iterations);
     else if (early >= 0)
-        snprintf(why, FAULT_TEXT, "step %d ended with a correction of %.1e, before one of %.1e",
+        snprintf(why, FAULT_TEXT,
+                 "step %d ended with a correction of %.1e, before a predicted correction of %.1e",
                  early, r->step[early].correction, r->step[early].remaining);
     else if (count != NULL)
-        snprintf(why, FAULT_TEXT, "its %s do not fit %ld iterations with %d elements", count,
-                 c->iterations, cell->size.elements);
+        snprintf(why, FAULT_TEXT, "the number of %s does not match %ld iterations with %d elements",
+                 count, c->iterations, cell->size.elements);
     else
         return 1;
     return 0;

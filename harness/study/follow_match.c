@@ -139,7 +139,7 @@ status follow_match_next(const follow_shapes *before, const state_matrices *s, f
         free(w.taken);
         return fault_set(
             f, STATUS_REFUSED,
-            "the structure has %d free coordinates here and had %d before; such modes cannot be "
+            "the structure has %d free coordinates here but had %d before, so the modes cannot be "
             "compared; vary a parameter that does not change the coordinates",
             s->M.rows, before->rows);
     }
@@ -193,7 +193,7 @@ static status solve_at(follow_walk *w, double value, cell_result *cell,
     if (*state == NULL || w->out->modes == 0)
         return fault_set(
             f, STATUS_REFUSED,
-            "no modes to follow: the scene needs a modal analysis with frequencies as quantities");
+            "there are no modes to follow; add a modal analysis with frequencies as quantities");
     return STATUS_OK;
 }
 

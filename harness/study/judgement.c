@@ -106,8 +106,8 @@ static status check_unit(const sweep_point *p, const truth *row, fault *f)
         const scene_quantity *here = &p->scene.quantity[q];
         if (strcmp(here->name, row->quantity) == 0 && strcmp(here->unit, row->unit) != 0)
             return fault_set(f, STATUS_FAULT,
-                             "case %s: %s is in '%s', but its reference value is in '%s'; correct "
-                             "the table and build again",
+                             "case %s: the unit of %s is '%s', but that of its reference value is "
+                             "'%s'; correct the table and build again",
                              p->type->name, here->name, here->unit, row->unit);
     }
     return STATUS_OK;

@@ -31,10 +31,10 @@ static const struct {
     [OVERVIEW_NOTHING] = {".", "·", "no verdict: not supported, or no reference value"},
     [OVERVIEW_OTHER_MODEL] = {"m", "○", "another model: shown without a verdict"},
     [OVERVIEW_PASS] = {"ok", "✓", "all pass"},
-    [OVERVIEW_LOW_ORDER] = {"v", "↓", "right limit, approached too slowly"},
-    [OVERVIEW_UNDECIDED] = {"?", "?", "limit not known well enough"},
-    [OVERVIEW_BIASED] = {"~", "≈", "limit off, within the tolerance"},
-    [OVERVIEW_WRONG] = {"#", "≠", "limit off, beyond the tolerance"},
+    [OVERVIEW_LOW_ORDER] = {"v", "↓", "right limit, low order of convergence"},
+    [OVERVIEW_UNDECIDED] = {"?", "?", "uncertainty of the limit too large"},
+    [OVERVIEW_BIASED] = {"~", "≈", "biased limit, within the tolerance"},
+    [OVERVIEW_WRONG] = {"#", "≠", "limit outside the tolerance"},
     [OVERVIEW_NO_VALUE] = {"x", "×", "no value on the finest mesh"},
     [OVERVIEW_FLAW] = {"c", "c", "differs from its stored value, or is inconsistent"},
 };
@@ -270,7 +270,7 @@ status checksum_check(const char *path, fault *f)
     return body >= 0 && strcmp(tail, right) == 0
                ? STATUS_OK
                : fault_set(f, STATUS_FAULT,
-                           "%.120s: not a file of this program, or cut short, damaged or altered; "
-                           "write it again",
+                           "%.120s: the file is not a file of this program, or it is truncated, "
+                           "damaged or altered; write it again",
                            path);
 }

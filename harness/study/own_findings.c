@@ -142,7 +142,8 @@ static void check_prediction(findings_reader *r, const char *word)
     const char *slash = strchr(word, '/');
     snprintf(of, sizeof of, "%.*s", (int)strcspn(word, "/"), word);
     if (slash == NULL || slash[1] == '\0' || own_names_case(r->run, of) == NULL)
-        WRONG(r, PREDICTED, "prediction '%.60s': write CASE/QUANTITY of an existing case", word);
+        WRONG(r, PREDICTED,
+              "prediction '%.60s' is not valid; write CASE/QUANTITY of an existing case", word);
 }
 
 static void check_list(findings_reader *r, int column,
@@ -157,10 +158,10 @@ static void check_name(findings_reader *r)
 {
     const char *name = r->row->field[RULE];
     if (strchr(name, ' ') != NULL)
-        WRONG(r, RULE, "the name of a rule is one word");
+        WRONG(r, RULE, "the name of a rule must be one word");
     for (int i = 0; i < r->t->rules; i++)
         if (strcmp(r->t->rule[i].name, name) == 0)
-            WRONG(r, RULE, "a rule '%.60s' already exists (%.100s); use another name for this one",
+            WRONG(r, RULE, "a rule '%.60s' already exists (%.100s); give this rule another name",
                   name,
                   r->t->rule[i].from != NULL ? r->t->rule[i].from : "the list of known deviations");
 }
@@ -187,7 +188,7 @@ static void check(findings_reader *r, double *largest)
     const char *text = r->row->field[LARGEST_ERROR];
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (r->row->field[needed[i]][0] == '\0')
-            WRONG(r, needed[i], "a known deviation needs %s", names[i]);
+            WRONG(r, needed[i], "a known deviation requires %s", names[i]);
     check_grounds(r);
     if (!r->good)
         return;
@@ -223,8 +224,7 @@ static int check_condition(findings_reader *r, const rule *one)
     const int bad = all == NULL || rules_bad_condition(one, all, word);
     if (bad)
         WRONG(r, CONDITION,
-              "condition '%.60s' is neither a feature nor compares a parameter of its "
-              "cases",
+              "condition '%.60s' is neither a feature nor a comparison of a parameter of its cases",
               word);
     free(all);
     return !bad;
@@ -371,7 +371,7 @@ static status add_row(int number, char *line, int columns, own_table *out, mista
 {
     own_table_row row = {.line = number};
     if (!line_is_text(line) || !quotes_are_even(line)) {
-        mistakes_add(m, number, 1, "the line is not UTF-8 text whose quotes are closed");
+        mistakes_add(m, number, 1, "the line is not UTF-8 text, or a quote is not closed");
         return STATUS_OK;
     }
     own_table_row *more = realloc(out->row, ((size_t)out->rows + 1) * sizeof *more);
@@ -381,7 +381,8 @@ static status add_row(int number, char *line, int columns, own_table *out, mista
         return fault_set(f, STATUS_FAULT, "out of memory for %.100s", m->file);
     const int fields = line_split(row.text, row.field, columns);
     if (fields != columns) {
-        mistakes_add(m, number, 1, "%d fields; the table has %d columns", fields, columns);
+        mistakes_add(m, number, 1, "the line has %d fields, but the table has %d columns", fields,
+                     columns);
         free(row.text);
         return STATUS_OK;
     }
@@ -406,7 +407,8 @@ static status read_lines(FILE *from, const char *columns, char **line, own_table
     ssize_t length;
     while ((length = getline(line, &room, from)) >= 0) {
         if (strlen(*line) != (size_t)length) {
-            mistakes_add(m, number + 1, 1, "not a text file: it contains a zero byte");
+            mistakes_add(m, number + 1, 1,
+                         "the file is not a text file, because it contains a zero byte");
             return STATUS_OK;
         }
         char *text = line_trim(*line);

@@ -61,7 +61,7 @@ static void take_elements(truths_reader *r, int *out)
         return;
     if (*end != '\0' || count < 1 || count > INT_MAX)
         WRONG(r, ELEMENTS,
-              "elements '%.40s' is not a number above zero; leave it empty for a value of the "
+              "elements '%.40s' is not a positive number; leave the field empty for a value of the "
               "continuum",
               text);
     else
@@ -85,7 +85,8 @@ static void check_quantity(truths_reader *r, const case_type *type, const double
         WRONG(r, QUANTITY, "%s has no quantity '%.60s'%s", type->name, name,
               own_names_near_quantity(&s, name, near));
     else if (strcmp(q->unit, unit) != 0)
-        WRONG(r, UNIT, "%s is in '%s', not in '%.40s'; convert the value", name, q->unit, unit);
+        WRONG(r, UNIT, "the unit of %s is '%s', not '%.40s'; convert the value", name, q->unit,
+              unit);
     scene_free(&s);
 }
 
@@ -154,7 +155,7 @@ static void take_row(truths_reader *r, const case_type *type, truth *out)
     if (out->on_curve)
         take_number(r, AT, &out->at);
     if (field[SOURCE][0] == '\0')
-        WRONG(r, SOURCE, "a reference value needs its source");
+        WRONG(r, SOURCE, "a reference value requires a source");
     check_formulation(r);
     check_quantity(r, type, out->parameter);
 }
@@ -166,16 +167,16 @@ static void check_row(truths_reader *r, const truth *row)
     for (int i = 0; i < COLUMNS && wrong != NULL; i++)
         if (same(names[i], wrong) && i == ELEMENTS)
             WRONG(r, i,
-                  "a value of one mesh needs a formulation and elements, a predicted limit needs a "
-                  "formulation, and any other reference value has neither");
+                  "a value of one mesh requires a formulation and elements, a predicted limit "
+                  "requires a formulation, and any other reference value must have neither");
         else if (same(names[i], wrong))
-            WRONG(r, i, "%s '%.40s' is not known; 'beamwork explain truth' lists them", wrong,
-                  r->row->field[i]);
+            WRONG(r, i, "%s '%.40s' is unknown; 'beamwork explain truth' lists the known words",
+                  wrong, r->row->field[i]);
     const truth *other = r->good ? known(r->t, row) : NULL;
     if (other != NULL)
         WRONG(r, QUANTITY,
               "a reference value of this kind already exists: %.10g (%.100s); only one can be "
-              "compared, so remove the other",
+              "compared, so remove one of them",
               other->value, other->source);
 }
 

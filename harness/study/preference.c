@@ -159,8 +159,8 @@ static status find(const scene *s, const rule_subject *where, const rule *rules,
         *all = candidates_of(s, where, rules, count, 1);
     if (all->count == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "no formulation supports everything that %.60s needs; 'beamwork list' "
-                         "shows what each one supports",
+                         "no formulation supports everything that %.60s requires; 'beamwork list' "
+                         "shows what each formulation supports",
                          s->name);
     const int *against = all->here[0].against;
     snprintf(why, FAULT_TEXT, "%s%s%s",
@@ -327,19 +327,19 @@ static void tell_elements(const scene *s, const runner *r, char why[FAULT_TEXT])
 {
     if (settled(s, r) && r->slow > 0)
         snprintf(why, FAULT_TEXT,
-                 "no value is expected to change by more than %.2g %%: it converges slowly, by "
-                 "%.2g %% from n = %d",
+                 "no value is expected to change by more than %.2g %%; convergence is slow, with a "
+                 "change of %.2g %% from n = %d",
                  100 * r->last.largest, 100 * r->slow, r->before);
     else if (settled(s, r))
         snprintf(why, FAULT_TEXT, "no value changed by more than %.2g %% from n = %d",
                  100 * r->last.largest, r->before);
     else if (isfinite(r->last.largest) && r->last.which >= 0)
         snprintf(why, FAULT_TEXT,
-                 "the finest mesh that was tried; %s still changed by %.2g %% from n = %d",
+                 "the finest mesh that was tried, on which %s still changed by %.2g %% from n = %d",
                  s->quantity[r->last.which].name, 100 * r->last.largest, r->before);
     else
         snprintf(why, FAULT_TEXT, "the finest mesh that was tried%s",
-                 r->unstable ? "; coarser meshes met unstable states" : "");
+                 r->unstable ? "; coarser meshes had unstable states" : "");
 }
 
 /* Returns the runner with the smallest change of values, for the case that none has converged. */

@@ -187,10 +187,11 @@ static status check_rule(const table_columns *c, const rule *r)
     char word[WORD];
     if (!rules_bad_condition(r, registry_cases, word))
         return STATUS_OK;
-    return fault_set(c->f, STATUS_FAULT,
-                     "%.200s: finding '%.60s': condition '%.60s' is neither a feature nor compares "
-                     "a parameter of its cases; correct reference/findings.csv and build again",
-                     c->path, r->name, word);
+    return fault_set(
+        c->f, STATUS_FAULT,
+        "%.200s: finding '%.60s': condition '%.60s' is neither a feature nor a comparison of a "
+        "parameter of its cases; correct reference/findings.csv and build again",
+        c->path, r->name, word);
 }
 
 static status read_all(table_columns *c, rule **out)

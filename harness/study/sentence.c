@@ -8,17 +8,17 @@
 static void passed(const verdict *v, char *text, size_t size)
 {
     const char *digits =
-        v->below_digits ? "; the difference is below the reference value's digits" : "";
+        v->below_digits ? "; the difference is below the last digit of the reference value" : "";
     if (v->fit.kind == LIMIT_NOISE_DOMINATED)
         snprintf(text, size,
-                 "has converged to the reference value: the last meshes differ by rounding only%s",
+                 "has converged to the reference value: the last meshes differ only by rounding%s",
                  digits);
     else if (isfinite(v->fit.order))
         snprintf(text, size, "converges to the reference value, order %.2g%s", v->fit.order,
                  digits);
     else
         snprintf(text, size,
-                 "agrees with the reference value within the tolerance, without an order%s",
+                 "agrees with the reference value within the tolerance, but without an order%s",
                  digits);
 }
 
@@ -38,7 +38,7 @@ static void undecided(const verdict *v, char *text, size_t size)
 {
     char doubt[2 * ROUNDING_TEXT];
     if (!isfinite(v->fit.limit_uncertainty)) {
-        snprintf(text, size, "undecided: one mesh shows no limit");
+        snprintf(text, size, "undecided: one mesh does not determine a limit");
         return;
     }
     doubt_of(v, doubt);
@@ -60,8 +60,8 @@ static void biased(const verdict *v, char *text, size_t size)
     }
     doubt_of(v, doubt);
     snprintf(text, size,
-             "seems to have a different limit within the tolerance, %+.3g %% off and known to %s, "
-             "which is not the %.10g that was derived for it either: finer meshes show which",
+             "seems to have a different limit within the tolerance (error %+.3g %%, uncertainty "
+             "%s), which also differs from the derived limit %.10g; use finer meshes",
              100 * v->error, doubt, v->predicted->value);
 }
 
@@ -103,7 +103,7 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
     case VERDICT_WRONG_LIMIT:
         snprintf(text, size,
                  3 * v->fit.limit_uncertainty > fabs(v->fit.limit - v->truth->value)
-                     ? "does not converge on these meshes, and is wrong: %+.3g %%"
+                     ? "does not converge on these meshes and has a wrong value: %+.3g %%"
                      : "converges to a wrong limit: %+.3g %%",
                  100 * v->error);
         return;
@@ -177,10 +177,10 @@ static void failures(const judgement *j, char *text, size_t size)
                "verdicts differ from the expected ones");
     count_part(text, size, &parts, count_undecided(j), "of them is undecided",
                "of them are undecided");
-    count_part(text, size, &parts, j->regressions, "result is worse than in the former run",
-               "results are worse than in the former run");
-    count_part(text, size, &parts, j->disagreements, "value differs from its stored one",
-               "values differ from their stored ones");
+    count_part(text, size, &parts, j->regressions, "result is worse than in the previous run",
+               "results are worse than in the previous run");
+    count_part(text, size, &parts, j->disagreements, "value differs from its stored value",
+               "values differ from their stored values");
     count_part(text, size, &parts, j->flaws, "inconsistent run record", "inconsistent run records");
     count_part(text, size, &parts, j->unobserved, "known deviation was not observed",
                "known deviations were not observed");
@@ -215,7 +215,7 @@ static known_value count_known(const judgement *j)
 static void new_ones(const judgement *j, char *text, size_t size)
 {
     if (j->proposed == 0)
-        snprintf(text, size, "%d %s: none needs a known deviation", j->is_new,
+        snprintf(text, size, "%d %s; none requires a known deviation", j->is_new,
                  j->is_new == 1 ? "belongs to a new formulation and does not affect the exit status"
                                 : "belong to new formulations and do not affect the exit status");
     else
@@ -237,8 +237,8 @@ static void expected_findings(const judgement *j, char *text, size_t size)
     int parts = 0;
     if (derived > 0) {
         snprintf(part, sizeof part,
-                 "%d of them %s off the reference value (%d within the tolerance, %d beyond it) as "
-                 "derived for %s (beamwork explain \"wrong limit, as predicted\")",
+                 "%d of them %s off the reference value (%d within the tolerance, %d outside it), "
+                 "as derived for %s (beamwork explain \"wrong limit, as predicted\")",
                  derived, derived == 1 ? "is a limit" : "are limits", k.derived[0], k.derived[1],
                  derived == 1 ? "its formulation" : "these formulations");
         add_part(text, size, &parts, ", ", part);
@@ -268,7 +268,7 @@ void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size
     const char *word = bad ? "FAIL" : "PASS", *of = "";
     if (s->unfinished > 0) {
         word = s->partial ? "INCOMPLETE" : "INTERRUPTED";
-        of = s->partial ? "of the existing part " : "until then ";
+        of = s->partial ? "for the existing part " : "until then ";
     }
     if (bad)
         snprintf(text, size, "%s: %s.", word, more);

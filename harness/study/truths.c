@@ -188,11 +188,12 @@ static status check_schema(hid_t file, const char *path, fault *f)
     handles_close(3, (const hid_t[]){number, type, schema});
     if (strcmp(name, "beamwork-truths") != 0)
         return fault_set(f, STATUS_FAULT,
-                         "%s: not a file of reference values; build it with 'make all'", path);
+                         "%s: the file does not contain reference values; build it with 'make all'",
+                         path);
     if (version != TRUTHS_VERSION)
         return fault_set(f, STATUS_FAULT,
-                         "%s: reference values of version %d, but this program reads version %d; "
-                         "build the file again ('make all')",
+                         "%s: the reference values have version %d, but this program reads version "
+                         "%d; build the file again ('make all')",
                          path, version, TRUTHS_VERSION);
     return STATUS_OK;
 }

@@ -360,7 +360,7 @@ int child_ended(int how, int late, int seconds, char *words, size_t size)
 {
     const int over = late || (WIFSIGNALED(how) && WTERMSIG(how) == SIGALRM);
     if (over)
-        snprintf(words, size, "time limit: no result within %d s", seconds);
+        snprintf(words, size, "time limit: there was no result within %d s", seconds);
     else if (WIFSIGNALED(how))
         snprintf(words, size, "crashed with signal %d", WTERMSIG(how));
     else

@@ -93,11 +93,12 @@ void table_omitted(FILE *to, const sweep_point *p)
     if (words[0] != '\0' && !whole)
         paragraph_write(to, fprintf(to, "omitted: "), INDENT, words);
     if (whole && words[0] == '\0')
-        paragraph_say(to, fprintf(to, "omitted: "), INDENT,
-                      "nothing; without omit=none it is the same, and stored values are shown");
+        paragraph_say(
+            to, fprintf(to, "omitted: "), INDENT,
+            "nothing; omit=none has no effect and can be removed, so that stored values are shown");
     else if (whole)
         paragraph_say(to, fprintf(to, "omitted: "), INDENT,
-                      "nothing, although the source of the case omits %s; its stored values belong "
+                      "nothing, although the source of the case omits %s; the stored values belong "
                       "to another model and are not shown",
                       words);
 }

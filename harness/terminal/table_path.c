@@ -44,7 +44,8 @@ void table_path_steps(FILE *to, const solve_result *r)
         corrections(to, column, r, k);
     }
     if (steps > MOST_STEPS)
-        fprintf(to, "%4s %d more steps: --format json has them all\n", "", steps - MOST_STEPS);
+        fprintf(to, "%4s %d more steps; --format json contains all steps\n", "",
+                steps - MOST_STEPS);
 }
 
 static void matrix(FILE *to, const double value[36], const char *const row[6],
@@ -74,7 +75,7 @@ void table_path_matrices(FILE *to, const scene *s, const solve_result *r)
         if (m->stations == 0)
             continue;
         const size_t last = 36 * (size_t)(m->stations - 1);
-        fprintf(to, "compliance of %s at path %g, %s moments [SI]\n",
+        fprintf(to, "compliance of %s at path %g, %s moments, in SI units\n",
                 scene_called(s, SCENE_NODES, m->node).text, m->path[m->stations - 1],
                 scene_moments_name(m->moments));
         matrix(to, m->compliance + last, motion, load);
@@ -124,11 +125,11 @@ static void method(FILE *to, const scene_motion *how)
     choice_name(SCENE_SCHEME_CHOICES, how->scheme, name, sizeof name);
     fprintf(to, " by %s", name);
     if (how->tolerance <= 0)
-        fputs(", without a bound of the time error", to);
+        fputs(", without a bound on the time-integration error", to);
     else if (how->scheme == SCENE_RADAU)
-        fprintf(to, ", each step to %g of the largest motion", how->tolerance);
+        fprintf(to, ", each step to %g of the largest displacement", how->tolerance);
     else
-        fprintf(to, " to %g of the largest motion", how->tolerance);
+        fprintf(to, " to %g of the largest displacement", how->tolerance);
 }
 
 static void steps_line(FILE *to, const motion_extent *e, const scene_motion *how)
@@ -159,9 +160,9 @@ static void steps_line(FILE *to, const motion_extent *e, const scene_motion *how
         fprintf(text, " of %.3g to %.3g s", least, largest);
     fprintf(text, ", %ld longer rejected", rejected);
     if (iterations > 0)
-        fprintf(text, "; %.1f iterations a step, at most %d", (double)iterations / steps, most);
+        fprintf(text, "; %.1f iterations per step, at most %d", (double)iterations / steps, most);
     if (last->time < end * (1 - 1e-9))
-        fprintf(text, "; it ends before %g s: give a smaller step, a tolerance or more elements",
+        fprintf(text, "; it ends before %g s; give a smaller step, a tolerance or more elements",
                 end);
     paragraph_end(&words, at, MOTION_INDENT);
 }
@@ -182,8 +183,8 @@ static void energy_line(FILE *to, const motion_extent *e)
     paragraph words;
     FILE *text = paragraph_begin(&words, to);
     fprintf(text,
-            "%.6g J at the end, %.6g J of it kinetic; work since the start %.6g J, dissipated "
-            "%.3g J; energy-balance error at most %.2g J",
+            "%.6g J at the end, of which %.6g J is kinetic; work since the start %.6g J, "
+            "dissipated %.3g J; energy-balance error at most %.2g J",
             last->balance[SCENE_ENERGY], last->balance[SCENE_KINETIC], last->balance[SCENE_WORK],
             last->balance[SCENE_DISSIPATED], fabs(drift));
     if (size > 0 && drift != 0)
@@ -234,8 +235,8 @@ static void momentum_line(FILE *to, const motion_extent *e)
     const motion_record *last = &e->record[e->end - 1];
     const int at = fprintf(to, "momenta: ");
     paragraph_say(to, at, MOTION_INDENT,
-                  "%.6g kg m/s at the end, %.6g kg m^2/s about the origin; they change by at most "
-                  "%.2g and %.2g from those at the start",
+                  "%.6g kg m/s at the end, %.6g kg m^2/s about the origin; largest changes from "
+                  "the start: %.2g and %.2g",
                   length_at(last, SCENE_PX), length_at(last, SCENE_LX), change_of(e, SCENE_PX),
                   change_of(e, SCENE_LX));
 }
@@ -276,5 +277,7 @@ void table_motion(FILE *to, const scene *s, const solve_result *r)
         momentum_line(to, &e);
     }
     if (r->motions > 0)
-        fputs("  --format json has every step; 'beamwork motion' measures the time error\n", to);
+        fputs("  --format json contains every step; 'beamwork motion' measures the "
+              "time-integration error\n",
+              to);
 }

@@ -43,10 +43,8 @@ static void failed_cells(FILE *to, const sweep *s)
 static void coverage_lines(FILE *to, const judgement *j)
 {
     if (j->coverages > 0)
-        fprintf(
-            to,
-            "\nlimits within their uncertainty of exact reference values, also without the 1, 2, 3 "
-            "finest meshes\n");
+        fprintf(to, "\nlimits within their uncertainty of exact values, "
+                    "with all meshes and without the 1, 2, 3 finest\n");
     for (int i = 0; i < j->coverages; i++) {
         coverage sum = {.type = j->coverage[i].type};
         int before = 0;
@@ -154,8 +152,8 @@ static void print_verdicts(FILE *to, const judgement *j)
 void table_run(FILE *to, const sweep *s, const judgement *j, double seconds)
 {
     const int contradicted = count_contradicted(j);
-    fprintf(to, "%d cells, %d more for their noise, in %.3g s", sweep_cells(s), noise_cells(s),
-            seconds);
+    fprintf(to, "%d cells, and %d more to measure their rounding scatter, in %.3g s",
+            sweep_cells(s), noise_cells(s), seconds);
     if (s->unfinished > 0)
         fprintf(to, s->partial ? "; %d more are missing" : "; interrupted, %d more were not run",
                 s->unfinished);
@@ -389,8 +387,10 @@ static void print_legend(FILE *to, screen look, const overview *o)
         if (used[m])
             print_entry(to, &column, entry);
     }
-    fprintf(to, "\nA mark is the worst verdict%s; its number: quantities that have it.\n",
-            o->joined ? " over all parameters and options" : " over all parameters");
+    fprintf(
+        to,
+        "\nA mark is the worst verdict%s; the number counts the quantities with this verdict.\n",
+        o->joined ? " over all parameters and options" : " over all parameters");
     if (o->accepted < o->columns)
         fprintf(to, "(new): not accepted yet; its verdicts do not affect the exit status.\n");
 }

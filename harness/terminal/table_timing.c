@@ -119,7 +119,8 @@ static void rows(FILE *to, const sweep *s, const judgement *j, int at, char done
     for (int i = 0; i < s->seriess; i++) {
         const char *why = reach_unranked(s->series[i].formulation.type);
         if (meshes_run(&s->series[i], at) > 0 && why[0] != '\0')
-            fprintf(to, "  %s: %s, its times are not ranked\n", s->series[i].formulation.key, why);
+            fprintf(to, "  %s: %s, so its times are not ranked\n", s->series[i].formulation.key,
+                    why);
     }
     for (int q = first; q >= 0; q = next_quantity(s, j, at, done)) {
         mark_shown(s, j, at, q, done);
@@ -237,8 +238,7 @@ static void faster_ones(FILE *to, const sweep *s, const reached list[], int coun
     for (int i = ties; i < count && list[i].defect == NULL; i++)
         if (isfinite(list[i].cost) &&
             rounds_compare(time_of(s, &list[i]), time_of(s, &list[0])) < 0) {
-            fputs(told++ > 0 ? "; " : "; more expensive by its counts, faster in every round: ",
-                  to);
+            fputs(told++ > 0 ? "; " : "; higher counted cost, but faster in every round: ", to);
             way(to, s, &list[i]);
         }
 }
@@ -257,7 +257,7 @@ static void defective_ones(FILE *to, const sweep *s, const reached list[], int c
                 if (k > i)
                     fputs("; ", to);
                 else
-                    fprintf(to, "; also within it, %s: ", words);
+                    fprintf(to, "; also within this error, %s: ", words);
                 way(to, s, &list[k]);
             }
     }
@@ -270,7 +270,7 @@ static int unranked_ones(FILE *to, const sweep *s, const reached list[], int cou
     int i = 0, told = 0;
     for (; i < count && list[i].defect == NULL; i++)
         if (!isfinite(list[i].cost)) {
-            fputs(told++ > 0 ? "; " : "; also within it: ", to);
+            fputs(told++ > 0 ? "; " : "; also within this error: ", to);
             way(to, s, &list[i]);
         }
     return i;

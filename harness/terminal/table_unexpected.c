@@ -145,10 +145,11 @@ static void print_rules(FILE *to, const truths *t, int *number)
         const rule *r = &t->rule[i];
         if (!r->missed)
             continue;
-        print_heading(
-            to, ++*number, "known deviation %s%s%s%s %s", r->name, r->from != NULL ? " (" : "",
-            r->from != NULL ? r->from : "", r->from != NULL ? ")" : "",
-            r->observed == 0 ? "was not observed" : "names a derived limit that no verdict met");
+        print_heading(to, ++*number, "known deviation %s%s%s%s %s", r->name,
+                      r->from != NULL ? " (" : "", r->from != NULL ? r->from : "",
+                      r->from != NULL ? ")" : "",
+                      r->observed == 0 ? "was not observed"
+                                       : "names a derived limit that no verdict has met");
         paragraph_say(to, 0, INDENT, "formulations: %s", r->formulations);
         paragraph_say(to, 0, INDENT, "cases: %s", r->cases);
         paragraph_say(to, 0, INDENT, "quantities: %s", r->quantities);
@@ -204,7 +205,7 @@ void table_unexpected(FILE *to, screen look, const sweep *s, const judgement *j,
     for (int i = 0; i < j->flaws; i++)
         print_flaw(to, s, &j->flaw[i], ++number);
     for (int i = 0; i < j->regressions; i++)
-        print_heading(to, ++number, "worse than in the former run: %s: %s", j->regression[i].of,
+        print_heading(to, ++number, "worse than in the previous run: %s: %s", j->regression[i].of,
                       j->regression[i].why);
     if (j->unobserved > 0)
         print_rules(to, t, &number);
@@ -308,7 +309,7 @@ static void write_block(FILE *to, const scene *s, const solve_result *r, int cou
         fputc('\n', to);
     }
     if (rows < first->points)
-        paragraph_say(to, 0, 2, "  %d of %d points; --format csv and json have them all", rows,
+        paragraph_say(to, 0, 2, "  %d of %d points; --format csv and json contain all points", rows,
                       first->points);
 }
 
@@ -395,8 +396,9 @@ static void write_errors(FILE *to, const sweep *s, int quantity, int reference)
     const int at = fprintf(to, "\n%s [%s] over %s [%s], ", q->name, q->unit, q->x.name, q->x.unit);
     paragraph_say(
         to, at - 1, 4,
-        "largest error over the curve, relative to its largest value, against the finest mesh%s",
-        running > 1 ? "; of the finest one, from that of another formulation" : "");
+        "largest error over the curve, relative to the largest value of the curve; reference: the "
+        "finest mesh%s",
+        running > 1 ? "; error of the finest mesh: relative to that of another formulation" : "");
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
         if (one->missing[0] != '\0')

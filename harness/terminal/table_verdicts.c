@@ -242,7 +242,7 @@ const char *table_stability_word(step_stability which)
     return word[which];
 }
 
-static const char *const words_of[] = {[STEP_OPEN] = "not decided by pivots",
+static const char *const words_of[] = {[STEP_OPEN] = "not determined by pivots",
                                        [STEP_NO_DIVERGENCE] = "no divergence",
                                        [STEP_STABLE] = "stable",
                                        [STEP_UNSTABLE] = "unstable",
@@ -334,7 +334,7 @@ void table_stability_meshes(FILE *to, const sweep *s)
             unstable += met_unstable(&one->cell[k].solve);
         if (unstable == 0)
             continue;
-        fprintf(to, "\n%s met unstable states:\n", one->formulation.key);
+        fprintf(to, "\n%s had unstable states:\n", one->formulation.key);
         for (int k = 0; k < one->meshes; k++) {
             const solve_result *r = &one->cell[k].solve;
             const int column = fprintf(to, "  n = %d: ", one->mesh[k]);

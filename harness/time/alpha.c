@@ -125,7 +125,7 @@ static status check_turns(const alpha *s, double time, fault *f)
         if (vec3_norm(turn) > most)
             return fault_set(
                 f, STATUS_NOT_CONVERGED,
-                "a node rotates by %.2g rad in the step to %g s; at most %g is allowed",
+                "a node rotates by %.2g rad in the step to %g s, but at most %g rad is allowed",
                 vec3_norm(turn), time, most);
     }
     return STATUS_OK;
@@ -183,7 +183,7 @@ status alpha_alloc(const scheme_request *request, motion_scheme **out, fault *f)
     alpha *s = calloc(1, sizeof *s);
     *out = NULL;
     if (s == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     *out = &s->base;
     *s = (alpha){
         .base = {.order = 3, .adds = 1, .step = step, .free = release},
@@ -196,7 +196,7 @@ status alpha_alloc(const scheme_request *request, motion_scheme **out, fault *f)
         .a0 = calloc(4 * n, sizeof(double))};
     s->mean = calloc(s->strains + 1, sizeof *s->mean);
     if (s->a0 == NULL || s->mean == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     s->v0 = s->a0 + n;
     s->inc = s->v0 + n;
     s->weight = s->inc + n;

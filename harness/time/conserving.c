@@ -110,7 +110,7 @@ static status accept(void *of, fault *f)
     const solution *one = of;
     return one->s->wild ? fault_set(f, STATUS_NOT_CONVERGED,
                                     "strains change too much in the step to %g s to conserve "
-                                    "energy: use a shorter step",
+                                    "energy; use a shorter step",
                                     one->time)
                         : STATUS_OK;
 }
@@ -176,10 +176,11 @@ static status check(const model *m, fault *f)
             free += v->coordinate[SCENE_RX + k] != NONE &&
                     v->coordinate[SCENE_RX + k] < model_unknowns(m);
         if (v->angles == 2 && free == 2)
-            return fault_set(f, STATUS_REFUSED,
-                             "%s rotates by two free angles: the integrator conserving supports "
-                             "one or three free angles, or driven angles; use alpha or radau",
-                             scene_called(model_scene(m), SCENE_NODES, i).text);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s rotates by two free angles, but the integrator conserving supports only one or "
+                "three free angles, or driven angles; use alpha or radau",
+                scene_called(model_scene(m), SCENE_NODES, i).text);
     }
     return STATUS_OK;
 }
@@ -268,7 +269,7 @@ static status allocate(conserving *s, fault *f)
         TRY(complement_alloc(&s->of.c->eq, &s->complement, f));
     s->evaluation = malloc((size_t)chunk_size(m) * sizeof *s->evaluation);
     if (s->step == NULL || s->W == NULL || s->evaluation == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     s->residual = s->step + all;
     s->column = s->residual + all;
     s->row = s->column + all;
@@ -297,7 +298,7 @@ status conserving_alloc(const scheme_request *request, motion_scheme **out, faul
     TRY(check(request->c->model, f));
     conserving *s = calloc(1, sizeof *s);
     if (s == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     *out = &s->base;
     s->base = (motion_scheme){.order = 3, .adds = 1, .step = step, .free = release};
     s->of = *request;
@@ -347,8 +348,8 @@ static status conserving_massless(conserving *s, fault *f)
     return heavy > 0 || turning == 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "no rotation has inertia, which the integrator conserving requires: use "
-                           "alpha or radau, or give the sections rotary inertia");
+                           "no rotation has inertia, but the integrator conserving requires it; "
+                           "use alpha or radau, or give the sections rotary inertia");
 }
 
 static double energy_of(const carried_mass *one, const carried_step *p, const double v[3],

@@ -89,7 +89,7 @@ static status allocate(explicit_scheme *s, fault *f)
     s->stepper = gsl_odeiv2_step_alloc(gsl_odeiv2_step_rk8pd, n);
     gsl_set_error_handler(before);
     if (s->y == NULL || s->stepper == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     s->error = s->y + n;
     s->dydt = s->error + n;
     s->inc = s->dydt + n;
@@ -107,7 +107,7 @@ status explicit_alloc(const scheme_request *request, motion_scheme **out, fault 
     explicit_scheme *s = calloc(1, sizeof *s);
     *out = NULL;
     if (s == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     *out = &s->base;
     s->base = (motion_scheme){.order = 8, .degree = BETWEEN_QUINTIC, .step = step, .free = release};
     s->of = *request;
@@ -149,8 +149,7 @@ static status accelerate_joined(const model *m, const carried_masses *masses, in
     for (int k = 0; k < g->count; k++)
         g->value[k] = g->unit[k] * residual[g->index[k]];
     if (g->count > 0 && dense_lu_regular(g->count, g->M, g->used) != 0)
-        return fault_set(f, STATUS_SINGULAR,
-                         "%s: two angles of its rotation are about the same axis",
+        return fault_set(f, STATUS_SINGULAR, "%s: two of its rotation axes coincide (gimbal lock)",
                          scene_called(model_scene(m), SCENE_NODES, body).text);
     dense_lu_solve(g->count, 1, g->M, g->used, g->value);
     for (int k = 0; k < g->count; k++)
@@ -211,7 +210,7 @@ static status explicit_accelerate(const model *m, const carried_masses *masses,
             b[i] = residual[of[i]];
         if (dense_lu_regular(n, M, pivot) != 0)
             return fault_set(f, STATUS_SINGULAR,
-                             "%s: two angles of its rotation are about the same axis",
+                             "%s: two of its rotation axes coincide (gimbal lock)",
                              scene_called(model_scene(m), SCENE_NODES, masses->mass[k].frame).text);
         dense_lu_solve(n, 1, M, pivot, b);
         for (int i = 0; i < n; i++)
@@ -317,20 +316,20 @@ static status explicit_check(const model *m, const carried_masses *masses, fault
             scene_is_beside(&model_scene(m)->member[i], 1))
             return fault_set(f, STATUS_REFUSED,
                              "integrator explicit: %s has an offset, which this integrator does "
-                             "not support; end the member at a node that is part_of the other, or "
-                             "use alpha, conserving or radau",
+                             "not support; end the member at a node that is part_of the other "
+                             "node, or use alpha, conserving or radau",
                              scene_called(model_scene(m), SCENE_MEMBERS, i).text);
     if (model_releases(m) > 0)
         return fault_set(f, STATUS_REFUSED,
-                         "integrator explicit: released ends of members have no inertia of their "
-                         "own; use alpha, conserving or radau");
+                         "integrator explicit: released ends of members have no inertia; use "
+                         "alpha, conserving or radau");
     if (model_mesh_of(m)->joined != NULL)
         return check_joined(m, masses, f);
     int *heavy = calloc(all, sizeof *heavy);
     double *rest = calloc(all, sizeof *rest);
     status outcome = heavy != NULL && rest != NULL
                          ? STATUS_OK
-                         : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+                         : fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     if (outcome == STATUS_OK)
         mark(m, masses, rest, heavy);
     for (int i = 0; i < model_vertices(m) && outcome == STATUS_OK; i++)
@@ -430,8 +429,8 @@ static int explicit_rates(double t, const double y[], double dydt[], void *conte
     const double time = t > s->from->time ? fmin(t, s->end) : t;
     if (!is_finite(size_of(s), y)) {
         s->outcome = fault_set(&s->why, STATUS_NOT_CONVERGED,
-                               "at %g s motions grow without bound: the step does not resolve the "
-                               "fastest mode of the mesh",
+                               "at %g s displacements grow without bound, because the step does "
+                               "not resolve the fastest mode of the mesh; use a smaller step",
                                t);
         return GSL_EFAILED;
     }
@@ -472,7 +471,7 @@ status work_alloc(const equations *eq, const carried_masses *masses, outer_work 
         .force = calloc(2 * (size_t)model_all_coordinates(m) + dashpots_room(m), sizeof *w->force),
         .element = calloc((size_t)model_elements(m) + 1, sizeof *w->element)};
     if (w->force == NULL || w->element == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the work of a motion");
+        return fault_set(f, STATUS_FAULT, "out of memory for the work of the loads");
     w->holding = w->force + model_all_coordinates(m);
     w->dashpots = w->holding + model_all_coordinates(m);
     for (int i = 0; i < model_elements(m); i++)

@@ -117,7 +117,7 @@ status drive_check(const model *m, fault *f)
     for (int d = 0; d < model_scene(m)->drivers; d++)
         if (model_scene(m)->driver[d].value == NULL)
             return fault_set(f, STATUS_REFUSED,
-                             "the value of driver %s is unknown; a motion in time requires the "
+                             "the value of driver %s is unknown; a transient analysis requires the "
                              "values of all drivers",
                              model_scene(m)->driver[d].name);
     return STATUS_OK;

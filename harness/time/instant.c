@@ -40,7 +40,7 @@ status instant_alloc(const model *m, instant *out, fault *f)
         out->ends = calloc(instant_ends(m), sizeof *out->ends);
     if (out->v == NULL || out->a == NULL || out->algorithm == NULL ||
         (instant_ends(m) > 0 && out->ends == NULL))
-        return fault_set(f, STATUS_FAULT, "out of memory for an instant of a motion");
+        return fault_set(f, STATUS_FAULT, "out of memory for a state of a motion");
     return kinematics_state_alloc(m, &out->state, f);
 }
 

@@ -100,11 +100,11 @@ static status check_field(const model *m, const model_state *s, const scene_star
         for (int k = 0; k < 3; k++)
             if (fabs(r.v[k] - velocity[k]) > nothing * spin * model_length(m) ||
                 fabs(r.w[k] - field->spin[k]) > nothing * spin)
-                return fault_set(
-                    f, STATUS_REFUSED,
-                    "%s does not rotate with the axes at the start of the motion (it is held, or "
-                    "driven otherwise); drive it so that it rotates with them from 0 s on",
-                    scene_called(model_scene(m), SCENE_NODES, i).text);
+                return fault_set(f, STATUS_REFUSED,
+                                 "%s does not rotate with the axes at the start of the motion, "
+                                 "because it is fixed or driven otherwise; drive it so that it "
+                                 "rotates with the axes from 0 s on",
+                                 scene_called(model_scene(m), SCENE_NODES, i).text);
     }
     return STATUS_OK;
 }
@@ -118,8 +118,8 @@ static status check_drivers(const model *m, const double inc[], fault *f)
         const int c = model_driver_coordinate(m, d);
         if (c >= model_unknowns(m) && fabs(inc[c]) > nothing * (1 + model_length(m)))
             return fault_set(f, STATUS_REFUSED,
-                             "driver %s starts %g away from its value in the start state: give it "
-                             "the value of the start state at 0 s",
+                             "driver %s starts %g away from its value in the initial state; at 0 "
+                             "s, give it the value of the initial state",
                              model_scene(m)->driver[d].name, inc[c]);
     }
     return STATUS_OK;
@@ -175,9 +175,9 @@ status launch_again(analysis_context *c, const carried_masses *masses, const sce
     TRY(stage_alloc(c, masses, &s, f));
     s.begins = 1;
     double *inc = calloc(2 * (size_t)s.all + 2, sizeof *inc);
-    const status outcome = inc != NULL
-                               ? begin(&s, how, now, room, inc, inc + s.all + 1, f)
-                               : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    const status outcome =
+        inc != NULL ? begin(&s, how, now, room, inc, inc + s.all + 1, f)
+                    : fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     now->state->path =
         now->time; /* loads after the jump, or after a static path, act from now on */
     free(inc);
@@ -211,11 +211,10 @@ static status check_followers(const model *m, const model_state *s, const scene_
             }
             const double square = vec3_dot(along, along), size = turns ? spin : vec3_norm(rate);
             if (fabs(vec3_dot(along, rate) / square - v[of]) > nothing * size)
-                return fault_set(
-                    f, STATUS_REFUSED,
-                    "%s: the initial velocity contradicts a constraint with another node; "
-                    "start from a static analysis, or remove the constraint",
-                    scene_called(model_scene(m), SCENE_NODES, i).text);
+                return fault_set(f, STATUS_REFUSED,
+                                 "%s: the initial velocity violates a constraint with another "
+                                 "node; start from a static analysis, or remove the constraint",
+                                 scene_called(model_scene(m), SCENE_NODES, i).text);
         }
     return STATUS_OK;
 }
@@ -269,11 +268,12 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
     const newton_form newton = c->options->newton;
     if (newton == NEWTON_DENSE)
         return fault_set(f, STATUS_REFUSED,
-                         "motions in time need a factored tangent, which newton=dense does not "
-                         "form; give newton=mixed");
+                         "motions require a factorised tangent, which newton=dense does not form; "
+                         "give newton=mixed");
     if (newton == NEWTON_DISPLACEMENT && how->scheme == SCENE_CONSERVING)
-        return fault_set(f, STATUS_REFUSED,
-                         "the integrator conserving needs strains as unknowns; give newton=mixed");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "the integrator conserving requires that strains are unknowns; give newton=mixed");
     return STATUS_OK;
 }
 
@@ -333,9 +333,9 @@ status checks_massless(const analysis_context *c, const carried_masses *masses,
     if (massless == 0 || how->scheme != SCENE_ALPHA || how->alpha.force > how->alpha.mass)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%d coordinates have no inertia: with the trapezoidal rule or rho = 1 their "
-                     "accelerations would grow; use rho < 1 or radau, or give the "
-                     "sections rotary inertia (do not omit rotary_inertia)",
+                     "%d coordinates have no inertia, so their accelerations would grow with the "
+                     "trapezoidal rule or rho = 1; use rho < 1 or radau, or give the sections "
+                     "rotary inertia (do not omit rotary_inertia)",
                      massless);
 }
 
@@ -392,9 +392,9 @@ status integrator_alloc(const scheme_request *r, motion_scheme **out, fault *f)
 {
     *out = NULL;
     if (r->how->scheme == SCENE_EXPLICIT && damping_of_members(r->c->scene))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "the integrator explicit does not support members with damping: use another");
+        return fault_set(f, STATUS_REFUSED,
+                         "the integrator explicit does not support members with damping; use "
+                         "another integrator");
     switch (r->how->scheme) {
     case SCENE_ALPHA:
         return alpha_alloc(r, out, f);

@@ -193,7 +193,7 @@ status massless_drop(const model *m, const carried_masses *all, const model_stat
     const size_t size = (size_t)model_unknowns(m) * sizeof *a;
     double *light = malloc(size + 1);
     if (light == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     turn_axes(m, s, 1, a);
     memcpy(light, a, size);
     const status outcome = massless_motion(m, all, s, light, f);
@@ -312,7 +312,7 @@ status massless_readings(const model *m, const carried_masses *masses, const mod
     *undefined = calloc((size_t)of->quantities + 1, sizeof **undefined);
     status outcome = dx != NULL && *undefined != NULL
                          ? STATUS_OK
-                         : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+                         : fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     for (int i = 0; i < of->quantities && outcome == STATUS_OK; i++) {
         const scene_quantity *q = &of->quantity[i];
         if (q->analysis != analysis || q->what.kind != SCENE_RATE ||
@@ -342,7 +342,7 @@ status massive_of(const model *m, const carried_masses *masses, const model_stat
     h->light = calloc((size_t)model_first_release(m) * BLOCKS * BLOCK + 1, sizeof *h->light);
     status outcome = dx != NULL && h->light != NULL
                          ? STATUS_OK
-                         : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+                         : fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     for (int c = 0; c < 3 * BLOCKS && outcome == STATUS_OK; c++)
         outcome = column(m, masses, s, c / 3, c % 3, dx, h, f);
     free(dx);
@@ -452,11 +452,11 @@ static status balance(motion_stage *s, const double zero[], instant *now, double
     const status outcome = newton_iterate(s->c, &use, &s->arrival, &record, f);
     history_drop_step(s->c->result, &record);
     if (outcome == STATUS_NOT_CONVERGED)
-        return fault_set(
-            f, outcome,
-            "at %g s no equilibrium of the coordinates without inertia with loads and gyroscopic "
-            "moments was found (correction %.1e in iteration %d); add inertia, or reduce the spin",
-            now->time, record.correction, record.iterations);
+        return fault_set(f, outcome,
+                         "at %g s no equilibrium of the coordinates without inertia under loads "
+                         "and gyroscopic moments was found (correction %.1e in iteration %d); add "
+                         "inertia, or reduce the angular velocity",
+                         now->time, record.correction, record.iterations);
     if (outcome == STATUS_OK)
         instant_remember(&s->arrival, now);
     return outcome;
@@ -540,7 +540,7 @@ static status find_balance(motion_stage *s, const double zero[], double h, insta
     const model *m = s->c->model;
     double *moved = calloc((size_t)s->free + 1, sizeof *moved);
     unsigned char *of = calloc((size_t)s->free + 1, 1);
-    status outcome = fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+    status outcome = fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     if (moved != NULL && of != NULL)
         outcome = s->c->run->damping != NULL && creeping(m, now->state, h, of) > 0
                       ? creep(s, zero, h, now, moved, of, f)

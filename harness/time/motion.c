@@ -427,10 +427,10 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
         if (!again)
             return result;
         if (pass == MAX_PASSES)
-            return fault_set(f, STATUS_NOT_CONVERGED,
-                             "the size of the largest motion is still unknown after %d "
-                             "integrations: give a step",
-                             pass);
+            return fault_set(
+                f, STATUS_NOT_CONVERGED,
+                "the size of the displacements is still unknown after %d integrations; give a step",
+                pass);
         outcome_free(o);
         *o = (analysis_outcome){.kind = SCENE_MOTION};
     }

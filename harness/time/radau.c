@@ -167,7 +167,7 @@ static status allocate(radau *r, fault *f)
     r->weight = calloc(all, sizeof *r->weight);
     r->errors = calloc((size_t)(STAGES * feedback_count(&r->of.c->eq)) + 1, sizeof *r->errors);
     if (r->residual == NULL || r->dx == NULL || r->weight == NULL || r->errors == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     metric_of(r->of.c->model, r->weight);
     for (int i = 0; i < STAGES; i++)
         TRY(allocate_stage(r, &r->stage[i], f));
@@ -186,7 +186,7 @@ status radau_alloc(const scheme_request *request, motion_scheme **out, fault *f)
     radau *r = malloc(sizeof *r);
     *out = NULL;
     if (r == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     memcpy(r, &begin, sizeof *r);
     *out = &r->base;
     const model_size size = model_sizes(request->c->model);

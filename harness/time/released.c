@@ -450,13 +450,13 @@ static status refuse_turns(const model *m, int vertex, fault *f)
     first = last > 0 ? last - 1 : 0;
     while (first > 0 && model_scene(m)->node[vertex].angle[first] == SCENE_HELD)
         first--;
-    return fault_set(
-        f, STATUS_REFUSED,
-        "%s: a motion in time needs its orientation, which rotations about fixed axes do not "
-        "determine: about %c, then about %c, and back by both leaves it rotated about %c; give its "
-        "rotation as a sequence of angles or as a vector, or hold one more rotation",
-        scene_called(model_scene(m), SCENE_NODES, vertex).text, axis[first], axis[last],
-        axis[3 - first - last]);
+    return fault_set(f, STATUS_REFUSED,
+                     "%s: a motion requires the orientation of the node, which rotations about "
+                     "fixed axes do not determine: a rotation about %c, then about %c, and back "
+                     "about both axes results in a rotation about %c; give the rotation as a "
+                     "sequence of angles or as a vector, or fix one more rotation",
+                     scene_called(model_scene(m), SCENE_NODES, vertex).text, axis[first],
+                     axis[last], axis[3 - first - last]);
 }
 
 status forms_check(const model *m, fault *f)

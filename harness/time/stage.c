@@ -20,7 +20,7 @@ status stage_alloc(analysis_context *c, const carried_masses *masses, motion_sta
     s->residual = calloc(all, sizeof *s->residual);
     s->dx = calloc(all, sizeof *s->dx);
     if (s->residual == NULL || s->dx == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+        return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     if (c->options->newton != NEWTON_DISPLACEMENT)
         TRY(complement_alloc(&c->eq, &s->complement, f));
     TRY(assemble_pattern_in_time(c->model, c->run->patterns, &pattern, f));

@@ -27,7 +27,7 @@ status between_alloc(const equations *eq, step_between *b, fault *f)
     b->room = calloc(3 * all, sizeof *b->room);
     return b->part != NULL && b->room != NULL
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for a motion in time");
+               : fault_set(f, STATUS_FAULT, "out of memory for the time integration");
 }
 
 void between_free(step_between *b)
@@ -310,7 +310,7 @@ status stations_alloc(stations *s, fault *f)
             calloc((size_t)s->c->scene->quantities * (size_t)path->stations, sizeof *s->out->slope);
     return s->out->instant != NULL && (s->out->slope != NULL || !s->slopes)
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "out of memory for the instants of a motion");
+               : fault_set(f, STATUS_FAULT, "out of memory for states of a motion");
 }
 
 void stations_free(stations *s)
@@ -335,7 +335,7 @@ static status keep(stations *s, const instant *at, const double balance[SCENE_BA
     outcome_instant *to = &s->out->instant[s->out->path.reached];
     to->rate = malloc(2 * bytes);
     if (to->rate == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for an instant of a motion");
+        return fault_set(f, STATUS_FAULT, "out of memory for a state of a motion");
     to->acceleration = to->rate + bytes / sizeof(double);
     memcpy(to->rate, at->v, bytes - sizeof(double));
     memcpy(to->acceleration, at->a, bytes - sizeof(double));

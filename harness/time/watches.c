@@ -334,7 +334,7 @@ static status copy(const model *m, int analysis, const instant *now, const resum
     measure(m, now, out);
     out->value = malloc((outcome_end_values(out) + 1) * sizeof *out->value);
     if (out->value == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the end of a motion");
+        return fault_set(f, STATUS_FAULT, "out of memory for the final state of a motion");
     double *to = out->value;
     parts_of(now, &control->extent, out, of);
     for (int i = 0; i < PARTS; i++)
@@ -375,7 +375,7 @@ status resume_before(const analysis_context *c, int before, const outcome_end **
     const analysis_outcome *all = &c->outcomes[before];
     *out = &outcome_motion_of(all)->end;
     if (all->status != STATUS_OK || (*out)->value == NULL)
-        return fault_set(f, STATUS_NOT_CONVERGED, "the motion that is continued failed: %s",
+        return fault_set(f, STATUS_NOT_CONVERGED, "the motion to be continued has failed: %s",
                          all->reason);
     return STATUS_OK;
 }
@@ -389,8 +389,8 @@ status resume_take(const analysis_context *c, const outcome_end *e, instant *now
     if (here.states != e->states || here.coordinates != e->coordinates ||
         here.strains != e->strains || (e->released > 0 && e->released != instant_ends(c->model)))
         return fault_set(f, STATUS_REFUSED,
-                         "the motion that is continued has %zu numbers, but this mesh has %zu: use "
-                         "the same formulation and elements",
+                         "the state of the motion to be continued has %zu numbers, but this mesh "
+                         "requires %zu; use the same formulation and number of elements",
                          e->states, here.states);
     const double *from = e->value;
     parts_of(now, &control->extent, e, of);

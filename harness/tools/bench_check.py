@@ -1,8 +1,7 @@
 """Tests `bench`: injects delays of known size, which the comparison must detect.
 
 usage: bench_check.py PROGRAM [-o FILE]
-* 20 % of its own time is added to one of two equal formulations in one process: it must be
-  reported as slower, by 15 to 25 %.
+* 20 % of the run time is added to one of two equal formulations in one process: this formulation must be reported as slower, by 15 to 25 %.
 * Nothing is added: the comparison must be undecided (one process, and two copies of the program).
 * One run keeps all degrees of freedom (--all-dofs): the work counts must differ, because there are more unknowns; the
   counts of two equal runs must be equal.

@@ -221,7 +221,7 @@ def main():
     parser.add_argument("verdicts")
     parser.add_argument("-o", dest="out", required=True)
     parser.add_argument("--minutes", type=float, default=10, help="time limit for starting a series")
-    parser.add_argument("--rule", action="append", help="only this known deviation; may be repeated")
+    parser.add_argument("--rule", action="append", help="examine only this known deviation; may be repeated")
     given = parser.parse_args()
     with open(given.verdicts, encoding="utf-8") as file:
         verdicts = [

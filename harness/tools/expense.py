@@ -166,8 +166,8 @@ def write(path, cells):
 
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
-    arguments.add_argument("results", help="of verify, with all cases")
-    arguments.add_argument("-o", "--output", required=True, help="the table, as CSV")
+    arguments.add_argument("results", help="results of verify with all cases")
+    arguments.add_argument("-o", "--output", required=True, help="output table (CSV)")
     r = arguments.parse_args()
     write(r.output, read(r.results))
 

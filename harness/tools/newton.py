@@ -1,5 +1,5 @@
 #!/usr/bin/python3
-"""Compares the two forms of Newton's method, also along the most demanding paths.
+"""Compares the two forms of Newton's method, including the most demanding paths.
 
 usage: newton.py PROGRAM -o FILE
 

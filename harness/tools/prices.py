@@ -198,10 +198,10 @@ def write(path, cells, names, runs):
 def main():
     arguments = argparse.ArgumentParser(description=__doc__.split("\n", maxsplit=1)[0])
     arguments.add_argument("program")
-    arguments.add_argument("-o", "--output", required=True, help="the table, as CSV")
+    arguments.add_argument("-o", "--output", required=True, help="output table (CSV)")
     arguments.add_argument("-n", "--runs", type=int, default=9)
     arguments.add_argument("-k", "--select", default="default")
-    arguments.add_argument("--from", dest="given", nargs="*", help="files of runs made before")
+    arguments.add_argument("--from", dest="given", nargs="*", help="files of previous runs")
     r = arguments.parse_args()
     with tempfile.TemporaryDirectory() as folder:
         paths = r.given or measure(r.program, pathlib.Path(folder), r.runs, r.select)

@@ -216,8 +216,8 @@ class SceneReport(ProgramTest):
         drawn = report(results, site)
         self.assertEqual(drawn.returncode, 0, drawn.stderr)
         page = (site / "bar.html").read_text(encoding="utf-8")
-        self.assertIn("<p class=\"small\">Not known: shear of section leaf is not given by its numbers: assumed"
-                      " to be zero.</p>", page)
+        self.assertIn("<p class=\"small\">Not known: shear of section leaf is not given by its constants and"
+                      " is assumed to be zero.</p>", page)
 
     def test_motion_without_summary(self):
         scene, results, site = (self.folder / name for name in ("mine.yaml", "mine.h5", "site"))

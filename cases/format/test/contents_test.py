@@ -253,7 +253,7 @@ quantities:
     def test_the_analysis_that_was_made_up(self):
         where = ("-f", "collocation", "-n", 1)
         done = self.answered("solve", "--scene", self.scene(LEAF), *where)
-        self.assertIn("has no analysis; a linear one is run", done.stderr)
+        self.assertIn("has no analysis; a linear analysis is run", done.stderr)
         driven = LEAF.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
             "loads:", "motions:\n  pushed: {unit: m, path: [0, 0.5], value: [0, 1e-3]}\nloads:")
         done = self.answered("solve", "--scene", self.scene(driven), *where)

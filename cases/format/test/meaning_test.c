@@ -171,7 +171,7 @@ static void check_motion(void)
         {scene_balance_of(SCENE_LZ), SCENE_LAST,
          "angular momentum about the z axis, 2 s after the start of the motion"},
         {scene_balance_of(SCENE_DISSIPATED), SCENE_LAST,
-         "energy that damping dissipated, since the start, 2 s after the start of the motion"}};
+         "energy dissipated by damping since the start, 2 s after the start of the motion"}};
     static const double path[] = {0.5, 2};
     scene s;
     char text[MEANING_ROOM];

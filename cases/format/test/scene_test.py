@@ -42,7 +42,7 @@ class SceneTest(SceneCase):
     def test_unknown_parameter(self):
         """The message contains the command that lists the parameters, and this command lists them."""
         path = self.scene(LEAF)
-        self.refused(2, f"'beamwork list --scene {path}' shows them", "solve", "--scene", path,
+        self.refused(2, f"'beamwork list --scene {path}' shows the names", "solve", "--scene", path,
                      "--set", "force=3")
         self.answered("list", "--scene", path)
 
@@ -142,7 +142,7 @@ class SceneTest(SceneCase):
     def test_refusals(self):
         self.refused(4, "cannot be read", "solve", "--scene", self.folder / "none.yaml", "-f",
                      "beamw", "-n", 1)
-        self.refused(2, "give one of them", "solve", "elastica", "--scene", self.scene(LEAF), "-f",
+        self.refused(2, "give only one of them", "solve", "elastica", "--scene", self.scene(LEAF), "-f",
                      "beamw", "-n", 1)
         path = self.scene(LEAF)
         self.refused(2, "which is an input", "converge", "--scene", path, "-f", "beamw", "-o", path)
@@ -212,12 +212,12 @@ quantities:
 WRONG = [
     ("hold: all}\n      top: {at: [0, 0.08, 0]", "hold: all}\n      top: {at: [0, 0, 0]",
      "left.leaf: its ends coincide"),
-    ("from: peak, to: stage, st", "from: peak, to: peak, st", "strap: both its ends are at node peak"),
+    ("from: peak, to: stage, st", "from: peak, to: peak, st", "strap: both ends are at node peak"),
     ("stiffness: [1, 1, 1, 0", "stiffness: [1, -1, 1, 0", "strap: its stiffness"),
     ("[0, 1e-3, 0], on: stage", "[0, 1/0, 0], on: stage", "division by zero"),
     ("{force: [0, 1e-3, 0], on: stage}", "{distributed: [0, 1, 0], on: brace_2, axes: member, follower: yes}\n"
      "  wind: {moment: [0, 0, 1], on: peak, at: [1, 0, 0]}", "wind: only forces act at an offset"),
-    ("stations: [0.5, 1]", "stations: [1, 0.5]", "travel: its stations must ascend"),
+    ("stations: [0.5, 1]", "stations: [1, 0.5]", "travel: the stations must ascend"),
     ("peak: {at: [1.5, 0.2, 0]}", "peak: {at: [1.5, 0.2, 0], mass: -1}", "mass = -1; give at least 0"),
 ]
 
@@ -251,7 +251,7 @@ class NamesTest(SceneCase):
     def test_loose(self):
         path = self.scene(GUIDE.replace("peak: {at", "cloud: {at: [5, 5, 0]}\n  rain: {at: [5, 6, 0]}\n  peak: {at")
                           .replace("springs:", "  mist: {from: cloud, to: rain, section: steel, y: [1, 0, 0]}\nsprings:"))
-        self.line(1, "neither node cloud at (5, 5, 0) nor any part joined to it is held", "solve", "--scene", path,
+        self.line(1, "neither node cloud at (5, 5, 0) nor any part joined to it is supported", "solve", "--scene", path,
                   "-f", "collocation", "-n", 2)
 
     def test_written(self):
@@ -289,7 +289,7 @@ class NamesTest(SceneCase):
         alone = re.sub(r"springs:\n.*\n", "", GUIDE)
         self.line(2, "node peak: corners of members", "export", "--scene", self.scene(alone), "--to", "calculix")
         free = re.sub(r"members:\n  brace.*\n|  (post|peak).*\n", "", alone).replace("warping: fixed", "warping: free")
-        self.line(2, "member left.leaf: its ends can warp", "export", "--scene", self.scene(free), "--to", "calculix")
+        self.line(2, "member left.leaf: the ends of the member can warp", "export", "--scene", self.scene(free), "--to", "calculix")
 
 
 class OfFile(ProgramTest):

@@ -142,7 +142,7 @@ class KeysTest(SceneCase):
 
     def test_every_key(self):
         lines = []
-        for line in self.answered("scene", "--keys").stdout.partition("is replaced:\n")[2].splitlines():
+        for line in self.answered("scene", "--keys").stdout.partition("in names and strings:\n")[2].splitlines():
             if re.match(r" {0,11}\S", line):
                 lines.append(line)
             else:
@@ -448,7 +448,7 @@ class Doubtful(SceneCase):
 
     def test_density(self):
         self.assertEqual(self.told("7.85e-9", "1").stderr, "")
-        self.assertIn("is not a solid, and looks like other units; numbers are in the 'units' of the scene: with mm, N, MPa "
+        self.assertIn("the values seem to be in other units; numbers are in the 'units' of the scene; if these are mm, N, MPa, "
                       "densities are in t/mm^3", self.told("7850", "1").stderr)
 
     def test_larger_than_the_structure(self):

@@ -353,7 +353,7 @@ class CurvesTest(SceneCase):
         self.assertAlmostEqual(table[10][0], 0)
         self.assertAlmostEqual(table[10][1], 0)
         many = self.answered("solve", "--scene", self.scene(MANY), *WHERE).stdout
-        self.assertIn("20 of 101 points; --format csv and json have them all", many)
+        self.assertIn("20 of 101 points; --format csv and json contain all points", many)
         self.assertLess(len(many.splitlines()), 120)
 
     def test_largest_error(self):
@@ -386,10 +386,10 @@ class CurvesTest(SceneCase):
 
     def test_refusals(self):
         for before, behind, words in (
-                ("x: {quantity: place}}\n  k_z", "x: {quantity: k_end}}\n  k_z", "not another quantity with take: curve"),
+                ("x: {quantity: place}}\n  k_z", "x: {quantity: k_end}}\n  k_z", "must be another quantity with take: curve"),
                 ("x: {quantity: place}}\n  k_z", "x: {quantity: plane}}\n  k_z", "did you mean 'place'"),
                 ("x: {quantity: place}}\n  k_z", "x: {quantity: place, factor: 2}}\n  k_z", "uses the factor of"),
-                ("x: {quantity: place}}\n  k_z", "x: {quantity: force}}\n  k_z", "not another quantity"),
+                ("x: {quantity: place}}\n  k_z", "x: {quantity: force}}\n  k_z", "must be another quantity"),
                 ("x: {quantity: place}}\n  k_z", "x: {quantity: away}}\n  k_z", "belongs to another path")):
             self.assertIn(before, FEW)
             text = FEW.replace(before, behind).replace("quantities:", """  second: {static: {stations: 1..2/20}}

@@ -192,8 +192,8 @@ class DividedMember(ProgramTest):
                 for name, value in expected.items():
                     self.assertAlmostEqual(found[name], value, delta=1e-9, msg=name)
                 self.assertEqual(cell["elements_total"], 4)
-                self.assertEqual(cell["divided"], "beam has 4 elements, 1 in each of 4 pieces: its "
-                                 "loads begin, end or act at 0.3, 0.5, 0.8 of its length")
+                self.assertEqual(cell["divided"], "beam has 4 elements, 1 in each of 4 pieces, because "
+                                 "loads begin, end or act at 0.3, 0.5, 0.8 of the length")
 
     def test_members_that_end_there_and_turned_ones(self):
         turn = "  t: {displacement: {analysis: li, node: b, component: rz}}\n"
@@ -227,7 +227,7 @@ class DividedMember(ProgramTest):
         path.write_text(text + internal("M", "beam", 0.4, "Mz"), encoding="utf-8")
         done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("it is within 0.001 of the length from an end or from another such position; "
+        self.assertIn("the position is within the fraction 0.001 of the length from an end or from another such position; "
                       "move it there", " ".join(done.stdout.split()))
 
     def test_a_side_without_a_place(self):
@@ -328,7 +328,7 @@ class Discretised(ProgramTest):
                     needed = n + 1 if side < 2 else math.floor(n * side ** 0.25) + 1
                     self.assertEqual(status, 1, said)
                     self.assertRegex(said, r"the arc of element 1 of %d of (member )?\w+ rises by [.\d]+ radii of gyration of its "
-                                     r"section, and sheet_third is accurate only below 2: use %d elements" % (n, needed))
+                                     r"section, but sheet_third is accurate only below 2; use %d elements" % (n, needed))
                     self.assertEqual(self.solve(scene, "sheet_third", needed)[0], 0, (n, side))
                     for other in ("sheet_second", "sheet_second_consistent"):
                         self.assertEqual(self.solve(scene, other, n)[0], 0, (n, other))
@@ -359,7 +359,7 @@ class Discretised(ProgramTest):
                     else:
                         self.assertEqual(status, 1, (formulation, n, said))
                         self.assertRegex(said, r"element \d+ of %d of (member )?wire is too long for the axial force in it, by "
-                                         r"a factor of 1[.\d]*, at path 0?\.[\d]+: %s loses its stiffness across it; use %d elements"
+                                         r"a factor of 1[.\d]*, at path 0?\.[\d]+: %s loses its transverse stiffness; use %d elements"
                                          % (n, formulation.split(":")[0], n + 1))
                         self.assertIsNone(values.get("u"))
                         self.assertEqual(self.solve(WIRE % {"N": N, "more": ""}, formulation, 2*n)[0], 0, (formulation, n))

@@ -91,7 +91,7 @@ class Degenerate(ProgramTest):
                          "solve", "--scene", self.scene(f"{nodes}, {tip()}", bar("light")))
 
     def test_nothing_resists(self):
-        alone = "some coordinate has neither stiffness nor mass"
+        alone = "a coordinate has neither stiffness nor mass"
         spring = "springs: {k: {to: b, stiffness: [100, 200, 300, 0, 0, 0]}}"
         other = "m: {from: a, to: z, section: light, y: [1, 0, 0]}"
         arm = f"{bar()}, {BEYOND % ('light', ', release: {from: [ry, rz]}')}"

@@ -133,7 +133,7 @@ class Flutter(ProgramTest):
     def test_what_was_meant(self):
         self.assertRegex(self.values(COLUMN % {**DEFAULT, "load": tip_force(1)})[1], r"flutter, undamped at 1\.75")
         _, said = self.values(COLUMN % {**DEFAULT, "load": tip_force(1), "density": ""}, status=1)
-        self.assertRegex(said, "no critical load from path 0 to .* no divergence, and flutter needs mass: add a density to a section")
+        self.assertRegex(said, "no critical load from path 0 to .* no divergence, and flutter requires mass; add a density to a section")
 
     def test_of_the_mesh(self):
         """Beck's column without mass has no critical load. If a coarse mesh has one, it must be reported as an artefact

@@ -193,7 +193,7 @@ class DampedModesTest(ProgramTest):
                 (MASSES % ("0..0", "0..0", "0..0", "0..0", 1, "damping: {mass: 1}", modes(1)), "add damped: yes"),
                 (scene % ("hold: all", load, "  before: {static: {stations: [1]}}", ", about: before", modes(1)), "is unstable"),
                 (scene % ("hold: all", load, spun, ", about: before", modes(1)), "rotating axes"),
-                (free % ("0..0", "0..0", "0..0", "0..0", 1, "damped: yes", modes(1)), "can move freely in one: hold it")):
+                (free % ("0..0", "0..0", "0..0", "0..0", 1, "damped: yes", modes(1)), "can move freely in one direction; hold it")):
             done = run("solve", "--scene", self.write(text), "-f", "collocation", "-n", 1)
             self.assertRegex(done.stdout + done.stderr, words)
 
@@ -287,7 +287,7 @@ class ByModesTest(ProgramTest):
         path = self.folder/"scene.yaml"
         for keys, words in ((", modes: 3", "does not use modes"),
                             (", damping: {ratios: [-1]}", "a damping ratio is -1"),
-                            (", modes: 1, damping: {ratios: [0.1, 0.2]}", "2 ratios for 1 modes"),
+                            (", modes: 1, damping: {ratios: [0.1, 0.2]}", "2 damping ratios for 1 modes"),
                             (", damping: {ratio: -1}", "at least 0")):
             path.write_text(BEAM % ("hold: all", "", "", keys, FORCED), encoding="utf-8")
             done = run("solve", "--scene", path, "-f", "collocation", "-n", 1)
@@ -379,13 +379,13 @@ quantities:
         path.write_text((self.OSCILLATOR % ("[1, 2, 5]", 0.1, "")).replace("take: max", "at: 3").replace("take: min", "at: 2"),
                         encoding="utf-8")
         said = " ".join(run("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout.split())
-        self.assertIn("most - 3 Hz is not among the frequencies of analysis steady; add it least ", said)
+        self.assertIn("most - 3 Hz is not one of the frequencies of analysis steady; add it least ", said)
 
     def test_nothing_damps(self):
         path = self.folder/"scene.yaml"
         path.write_text((self.OSCILLATOR % ("[1, 2, 5]", 0, "")).replace(", damping: {ratio: 0}", ""), encoding="utf-8")
         self.assertRegex(" ".join(run("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout.split()),
-                         r"most - unbounded at 3\.1831 Hz, where nothing damps the motion; add damping")
+                         r"most - unbounded at 3\.1831 Hz, where the response is not damped; add damping")
 
     PAIR = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 1e9, shear_modulus: 4e8}}
@@ -425,7 +425,7 @@ quantities:
                 path.write_text(self.PAIR % more + (line % (node, "amplitude", "max", node, "amplitude", "max"))
                                 .replace("force: middle", "force: " + node), encoding="utf-8")
                 said = " ".join(run("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout.split())
-                self.assertRegex(said, "unbounded at %s Hz, where nothing damps the motion" % hertz)
+                self.assertRegex(said, "unbounded at %s Hz, where the response is not damped" % hertz)
 
 
 class HarmonicTest(ProgramTest):
@@ -490,7 +490,7 @@ class HarmonicTest(ProgramTest):
                 f"part: {part}, take: curve}}}}\n" for part in PARTS for name, node, of in (
                     ("r", "base", "reaction"), ("a", "body_0", "acceleration")))), "collocation", 1)
             self.near(found["r"], [2*a for a in found["a"]], 1e-9, keys)
-            for node, words in (("body_0", "requires a motion that drives this component alone"), ("top_0", "requires a motion that drives this component alone")):
+            for node, words in (("body_0", "requires a motion that drives only this component"), ("top_0", "requires a motion that drives only this component")):
                 done = run("solve", "--scene", self.scene(scene(
                     f"  r: {{response: {{analysis: steady, node: {node}, component: uy, of: reaction, drive: shake, at: 5}}}}")),
                     "-f", "collocation", "-n", 1)
@@ -586,15 +586,15 @@ quantities:
         held = reading("u", component="uy", force="root", along="uy")
         buckled = "loads: {push: {force: [-2000, 0, 0], on: tip}, aside: {force: [0, 0.1, 0], on: tip}}"
         for text, words in (
-                (BEAM % ("hold: all", "", "", "", held), "root is held or driven, so a force along it moves nothing"),
+                (BEAM % ("hold: all", "", "", "", held), "root is fixed or driven, so a force along it has no effect"),
                 (BEAM % ("hold: all", "", "", "", "  n: {internal: {analysis: steady, member: m, resultant: Mz, where: 0}}"),
-                 "replace the node by two nodes joined by a stiff spring"),
+                 "replace the node with two nodes joined by a stiff spring"),
                 (BEAM % ("hold: all", buckled, "  before: {static: {stations: [1], steps: 4}}", ", about: before", FORCED),
                  "not_converged|unstable"),
-                (BEAM.replace("5, 8, 20", "-1, 8, 20") % ("hold: all", "", "", "", FORCED), "give 0 or more"),
+                (BEAM.replace("5, 8, 20", "-1, 8, 20") % ("hold: all", "", "", "", FORCED), "give zero or positive"),
                 (BEAM.replace("5, 8, 20", "0, 8, 20") % ("hold: [uz, rx, ry]", "", "", "", FORCED), "at 0 Hz the structure is free to move"),
                 (BEAM % ("hold: all", "", "", "", "  u: {response: {analysis: steady, node: tip, component: uy}}"),
-                 "its input is missing"),
+                 "the input is missing"),
                 (BEAM % ("hold: all", "", "", ", damping: {mass: -1}", FORCED), "mass = -1; give at least 0"),
                 (BEAM % ("hold: all", "", "  modes: {modal: {damping: {mass: 1}}}", "", FORCED), "damping")):
             done = run("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 2)

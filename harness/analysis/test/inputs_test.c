@@ -146,7 +146,7 @@ static int is_called(const scene_input *in, const char *name)
 
 static int is_motion(const scene_input *in)
 {
-    return is_called(in, "motion of a node") || is_called(in, "motion of a case");
+    return is_called(in, "motion of a node") || is_called(in, "motion with a load case");
 }
 
 /* Returns the largest difference between the values of these names, relative to the largest value.
@@ -259,7 +259,7 @@ static void law_of_modal_linear(const scene_input *in, const element_type *e)
     /* bending of a closed frame, which a linear analysis neglects, changes its frequencies as much
      * as the stresses do */
     if (linear.values == 0 || path.values == 0 || is_called(in, "node attached to another") ||
-        is_called(in, "imperfection by shifts"))
+        is_called(in, "imperfection given by shifts"))
         return;
     for (int i = 0; modes[i] != NULL; i++) {
         const double f = answer_of(&rest, modes[i]), by_linear = answer_of(&linear, modes[i]) - f,
@@ -647,7 +647,7 @@ int main(void)
         for (int c = 0; c < SCENE_COLUMNS; c++)
             alike("offset of an end", "offset by bodies", (scene_column)c, e);
         for (int c = 0; c < SCENE_COLUMNS; c++)
-            alike("imperfection by shifts", "nodes that are shifted", (scene_column)c, e);
+            alike("imperfection given by shifts", "nodes that are shifted", (scene_column)c, e);
         start_turning(e);
     }
     gsl_test(walked[0] < 500 || walked[1] < 12 || walked[2] < 60, "%d used, %d refused, %d no part",

@@ -180,13 +180,13 @@ class Instants(ProgramTest):
         scene = PENDULUM % {"integrator": "radau", "time": 0.31, "start": ""}
         for before, after, said in (
                 (", damped: yes", "", "add damped: yes"),
-                ("time: 0.31, damped", "time: 0.8, damped", "lasts from 0 to 0.7 s; give one of these times"),
+                ("time: 0.31, damped", "time: 0.8, damped", "lasts from 0 to 0.7 s; give a time in this range"),
                 ("frequencies: [0.1, 0.3]", "frequencies: [0.1, 0.3], solution: modal", "remove 'solution'"),
                 ("frequencies: [0.1, 0.3]", "frequencies: [0.1, 0.3], damping: {ratio: 0.1}", "damping ratios"),
                 ("damped: yes", "damped: yes, damping: {mass: 1}", "give damping: {mass: a} to swing"),
                 ("about: swing, time: 0.31, damped", "time: 0.31, damped", "is not about a motion"),
                 ("damped: yes", "damped: yes, axes_of: wall2", "wall2"),
-                ("node: pin, component: rz, force: pin", "node: bob, component: uy, of: velocity, force: pin", "its body turns at 0.31 s")):
+                ("node: pin, component: rz, force: pin", "node: bob, component: uy, of: velocity, force: pin", "its body rotates at 0.31 s")):
             self.assertIn(before, scene)
             self.assertIn(said, self.solved(scene.replace(before, after, 1), status=1), said)
         scene = BEAD.replace("modal: {about: spin, time: %(time)r, damped: yes, axes_of: hub}",

@@ -192,16 +192,16 @@ quantities:
         head = (HEAD + COMBINATIONS).replace("PRETENSION", "") + loads()
         u = "quantities: {u: {displacement: {analysis: x, WHICH node: c, component: uy}}}\n"
         rows = (
-            (head + "analyses: {x: {static: {stations: [1]}}}\n" + u, ["does not select any", "combination: ULS"]),
+            (head + "analyses: {x: {static: {stations: [1]}}}\n" + u, ["does not select one", "combination: ULS"]),
             (head + "analyses: {x: {linear: {}}}\n" + u, ["u: x solves every load case", "combination: ULS"]),
             (head + "analyses: {x: {linear: {combination: ULS}}}\n" + u.replace("WHICH", "combination: SLS,"),
-             ["u: x is solved for combination ULS alone"]),
+             ["u: x is solved only for combination ULS"]),
             (head + "analyses: {x: {linear: {combination: SUL}}}\n" + u, ["no combination 'SUL'", "'ULS'"]),
             (head + "analyses: {x: {linear: {case: ded}}}\n" + u, ["no load case 'ded'", "'dead'"]),
             (head + "analyses: {x: {linear: {}}, y: {modal: {about: x}}}\n"
              + u.replace("WHICH", "case: dead,"), ["its base state is that of x, which solves every"]),
             (head + "analyses: {w: {static: {stations: [1], case: wind}}, x: {motion: {stations: [1], about: w, case: dead}}}\n" + u,
-             ["base state is that of w, whose loads act; remove its case"]),
+             ["base state is that of w, whose loads also act here; remove the key 'case'"]),
             (head.replace(", case: dead", "") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
              ["no load case 'dead'"]),
             (head.replace("on: all, case: dead", "on: all") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
@@ -300,11 +300,11 @@ quantities:
     def test_refused(self):
         for old, new, words in (("[M_with, M_against], select", "[M_with, none], select", "no quantity 'none'"),
                                 ("[M_with, M_against], select", "[], select", "give a list of their names"),
-                                ("max}, factor: -1}", "max}, when: {from: 0.1}}", "when: this key is for quantities of motions"),
+                                ("max}, factor: -1}", "max}, when: {from: 0.1}}", "when: this key is only for quantities of motions"),
                                 ("select: min}, unit: N m}", "select: min}, unit: N}", "unit 'N': the quantities of the envelope are in N m"),
                                 ("[M_with, M_against], select", "[M_with, M], select", "M is an envelope"),
                                 ("end: from, resultant: Mz}}\n  M_against", "end: from, resultant: N}}\n  M_against",
-                                 "M_with is in N and M_against in N m; name quantities with the same unit"),
+                                 "the unit of M_with is N and that of M_against is N m; name quantities with the same unit"),
                                 ("resultant: Mz}}\n  M_gust", "resultant: Mz, take: curve}}\n  M_gust", "M_against is a curve")):
             text = self.text(self.METRES)
             self.assertIn(old, text)

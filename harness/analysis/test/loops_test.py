@@ -344,8 +344,8 @@ omit: [trapeze, wagner_moments, wagner_torque]
             record = self.solve(plant, STEADY + "  run: {motion: {stations: [1.5], step: 0.005, integrator: radau}}\n", quantities,
                                 at=at, time="time: 0.01,", options=("--matrices", folder, "--state-space"), **gains)
             A, B, C, D = (scipy.io.mmread(folder / "steady/state_space" / f"{k}.mtx").toarray() for k in "ABCD")
-            self.assertIn("feedback closed", (folder / "steady/state_space/A.mtx").read_text(encoding="utf-8"))
-            self.assertIn("feedback open", (folder / "steady/second_order/K.mtx").read_text(encoding="utf-8"))
+            self.assertIn("feedback loops closed", (folder / "steady/state_space/A.mtx").read_text(encoding="utf-8"))
+            self.assertIn("feedback loops open", (folder / "steady/second_order/K.mtx").read_text(encoding="utf-8"))
             with open(folder / "inputs.csv", encoding="utf-8") as stream:
                 kinds = [row["kind"] for row in csv.DictReader(stream)]
             reference = kinds.index("reference rate")
@@ -368,7 +368,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
         for analyses, quantities, words in (
                 ("  plain: {modal: {}}\n", "  f: {frequency: {analysis: plain}}\n", "only in motions, harmonic analyses and damped modes (damped: yes)"),
                 (STEADY.replace("5]", "5], loops: open"), read("r", node="cart", component="ux", reference="motor"),
-                 "the loop of load motor is open in"),
+                 "the feedback loop of load motor is open in"),
                 (STEADY, read("r", node="cart", component="ux", reference="motor", force="cart"), "reference")):
             done = self.solve(plant, analyses, quantities, code=1, kp=10)
             self.assertIn(done.returncode, (1, 2), words)

@@ -181,7 +181,7 @@ static void add(scene *s, const char *name)
     else if (IS("taper")) {
         const section_spec thin = spec_of(0.7);
         scene_member_at(s, 1)->section_q = scene_add_section(s, &thin);
-    } else if (IS("section by its matrices")) {
+    } else if (IS("section given by its matrices")) {
         section_spec m = {.kind = SECTION_MATRICES};
         section_spec_init(&m);
         m.kind = SECTION_MATRICES;
@@ -197,7 +197,7 @@ static void add(scene *s, const char *name)
         for (int i = 0; i < 6; i++)
             k[7 * i] = 1e4 * (i + 1);
         scene_add_spring(s, SCENE_NONE, TIP, k);
-    } else if (IS("spring by a table") || IS("spring with a kink at rest")) {
+    } else if (IS("spring given by a table") || IS("spring with a kink at rest")) {
         const int kink = IS("spring with a kink at rest");
         double none[36] = {0};
         const double at[4] = {-1, kink ? 0 : -1e-4, 1e-3, 1}, soft = 2e3,
@@ -215,13 +215,13 @@ static void add(scene *s, const char *name)
         scene_member_at(s, 1)->bow[0] = 0.004;
         scene_member_at(s, 1)->bow[1] = 0.002;
         scene_member_at(s, 1)->half_waves = 1;
-    } else if (IS("imperfection by a mode")) {
+    } else if (IS("imperfection given by a mode")) {
         const int shape = scene_add_imperfection(s);
         if (shape >= 0) {
             s->imperfection[shape].analysis = scene_add_modal(s, SCENE_NONE);
             s->imperfection[shape].amplitude = 0.01;
         }
-    } else if (IS("imperfection by shifts")) {
+    } else if (IS("imperfection given by shifts")) {
         const int shape = scene_add_imperfection(s);
         scene_shift_node(s, shape, MIDDLE, (const double[]){0.001, 0.004, 0.006});
         scene_shift_node(s, shape, TIP, (const double[]){0, -0.001, 0});
@@ -258,7 +258,7 @@ static void add(scene *s, const char *name)
         double k[36] = {[28] = 500, [35] = 400};
         scene_release_end(s, 1, 0, SCENE_RZ);
         scene_add_spring(s, MIDDLE, TIP, k);
-    } else if (IS("supports in rotated axes")) {
+    } else if (IS("supports along rotated axes")) {
         static const double axes[2][3] = {{1, 0, 0}, {0, 0.8, 0.6}};
         memcpy(scene_node_at(s, TIP)->axes, axes, sizeof axes);
         scene_hold(s, TIP, SCENE_UZ, SCENE_UZ);
@@ -289,19 +289,19 @@ static void add(scene *s, const char *name)
         scene_drive(
             s, TIP, SCENE_UX,
             scene_add_driver(s, "push", 2, (const double[]){0, 1}, (const double[]){0, -1e-6}));
-    else if (IS("motion of a case")) {
+    else if (IS("motion with a load case")) {
         combine(s);
         scene_drive(
             s, TIP, SCENE_UX,
             scene_add_driver(s, "push", 2, (const double[]){0, 1}, (const double[]){0, 1e-6}));
         s->driver[0].load_case = 1;
-    } else if (IS("load of a case")) {
+    } else if (IS("load with a load case")) {
         combine(s);
         scene_load_at(s, scene_add_load(s, SCENE_FORCE, MIDDLE, 20, 50, -30))->load_case = 1;
     } else if (IS("damping"))
         for (int i = 0; i < s->members; i++)
             scene_member_at(s, i)->damping = 1e-4;
-    else if (!IS("velocity at the start") &&
+    else if (!IS("initial velocity") &&
              !IS("rotating axes")) /* these inputs are part of the analysis */
         s->name[0] = '\0';
 #undef IS
@@ -455,7 +455,7 @@ static int analyse(scene *s, const posed *p)
 
 static void begin(scene *s, const posed *p)
 {
-    for (int i = 0; i < s->analyses && strcmp(p->name, "velocity at the start") == 0; i++)
+    for (int i = 0; i < s->analyses && strcmp(p->name, "initial velocity") == 0; i++)
         if (s->analysis[i].kind == SCENE_MOTION)
             s->analysis[i].of.motion.start.spin[2] = (is_instant(p->column) ? 5 : 0.01) * p->times;
     for (int i = 0; i < s->analyses && p->turns; i++)

@@ -418,11 +418,11 @@ omit: [shear]
     def test_refused(self):
         words = {"stiffness": across(*BEARING), "damping": across(*FILM)}
         for analyses, quantities, said in (
-                ("m: {modal: {}}", "f: {frequency: {analysis: m}}", "analysis m (modal) and spring a (unsymmetric spring): "
-                 "it has no potential"),
-                ("b: {buckling: {}}", "f: {critical_factor: {analysis: b}}", "it has no potential"),
+                ("m: {modal: {}}", "f: {frequency: {analysis: m}}", "analysis m (modal): spring a (unsymmetric spring) "
+                 "has no potential"),
+                ("b: {buckling: {}}", "f: {critical_factor: {analysis: b}}", "has no potential"),
                 ("r: {rotation: {omega: [9, 0, 0], stations: [1]}}",
-                 "f: {displacement: {analysis: r, node: disc, component: uy}}", "it has no potential"),
+                 "f: {displacement: {analysis: r, node: disc, component: uy}}", "has no potential"),
                 ("A: {harmonic: {frequencies: [9], solution: modal}}", RESPONSES, "remove 'solution'"),
                 ("c: {motion: {stations: [0.1], step: 1e-3, integrator: conserving}}",
                  "f: {displacement: {analysis: c, node: disc, component: uy}}", "spring a has an unsymmetric "

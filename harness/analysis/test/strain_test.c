@@ -411,7 +411,7 @@ static void staying_tests(void)
                                  "%s: half of it grows", e->name);
         }
         staying_refuses(e, CRITICAL, "critical without the scaled");
-        staying_refuses(e, BENT, "not on a straight line");
+        staying_refuses(e, BENT, "do not vary linearly");
         ask_conclude(&tally, e, "loads that stay");
     }
 }

@@ -55,7 +55,7 @@ class AboutState(ProgramTest):
     def test_none(self):
         found, said = self.factors(force=1, status=1)
         self.assertEqual(found, [None])
-        self.assertRegex(said, r"no critical load from path 1 to [0-9.e+]+: the structure loses no stiffness")
+        self.assertRegex(said, r"no critical load from path 1 to [0-9.e+]+, because the structure does not lose its stiffness")
 
 
 # Whether a tangent is symmetric depends on the state. An analysis must not be rejected if the loads would only make the

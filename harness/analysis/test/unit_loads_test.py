@@ -119,4 +119,4 @@ class UnitLoads(ProgramTest):
         path = self.folder / "scene.yaml"
         text = driven.replace(", UNIT", "").replace("B: {at: [6, 0, 3]}", "B: {at: [6, 0, 3], hold: [rx]}")
         path.write_text(text + "analyses: {C: {compliance: {node: B, released: [rx]}}}\nquantities: {c: {compliance: {analysis: C, row: ux, column: ux}}}\n")
-        self.refused(2, "rx of node B is fixed, and only driven components can be released", "scene", "--scene", path)
+        self.refused(2, "rx of node B is fixed, but only driven components can be released", "scene", "--scene", path)

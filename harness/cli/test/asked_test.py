@@ -324,12 +324,12 @@ class Solve(ProgramTest):
 
     def test_without_truths(self):
         done = self.answered("solve", "elastica", env=environment(BEAMWORK_TRUTHS="/nowhere.h5"))
-        self.assertIn("without reference values", done.stderr)
+        self.assertIn("no reference values are used", done.stderr)
         self.assertRegex(done.stdout, r"\A-f \S+: ")
         self.assertNotIn("defect", done.stdout)
 
 
-MARK = "timoshenko: by differences, its times are not ranked"
+MARK = "timoshenko: by differences, so its times are not ranked"
 
 
 class Unranked(ProgramTest):
@@ -349,12 +349,12 @@ class Unranked(ProgramTest):
         out = " ".join(self.bench("-f", "collocation", "-n", "4,8,16,32").split())
         self.assertEqual(out.count(MARK), 1)
         self.assertNotIn("collocation: by differences", out)
-        self.assertRegex(out, r"stretch within 10, 1 %: collocation, n = 4, [^;]*; also within it: "
+        self.assertRegex(out, r"stretch within 10, 1 %: collocation, n = 4, [^;]*; also within this error: "
                          r"timoshenko, n = 4, timed [0-9.e-]+ ms \(by differences: no rank\)")
 
     def test_alone(self):
         out = " ".join(self.bench("-n", "4,8,16,32").split())
-        self.assertRegex(out, r"stretch within 10, 1 %: none that ranks; also within it: timoshenko")
+        self.assertRegex(out, r"stretch within 10, 1 %: none that ranks; also within this error: timoshenko")
 
     def test_against(self):
         out = " ".join(self.bench("--against", "collocation", "-k", "stretch", "--error",
@@ -364,7 +364,7 @@ class Unranked(ProgramTest):
         at = ("--against", "collocation", "-n", "2")
         out = self.bench(*at)
         self.assertIn("pairs): unranked", out)
-        self.assertIn("by differences, its times are not ranked", out)
+        self.assertIn("by differences, so its times are not ranked", out)
         self.assertEqual(json.loads(self.bench(*at, "--format", "json"))["outcome"], "unranked")
 
     def test_ranked_ones_are(self):

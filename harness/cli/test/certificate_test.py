@@ -105,7 +105,7 @@ class Tables(Tested):
         path = environment(PYTHONPATH=str(EXAMPLES))
         out = self.answered("element-test", "--element", f"exec:/usr/bin/python3 {script}",
                             "--format", "markdown", env=path).stdout
-        self.assertIn("SHA-256 of the files that its command names", out)
+        self.assertIn("SHA-256 of the files named by its command", out)
         before, = re.findall(r"\b[0-9a-f]{64}\b", out)
         script.write_bytes(script.read_bytes() + b"\n")
         again = self.answered("element-test", "--element", f"exec:/usr/bin/python3 {script}",
@@ -139,7 +139,7 @@ class Tables(Tested):
             self.assertEqual(len(set(bars)), 1)
         self.assertIn("| statics, large: tip force | 18 % | 2.9 % |", text)
         self.assertIn("| pure bending about y | exact | exact | correct |", text)
-        self.assertIn("vibration with the mass that beamwork computes", text)
+        self.assertIn("vibration with the mass computed by beamwork", text)
 
     def test_latex(self):
         text = self.forms()["latex"]
@@ -172,6 +172,6 @@ class Tables(Tested):
         self.assertRegex(found["latex"], r"stress, C and G derive .* & violated ")
 
     def test_special_characters(self):
-        text = self.forms(("two nodes, one point", "50 % of {a_b} & #1 | $x^2$ ~ \\\\"),
+        text = self.forms(("two nodes, one integration point", "50 % of {a_b} & #1 | $x^2$ ~ \\\\"),
                           ('"timoshenko"', '"my_beam"'))
         self.assertIn(r"\caption{my\_beam: ", text["latex"])

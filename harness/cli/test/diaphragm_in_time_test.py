@@ -307,7 +307,7 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
         for text, words in ((floor.replace("HOW", "conserving, step: 1e-3").replace("A: {at: [0, 0, 3], hold: [uz, rx, ry]", "A: {at: [0, 0, 3], hold: [uz]").replace("to: A, stiffness", "from: A, to: o, stiffness").replace("  gain: ", "#"),
                              "the integrator conserving does not support nodes of a diaphragm that tilt (node A); use alpha or radau"),
                             (floor.replace("HOW", "radau").replace("spin: [0, 0, 12]", "spin: [1, 0, 0]"),
-                             "node B: the initial velocity contradicts a constraint with another node")):
+                             "node B: the initial velocity violates a constraint with another node")):
             path.write_text(text)
             done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
             self.assertIn(words, done.stdout + done.stderr)

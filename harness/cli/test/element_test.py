@@ -87,7 +87,7 @@ class Refused(Loaded):
 
     def test_a_file_in_the_place_of_a_name(self):
         for file in ("./mine.so", "mine.so", "exec:python3 x.py"):
-            self.refused(2, f"--element '{file}' loads it", "element-test", file)
+            self.refused(2, f"use --element '{file}' to load", "element-test", file)
 
     def test_a_wrong_name_of_what_is_loaded(self):
         self.refused(2, ("unknown formulation 'min'", "--element loaded timoshenko"), "solve",
@@ -95,10 +95,10 @@ class Refused(Loaded):
         self.assertNotIn("loaded", run("solve", "elastica", "-f", "min").stderr)
 
     def test_no_shared_object(self):
-        self.refuse(self.folder / "none.so", "none.so", "is it a shared object?")
+        self.refuse(self.folder / "none.so", "none.so", "give the path of a shared object")
         text = self.folder / "text.so"
         text.write_text("text", encoding="ascii")
-        self.refuse(text, "is it a shared object?")
+        self.refuse(text, "give the path of a shared object")
 
     def test_no_symbol(self):
         self.refuse(self.compiled("int other;"), "beamwork_element")
@@ -125,7 +125,7 @@ class Refused(Loaded):
 
     def test_strains_without_stresses(self):
         made = self.example((".stress = stress,", ""))
-        self.refused(2, "belong together", "solve", *CASE, "-n", "2", "--element", made)
+        self.refused(2, "'stress' together", "solve", *CASE, "-n", "2", "--element", made)
 
 
 class Hostile(Loaded):

@@ -24,7 +24,7 @@ FAULTS = {
         "C: entry 2, 1 is 0 and entry 1, 2", "symmetric"),
     "objectivity": (
         ("transposed(x[0].R, chord, p);", "memcpy(p, chord, sizeof p);"),
-        "strain: when the element is rotated by", "axes that rotate with the element"),
+        "strain: if the element is rotated by", "axes that rotate with the element"),
     "length": (
         ("    out->e[0] -= d->length;\n", ""),
         "strain: strain 1 of the undeformed element is 0.2385 m, not zero"),
@@ -38,7 +38,7 @@ FAULTS = {
         "strain: strain 1 of the undeformed element"),
     "first node's axes": (
         ("out->e[i] = (p[i] + q[i]) / (2 * c) + k * along * psi[i];", "out->e[i] = p[i];"),
-        "with its nodes exchanged", "LIMIT_ORDER_DEPENDENT"),
+        "if its nodes are exchanged", "LIMIT_ORDER_DEPENDENT"),
     "stale cache": (
         ("out->e[0] -= d->length;",
          "static double kept;\n    kept = kept > 0 ? kept : d->length;\n    out->e[0] -= kept;"),
@@ -51,20 +51,20 @@ FAULTS = {
         ("    if (out->energy != NULL)\n",
          "    if (out->sigma != NULL)\n        out->sigma[STRAINS] = 0;\n"
          "    if (out->energy != NULL)\n"),
-        "stress: sigma: it has 6 entries, and entry 7 is written"),
+        "stress: sigma: there are 6 entries, but entry 7 is written"),
     "beyond strains": (
         ("out->e[0] -= d->length;", "out->e[0] -= d->length;\n    out->e[STRAINS + 1] = 0;"),
-        "strain: e: it has 6 entries, and entry 8 is written"),
+        "strain: e: there are 6 entries, but entry 8 is written"),
     "beyond data": (
         ("return sizeof(element_data);", "return sizeof(element_data) - sizeof(double);"),
-        "prepare: its data: it has 6 entries, and entry 7 is written"),
+        "prepare: its data: there are 6 entries, but entry 7 is written"),
     "not filled": (
         ("        out->e[3 + i] = d->length * psi[i];", "        if (i < 2)\n"
          "            out->e[3 + i] = d->length * psi[i];"),
         "strain: e: entry 6 of 6 is never written"),
     "inputs": (
         (ENTRY, "    ((node_state *)x)[1].a = 1;\n" + ENTRY),
-        "the states of the nodes are changed; they are read only"),
+        "changes the states of the nodes, which are read-only"),
     "swallowed": (
         ("        out->e[3 + i] = d->length * psi[i];",
          "        out->e[3 + i] = isnan(psi[i]) ? 0 : d->length * psi[i];\n"
@@ -81,10 +81,10 @@ FAULTS = {
     "units": (
         ("const double l = request->length;",
          "const double l = request->length * (request->length > 1 ? 1.1 : 1);"),
-        "in units of 0.001 m", "is a bare number compared with a length?"),
+        "in units of 0.001 m", "check that no length is compared with a dimensionless number"),
     "ignored shear": (
         ("request->features & FEATURE_SHEAR ? ", "request->features & 0 ? "),
-        "declares shear, but no result depends on it", "do not declare it"),
+        "declares shear, but strains, energy, stresses and C are the same without this feature", "do not declare it"),
     "theory": (
         ("    .shear_theories = SHEAR_HARINGX,\n", ""),
         "shear_theories: the type supports shear but declares no theory"),
@@ -107,17 +107,17 @@ FAULTS = {
     "loop": (
         (ENTRY, "    while (isinf(x[0].r[0]) && x[0].R[0] > 0)\n        (void)(volatile int){1};\n"
          + ENTRY),
-        "time limit: no result within 2 s: strain and stress of a state that is inf"),
+        "time limit: there was no result within 2 s: strain and stress of a state that is inf"),
     "bending stiffness": (
         ("c->young * c->Iz / l3}", "1.01 * c->young * c->Iz / l3}"),
-        "order: its errors do not fall: 0.0099, 0.0099, 0.0099", "the limit is wrong"),
+        "order: the errors do not decrease (0.0099, 0.0099, 0.0099", "the limit is wrong"),
     "order": (
         ("    .leaves = LEAVES_J,", "    .leaves = LEAVES_J,\n    .order = fourth,"),
         "order: at least 4 is declared in buckling", "shows 2.0", "declare the measured order"),
     "status": (
         ("    return STATUS_OK;\n}\n\nstatic int strains",
          "    return energy > 1 ? STATUS_SINGULAR : STATUS_OK;\n}\n\nstatic int strains"),
-        "stress: strains of a few hundredths of the length give status 'singular'"),
+        "stress: strains of a few hundredths of the length end with status 'singular'"),
 }
 
 # Faults in the example that returns forces and stiffness.
@@ -140,7 +140,7 @@ FORCE_FAULTS = {
     "beyond K": (
         ("memset(out->K, 0, NODES * NODES * sizeof *K);",
          "memset(out->K, 0, (NODES * NODES + 1) * sizeof *K);"),
-        "force: K: it has 196 entries, and entry 197 is written"),
+        "force: K: there are 196 entries, but entry 197 is written"),
     "prestress": (
         ("F[i] = n * r[i];", "F[i] = (n + 1) * r[i];"),
         "of the undeformed element is", "not zero"),
@@ -153,22 +153,22 @@ CLASSIC = {
         "pure bending about y:", "(E Iy?)"),
     "swapped shear": (
         ("c->F[i == 1 ? 4 : 0]", "c->F[i == 1 ? 0 : 4]"),
-        "constant shear along y, short:", "(G A with its shear factor, E Iz?)"),
+        "constant shear along y, short beam:", "(G A times the shear factor, or E Iz?)"),
     "coupling about y": (
         ("? -1 : (2 - phi)", "? -1 : (i == 1 ? -1 : 1) * (2 - phi)"),
-        "tip force along z: exact with one element and not with four", "a coupling of its nodes, its sign"),
+        "tip force along z: the result is exact with one element, but", "a coupling of the nodes, its sign"),
     "coupling about z": (
         ("? -1 : (2 - phi)", "? -1 : (i == 2 ? -1 : 1) * (2 - phi)"),
-        "tip force along y: exact with one element and not with four", "a coupling of its nodes, its sign"),
+        "tip force along y: the result is exact with one element, but", "a coupling of the nodes, its sign"),
     "torsion": (
         ("GI = c->shear_modulus", "GI = 1.01 * c->shear_modulus"),
-        "pure torsion: 0.99 % with one element and 0.99 % with four", "(G It?)"),
+        "pure torsion: the error is 0.99 % with one element and 0.99 % with four", "(G It?)"),
     "no shear": (
         ("? 12 : 0;", "? 0 : 0;"),
-        "constant shear along y, short:", "(G A with its shear factor, E Iz?)"),
+        "constant shear along y, short beam:", "(G A times the shear factor, or E Iz?)"),
     "length": (
         ("c->young * c->A / l;", "c->young * c->A * l;"),
-        "stretch: exact with one element and not with four", "a power of the length is wrong"),
+        "stretch: the result is exact with one element, but", "a power of the length is wrong"),
 }
 
 # Declares order 4, which the element does not have, for the given analyses.
@@ -245,14 +245,14 @@ class Planted(Tested):
         self.assertNotIn("broken", [c["outcome"] for c in one["claims"]])
         said = self.broken(self.compiled("timoshenko.c", (first[0], first[1].replace("-d->length * psi[2] / 2", "0")), small,
                                          unused), 120)
-        self.assertTrue(any("with its nodes exchanged" in s for s in said), said)
+        self.assertTrue(any("if its nodes are exchanged" in s for s in said), said)
 
     def test_endless(self):
         made = self.compiled("timoshenko.c", (ENTRY, "    for (volatile int i = 1; i;)\n"
                                               "        ;\n" + ENTRY))
         out = self.answered("element-test", "--element", made, "--time-limit", "1", "-j", "1", code=1).stdout
-        self.assertEqual(out.count("time limit: no result within 1 s"), 1)
-        self.assertIn("not checked: 'features' hit the time limit", out)
+        self.assertEqual(out.count("time limit: there was no result within 1 s"), 1)
+        self.assertIn("not checked: 'features' exceeded the time limit", out)
 
 
 class Measured(Tested):
@@ -267,7 +267,7 @@ class Measured(Tested):
     def test_without_a_fault(self):
         found = self.measured()
         for name in ("stretch", "pure torsion", "tip force along y",
-                     "constant shear along z, short"):
+                     "constant shear along z, short beam"):
             self.assertLess(max(map(abs, found[name]["error"])), 1e-9, name)
         self.assertEqual([name for name, m in found.items() if m["locks"]], [])
         self.assertAlmostEqual(found["vibration: first bending mode"]["order"], 7.2, delta=0.2)
@@ -288,7 +288,7 @@ class Measured(Tested):
         made = self.compiled("timoshenko.c", ("out->stiffness, one, sizeof one);",
                               "out->stiffness, one, sizeof one);\n    for (int i = 0; i < STRAINS; "
                               "i++)\n        out->stiffness[i] *= 1e-3;"))
-        self.assertIn("every value is 1e+03 times too soft: check the units",
+        self.assertIn("every value is 1e+03 times too soft; check the units",
                       run("element-test", "--element", made).stdout)
 
     def test_shear_locking(self):
@@ -298,13 +298,13 @@ class Measured(Tested):
                               code=1)
         one = found["cantilever with shear, force"]
         self.assertTrue(one["locks"])
-        self.assertIn("its error grows from", one["words"])
+        self.assertIn("its error increases from", one["words"])
         self.assertLess(one["error"][-1], -0.99)
 
     def test_constant_shear(self):
         found = self.measured(("shear * c->F[0]", "shear / 2 * c->F[0]"), code=1)
-        self.assertLess(found["constant shear along y, short"]["error"][0], -0.05)
-        self.assertLess(abs(found["constant shear along z, short"]["error"][0]), 1e-9)
+        self.assertLess(found["constant shear along y, short beam"]["error"][0], -0.05)
+        self.assertLess(abs(found["constant shear along z, short beam"]["error"][0]), 1e-9)
 
     def test_one_element(self):
         """Without the correction for uniform curvature, one element bends too little."""

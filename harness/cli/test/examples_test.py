@@ -225,7 +225,7 @@ class Planted(PluginTest):
 
     def test_energy_of_one_end(self):
         self.broken("ancf.c", ("carried(x[1].R, t, dt, y[1])", "carried(x[0].R, t, dt, y[1])"),
-                    "with its nodes exchanged")
+                    "if its nodes are exchanged")
 
     def test_axes_exchanged(self):
         """An element with exchanged axes is consistent but models a different beam, which verify must detect."""

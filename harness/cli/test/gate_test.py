@@ -212,7 +212,7 @@ class Gate(ProgramTest):
                 document, failures = self.check_doors(done, files, outcome, OUTCOMES[outcome])
                 self.assertEqual(document["unexpected"], 0)
                 self.assertEqual(len(document["regressions"]), len(failures))
-                self.assertEqual("worse than in the former run" in files["md"].read_text(encoding="utf-8"),
+                self.assertEqual("worse than in the previous run" in files["md"].read_text(encoding="utf-8"),
                                  outcome == "fail")
                 if former == old and outcome == "fail":
                     self.check_report(files, outcome)
@@ -246,7 +246,7 @@ class Gate(ProgramTest):
         for name, what in (("stiffness", RUN), ("stub", RUN), ("right", NOWHERE)):
             done, files = self.verified(name, "--exit-zero", what=what)
             first = done.stdout.splitlines()[0]
-            self.assertEqual(first, "exploration: the exit status is 0 for any verdicts (--exit-zero)")
+            self.assertEqual(first, "exploration: the exit status is 0 whatever the verdicts (--exit-zero)")
             outcome = "nothing was judged" if what == NOWHERE else "fail"
             self.check_doors(done, files, outcome, 0)
         self.refused(2, "--no_such_option", "verify", "--exit-zero", "--no_such_option", silent=False)

@@ -399,19 +399,19 @@ class RestartTest(SceneCase):
         cut.write_bytes(ends.read_bytes()[:-100])
         again = ("solve", "--scene", path, "--restart", ends)
         for code, words, options in (
-                (2, "is at 1 s: add a later station", (*again, "--set", "end=1")),
-                (2, "the elements that it began with", (*again, "-n", 4)),
-                (2, "the formulation and the elements", (*again, "-f", "collocation")),
+                (2, "is at 1 s; add a later station", (*again, "--set", "end=1")),
+                (2, "the number of elements with which it began", (*again, "-n", 4)),
+                (2, "with the formulation and the number of elements", (*again, "-f", "collocation")),
                 (2, "without --all-dofs", (*again, "--all-dofs")),
                 (2, "integrator: conserving", (*again, "--set", "how=conserving")),
                 (2, "step: 0.01,", (*again, "--set", "step=0.01")),
                 (2, "mass: 0.31,", (*again, "--set", "mass=0.31")),
                 (2, "which is an input", (*again, "--save-state", ends)),
                 (2, "remove -k, --shapes, --matrices, --save-state and", (*again, "--follow", "mass=0.1..0.2/2")),
-                (2, "need a motion in time", ("solve", "elastica", "--restart", ends)),
-                (2, "need a motion in time", ("solve", "elastica", "--save-state", self.folder / "none.h5")),
-                (4, "cut short", ("solve", "--scene", path, "--restart", cut)),
-                (4, "not a --save-state file", ("solve", "--scene", path, "--restart", TRUTHS)),
+                (2, "require a motion, but the scene has none", ("solve", "elastica", "--restart", ends)),
+                (2, "require a motion, but the scene has none", ("solve", "elastica", "--save-state", self.folder / "none.h5")),
+                (4, "truncated", ("solve", "--scene", path, "--restart", cut)),
+                (4, "not written by --save-state", ("solve", "--scene", path, "--restart", TRUTHS)),
                 (4, "cannot be read", ("solve", "--scene", path, "--restart", self.folder / "none.h5"))):
             with self.subTest(words=words):
                 self.refused(code, words, *options)

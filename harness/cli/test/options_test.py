@@ -101,7 +101,7 @@ class Tables(ProgramTest):
         self.assertGreater(len(former), 40)
         for letter, name in former:
             told = run(names[name], f"-{letter}", "3", "-h", env=HELP).stderr
-            self.assertIn(f"-{letter} is --{name} now", told)
+            self.assertIn(f"-{letter} has been renamed to --{name};", told)
         self.answered("solve", "warping_torsion", "-fbeamw", "-Kn2")
 
     def test_former_names(self):
@@ -110,16 +110,16 @@ class Tables(ProgramTest):
         self.assertEqual(len(renamed), 10)
         for was, name in renamed:
             done = run(verbs[name], f"--{was}", "-h", env=HELP)
-            if "needs a value" in done.stderr or done.returncode != 0:
+            if "requires a value" in done.stderr or done.returncode != 0:
                 done = run(verbs[name], f"--{was}=1", "-h", env=HELP)
-            self.assertIn(f"--{was} is --{name} now", done.stderr)
+            self.assertIn(f"--{was} has been renamed to --{name};", done.stderr)
             self.assertEqual(done.stderr.count("\n"), 1)
             for verb in EVERY_VERB:
                 self.assertNotRegex(run(verb, "-h", env=HELP).stdout, rf"--{was}\b(?!-)")
                 self.assertNotRegex(run(verb, "--usage", env=HELP).stdout, rf"--{was}\b(?!-)")
         self.answered("solve", "warping_torsion", "-fbeamw", "--keep-all", "-n2")
-        self.refused(2, "begins several options", "sweep", "elastica", "--de")  # design, derive
-        self.refused(2, "solve takes no --beside", "solve", "elastica", "--beside", "x.h5")
+        self.refused(2, "is an abbreviation of several options", "sweep", "elastica", "--de")  # design, derive
+        self.refused(2, "solve has no --beside", "solve", "elastica", "--beside", "x.h5")
 
     def test_each_is_used(self):
         """Each verb must use each of its options. 'merge' passes them on."""
@@ -254,7 +254,7 @@ def solve(case, *assignments):
 
 def untimed(text):
     """Returns the output of verify without its run time."""
-    return re.sub(r"noise, in [\d.]+ s", "noise", text)
+    return re.sub(r"scatter, in [\d.]+ s", "scatter", text)
 
 
 class Refusals(ProgramTest):
@@ -387,7 +387,7 @@ class Answers(ProgramTest):
         solved = self.record("solve", *thin, "-f", "beamw_consistent", "-n", 32)["quantities"]
         self.assertLess(abs(next(q["value"] for q in solved if q["quantity"] == "buckling_load") / load - 1), 3e-4)
         done = self.answered("truth", "--scene", EXAMPLES / "euler_column.yaml")
-        self.assertIn("give `truths` of the scene", done.stderr)
+        self.assertIn("give `truths` in the scene", done.stderr)
 
     def derived(self, scene, *words):
         """Returns {quantity: (value, uncertainty)} from the lines that are printed for the truths file, and these

@@ -319,7 +319,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
 
     def test_refusals(self):
         for words, options in (("no quantity has a curve", ("-k", "=first")),
-                               ("plot writes .png", ("-o", "arm.jpg")),
+                               ("plot writes only .png", ("-o", "arm.jpg")),
                                ("plot accepts only one number of elements", ("-n", "2,4"))):
             self.assertIn(words, self.plot("-f", "beamw", *options, code=2).stderr)
 
@@ -357,17 +357,17 @@ class Screen(ProgramTest):
             text = self.answered(*SMALL, env=env).stdout
             row, = re.findall(r"^shear_elastica +(\S.*)$", text, re.M)
             self.assertEqual(row.split(), marks.split())
-            words = re.escape(marks.split()[0][0]) + " limit off, beyond the tolerance "
+            words = re.escape(marks.split()[0][0]) + " limit outside the tolerance "
             self.assertRegex(text, f"(?m)^{words}")
             self.columns(text)
-            self.assertRegex(text, r"\d+ cells, \d+ more for their noise, in [\d.]+ s\n")
+            self.assertRegex(text, r"\d+ cells, and \d+ more to measure their rounding scatter, in [\d.]+ s\n")
             self.assertEqual(text.isascii(), env is ASCII)
 
     def test_verdict_sentence(self):
         for quiet in ((), ("-q",)):
             text = self.answered(*SMALL, *quiet).stdout
             self.assertRegex(" ".join(text.split()), r"PASS: every verdict is as expected; 6 of them are "
-                             r"limits off the reference value \(4 within the tolerance, 2 beyond it\) as "
+                             r"limits off the reference value \(4 within the tolerance, 2 outside it\), as "
                              r'derived for these formulations \(beamwork explain "wrong limit, as '
                              r'predicted"\)\.')
         self.assertEqual(text.count("PASS"), 1)
@@ -397,7 +397,7 @@ class Screen(ProgramTest):
         text = self.answered(*SELECT, "--truths", self.without_a_rule(), code=1, env=ASCII).stdout
         row, = re.findall(r"^c_column +(\S.*)$", text, re.M)
         self.assertIn("!#1", row.split())
-        self.assertIn("! not as expected, see below   # limit off", text)
+        self.assertIn("! not as expected, see below   # limit outside the tolerance", text)
 
     def test_long_table(self):
         long = r"(?m)^  w_over_L \[.*\], truth 0\.\d+ \+- \S+ \(exact\)$"
@@ -405,7 +405,7 @@ class Screen(ProgramTest):
         self.assertRegex(self.answered(*chosen).stdout, long)
         self.assertRegex(self.answered(*chosen, "-v").stdout, long)
         self.assertNotRegex(self.answered(*chosen, "-q").stdout, long)
-        self.refused(2, "give one of them", *chosen, "-q", "-v")
+        self.refused(2, "give only one of them", *chosen, "-q", "-v")
 
     def test_widths(self):
         longest = ("-f", "beamw_consistent:torsion=hyperbolic", "-f", "collocation")

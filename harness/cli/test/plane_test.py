@@ -169,7 +169,7 @@ class Plane(ProgramTest):
             "push: it rotates out of the plane": ("force: [-1, 0, 0]", "moment: [1, 0, 0]"),
             "push: it acts outside the plane":
                 ("force: [-1, 0, 0]", "at: [0, 0, 0.1], force: [-1, 0, 0]"),
-            "b: it does not lie in one plane": (node, "b: {at: [1, 0, 0.1]"),
+            "b: its position is not in one plane": (node, "b: {at: [1, 0, 0.1]"),
             "b: the centre of its body is outside":
                 (node, node + ", mass: 1, centre: [0, 0, 0.1]"),
             "m: its initial curvature leaves":
@@ -208,12 +208,12 @@ class Plane(ProgramTest):
         self.assertLess(abs(found["k"] / (3 * E * THICK * HEIGHT**3 / 12) - 1), 1e-3)
         path = self.folder / "scene.yaml"
         path.write_text(text.replace("omit", extra % "uz") + "plane: xy\n")
-        self.refused(2, "k: it refers to a motion out of the plane", "solve", "--scene", path)
+        self.refused(2, "k refers to a component out of the plane", "solve", "--scene", path)
 
     def test_decks(self):
         path = self.folder / "scene.yaml"
         path.write_text(STRIP + "plane: xy\n")
-        self.refused(2, "held in a plane", "export", "--scene", path, "--to", "calculix")
+        self.refused(2, "confined to a plane", "export", "--scene", path, "--to", "calculix")
 
 
 # A formulation that does not support all physics of a scene is evaluated as usual if this does not affect the requested
@@ -255,11 +255,11 @@ class OtherModel(ProgramTest):
             one = self.series(*leaf)[0]["beamw_vlasov"]
             self.assertEqual((one["other_model"], one["not_modelled"]), (False, "shear"), load)
             self.assertLess(one["model_change"], 1e-4)
-            self.assertIn("without shear: changes no value", one["model_words"])
+            self.assertIn("without shear, which changes no value", one["model_words"])
             for quantity in one["quantities"]:
                 self.assertNotEqual(quantity["verdict"], "other model")
             text = self.answered("solve", *leaf, "-f", "beamw_vlasov", "-n", "2").stdout
-            self.assertEqual(text.count("without shear: changes no value"), 1)
+            self.assertEqual(text.count("without shear, which changes no value"), 1)
 
     def test_no_load_at_all(self):
         """Every value is zero without loads, so missing physics has no effect."""
@@ -323,7 +323,7 @@ class OtherModel(ProgramTest):
                  "collocation", "-k", "uy")
         text = self.answered(*words, "-o", self.folder / "s.h5").stdout
         self.assertIn("omitted: trapeze, wagner_torque", text)
-        self.assertIn("beamw_vlasov: another model at 1 of 2 points, not counted: shear not modelled",
+        self.assertIn("beamw_vlasov: another model at 1 of 2 points, which are not counted: shear not modelled",
                       " ".join(text.split()))
         rows = csv.DictReader(io.StringIO(self.answered(*words, "--format", "csv").stdout))
         self.assertEqual({(r["t"], r["not_modelled"]) for r in rows

@@ -124,7 +124,7 @@ class Verify(SpreadTest):
         self.assertEqual(done.stdout, "")
         done = self.merged("--partial", code=5)
         self.assertIn("cells were not run", done.stderr)
-        self.assertRegex(" ".join(done.stdout.split()), "INCOMPLETE: of the existing part every")
+        self.assertRegex(" ".join(done.stdout.split()), "INCOMPLETE: for the existing part every")
         self.assertFalse((self.folder / "merged.h5").exists())
         self.assertGreater(int(self.hash_of(self.folder / "merged.partial.h5")[1]), 1000)
 
@@ -136,7 +136,7 @@ class Verify(SpreadTest):
         second.write_bytes(content)
         done = self.merged(code=5)
         for path in (first, second):
-            self.assertIn(f"{path}: cut short, damaged or altered; it counts as missing",
+            self.assertIn(f"{path}: the file is truncated, damaged or altered; delete it; it counts as missing",
                           done.stderr)
         self.assertIn(" 2 computed now", self.shard("1/1", "verify", "-k", CASES).stdout)
         self.is_as_alone()
@@ -164,7 +164,7 @@ class Verify(SpreadTest):
         body = line + b"\n" + rest[:-40]
         (other / name).write_bytes(body + b"beamwork-seal %016x %08x\n" % (
             len(body), zlib.crc32(body)))
-        self.refused(2, [f"parts/{name}", f"other/{name}", "the same batch with different results"], "merge",
+        self.refused(2, [f"parts/{name}", f"other/{name}", "contain different results of the same batch"], "merge",
                      self.folder / "parts", other)
 
     def test_no_room(self):
@@ -215,7 +215,7 @@ class Killed(SpreadTest):
             out, errors = child.communicate()
         self.assertEqual((child.returncode, out), (5, ""))
         self.assertRegex(errors, r"^beamwork: interrupted: \d+ of \d+ batches of shard 1/1 are "
-                         "missing; start it again\n$")
+                         "missing; start the shard again\n$")
         self.assertEqual([name for name in self.names() if not name.endswith(".batch")], [])
 
 
@@ -241,12 +241,12 @@ class Others(SpreadTest):
                 (["K/N"], ["--shard", "3/2", "--into", parts]),
                 (["--into FOLDER"], ["--shard", "1/2"]),
                 (["beamwork merge"], ["--into", parts, "-o", self.folder / "r.h5"]),
-                (["give one"], ["--into", parts, "--from", parts]),
+                (["give only one"], ["--into", parts, "--from", parts]),
                 (["--partial requires"], ["--partial"])):
             self.refused(2, words, "verify", "-k", "elastica", *arguments)
         for verb in ("bench", "converge", "stress"):
             self.refused(2, ["--into"], verb, "--into", parts)
-        self.refused(2, ["which folders"], "merge")
+        self.refused(2, ["no folder is given"], "merge")
         self.refused(4, ["nowhere", "cannot be read"], "merge", self.folder / "nowhere")
         self.refused(2, ["contains no batches"], "merge", self.folder)
         self.assertFalse(parts.exists())

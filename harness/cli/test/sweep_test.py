@@ -155,7 +155,7 @@ class References(ProgramTest):
         kind, *_, screen = self.kinds("elastica", "--vary", "load=1.25,1.5", "-f", "sheet_third",
                                       "-n", "2,4,8,16", "-k", "w_over_L")
         self.assertEqual(kind, [["limit of the meshes of all"]] * 2)
-        self.assertIn("the limit from the same meshes", screen)
+        self.assertIn("the limit of the same meshes", screen)
 
     def test_limits_that_disagree_are_no_reference(self):
         """The limits of a formulation without shear along one axis and of one with it disagree, so they are no reference
@@ -165,7 +165,7 @@ class References(ProgramTest):
             "sheet_third", "-n", "8,16,32,64,128", "-k", "k_pushed", "--error", "0.1%")
         flat = [k for row in kind for k in row]
         self.assertEqual(set(flat), {"none: formulations disagree"})
-        self.assertIn("limits of formulations disagree", " ".join(screen.split()))
+        self.assertIn("limits of the formulations disagree", " ".join(screen.split()))
         self.assertTrue(np.isnan(error).all())
 
     def test_truths_that_are_not_known_well_enough_are_passed_over(self):
@@ -178,7 +178,7 @@ class References(ProgramTest):
         done = self.answered("sweep", "c_column", "--vary", "section_data=shear_flow,printed",
                              "--set", "height=0.5", "-f", "beamw", "-n", "1,2", "-k",
                              "buckling_load", "-o", self.folder / "c.h5")
-        self.assertIn("no scene can be built at 1 point, the first at section_data=printed", done.stdout)
+        self.assertIn("no scene can be built at 1 point; the first is at section_data=printed", done.stdout)
         with group_of(self.folder / "c.h5") as file:
             names = file["status"].attrs["names"].decode().split("\n")
             self.assertEqual([names[s] for s in file["status"][:, 0, 0]], ["ok", "no_scene"])
@@ -308,7 +308,7 @@ class Going(ProgramTest):
         for words, says in (
                 (("elastica",), "no parameter varies"),
                 (("elastica", "--vary", "lod=1..2/3"), "did you mean 'load'"),
-                (("elastica", "--vary", "load=1..2"), "give the number of parts"),
+                (("elastica", "--vary", "load=1..2"), "the number of parts is missing"),
                 (("elastica", "--vary", "load=1..5000/3"), "outside its range"),
                 (("elastica", "--vary", "load=1..2/3", "--set", "load=3"), "both set and varied"),
                 (("elastica", "--vary", "load=1..2/3", "--vary", "load=3,4"), "given twice"),

@@ -84,11 +84,11 @@ class Import(ProgramTest):
             "C_xy, m/N, 2,,,, 1,": "did you mean 'C_xx'",
             "C_xx, m/Nm, 2,,,, 1,": "unit 'm/Nm' is unknown",
             "C_xx, N, 2,,,, 1,": "unit 'N' cannot be converted to 'm/N'",
-            "C_xx_curve, m/N, 2,,,, 1,": "is a curve: give x",
+            "C_xx_curve, m/N, 2,,,, 1,": "is a curve; give x",
             "C_zz, m/N, 2,,, 3, 1,": "is not a curve: leave x empty",
             "C_zz, m/N, 0,,,, 1,": "give a whole number", "C_zz, m/N, 2,,,, nan,": "is not a number",
             "C_zz, m/N, 3,,,,,": "value is missing",
-            "C_thz_Mz, rad/(N m), 2,,,, 1,": "the convention of moments",
+            "C_thz_Mz, rad/(N m), 2,,,, 1,": "the convention for moments",
             "C_zz, m/N, 4,,,, 1, -1": "uncertainty is below zero"
         }
         said = self.read(HEAD + COLUMNS + "\n".join(bad) + "\n", 2).stderr.splitlines()
@@ -161,7 +161,7 @@ class Import(ProgramTest):
         line, = [x for x in done.stdout.splitlines() if x.startswith("    CalculiX")]
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("no truth; +8.59 % from another model", line)
-        self.refused(2, "its model is not 'beam'", "verify", "--scene", str(leaf), "-f", "beamw", "--imported",
+        self.refused(2, "the model is not 'beam'", "verify", "--scene", str(leaf), "-f", "beamw", "--imported",
                      self.folder / "theirs.h5", "--imported-must-pass")
 
     def test_beside_informs_and_gates_where_asked(self):
@@ -176,7 +176,7 @@ class Import(ProgramTest):
         elsewhere = run("verify", "-k", "elastica/default", "-f", "collocation", "--imported",
                         self.folder / "theirs.h5")
         self.assertEqual(elsewhere.returncode, 0)
-        self.assertIn("theirs.h5: nothing of it was run; it belongs to sheet_cantilever/",
+        self.assertIn("theirs.h5: no quantity of this file was run, because the file belongs to sheet_cantilever/",
                       elsewhere.stderr)
         self.assertEqual(len(elsewhere.stderr.splitlines()), 1, elsewhere.stderr)
 
@@ -199,7 +199,7 @@ class Import(ProgramTest):
         self.answered("compare", old, "-o", table)
         for name, new, code, words in (
             ("version", text.format("mine", "4.3") + "".join(rows), 0, ""),
-            ("name", text.format("mine 4.3", "") + "".join(rows), 1, "was it renamed to 'mine 4.3'? Then write the version in '# version:'"),
+            ("name", text.format("mine 4.3", "") + "".join(rows), 1, "was the program renamed to 'mine 4.3'? If so, write the version in '# version:'"),
             ("mesh", text.format("mine", "4.2") + "".join(rows[:-1]), 1, "/mine n=32")):
             done = self.beside(new, "new.h5", "--imported-must-pass", "--not-worse-than", table)
             self.assertEqual(done.returncode, code, (name, done.stdout))
@@ -218,10 +218,10 @@ class Import(ProgramTest):
         select = ("verify", "-k", "elastica and w_over_L and not shear", "-f", "collocation")
         done = run(*select, "--not-worse-than", table, "-o", self.folder / "new.h5")
         self.assertEqual(done.returncode, 1, done.stdout)
-        self.assertIn("/mine: gone: give the file with --imported", " ".join(done.stdout.split()))
+        self.assertIn("/mine: gone: add the file with --imported", " ".join(done.stdout.split()))
         self.assertEqual(run("compare", old, self.folder / "new.h5").returncode, 1)
         self.refused(2, "--imported-must-pass requires --imported FILE.h5", *select, "--imported-must-pass")
-        self.refused(2, "nothing of", "verify", "-k", "roll_up/default", "-f", "collocation", "--imported",
+        self.refused(2, "no quantity of", "verify", "-k", "roll_up/default", "-f", "collocation", "--imported",
                      self.folder / "theirs.h5", "--imported-must-pass")
         self.refused(2, "no imported value has a verdict", "verify", "-k", "elastica/default and u_over_L", "-f",
                      "collocation", "--imported", self.folder / "theirs.h5", "--imported-must-pass")
@@ -260,12 +260,12 @@ class Import(ProgramTest):
         for name in ("MBDyn 1.7.3, 3-node", "rival"):
             self.assertEqual(done.stdout.count("\n    " + name), 1, done.stdout)
         self.assertIn(
-            "rivals.h5: 1 of 2 series are of cases or parameters that were not run, the first elastica/default/rival",
+            "rivals.h5: 1 of 2 series belong to cases or parameters that were not run; the first is elastica/default/rival",
             done.stderr)
         (self.folder / "copy.h5").write_bytes((self.folder / "theirs.h5").read_bytes())
-        self.refused(2, "is already in this run; give it once", *select, "--imported",
+        self.refused(2, "is already in this run; give it only once", *select, "--imported",
                      self.folder / "theirs.h5", "--imported", self.folder / "copy.h5")
-        self.refused(2, "is given twice; give it once", *select, "--imported",
+        self.refused(2, "is given twice; give it only once", *select, "--imported",
                      self.folder / "theirs.h5", "--imported", self.folder / "theirs.h5")
         self.refused(2, "would overwrite", *select, "--imported", self.folder / "copy.h5", "--imported",
                      self.folder / "theirs.h5", "-o", self.folder / "theirs.h5")

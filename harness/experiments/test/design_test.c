@@ -136,9 +136,9 @@ static void design_tests(void)
     seeds();
     unit_axes(open);
     axis_read(&box, "a=0..1/4", &parted, NULL);
-    is_refused(DESIGN_GRID, open, 0, "give the number of parts");
+    is_refused(DESIGN_GRID, open, 0, "the number of parts is missing");
     is_refused(DESIGN_SOBOL, open, 0, "--points");
-    is_refused(DESIGN_SOBOL, &parted, 10, "'/4' is for a grid; remove it");
+    is_refused(DESIGN_SOBOL, &parted, 10, "'/4' applies only to a grid; remove it");
 }
 
 enum { RUNS = 5 };

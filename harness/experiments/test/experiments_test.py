@@ -163,7 +163,7 @@ class Experiments(ProgramTest):
             self.refused(2, "another run is using", *ASKED["sweep"], "-o", self.path)
         with open(self.path, "rb") as file:
             fcntl.flock(file, fcntl.LOCK_EX)
-            self.refused(2, "another program is writing to it", *VERIFY, "-o", self.path)
+            self.refused(2, "another program is writing to this file", *VERIFY, "-o", self.path)
         (self.folder / "results.h5.lock").unlink(missing_ok=True)
         (self.folder / "results.h5.lock").mkdir()
         self.refused(4, "cannot be locked", *ASKED["stress"], "-o", self.path)

@@ -112,7 +112,7 @@ class Words(ProgramTest):
                          [r["error"] for r in record["runs"]])
         text = run(*asked).stdout
         self.assertIn("free_flight_space (time=7.5), collocation, n = 4, to 7.5 s", text)
-        self.assertIn("lowest cost to an error of 0.01, the first three:", text)
+        self.assertIn("the three integrators with the lowest cost for an error of 0.01:", text)
 
     def test_consistent_mass_is_not_lumped_in_silence(self):
         scene = self.folder / "mine.yaml"
@@ -129,12 +129,12 @@ omit: [trapeze, wagner_moments, wagner_torque]
         for name in ("conserving", "explicit"):
             self.assertEqual(len(re.findall(rf"  {name} .*stops at 0 s", text)), 3, text)
             self.assertIn(f"the integrator {name} supports only lumped mass", text)
-            self.assertIn(f"order of {name}: undecided, it cannot be measured from the errors", text)
+            self.assertIn(f"order of {name}: undecided; the order cannot be measured from the errors", text)
         self.assertNotIn("nan", text)
 
     def test_refusals(self):
         for arguments, words in (
-            (("elastica",), "elastica is not a motion in time"),
+            (("elastica",), "elastica is not a transient analysis"),
             ((*FLIGHT, "--integrator", "euler"), "--integrator 'euler'"),
             ((*FLIGHT, "--step", "0.1..0.2"), "--step '0.1..0.2'"),
             ((*FLIGHT, "--tolerance", "0"), "--tolerance '0'"),
@@ -163,11 +163,11 @@ class Expected(ProgramTest):
             "energy", "alpha", "order 2")
         done = self.judged(*good)
         self.assertEqual((done.returncode, done.stderr), (0, ""), done.stdout)
-        self.assertIn("2 verdicts, 0 differ", done.stdout)
+        self.assertIn("2 verdicts; 0 differ", done.stdout)
         done = self.judged(row.format("energy", "alpha", "conserved"), good[0])
         self.assertEqual(done.returncode, 1)
         self.assertIn("unexpected: energy of alpha", done.stdout)
-        self.assertIn("2 verdicts, 1 differ", done.stdout)
+        self.assertIn("2 verdicts; 1 differ", done.stdout)
 
     def test_tolerances_within_a_factor_of_two(self):
         row = "tolerance,free_flight_space,time=7.5,collocation,2,radau,1e-4..1e-6,{},because"
@@ -180,11 +180,11 @@ class Expected(ProgramTest):
 
     def test_mistakes_of_the_table(self):
         good = "order,pendulum,,collocation,2,alpha,0.01,pass,because".split(",")
-        for column, word, words in ((0, "speed", "'speed' is not a property with a verdict"),
+        for column, word, words in ((0, "speed", "property 'speed' has no verdict"),
                                     (1, "pendulums", "pendulum"), (2, "mass=1", "mass"),
                                     (3, "colocation", "collocation"), (4, "two", "whole number"),
                                     (5, "euler", "--integrator 'euler'"),
-                                    (6, "0", "--step '0'"), (1, "elastica", "not a motion in time")):
+                                    (6, "0", "--step '0'"), (1, "elastica", "not a transient analysis")):
             row = [*good[:column], word, *good[column + 1:]]
             done = self.judged(",".join(row))
             self.assertEqual(done.returncode, 2, row)

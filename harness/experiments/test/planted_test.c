@@ -123,8 +123,7 @@ static void not_exact(void)
     chosen.type = &t;
     checks_along(&chosen, &c);
     for (int i = 0; i < c.count; i++)
-        said += strstr(c.claim[i].sentence,
-                       "not exact under a force at its end (along y by 0.00") != NULL;
+        said += strstr(c.claim[i].sentence, "not exact (along y: relative error 0.00") != NULL;
     gsl_test_int(said, 2, "loads along an element that is too soft");
     for (int i = 0; i < c.count && said != 2; i++)
         gsl_test(1, "it said: %s", c.claim[i].sentence);
@@ -258,7 +257,8 @@ static void derivatives(void)
           "J: the derivative of strain 4 with respect to coordinate 11",
           "rotation about x of node 2");
     PLANT(strain, nodes_exchanged, "derivatives", "J: the derivative of strain", "differences");
-    PLANT(strain, no_H, "derivatives", "H: the second derivative of strain", "is 0, differences");
+    PLANT(strain, no_H, "derivatives", "H: the second derivative of strain",
+          "is 0, but finite differences");
     PLANT(strain, term_of_H, "derivatives", "with respect to coordinates 5 and 5",
           "rotation about y of node 1, rotation about y of node 1");
     PLANT(stress, half_energy, "energy", "stress: sigma", "but the derivative of the energy");
@@ -267,21 +267,20 @@ static void derivatives(void)
     PLANT(stress, unsymmetric, "energy", "C: entry 2, 1", "symmetric");
     PLANT(stress, stressed_at_rest, "energy", "stress: sigma 1 of the undeformed element", "N");
     PLANT(stress, gives_up, "energy", "stress: strains of a few hundredths", "'singular'");
-    PLANT(geometric, lopsided, "energy", "geometric: G entry 1, 2", "symmetric");
-    PLANT(geometric, constant_geometric, "energy", "geometric: G entry 2, 2", "sum");
+    PLANT(geometric, lopsided, "energy", "geometric: entry 1, 2 of G", "symmetric");
+    PLANT(geometric, constant_geometric, "energy", "geometric: entry 2, 2", "sum");
 }
 
 static void the_rest(void)
 {
-    PLANT(strain, beyond_J, "bounds", "strain: J: it has 112 entries", "entry 113");
-    PLANT(strain, before_e, "bounds", "strain: e", "before its first");
+    PLANT(strain, beyond_J, "bounds", "strain: J: there are 112 entries", "entry 113");
+    PLANT(strain, before_e, "bounds", "strain: e", "before the first entry");
     PLANT(prepare, stiff_in_units, "motion", "in units of", "instead of");
     PLANT(prepare, no_reason, "features", "rejected: no reason is given",
           "with no feature the element fails");
-    PLANT(prepare, no_wagner, "features", "declares wagner moments, but no result depends",
+    PLANT(prepare, no_wagner, "features", "declares wagner moments, but strains",
           "do not declare it");
-    PLANT(prepare, no_shear, "features", "declares shear, but no result depends",
-          "do not declare it");
+    PLANT(prepare, no_shear, "features", "declares shear, but strains", "do not declare it");
     PLANT(strain, no_amplitudes, "features", "declares warping",
           "no result depends on the warping");
     PLANT(strain_many, one_strain, "many", "many at once: the strains differ", "of 5");
@@ -290,7 +289,7 @@ static void the_rest(void)
     PLANT(strain, deaf_to_turns, "unsound", "a rotation of node 2 that is", "gives finite");
     PLANT(stress, deaf_to_strains, "unsound", "stress: strain 4 that is", "gives a finite");
     PLANT(memory, one_order_less, "declared", "inner, memory", "negative");
-    PLANT(strain, turn_of_root, "along", "one element held at its first node",
+    PLANT(strain, turn_of_root, "along", "one element clamped at its first node",
           "as reaction to the rotation about z of node 1");
     element_type t = changed("collocation");
     t.update = lazy;
@@ -351,26 +350,26 @@ static status no_frame(const element_data *d, const node_state x[],
 static void planted_inertia_tests(void)
 {
     PLANT(inertia, heavier, "mass", "inertia: the mass along x", "rho A l");
-    PLANT(inertia, unsymmetric_mass, "mass", "inertia: M entry 9, 2", "its transposed entry is");
+    PLANT(inertia, unsymmetric_mass, "mass", "inertia: entry 9, 2", "the transposed entry is");
     PLANT(inertia, negative_mass, "mass", "not positive", "rotation about x of node 2");
     PLANT(inertia, fixed_mass, "mass", "rotated as a whole", "rotated back");
     PLANT(inertia, fixed_mass, "mass", "moment of inertia of the sections about x", "rho l I");
     PLANT(inertia, half_potential, "rotating", "the potential is", "kinetic energy");
     PLANT(inertia, wrong_force, "rotating", "centrifugal force in coordinate 9",
           "displacement along y of node 2");
-    PLANT(inertia, wrong_softening, "rotating", "N entry 3, 3", "differences");
-    PLANT(inertia, unsymmetric_softening, "rotating", "N entry 3, 2", "its transposed entry is");
-    PLANT(inertia, unsymmetric_turns, "rotating", "N entry 6, 5", "its transposed entry is");
-    PLANT(inertia, not_skew, "rotating", "G entry 2, 2", "skew");
+    PLANT(inertia, wrong_softening, "rotating", "entry 3, 3", "differences");
+    PLANT(inertia, unsymmetric_softening, "rotating", "entry 3, 2", "the transposed entry is");
+    PLANT(inertia, unsymmetric_turns, "rotating", "entry 6, 5", "the transposed entry is");
+    PLANT(inertia, not_skew, "rotating", "entry 2, 2", "skew");
     PLANT(inertia, half_coriolis, "rotating", "G times the motion of the frame", "centrifugal");
     PLANT(inertia, no_frame, "rotating", "status 'singular'", "rotating frame");
     PLANT(inertia, half_convective, "in_time", "inertia: the inertia force in coordinate",
-          "differences of the kinetic energy");
-    PLANT(inertia, wrong_rates, "in_time", "C entry 5, 4", "differences of the inertia forces");
+          "finite differences of the kinetic energy");
+    PLANT(inertia, wrong_rates, "in_time", "entry 5, 4", "differences of the inertia forces");
     PLANT(inertia, fixed_taken, "in_time", "inertia: the inertia force in coordinate 2",
           "the same element rotated as a whole");
-    PLANT(inertia, beyond_taken, "bounds", "inertia: taken: it has 14 entries", "entry 15");
-    PLANT(inertia, beyond_M, "bounds", "inertia: M: it has 196 entries", "entry 197");
+    PLANT(inertia, beyond_taken, "bounds", "inertia: taken: there are 14 entries", "entry 15");
+    PLANT(inertia, beyond_M, "bounds", "inertia: M: there are 196 entries", "entry 197");
 }
 
 int main(void)

@@ -123,7 +123,7 @@ static void foreign(void)
     is_refused(&of, "other reference values, scenes or formulations");
     of.w.w = right;
     of.w.w.batches = NUMBERS_BATCHES - 1;
-    is_refused(&of, "remove it");
+    is_refused(&of, "remove the file");
     of.w.w = right;
     fault f;
     const folder_entry text = folder_path(&of.of, "notes.batch");
@@ -135,7 +135,7 @@ static void foreign(void)
     batch_name(stem, 4, name);
     const folder_entry other = folder_path(&of.of, name);
     gsl_test(rename(of.path.text, other.text) != 0, "in the place of another");
-    is_refused(&of, "is batch 4 of 40, which differs from its name");
+    is_refused(&of, "contains batch 4 of 40, which differs from the name");
     folder_remove(&of.of);
 }
 

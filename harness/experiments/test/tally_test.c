@@ -254,11 +254,11 @@ static void axis_tests(void)
     is_refused("width=1..20/3", "outside its range");
     is_refused("width=1..11/3", "outside its range");
     is_refused("width=1,20", "outside its range");
-    is_refused("width=1mm..2/3", "SI without units");
+    is_refused("width=1mm..2/3", "in SI units, without the unit");
     is_refused("width=1..2/2.5", "whole number");
     is_refused("width=1..2/0", "whole number");
-    is_refused("width=1..1/2", "one value");
-    is_refused("turn=-1..1/2:log", "one sign");
+    is_refused("width=1..1/2", "a single value");
+    is_refused("turn=-1..1/2:log", "the same sign");
     is_refused("width=1..2/2:ln", "equal ratios");
     is_refused("width=1,1", "twice");
     is_refused("width=1,,2", "missing");

@@ -29,7 +29,7 @@ class Refused(Speaker):
         self.nothing_left()
 
     def test_other_protocol(self):
-        self.refuse(self.speaker(first="said['beamwork'] = 7"), "uses protocol 7, this program 1")
+        self.refuse(self.speaker(first="said['beamwork'] = 7"), "uses protocol 7, but this program uses protocol 1")
         self.refuse(self.speaker(first="del said['beamwork']"), "protocol")
 
     def test_says_too_little_or_too_much(self):

@@ -128,8 +128,8 @@ const element_type beamwork_element = {
     .abi = ELEMENT_ABI,
     .size = sizeof(element_type),
     .name = "own_mass",
-    .summary = "two nodes, one point, shear-deformable, its own mass",
-    .source = "Reissner, J. Appl. Math. Phys. 32 (1981), one point of integration",
+    .summary = "two nodes, one integration point, flexible in shear, own mass matrix",
+    .source = "Reissner, J. Appl. Math. Phys. 32 (1981), with one integration point",
     .family = "example",
     .offers =
         FEATURE_SHEAR | FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA,

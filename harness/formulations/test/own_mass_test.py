@@ -102,7 +102,7 @@ class OwnMass(Speaker):
         for before, after, words in (
                 ("    return M.reshape", "    M *= 1.01\n    return M.reshape", "the mass along x"),
                 ("    return M.reshape", "    M[:, 0, 0, 1, 1] += M[:, 0, 0, 0, 0] / 9\n    return M.reshape",
-                 "its transposed entry is"),
+                 "the transposed entry is"),
                 ("R[:, p] * about @ R[:, p].swapaxes(1, 2)", "np.diag(about)", "rotated as a whole")):
             self.assertIn(words, self.contract(self.python(before, after), code=1)[1])
 
@@ -117,8 +117,8 @@ class OwnMass(Speaker):
     def test_first_line(self):
         for word, told in (("'yes'", "give vibration or motion"), ("1", "give vibration or motion")):
             self.refuse(self.speaker(first=f"said['inertia'] = {word}"), "'inertia' in its first line", told)
-        self.refuse(self.speaker(first="said.update(inertia='motion', offers=['shear'])"), "it requires mass")
-        self.refuse(self.speaker(first="said.update(inertia='motion', nodes=3)"), "motion is for two nodes")
+        self.refuse(self.speaker(first="said.update(inertia='motion', offers=['shear'])"), "this requires mass")
+        self.refuse(self.speaker(first="said.update(inertia='motion', nodes=3)"), "motion is only for elements with two nodes")
 
     def test_asked_only_where_it_is_brought(self):
         for first, asked in (("", False), ("said['inertia'] = 'vibration'", True)):

@@ -242,7 +242,7 @@ quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}
             done = run("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 4)
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(words, done.stdout + done.stderr)
-        self.refused(2, "an imperfection cannot be written with solids", "export", "--scene", self.scene(text),
+        self.refused(2, "an imperfection cannot be written as solids", "export", "--scene", self.scene(text),
                      "--to", "calculix", "-o", self.folder / "deck")
 
     def test_refused(self):

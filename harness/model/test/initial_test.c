@@ -291,9 +291,10 @@ static void words(const scene *s)
 {
     char text[400];
     division_words(s, 2, text, sizeof text);
-    gsl_test(strcmp(text, "member_1 has 6 elements, 2 in each of 3 pieces: its loads begin, end or "
-                          "act at 0.2, 0.7 of its length; member_2 has 6 elements, 3 in each of 2 "
-                          "pieces: its loads begin, end or act at 0.5 of its length") != 0,
+    gsl_test(strcmp(text,
+                    "member_1 has 6 elements, 2 in each of 3 pieces, because loads begin, end or "
+                    "act at 0.2, 0.7 of the length; member_2 has 6 elements, 3 in each of 2 "
+                    "pieces, because loads begin, end or act at 0.5 of the length") != 0,
              "words: %s", text);
     division_words(s, 0, text, 60);
     gsl_test(strncmp(text, "member_1 has n elements in each of 3 pieces: its loads", 54) != 0,

@@ -191,7 +191,7 @@ class Compare(ProgramTest):
             cut.write_bytes(data[:length])
             self.trouble(str(cut), cut, self.old)
         cut.write_text(self.table.read_text(encoding="utf-8")[:-10], encoding="utf-8")
-        self.trouble("damaged or cut short", cut, self.old)
+        self.trouble("damaged or truncated", cut, self.old)
         self.trouble("not a results file", self.old, TRUTHS)
         self.trouble("missing.h5", "missing.h5", self.old)
         self.trouble("nothing was compared", "-k", "elastica", self.old, self.old, silent=False)
@@ -257,7 +257,7 @@ class Compare(ProgramTest):
         for version in (1, 4):
             done = self.compared(lambda file: file.attrs.modify("schema_version", version))
             self.assertEqual(done.returncode, 2, done.stdout)
-            self.assertIn(f"results of version {version}, this program reads 2 to 3", done.stderr)
+            self.assertIn(f"the results have version {version}, but this program reads versions 2 to 3", done.stderr)
             self.assertEqual(len(done.stderr.splitlines()), 1, done.stderr)
         done = self.compared(lambda file: file.attrs.modify("schema_version", 2))
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -426,8 +426,8 @@ class StateSpace(Matrices):
         work = ("solve", "--scene", self.folder/"scene.yaml", "-f", "beamw", "-n", 2, "--matrices", self.folder/"new")
         self.refused(2, "add it", *work, "--reduce", "4")
         for text, words in (("4:nix", "no node nix; name nodes"), ("few", "write the number of modes"), ("4;tip", "write the number"),
-                            ("4:", "has no name; name it"), ("4:tip,,mid", "has no name; name it"),
-                            ("4:tip,mid,tip", "node tip is named twice; name it once"),
+                            ("4:", "of an interface node is missing; name the node"), ("4:tip,,mid", "of an interface node is missing; name the node"),
+                            ("4:tip,mid,tip", "node tip is named twice; name it only once"),
                             ("5000", "with mass; give at most"), ("9"*30, "give at most"),
                             ("100:tip", "with mass while the interface is fixed; give at most")):
             self.refused(1, words, *work, "--state-space", "--reduce", text, silent=False)
@@ -442,8 +442,8 @@ members: {bar: {from: root, to: mid, section: bar, y: [0, 1, 0]}, two: {from: mi
 analyses: {ha: {harmonic: {frequencies: [1, 2], damping: {stiffness: 1e-3}}}}
 quantities: {r: {response: {analysis: ha, node: mid, component: uy, force: tip, along: ux}}}
 """, encoding="utf-8")
-        for nodes, words in (("", "more modes than the 3 with mass; give at most 3"),
-                             (":mid", "more modes than the 3 with mass while the interface is fixed; give at most 3")):
+        for nodes, words in (("", "there are only 3 modes with mass; give at most 3"),
+                             (":mid", "there are only 3 modes with mass while the interface is fixed; give at most 3")):
             for modes in (3, 4, 5000):
                 work = ("solve", "--scene", self.folder/"scene.yaml", "-f", "collocation", "-n", 1, "--matrices",
                         self.folder/f"m{nodes[1:]}{modes}", "--state-space", "--reduce", f"{modes}{nodes}")
@@ -463,10 +463,10 @@ omit: [shear, trapeze, wagner_moments, wagner_torque]
             folder = self.folder/f"loop_{loop}"
             said = self.answered("solve", "--scene", self.folder/"scene.yaml", "-f", "collocation", "-n", 1, "--matrices", folder,
                                  "--state-space").stderr
-            self.assertEqual("the loop of load motor (feedback) is open: the load is an input" in said, loop == 1, said)
+            self.assertEqual("the feedback loop of load motor is open, so the load is an input" in said, loop == 1, said)
             for name in ("K.mtx", "state_space/A.mtx"):
                 held = (folder/"undeformed"/name).read_text(encoding="utf-8")
-                self.assertEqual("loops of feedback open" in held, loop == 1, name)
+                self.assertEqual("feedback loops open" in held, loop == 1, name)
 
     def test_inside(self):
         scene = (BENT % (2700, SHAKEN, "", "", "", "", "", ALL)).replace("mass: lumped\n", "")
@@ -476,7 +476,7 @@ omit: [shear, trapeze, wagner_moments, wagner_torque]
         apart = float(said.split("at most ")[1].split()[0])
         self.compare(scene, "collocation", 4, 1.01*apart*2**0.5)
         self.assertTrue(1e-6 < apart < 0.1, said)
-        self.refused(2, "give the folder", "solve", "--scene", self.folder/"scene.yaml", "--state-space")
+        self.refused(2, "add --matrices FOLDER", "solve", "--scene", self.folder/"scene.yaml", "--state-space")
 
 
 class Contents(Matrices):

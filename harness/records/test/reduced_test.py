@@ -98,7 +98,7 @@ class Reduced(ProgramTest):
                 self.assertEqual(e["error"], "nan")
                 self.assertLess(float(e["difference"]), 1e-9*abs(H[:, y]).max() + 1e-15)
         self.assertIn(f"; {zeros} of {len(functions)} transfer functions are zero and not counted", line)
-        self.assertIn(f"transfer functions by at most {largest:.1e} of", line)
+        self.assertIn(f"transfer functions differ by at most {largest:.1e} of", line)
 
 
 if __name__ == "__main__":

@@ -272,12 +272,14 @@ static void markdown_tests(void)
     flaw flaws[2] = {{.series = 0}};
     char *text = written(&s, &j);
     holds(text, "## beamwork: fail");
-    holds(text, "1 verdicts against reference values in 0 cells: 1 differ");
+    holds(
+        text,
+        "1 verdicts against reference values in 0 cells; 1 verdicts differ from the expected ones");
     holds(text, "| case_of_test | a=1 | `beam:option=2` | load | **wrong limit** | pass | 2.5 | 2 "
                 "| +25 % | left \\| right below |");
     holds(text, "FAIL: 1 verdict differs from the expected one.");
     holds(text, "| case | beam:option=2 |\n|---|---|\n| case_of_test | **!≠1** |\n");
-    holds(text, "\n≠ limit off, beyond the tolerance; **!** not as expected.");
+    holds(text, "\n≠ limit outside the tolerance; **!** not as expected.");
     free(text);
 
     v.matches = 1;

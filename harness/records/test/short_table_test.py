@@ -240,9 +240,9 @@ class ShortTable(ProgramTest):
     def test_cut(self):
         rows = self.text.count("\n")
         for end in (1, 5, 40):
-            self.damaged(self.text[:-end], f"{self.bad}:{rows}: the row is damaged or cut short")
+            self.damaged(self.text[:-end], f"{self.bad}:{rows}: the row is damaged or truncated")
         for text in ("", self.text[:100], "cell,elements,status\n", "\n" + self.text):
-            self.damaged(text, "neither results")
+            self.damaged(text, "neither a result")
 
 
 if __name__ == "__main__":

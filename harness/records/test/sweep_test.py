@@ -147,7 +147,7 @@ class Sweeps(ProgramTest):
 
             for change, what in ((drop, name), (empty, "value" if name == "meshes" else name)):
                 self.refused(2, f"{what} is missing or damaged", "compare", self.old, altered_sweep(self.old, self.new, change))
-        self.refused(2, "a sweep of version 7, this program reads 1", "compare", self.old,
+        self.refused(2, "the sweep has version 7, but this program reads version 1", "compare", self.old,
                      altered_sweep(self.old, self.new, lambda file: file.attrs.modify("beamwork_sweep", 7)))
 
 
@@ -227,7 +227,7 @@ class Part(ProgramTest):
         new = verify("c_column/default and buckling_load", self.folder / "n.h5")
         self.compared(new, 0, " 0 gone, 0 new")
         done = self.answered("compare", self.table, new)
-        self.assertIn("compared by limits only", done.stdout)
+        self.assertIn("compared only by their limits", done.stdout)
 
         def other(file):
             rows = file["cases/c_column/verdicts"][()]

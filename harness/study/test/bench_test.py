@@ -64,7 +64,7 @@ class Bench(ProgramTest):
         done = self.answered("bench", "shear_elastica", "-f", "beamw", "-f", "sheet_third", "-n",
                              "2,4,8,16")
         text = " ".join(done.stdout.split())
-        self.assertRegex(text, r"\b[uv] within 10\b[^%]* %: none that passes; also within it, with a "
+        self.assertRegex(text, r"\b[uv] within 10\b[^%]* %: none that passes; also within this error, with a "
                                r"different limit: beamw, n = \d+, cost [\d.]+ ms, timed [\d.]+ ms")
         told = re.findall(r"(?m)^  (\S[\w, ]*) within ([\d., ]+) %: ", done.stdout)
         for name in {n for names, _ in told for n in names.split(", ")}:

@@ -201,7 +201,8 @@ static void uncertain(void)
     families_bench b;
     make_two(&b);
     b.one[1].meshes = 1;
-    gsl_test(families_limit_of(&b.s, 0, 0, &b.t).families > 1, "one mesh shows no limit");
+    gsl_test(families_limit_of(&b.s, 0, 0, &b.t).families > 1,
+             "one mesh does not determine a limit");
     b.one[1].meshes = MESHES;
     b.quantity[1][MESHES - 1].value = 3.3;
     gsl_test(families_limit_of(&b.s, 0, 0, &b.t).families > 1, "a mesh that jumps shows none");

@@ -197,7 +197,7 @@ static void expectations(void)
 static void other_instants(void)
 {
     static const parameter_type both[] = {{"length", "m", 2, 1, 9, NULL, "some length"},
-                                          {"time", "s", 5, 1, 9, NULL, "instant of the output"},
+                                          {"time", "s", 5, 1, 9, NULL, "time of the output"},
                                           {0}};
     static const case_type timed = {.name = "made_up",
                                     .summary = "a case of the test",
@@ -322,7 +322,7 @@ static void limits(void)
     bench_expect(&b, VERDICT_WRONG_LIMIT, 1, "fast convergence to -0.115 %");
     bench_says(&b, "converges to a wrong limit: -0.115 %");
     b.j.verdict[0].fit.limit_uncertainty = fabs(b.j.verdict[0].fit.limit - 3) / 2;
-    bench_says(&b, "does not converge on these meshes, and is wrong: -0.115 %");
+    bench_says(&b, "does not converge on these meshes and has a wrong value: -0.115 %");
     bench_fill(&b, 3 * (1 + 0.8e-4), 0.7, 2);
     bench_expect(&b, VERDICT_BIASED, 1, "limit within the tolerance, and sharp");
     bench_says(&b, "has a different limit within the tolerance: +0.008 %");
@@ -368,7 +368,7 @@ static void orders(void)
     bench_expect(&b, VERDICT_PASS, 0, "an order within what finite meshes show");
     bench_fill(&b, 3, 1e-14, 1);
     bench_expect(&b, VERDICT_PASS, 0, "at the round-off floor no order is asked for");
-    bench_says(&b, "has converged to the reference value: the last meshes differ by rounding only");
+    bench_says(&b, "has converged to the reference value: the last meshes differ only by rounding");
     bench_free(&b);
 }
 
@@ -390,7 +390,7 @@ static void doubts(void)
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 1e-6 : -1e-6);
     bench_expect(&b, VERDICT_PASS, 0, "alternating values that surely stay inside the tolerance");
-    bench_says(&b, "agrees with the reference value within the tolerance, without an order");
+    bench_says(&b, "agrees with the reference value within the tolerance, but without an order");
     bench_fill(&b, 4, 0.01, 2);
     b.one.meshes = 3;
     bench_expect(&b, VERDICT_UNDECIDED, 1, "three meshes never say that a limit is wrong");
@@ -404,14 +404,14 @@ static void doubts(void)
     b.one.meshes = 1;
     b.quantity[0].value = 3;
     bench_expect(&b, VERDICT_UNDECIDED, 1, "one mesh shows no limit, even if it is right");
-    bench_says(&b, "undecided: one mesh shows no limit");
+    bench_says(&b, "undecided: one mesh does not determine a limit");
     b.one.meshes = MESHES;
     bench_fill(&b, 3 * (1 + 1e-9), 1e-7, 1);
     b.row[0].uncertainty = 4e-9;
     bench_expect(&b, VERDICT_PASS, 0,
                  "a limit that the reference value's own digits do not tell from it");
-    bench_says(&b, "converges to the reference value, order 1; the difference is below the "
-                   "reference value's digits");
+    bench_says(&b, "converges to the reference value, order 1; the difference is below the last "
+                   "digit of the reference value");
     double noise[1] = {1e-3};
     bench_fill(&b, 3 * (1 + 2e-4), 0.7, 2);
     b.one.noise = noise;

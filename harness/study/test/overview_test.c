@@ -126,15 +126,13 @@ static void sentences(void)
     for (int i = 3; i < r.j.verdicts; i++)
         r.verdict[i].rule = &known;
     says(&r, "PASS: every verdict is as expected; 3 of them are limits off the reference value (1 "
-             "within the "
-             "tolerance, 2 beyond it) as derived for these formulations (beamwork explain "
-             "\"wrong limit, as predicted\"), 4 more are explained by a known deviation.");
+             "within the tolerance, 2 outside it), as derived for these formulations (beamwork "
+             "explain \"wrong limit, as predicted\"), 4 more are explained by a known deviation.");
     r.s.unfinished = 7;
     says(&r, "INTERRUPTED: until then every verdict is as expected; 3 of them are limits off the "
-             "reference value (1 within the tolerance, 2 beyond it) as derived for these "
-             "formulations "
-             "(beamwork "
-             "explain \"wrong limit, as predicted\"), 4 more are explained by a known deviation.");
+             "reference value (1 within the tolerance, 2 outside it), as derived for these "
+             "formulations (beamwork explain \"wrong limit, as predicted\"), 4 more are explained "
+             "by a known deviation.");
     r.s.unfinished = 0;
     add(&r, 0, VERDICT_BIASED, 0, 1);
     says(&r, "FAIL: 1 verdict differs from the expected one.");
@@ -161,15 +159,13 @@ static void single_ones(void)
     for (int i = 0; i < r.j.verdicts; i++)
         r.verdict[i].rule = &known;
     says(&r, "PASS: every verdict is as expected; 1 of them is a limit off the reference value (0 "
-             "within the "
-             "tolerance, 1 beyond it) as derived for its formulation (beamwork explain "
-             "\"wrong limit, as predicted\"), 1 more is explained by a known deviation.");
+             "within the tolerance, 1 outside it), as derived for its formulation (beamwork "
+             "explain \"wrong limit, as predicted\"), 1 more is explained by a known deviation.");
     make(&r);
     add(&r, 0, VERDICT_PASS, 1, 3);
     r.j.is_new = 2;
     says(&r, "PASS: every verdict is as expected; 2 belong to new formulations and do not affect "
-             "the exit status: "
-             "none needs a known deviation.");
+             "the exit status; none requires a known deviation.");
     r.j.proposed = 1;
     says(&r, "PASS: everything that affects the exit status is as expected; without "
              "effect on the exit status: "
@@ -195,10 +191,8 @@ static void single_ones(void)
              "writes it "
              "down).");
     r.j.proposed = 0;
-    says(&r,
-         "PASS: every verdict is as expected; 1 belongs to a new formulation and does not affect "
-         "the exit status: "
-         "none needs a known deviation.");
+    says(&r, "PASS: every verdict is as expected; 1 belongs to a new formulation and does not "
+             "affect the exit status; none requires a known deviation.");
 }
 
 static void columns(void)
@@ -546,8 +540,8 @@ static void biases(void)
         b.row[1].value = 3 + 2 * error[i];
         char sentence[2 * FAULT_TEXT];
         sentence_of_verdict(bench_judge(&b), 2, sentence, sizeof sentence);
-        gsl_test(strstr(sentence, i == 0 ? "not the 3.0004 that was derived for it either"
-                                         : "not the 2.9996 that was derived for it either") == NULL,
+        gsl_test(strstr(sentence, i == 0 ? "also differs from the derived limit 3.0004"
+                                         : "also differs from the derived limit 2.9996") == NULL,
                  "says '%s'", sentence);
         b.row[1].value = 3 + error[i];
         bench_fill(&b, 3, 0.7, 2);

@@ -189,8 +189,8 @@ int main(void)
     crashes(KILLED, 1, "crashed with signal 9");
     crashes(KILLED, 2, "crashed with signal 9");
     crashes(ENDED, 2, "the worker process ended with status 3");
-    crashes(HANGING, 3, "time limit: no result within 1 s");
-    crashes(STOPPED, 2, "time limit: no result within 1 s");
+    crashes(HANGING, 3, "time limit: there was no result within 1 s");
+    crashes(STOPPED, 2, "time limit: there was no result within 1 s");
     together(KILLED, 1);
     together(ENDED, 0);
     together(HANGING, 0);

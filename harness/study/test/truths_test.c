@@ -49,7 +49,7 @@ static void wrong_files(const char *path)
     truths_file_refused(path, "stale", r, "hash of other defaults");
     r = right;
     r.schema = "beamwork-results";
-    truths_file_refused(path, "not a file of reference values", r, "foreign schema");
+    truths_file_refused(path, "does not contain reference values", r, "foreign schema");
     r = right;
     r.version = TRUTHS_VERSION + 1;
     truths_file_refused(path, "version", r, "newer version");

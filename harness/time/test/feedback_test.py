@@ -134,9 +134,9 @@ class Feedback(ProgramTest):
         self.refusal(gains, MOTION % (0.01, "conserving"), "time: 0.01,",
                      "(conserving): load motor has feedback")
         self.refusal("node: tool, component: ux", motion, "", "the feedback has no gain")
-        self.refusal(gains + ", from: tool", motion, "", "feedback of node tool from itself")
+        self.refusal(gains + ", from: tool", motion, "", "the component of node tool minus itself is always 0")
         self.refusal(gains, "  held: {static: {stations: [1]}}\n" + motion.replace(
-            "radau", "radau, about: held"), "", "(static) and load motor (feedback): it acts only in motions, harmonic")
+            "radau", "radau, about: held"), "", "(static): load motor (feedback) acts only in motions, harmonic")
         self.refusal(gains + ", integral: 1", motion, "", "motor (feedback): --save-state does not store the integral of the error",
                      "--save-state", self.folder / "end.h5")
 
@@ -200,7 +200,7 @@ class Elongation(Driven):
             "0.01", "time: 1 - cos(7*t)", motion % "conserving", code=2))
         self.assertIn("no temperature and no gradient", self.solved(
             "0.01", "gradient: [0, 1]", "linear: {}", code=2))
-        self.assertIn("an elongation belongs to the sections", self.solved(
+        self.assertIn("an elongation acts on the sections", self.solved(
             "0.01", "follower: true", "linear: {}", code=2))
 
 

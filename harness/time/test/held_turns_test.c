@@ -17,8 +17,7 @@ enum { HELD, RELEASED, INTEGRATOR };
 static const parameter_type parameter[] = {
     [HELD] = {"held", "1", 0, 0, 7, NULL, "bits of the turns of the pin"},
     [RELEASED] = {"released", "1", 0, 0, 7, NULL, "bits of turns of the second rod, at the first"},
-    [INTEGRATOR] = {"integrator", "", 0, 0, 0, TIMED_INTEGRATORS,
-                    "integration method of the motion"},
+    [INTEGRATOR] = {"integrator", "", 0, 0, 0, TIMED_INTEGRATORS, "time-integration method"},
     {0}};
 
 static int add_rod(scene *s)
@@ -84,12 +83,10 @@ static void kept(int held, int released, int integrator)
              plain.reason);
     gsl_test(all.outcome != plain.outcome, "rows of %d turns kept: %s", count, all.reason);
     if (count == 1) {
-        static const char *const back[] = {"about y, then about z, and back by both leaves it "
-                                           "rotated about x;",
-                                           "about x, then about z, and back by both leaves it "
-                                           "rotated about y;",
-                                           "about x, then about y, and back by both leaves it "
-                                           "rotated about z;"};
+        static const char *const back[] = {
+            "about y, then about z, and back about both axes results in a rotation about x;",
+            "about x, then about z, and back about both axes results in a rotation about y;",
+            "about x, then about y, and back about both axes results in a rotation about z;"};
         gsl_test(strstr(plain.reason, back[held / 2]) == NULL, "left out: %s", plain.reason);
         gsl_test(strstr(all.reason, back[held / 2]) == NULL, "kept: %s", all.reason);
         return;

@@ -135,12 +135,12 @@ def main() -> int:
     parser = argparse.ArgumentParser(prog="python -m beamwork.umbridge", description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scene", help="a scene file, or the name of a built-in case")
-    parser.add_argument("-f", "--formulation", help="default: one that supports the physics of the scene")
-    parser.add_argument("-n", "--elements", type=int, help="per member; default: enough for an error of 0.001")
-    parser.add_argument("--inputs", metavar="NAME,...", help="parameters; default: all that are numbers")
-    parser.add_argument("--outputs", metavar="NAME,...", help="quantities; default: all that are not curves")
+    parser.add_argument("-f", "--formulation", help="formulation; default: one that supports the physics of the scene")
+    parser.add_argument("-n", "--elements", type=int, help="number of elements per member; default: enough for an error of 0.001")
+    parser.add_argument("--inputs", metavar="NAME,...", help="input parameters; default: all parameters that are numbers")
+    parser.add_argument("--outputs", metavar="NAME,...", help="output quantities; default: all quantities that are not curves")
     parser.add_argument("--port", type=int, default=4242)
-    parser.add_argument("--host", default="localhost", help="address to listen on; 0.0.0.0: all (default: %(default)s)")
+    parser.add_argument("--host", default="localhost", help="address on which to listen; 0.0.0.0: all addresses (default: %(default)s)")
     given = parser.parse_args()
     try:
         scene = Scene.open(given.scene) if os.path.exists(given.scene) else Scene.case(given.scene)
