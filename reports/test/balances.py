@@ -25,7 +25,7 @@ def rows(formulation, elements, end=2.0, steps=400, drift=1e-5, free=False):
 
 
 def add(path, case, *found):
-    """Writes the rows as the table of a case."""
+    """Replaces the table `motion` of a case by these rows."""
     with h5py.File(path, "r+") as file:
         group = file[f"cases/{case}"]
         if "motion" in group:

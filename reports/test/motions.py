@@ -23,8 +23,8 @@ def run(integrator, step, worse=1.0, **more):
 
 
 def fate(integrator, step, stiffening):
-    """Returns the outcome. `conserving` conserves the energy. With the trapezoidal rule, the energy grows, and the run
-    stops if step and stiffness are large."""
+    """Returns the outcome of a run. `conserving` conserves the energy. With the trapezoidal rule, the energy is
+    bounded at the lowest stiffness. At higher stiffnesses, it grows, or the run stops if the step is large."""
     if integrator == "conserving":
         return "exact"
     if integrator == "alpha":
@@ -80,7 +80,7 @@ VERDICT = {"judged": "fate", "case": "pendulum", "parameters": "", "formulation"
 
 def record(cases=("pendulum", "free_flight_space"),
            formulations=("geometrically_exact", "collocation")):
-    """Returns two cases with two formulations each, where one run failed."""
+    """Returns the record of these cases and formulations. In each combination, one run failed."""
     out = []
     for case in cases:
         for k, formulation in enumerate(formulations):

@@ -31,8 +31,8 @@ GOOD, POOR = ("pass", 0.0, True), ("pass", 0.0, False)
 
 
 def two():
-    """Returns two cases with two formulations. Formulation a costs half as much as b, but solves only one of two problems
-    in the second case."""
+    """Returns two cases with two formulations. Formulation a costs less than b (1/2 and 1/4 of its cost) but solves only
+    one of the two problems in the second case."""
     first = case("first", [tried("a", {"u": GOOD}, 1), tried("b", {"u": GOOD}, 2)])
     second = case("second", [tried("a", {"u": GOOD, "v": POOR}, 1),
                              tried("b", {"u": GOOD, "v": GOOD}, 4)])

@@ -267,7 +267,7 @@ class Site:
 
 
 def series(key, errors, truth=2.0, uncertainty=2e-6):
-    """Returns meshes of 1, 2, 4 ... elements with these errors."""
+    """Returns a series on meshes of 1, 2, 4 ... elements with these errors."""
     judged = data.Verdict("u", "pass", truth=truth, truth_uncertainty=uncertainty,
                           truth_kind="exact", tolerance=1e-3 * truth)
     meshes = [data.Mesh(2**i, "ok", "", data.Clock(0, 1e-3, 1e-3 * 2**i, 1e-3 * 2**i, 1), 8, 4, "",

@@ -19,8 +19,8 @@ KEYS = ("beamw", "collocation", "sheet_third")
 
 
 def errors(key):
-    """Returns errors. beamw is within the tolerance for small values on the first axis, collocation everywhere with 2
-    elements, and sheet_third nowhere."""
+    """Returns the function of points and elements that gives the errors of a formulation. beamw is within the tolerance
+    for small values on the first axis, collocation everywhere with 2 elements, and sheet_third nowhere."""
     level = {"beamw": lambda at, n: np.where(at[:, 0] < 0.55, 0.001, 0.5) / n**0.1,
              "collocation": lambda at, n: np.full(len(at), 0.03 / n**2),
              "sheet_third": lambda at, n: np.full(len(at), 0.3 / n)}

@@ -34,7 +34,8 @@ class Counts(ProgramTest):
         return stored.read(path)
 
     def one_by_one(self, sweep):
-        """Returns [(point, formulation, reached, largest errors)] of all quantities together."""
+        """Yields (point, formulation, first mesh from which all are within the tolerance or None, largest error on each
+        mesh) for all quantities together."""
         piece, = sweep.pieces()
         for p, f in itertools.product(range(sweep.points), range(len(sweep.keys))):
             absent = any(sweep.statuses[s] == "not_offered" for s in piece.status[p, f])

@@ -47,7 +47,7 @@ def least_of(error, meshes, tolerance):
 
 
 def table_of(rows, columns):
-    """Returns rows of strings and numbers."""
+    """Returns rows of strings and numbers as an array with these named columns."""
     return np.array([tuple(x.encode() if isinstance(x, str) else x for x in row) for row in rows],
                     columns)
 

@@ -250,8 +250,8 @@ class Deviations(unittest.TestCase):
         self.assertIsNone(found["farthest"])
 
     def test_what_is_left_open(self):
-        """The unexplained part of a limit is its distance from the derived limit or, if there is none, from the reference
-        value, relative to the reference value."""
+        """The unexplained part of a limit is its distance from the predicted limit or, if there is none, from the
+        reference value, relative to the reference value."""
         there = {"limit": 2.02, "truth": 2.0, "error": 0.01}
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", predicted=2.03, **there)), 0.005)
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", **there)), 0.01)
