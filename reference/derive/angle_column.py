@@ -26,8 +26,8 @@ def stiffness(k, warping):
 
 
 def work(k, force, y, z, polar):
-    """Returns the work of stresses with the resultant `force`, the first moments y and z, and the second moment `polar`
-    about the centroid."""
+    """Returns the matrix [3, 3] of the work of stresses in the half-wave k. The stresses have the resultant `force`, the
+    first moments y and z, and the second moment `polar` about the centroid."""
     m = matrix(3, 3)
     m[0, 0] = m[1, 1] = force
     m[0, 2] = m[2, 0] = -z

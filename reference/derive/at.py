@@ -100,8 +100,8 @@ def sheet_case(case, function):
 
 
 def cantilever(family, *names):
-    """Returns the solver of a case that is a family of cantilevers.py. The family gives one tuple of values for each
-    parameter."""
+    """Returns the solver of a case whose rows the function `family` of cantilevers.py yields. That function takes a tuple
+    of values for each of the parameters `names`."""
 
     def solve(given):
         from reference.derive import cantilevers
@@ -192,7 +192,7 @@ SOLVERS = {
 
 
 def solve(case, text):
-    """Yields (quantity, value, unit, relative uncertainty, convention)."""
+    """Yields (quantity, value, unit, relative uncertainty, convention) at the parameters `name=value;...` in `text`."""
     given = dict(item.split("=", 1) for item in text.split(";") if item)
     if case not in SOLVERS:
         raise NotDerivable(

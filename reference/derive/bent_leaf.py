@@ -20,7 +20,7 @@ def curvature(F, e, u):
 
 
 def integral(F, e, low, f):
-    """Returns the integral of f(sin t) over the initial length of a half, from u = low to the end."""
+    """Returns the integral of f(sin t) over the initial length from u = `low` to the point of inflection (u = 0)."""
 
     def slope(u):
         t = asin(sin(e) - u ** 2)
@@ -30,7 +30,7 @@ def integral(F, e, low, f):
 
 
 def solved(travel):
-    """Returns the force and the angle at the inflection for a displacement of the stage."""
+    """Returns the force F and the angle e at the point of inflection for a displacement of the stage."""
 
     def missing(F, e):
         root = sqrt(sin(e))
@@ -47,7 +47,7 @@ def stress(travel):
 
 
 def moment(travel, place):
-    """Returns the moment at a fraction of the length below one half."""
+    """Returns the moment at the distance `place` from the clamp, a fraction of the length below one half."""
     F, e = solved(travel)
     u = findroot(lambda low: integral(F, e, low, lambda sine: 1) / LENGTH - (mpf(1) / 2 - place),
                  sqrt(sin(e)) * (1 - 2 * place))

@@ -1,5 +1,5 @@
-"""Computes the torsional coefficients of the potential of the third-order sheet element (N Eqs. 44-51, App. B) to 120
-digits.
+"""Computes the torsional coefficients of the potential of the third-order sheet element (N Eqs. 44-51, App. B) with 120
+digits and prints 17 of them.
 
 The coefficients are computed directly from the definitions, with L = GJ = 1 and EIw = 1/lambda^2. The bimoment is the
 hyperbolic function of App. B, with its factor 1/lambda^4 restored. Every integrand is a sum of polynomials times exp(k
@@ -81,7 +81,8 @@ def polynomial(lam, coefficients):
 
 
 def bimoments(lam, loads):
-    """Returns the bimoments B for unit stresses (and angles), and for unit twist rates at the ends."""
+    """Returns two dictionaries of bimoments: those due to unit stresses (and unit angles, for the keys of `loads`), and
+    those due to unit twist rates at the ends."""
     sine, half = (exp(lam) - exp(-lam)) / 2, (exp(lam / 2) + exp(-lam / 2)) / 2
     c1 = Sum(lam, {1: [1 / (2 * sine)], -1: [1 / (2 * sine)]})
     c2 = Sum(lam, {-1: [exp(lam) / (2 * sine)], 1: [exp(-lam) / (2 * sine)]})
@@ -98,8 +99,8 @@ def bimoments(lam, loads):
 
 
 def coefficients(lam, loads):
-    """Returns named values: A for pairs of unit stresses, b for a stress and a twist variable, and P0 for the twist rates
-    of the ends."""
+    """Returns the values in the order of the table: A for pairs of unit stresses, b for a stress and a twist
+    variable, and P0 for pairs of twist rates at the ends."""
     B, ends = bimoments(lam, loads)
     T = {}
     for name in B:

@@ -54,7 +54,7 @@ def mass(coupling):
 
 
 def at_section(x, tip):
-    """Returns the resultants at x due to a force and a moment at the tip."""
+    """Returns the resultants (N, Q, M) at x due to the force and the moment `tip` at the free end."""
     fx, fy, fz, mx, my, mz = tip
     return matrix([fx, fy, fz, mx, my - (1 - x) * fz, mz + (1 - x) * fy])
 
@@ -97,8 +97,9 @@ def cross_matrix(a):
 
 
 def free_end(F, M, squared, force):
-    """Returns the forces at the free end due to unit unknowns at the clamped end, up to a common factor, from (u, theta,
-    N, M)' = A (u, theta, N, M)."""
+    """Returns the determinant of the matrix [6, 6] that maps the forces and moments at the clamped end to those at the
+    free end, up to a factor. It follows from (u, theta, N, M)' = A (u, theta, N, M) and vanishes for a solution with a
+    free end."""
     axis, n = cross_matrix((1, 0, 0)), cross_matrix((-force, 0, 0))
     S, A, scale = matrix(6, 12), matrix(12, 12), sqrt(STIFF[4])
     for i in range(6):

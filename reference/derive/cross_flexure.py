@@ -1,11 +1,11 @@
 """Cross-flexure hinge: three leaves cross at their middles, at the angles half_angle and pi - half_angle from x. The
 outer two are in one direction. The arm rotates about z.
 
-The only body is the arm, whose rotation about z is given. Its tilts are fixed (rotation hinge, vector) or free (first,
-last, between). In a plane state, the position of the rotation of the drive among the three rotations makes no
-difference. A unit load acts on the arm while the rotation about z is fixed. The moment of the drive along z is dead
-(spatial moments) or follows the tilt. For semitangential moments, K changes by m~/2 on the tilts. For symmetrised
-moments, K is replaced by its symmetric part.
+The only free body is the arm, whose rotation about z is given. Its tilts are fixed if the parameter `rotation` is hinge
+or vector. They are free if it is first, last or between, which is the place of the driven rotation among the three
+rotations. In a plane state, this place makes no difference. A unit load acts on the arm while the rotation about z is
+fixed. The moment of the drive along z is dead (spatial moments) or follows the tilt. For semitangential moments, the
+stiffness K changes by m~/2 on the tilts. For symmetrised moments, K is replaced by its symmetric part.
 """
 import math
 

@@ -36,7 +36,7 @@ def values(case, *names):
 
 
 def decimals(case, given):
-    """Returns the values of `values` as mpmath numbers made from the decimal text. `given` contains values that differ
+    """Returns {parameter: mpmath number made from the decimal text, or word}. `given` contains values that differ
     from the defaults, as text or numbers."""
     from mpmath import mpf
     at = {**texts(case), **given}

@@ -47,7 +47,8 @@ def _slopes(s, y, P, q, ratio, K):
 
 
 def _start(theta, K):
-    """Returns the three solutions that satisfy the conditions at the fork: chi = 1, a moment along nX, and a = 1."""
+    """Returns theta, My and the fields of the solutions that satisfy the conditions at the fork: chi = 1, a unit moment
+    along nX and, with warping (K > 0), a = 1."""
     count = 3 if K else 2
     fields = np.zeros((FIELDS, count))
     fields[2, 0] = 1

@@ -19,8 +19,8 @@ LEVELS, RELATIVE = 20, 1e-11
 
 
 def stage_weights():
-    """Returns the integrals from 0 to c of the Lagrange polynomials through the Gauss points, and these points, on [0,
-    1]."""
+    """Returns the integrals from 0 to each of the Gauss points in [0, 1] (rows) of the Lagrange polynomials through these
+    points (columns)."""
     c = (POINTS + 1) / 2
     V = np.vander(c, increasing=True)
     return np.array([[x ** (k + 1) / (k + 1) for k in range(len(c))] for x in c]) @ np.linalg.inv(V)

@@ -1,5 +1,5 @@
-"""Flexure-based hexapod (N section 4.3, synthetic dimensions): support stiffness along z of twelve joints of
-geometrically exact sheets.
+"""Flexure-based hexapod (N section 4.3, synthetic dimensions): support stiffness of its platform along z. The twelve
+joints consist of geometrically exact sheets.
 
 Six cranks rotate about horizontal tangents by one common, unknown angle, which gives the platform the prescribed
 height. Then the cranks are fixed, and a unit force acts on the platform. The base of each joint is on the rod. The z

@@ -18,9 +18,9 @@ from reference.derive.beam import (STEP, Scaled, chebyshev, cross_matrix, expone
 # Loads along a beam (beam.py) add six states, which are F and m0 (moment about the origin, fixed axes) minus their
 # values at the start:
 #   F' = -f q,   m0' = -f ((r + R d) x q + c),
-# q and c are per initial length, in fixed axes or rotating with the sections. They are constant or linear along the
-# beam; in the latter case, s is a state before the six states. d is the position of q relative to the centroid, and f
-# is the factor at the level.
+# The force q and the moment c are per initial length. They are in fixed axes or rotate with the sections, and they are
+# constant or linear along the beam. If a load is linear, s is a state before the six states. d is the position of q
+# relative to the centroid in the axes of the section, and f is the load factor at the level.
 
 
 class LineLoad:
@@ -202,7 +202,8 @@ class Network:
         return at, at + len(self.numbers)
 
     def _body_rows(self, level, conditions, b, put):
-        """Adds six conditions in the rows from b.at + 6 on, linearised by complex steps."""
+        """Puts the derivatives of the conditions of a body, computed by complex steps. Returns the values of the
+        conditions. put(i, column, value) receives the index i of the condition."""
         columns = list(range(b.at, b.at + BODY)) + self._places_of_numbers
         on = [] if b.on is None else list(range(b.on.at, b.on.at + 6))
         R = b.R
