@@ -77,7 +77,7 @@ static void describe(search *s, const unsymmetric_result *r, station *out)
 }
 
 /* Computes the station at `path`, starting from the stored state. STATUS_SINGULAR: the tangent is
- * singular. surely 1: growth within rounding is ignored. */
+ * singular. Flag before `out` 1: growth within rounding is ignored. */
 static status look_closely(search *s, double path, int surely, station *out, fault *f)
 {
     newton_run *n = s->n;

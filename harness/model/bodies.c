@@ -50,7 +50,8 @@ static int founded_vertices(const model *m)
     return count;
 }
 
-/* Adds the stiffness of a length of a foundation to K. R: axes of the foundation. */
+/* Adds the stiffness of a length [m] of a foundation to K. foundation: stiffnesses per length. R:
+ * axes of the foundation. */
 static void add_founded(const double foundation[6], double length, const double R[9], double K[36])
 {
     for (int block = 0; block < 2; block++)
@@ -179,8 +180,8 @@ static void spring_at(const model *m, const model_state *s, const mesh_discrete 
     spring_strain(d->el.nodes, x, turn, &(strain_output){.s = out->sigma, .H = out->H});
 }
 
-/* Computes the force and the tangent at the nodes. material 1: the tangent includes J^T S J of
- * springs. */
+/* Computes the force and the tangent of a spring or rigid body at its nodes. material 1: the
+ * tangent of a spring includes J^T S J. */
 static void evaluate(const model *m, const model_state *s, const mesh_discrete *d,
                      const element_rotating_frame *frame, const spring_rates *r, int material,
                      double force[], double K[])
@@ -210,7 +211,7 @@ static void evaluate(const model *m, const model_state *s, const mesh_discrete *
         force[k] = -force[k];
 }
 
-/* Computes the force and the tangent in coordinates of the model. */
+/* Like evaluate, in coordinates of the model. */
 static void eliminated(const model *m, const model_state *s, const mesh_discrete *d,
                        const element_rotating_frame *frame, const spring_rates *r, int material,
                        double force[], double K[])
@@ -302,7 +303,7 @@ double discrete_stored(const model *m, const model_state *s)
     return sum;
 }
 
-/* Adds the forces at the nodes that move with `node` to F. */
+/* Adds to F the forces at the nodes that move with `node`, with moments about `node`. */
 static void add_at_node(const model *m, const model_state *s, const mesh_discrete *d,
                         double force[], int node, double F[6])
 {
@@ -371,7 +372,7 @@ double dashpots_power(const model *m, const double rate[])
     return sum;
 }
 
-/* Computes the forces on the nodes of the spring. */
+/* Computes the forces of a dashpot on its nodes. rate: [springs x 6] deformation rates. */
 static void force_of(const model *m, const model_state *s, int spring, const double rate[],
                      double force[])
 {

@@ -7,14 +7,15 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* number of pieces per member, so that a single element appears curved */
+/* smallest number of pieces per member, so that a single element appears curved */
 enum { LEAST_PIECES = 12 };
 static const double drawn_part = 0.1,
-                    /* displacement as a fraction of the model's size, and rotation [rad] */
+                    /* largest drawn displacement of a mode as a fraction of the model's size, and
+                     * its largest drawn rotation [rad] */
     drawn_rotation = 0.5;
 
-/* gaps_of returns the number of gaps between the vertices of a member. The second function returns
- * the number of pieces of each gap. */
+/* gaps_of returns the number of gaps between the vertices of a member. pieces_of returns the number
+ * of pieces of each gap. */
 static int gaps_of(const model *m, int member)
 {
     return (m->mesh.first_element[member + 1] - m->mesh.first_element[member]) *
@@ -150,7 +151,8 @@ void centreline_nodes(const model *m, const model_state *s, double out[])
         kinematics_position(m, s, i, out + 3 * i);
 }
 
-/* Computes the increment of a node, which may consist only of released ends. */
+/* Computes the increment of a node. If all member ends at the node are released, no element
+ * contains the vertex of the node. */
 static void increment_of_node(const model *m, const model_state *s, int node, const double x[],
                               double out[])
 {
@@ -231,7 +233,7 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
 
 /* Distance between two states of a model, which the arc length uses. */
 
-/* Returns the number of bodies that have a coordinate. */
+/* Returns the number of bodies that have a coordinate, but at least 1. */
 static int moving_bodies(const model *m)
 {
     int count = 0;
@@ -279,7 +281,7 @@ static double turn(const model_state *a, const model_state *b, int vertex)
     return vec3_norm(angle);
 }
 
-/* Returns |d - P d|^2. */
+/* Returns |d - P d|^2. P NULL: zero. */
 static double square_beside(const double d[3], const double P[9])
 {
     double light[3] = {0, 0, 0}, sum = 0;

@@ -99,7 +99,8 @@ typedef struct coordinates_tally {
     int held, across, unused, tied;
 } coordinates_tally;
 
-/* Returns 1 if the rotation is an angle because it is a multiple of another rotation (mesh.c). */
+/* Returns 1 if the rotation of a node is an angle because a constraint makes it a multiple of
+ * another rotation (mesh.c). */
 static int is_stretched(const model *m, int index)
 {
     int tied = 0;

@@ -36,7 +36,8 @@ static int list_cuts(const scene *s, division_cut out[])
     return count;
 }
 
-/* Sets the positions of a member from its cuts, and returns the number of these cuts. */
+/* Sets place[*pieces + 1], the ends of the pieces of a member, from its cuts. Omits cuts that would
+ * make a piece shorter than DIVISION_LEAST. Returns the number of cuts of the member. */
 static int place_pieces(int member, const division_cut cuts[], int count, double place[],
                         int *pieces)
 {

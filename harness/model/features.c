@@ -145,7 +145,8 @@ unsigned features_omitted(const scene *s)
     return needed_without(s, 0) & ~needed_without(s, s->omits) & SCENE_OMITTABLE;
 }
 
-/* Returns the physics that a section given by constants declares as zero. */
+/* Returns the physics that a section given by constants specifies explicitly: declared as zero or,
+ * for warping and the Wagner torque, given by a value. */
 static unsigned features_zero(const section_spec *spec)
 {
     const unsigned zeros = spec->zeros, moments = SECTION_ZERO_WAGNER_Y | SECTION_ZERO_WAGNER_Z;
@@ -262,8 +263,8 @@ status features_of_section(const model *m, int index, unsigned *features, fault 
     return STATUS_OK;
 }
 
-/* Returns 1 if the type computes inertia and therefore supports only sections given by constants.
- * */
+/* Returns 1 if a section is given by matrices, but the type computes inertia itself and supports
+ * only sections given by constants. */
 static int knows_constants_only(const scene *s, const element_type *type)
 {
     int matrices = 0;

@@ -29,7 +29,8 @@ static void rotate(const double q[4], double v[3])
     rotation_apply(q, before, v);
 }
 
-/* Moves the nodes, and rotates the bodies and offsets with them. */
+/* Moves the nodes by increment[nodes x 6]. Rotates bodies, offsets of member ends and points of
+ * loads with their nodes. */
 static void move_nodes(const double increment[], model_imperfect *p)
 {
     scene *s = &p->own;
@@ -166,8 +167,8 @@ typedef struct piece {
     double line[3];          /* vector between them */
 } piece;
 
-/* Computes the displacement between the two vertices, which is a cubic with their rotations as
- * slopes. Returns the square of its length. */
+/* Computes the displacement at x in [0, 1] between the two vertices: a cubic with the rotations of
+ * the vertices as slopes. Returns the square of its length. */
 static double shift_at(const piece *p, double x, double shift[3])
 {
     const double a = 1 - x * x * (3 - 2 * x), b = x * (1 - x) * (1 - x), c = x * x * (x - 1);
@@ -181,7 +182,7 @@ static double shift_at(const piece *p, double x, double shift[3])
     return square;
 }
 
-/* Returns the position of the largest displacement. */
+/* Returns the position in [0, 1] of the largest displacement. */
 static double largest_in(const piece *p)
 {
     enum { SAMPLES = 16, CUTS = 60 };

@@ -253,7 +253,8 @@ static double chord_cosine(const model *m, const model_state *s, const mesh_elem
 }
 
 /* Returns the cosine of half the angle between the ends of an element. The cosine is negative for
- * more than half a revolution, which the signs of the quaternions show. */
+ * more than half a revolution, which the signs of the quaternions show. chords 1: also considers
+ * the angles between the chord and the x axes of the ends. */
 static double half_cosine(const model *m, const model_state *s, const mesh_element *el, int chords)
 {
     double turn = 0, least = 1;
@@ -286,7 +287,8 @@ double kinematics_largest_turn(const model *m, const model_state *s, int chords,
     return 2 * acos(fmax(-1, least));
 }
 
-/* Returns the twist of a node relative to the other node, about the undeformed axis. */
+/* Returns the twist [rad] of the last node of an element relative to the first node, about the
+ * undeformed x axis. */
 static double twist_of(const model *m, const model_state *s, const mesh_element *el)
 {
     double back[4], q[4];

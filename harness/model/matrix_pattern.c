@@ -27,7 +27,8 @@ int assemble_symmetric(const model *m)
     return !whole;
 }
 
-/* Returns 1 if the pair is stored, and computes the row and the column of its entry. */
+/* Returns 1 if the entry of two coordinates is stored: both belong to the matrix and, in a
+ * symmetric matrix, the entry is not below the diagonal. */
 static int stored(const mesh_pattern *p, int row, int column)
 {
     return row >= 0 && column >= 0 && row < p->matrix.n && column < p->matrix.n &&
@@ -75,7 +76,8 @@ static size_t collect_of(const mesh_element *el, const mesh_pattern *p, size_t c
     return count;
 }
 
-/* Collects the pairs of the coordinates of two nodes. */
+/* Collects the pairs of the coordinates of two nodes. Returns `count` plus their number. row NULL:
+ * only counts the pairs. */
 static size_t collect_nodes(const model *m, const mesh_pattern *p, const int node[2], size_t count,
                             int row[], int column[])
 {
@@ -116,8 +118,8 @@ static size_t collect_loads(const model *m, const mesh_pattern *p, size_t count,
     return count;
 }
 
-/* Returns the number of pairs of coordinates that elements couple, including repetitions. Stores
- * their rows and columns in row[] and column[], which may be NULL. */
+/* Returns the number of pairs of coordinates that elements, springs, bodies and loads couple,
+ * including repetitions. Stores their rows and columns in row[] and column[], which may be NULL. */
 static size_t collect(const model *m, const mesh_pattern *p, int row[], int column[])
 {
     size_t count = 0;

@@ -56,8 +56,9 @@ static int is_free(const scene_node *n)
            n->translation[2] == SCENE_FREE;
 }
 
-/* Converts a rotation about a fixed axis that is a multiple of another coordinate to an angle about
- * an axis whose length is this multiple. */
+/* Treats components that are multiples of another coordinate. A translation is then along an axis
+ * with the length of this multiple. A rotation about a fixed axis becomes an angle about such an
+ * axis. */
 static void stretch_axes(const model *m, int node, mesh_vertex *v)
 {
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
@@ -137,7 +138,8 @@ static int same_vector(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Adds the motions inside elements if frequencies are requested. */
+/* Computes the mass matrix of the motions inside elements if there is a modal or harmonic analysis.
+ * */
 static status set_inner(const model *m, const element_request *request, mesh_kind *k, fault *f)
 {
     int modal = 0;

@@ -145,8 +145,8 @@ static int strains_lack(const scene *s, const element_type *type, char *words, i
     return 1;
 }
 
-/* Names the missing physics. Straight elements can model curved members, and the scene then
- * requires only the strains of its members. */
+/* Names the missing physics. FEATURE_CURVATURE is called initial strain, because straight elements
+ * can model curved members, but not the initial strains of members. */
 static void words_of(unsigned missing, char *words, int size)
 {
     const int used = feature_words(missing & ~(unsigned)FEATURE_CURVATURE, words, size);
@@ -375,7 +375,7 @@ static int warps(const scene *s, int member, int end)
            c.Iw > 0;
 }
 
-/* Returns HELD, SHARED or FREE; STATES: warping is not requested. */
+/* Returns HELD, SHARED or FREE; STATES: the section at this end does not warp. */
 static int state_of(const held_ends *e, int member, int end)
 {
     const int warp = warp_of(e->scene, member, end);

@@ -8,8 +8,8 @@
 #include "cases/scene/scene.h"
 #include "harness/formulations/formulations.h"
 
-/* Returns 1 if the scene has a motion. Loads along members then use the displacement field of the
- * mass. */
+/* Returns 1 if the type computes the nodal forces of loads along members. If the scene has a
+ * motion, these loads use the displacement field of the mass instead. */
 static int takes_loads(const model *m)
 {
     int along = 0, moves = 0;
@@ -170,7 +170,8 @@ static status divide(model *m, fault *f)
     return check_memory(m, f);
 }
 
-/* Finds the nodes that constraints join. */
+/* Finds the groups of nodes that constraints join. joined[2 i]: first node of the group of node i;
+ * joined[2 i + 1]: next node of the group, or NONE. */
 static status join_nodes(model *m, fault *f)
 {
     const int n = m->scene->nodes;

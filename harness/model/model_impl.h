@@ -34,7 +34,7 @@ unsigned features_of_quantities(const scene *);
 /* Removes omitted physics from a section if elements do not remove it. */
 void missing_omit(section *, unsigned omits);
 /* Returns the description of the limit of the type that a section with this number of closed cells
- * exceeds; NULL: none. */
+ * exceeds; NULL: none. warps 1: the scene requires warping. */
 const char *missing_in_section(const element_type *, const section *, int cells, int warps);
 
 /* Sections of the elements. The sections of the scene come first, followed by one section for each
@@ -83,8 +83,6 @@ void turns_follow(const model *, model_state *);
 /* Returns the rotation vector between two nodes; NULL: no quantity needs it. */
 const double *turns_between(const model *, const model_state *, int from, int node);
 
-/* Inertia of a rigid body that moves with a node. */
-
 /* The undeformed axis of a member. */
 
 /* An arc of constant torsion and curvature between two points. The arc is straight if torsion and
@@ -92,7 +90,7 @@ const double *turns_between(const model *, const model_state *, int from, int no
 typedef struct member_arc {
     double length;         /* along the arc [m] */
     double start[3], R[9]; /* position and triad at p */
-    double k[3];           /* [1/m] */
+    double k[3];           /* [1/m] torsion and two curvatures, in the axes of the triad */
     /* [m] bow: deviation from the arc, in the axes of the arc: bow sin(half_waves pi s/length) */
     double bow[2];
     int half_waves;
@@ -153,9 +151,11 @@ struct model_imperfect {
 status model_alloc_imperfect(const model_request *, const model_imperfect *, model **, fault *);
 /* Returns the scene that defines the lines of members from which modes deviate. */
 const scene *imperfect_lines(const model *);
-/* Moves a point of the line of a member, and its triad. Has no effect in a perfect model. */
+/* Moves a point of the line of a member, and rotates its triad, by the imperfection at `place`. Has
+ * no effect in a perfect model. */
 void imperfect_move(const model *, int member, double place, double position[3], double R[9]);
-/* Computes the change of the rotation between two positions on a member. */
+/* Computes the rotation of the imperfection at place[1] minus that at place[0] of a member [rad].
+ */
 void imperfect_turn(const model *, int member, const double place[2], double turn[3]);
 /* Computes the increments of all vertices, [vertices x 6], including nodes without members
  * (centreline.c). */

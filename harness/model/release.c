@@ -45,7 +45,8 @@ static void turn_to_principal(double angle, member_arc *a)
     a->k[2] = c * a->k[2] - d * ky;
 }
 
-/* Finds the length of a curved arc from the distance between its ends. */
+/* Finds the length of a curved arc from the distance between its ends. REFUSED: there is no such
+ * arc. */
 static status find_length(const scene *s, int member, double distance, member_arc *a, fault *f)
 {
     double c[3];

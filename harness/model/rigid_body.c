@@ -83,7 +83,7 @@ static void softening_matrix(double mass, const double I[9], const double omega[
     put_blocks(translation, rotation, A);
 }
 
-/* Computes the centrifugal force and moment about the centre, and the potential. */
+/* Computes the centrifugal force and moment about the centre. Returns the potential [J]. */
 static double centrifugal(double mass, const double I[9], const double x[3], const double omega[3],
                           double force[N])
 {

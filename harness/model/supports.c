@@ -252,7 +252,7 @@ void supports_prevented(const model *m, int node, const double origin[3],
         out[i] = (G[i] - out[i]) * (i / SUPPORTS_N < 3 ? 1 : m->size);
 }
 
-/* Adds to `sum` the squares of the motions that the supports of a node prevent. */
+/* Adds P^T P to `sum`, where P is the matrix of the motions that the supports of a node prevent. */
 static void add_supports(const model *m, int node, const double origin[3],
                          double sum[SUPPORTS_N * SUPPORTS_N])
 {

@@ -60,9 +60,9 @@ static status run_lanczos(candidates *p, int wanted, double least, long *solutio
     return outcome;
 }
 
-/* Sets *exist to the number of existing eigenvalues, at most `enough`. They are counted above
- * smaller and smaller values. At very small values, where K is small compared with A/s, the count
- * may fail because of missing pivoting. The last valid count is then used. */
+/* Sets *exist to the number of existing eigenvalues. They are counted above smaller and smaller
+ * values until their number is at least `enough`. At very small values, where K is small compared
+ * with A/s, the count may fail because of missing pivoting. The last valid count is then used. */
 static status count_existing(candidates *p, int enough, double scale, double least, int *exist,
                              eigen_result *r, fault *f)
 {
@@ -111,7 +111,8 @@ static status fill(candidates *p, int wanted, double scale, double least, eigen_
     return STATUS_OK;
 }
 
-/* Keeps only the first candidates if not all were found. */
+/* Removes the last candidates until the inertia proves that no eigenvalue above the remaining ones
+ * is missing. */
 static status keep_first(candidates *p, eigen_result *r, fault *f)
 {
     int missing = 1;
@@ -216,7 +217,7 @@ static void drop_lost(candidates *p, int count, eigen_side *out)
     }
 }
 
-/* Stores the best candidates in the result. */
+/* Stores the first `wanted` candidates in the result. */
 static status hand_over(candidates *p, int wanted, eigen_side *out, eigen_result *r, fault *f)
 {
     const size_t n = (size_t)p->n;

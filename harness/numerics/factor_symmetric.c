@@ -32,7 +32,7 @@ struct factor_symmetric {
     double *L_value;
 };
 
-/* Allocates the arrays of numbers. This function and the functions below return 0 if out of memory.
+/* Allocates D, diagonal and terms. This function and the functions below return 0 if out of memory.
  * */
 static int lay_out_numbers(factor_symmetric *fs, size_t n)
 {
@@ -97,7 +97,7 @@ static void permute(const sparse *a, factor_symmetric *fs)
         }
 }
 
-/* Computes the elimination tree and the fill. */
+/* Computes the elimination tree, the fill and the groups of rows, and allocates L. */
 static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
 {
     const int n = fs->n;

@@ -92,7 +92,8 @@ int subspace_add(subspace *b, const double x[])
     return 1;
 }
 
-/* Computes K, M and G times the real part and the imaginary part of a vector, and its residual. */
+/* Parts of the work space, [n] each: K, M and G times the real part and the imaginary part of a
+ * vector, its residual, and work space. */
 enum { K_RE, K_IM, M_RE, M_IM, G_RE, G_IM, R_RE, R_IM, WORK, PARTS };
 
 status estimate_alloc(int n, motion_estimate *e, fault *f)

@@ -65,8 +65,6 @@ void candidates_count_rest(candidates *p);
 /* Sets *above to the number of eigenvalues larger than s > 0. */
 status candidates_count_above(candidates *p, double s, int *above, eigen_result *work, fault *f);
 
-/* Computes all eigenvectors of a small problem by LAPACK. */
-
 /* Growing real basis V of a quadratic eigenvalue problem, which is orthonormal with respect to K +
  * shift M, and the projected matrices. */
 
@@ -182,12 +180,11 @@ status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, doubl
  *
  * The problem is (lambda^2 M + lambda G + K) x = 0 with positive M. Each negative eigenvalue of K
  * belongs to a mode, so negative(K) = real + 2 complex + 2 opposed. The three numbers on the right
- * count the real lambda > 0, the lambda = a + i b with a, b > 0, and the frequencies whose energy
- * x^H (K
- * + omega^2 M) x is negative (T. Kapitula, P. Kevrekidis, B. Sandstede, Physica D 195 (2004)
- * 263-282). If the modes explain all negative eigenvalues, none is missing. The number of negative
- * eigenvalues of K - omega^2 M + i omega G is then that of K, plus one for each frequency with
- * positive energy below omega, minus one for each opposed frequency below omega. */
+ * count the real lambda > 0, the lambda = a + i b with a, b > 0, and the frequencies with a
+ * negative energy x^H (K + omega^2 M) x (T. Kapitula, P. Kevrekidis, B. Sandstede, Physica D 195
+ * (2004) 263-282). If the modes explain all negative eigenvalues, none is missing. The number of
+ * negative eigenvalues of K - omega^2 M + i omega G is then that of K, plus one for each frequency
+ * with positive energy below omega, minus one for each opposed frequency below omega. */
 
 typedef struct gyroscopic_index {
     int negative; /* number of negative eigenvalues of K that the modes explain */
@@ -285,7 +282,7 @@ typedef struct triangular_groups {
     int *first_of_group, *run_of_group; /* [groups + 1] */
     triangular_run *run;                /* [run_of_group[groups]] */
     int columns;                        /* number of runs of all columns */
-    triangular_run *of_columns;         /* ... [columns] */
+    triangular_run *of_columns;         /* [columns] runs of all columns */
 } triangular_groups;
 
 /* Finds the groups, and fills L_row[begin[n]]. Returns 0 if out of memory. Call

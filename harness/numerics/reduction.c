@@ -79,7 +79,7 @@ static status take_modes(reduction *b, int modes, fault *f)
     return STATUS_OK;
 }
 
-/* Sets out[n] to -K^-1 times the inner part of force[inner], multiplied by `sign`. */
+/* Sets the inner coordinates of out[n] to sign K^-1 force[inner]. Overwrites `force`. */
 static void solve_inner(const reduction *b, double force[], double sign, double out[])
 {
     LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'L', b->inner, 1, b->K, b->inner, force, b->inner);
@@ -145,7 +145,7 @@ static void build(reduction *b, double room[])
     }
 }
 
-/* Assembles `right`[size x reduced size], which includes the motions, and `left`, which does not.
+/* Assembles left, right [size x reduced size]. Only `right` includes the static shapes of motions.
  * */
 static void assemble(const reduction *b, double left[], double right[])
 {

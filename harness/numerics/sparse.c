@@ -36,7 +36,7 @@ void sparse_copy_leading(const sparse *whole, sparse *leading)
                (size_t)(leading->column[j + 1] - leading->column[j]) * sizeof *leading->value);
 }
 
-/* Multiplies by a matrix whose upper triangle represents both halves. If the diagonal entry is
+/* Adds a x to y for a matrix of which only the upper triangle is stored. If the diagonal entry is
  * stored, it is the last entry of its column. */
 static void mul_symmetric(const sparse *a, const double x[], double y[])
 {

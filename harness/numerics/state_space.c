@@ -94,7 +94,7 @@ static status project(split *s, fault *f)
 
 /* Replaces columns `from` to s->n of T by eigenvectors of the symmetric part of A [n x n], scaled
  * by the square roots of its diagonal. Eigenvectors whose eigenvalue exceeds rounding come first.
- * Returns their number; -1: out of memory. */
+ * Returns their number; -1: the fault contains the reason. */
 static int range_of(split *s, const double A[], const double scale[], int from, fault *f)
 {
     const size_t n = (size_t)s->n, size = n - (size_t)from;
@@ -236,7 +236,8 @@ static int relative(const split *s, double L[], double G[])
     return 1;
 }
 
-/* Computes the shifted squares of frequencies in w[masses], and V[masses x masses] by columns. */
+/* Computes the circular frequencies w[masses] of K + shift M, and V[masses x masses] by columns.
+ * *positive 0: K + shift M is not positive definite, and there is no other result. */
 static status decompose(split *s, double L[], double G[], double V[], int *positive, fault *f)
 {
     const int size = s->masses;

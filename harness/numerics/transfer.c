@@ -50,7 +50,8 @@ static void take(const transfer *t, double complex out[])
         }
 }
 
-/* Sets the scales, because rounding mixes the directions of a node if its axes are skew. */
+/* Sets the scale of each coordinate to the largest diagonal entry of D among coordinates of its
+ * kind, because rounding mixes the directions of a node if its axes are skew. */
 static void scale(const transfer *t, const char kind[])
 {
     const second_order *m = t->m;
@@ -73,7 +74,8 @@ static double size_of(const transfer *t, const double complex x[], size_t column
     return sqrt(square);
 }
 
-/* The change of L D^-1 B is z^T dD x, with dD a few roundings of the size of S in the norm. */
+/* Computes out[y x u], a bound of the rounding errors. The change of L D^-1 B is z^T dD x, where dD
+ * is a few roundings of the size of S in the norm. */
 static void bound(const transfer *t, double out[])
 {
     const double roundings = 32 * DBL_EPSILON;
