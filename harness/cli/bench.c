@@ -1,5 +1,5 @@
-/* Error as a function of run time for every formulation and mesh of the cases, timed in rounds on
- * one processor. */
+/* Verb bench: measures the error as a function of run time for every formulation and mesh of the
+ * cases. The times are measured in rounds on one processor. */
 #include <stdio.h>
 #include <unistd.h>
 
@@ -57,8 +57,8 @@ static int answer(const command_line *l, void *request)
     return message_exit(outcome, &f);
 }
 
-/* Restarts the program with single-threaded libraries. arguments: those after the name of the
- * program. */
+/* Restarts the program with single-threaded libraries. arguments: the command line after the name
+ * of the program. */
 static void before(char **arguments)
 {
     rounds_single_thread(arguments - 1);

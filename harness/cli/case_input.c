@@ -255,7 +255,7 @@ static status add_truths(const case_options *r, const truths_options *of, truths
                             : r->line->arguments == 1 ? case_find(r->name, f)
                                                       : NULL;
     if (r->scene != NULL)
-        truths_read_rules(packed, t, NULL); /* optional for a scene */
+        truths_read_rules(packed, t, NULL); /* the packed file is optional for a scene */
     if (r->scene != NULL)
         TRY(scene_truths_add(r->scene, r->parameter, t, f));
     else

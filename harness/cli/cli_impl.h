@@ -164,8 +164,8 @@ typedef struct identity_texts {
 } identity_texts;
 
 /* Collects the version, commit and digest of the program, the command line as text, and a digest of
- * every file on which results depend. The plan is added to this digest later. FAULT: a file cannot
- * be read. */
+ * every file on which results depend. The caller then adds the plan of the work to this digest.
+ * FAULT: a file cannot be read. */
 status identity_make(const command_line *, identity_texts *out, digest *plan, fault *f);
 /* Adds the points, formulations and meshes of a sweep to the digest. */
 void identity_add_sweep(digest *plan, const sweep *s);

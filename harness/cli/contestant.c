@@ -105,7 +105,7 @@ static status lap(void *what, double *seconds, fault *f)
     return c->program != NULL ? lap_elsewhere(c, seconds, f) : lap_here(c, seconds, f);
 }
 
-/* Chooses the number of repetitions such that a lap is long enough for the clock. */
+/* Chooses the number of repetitions so that a lap is long enough for the clock. */
 static status set_repeats(contestant *a, contestant *b, fault *f)
 {
     double first = 0, second = 0;

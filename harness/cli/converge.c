@@ -22,7 +22,7 @@ static void tell(const converge_request *r, const sweep *s)
     case_input_tell_analysis(&r->of, &s->point[0].scene);
 }
 
-/* Runs the study. The caller answer() frees *c, even after a failure. */
+/* Plans and runs the convergence study. The caller answer() frees *c, even after a failure. */
 static status converge(converge_request *r, const case_type *type, convergence *c, fault *f)
 {
     const convergence_request asked = {

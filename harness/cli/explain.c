@@ -1,4 +1,4 @@
-/* Verb explain: the meaning of terms of the program and of structural mechanics. */
+/* Verb explain: explains terms of the program and of structural mechanics. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>

@@ -325,8 +325,8 @@ static status write_json(const list_subject *what, const truths *ledger, fault *
     return list_json_all(stdout, what->cases, what->formulations, f);
 }
 
-/* Writes JSON. The file of known deviations also lists the formulations that affect the exit
- * status. */
+/* Writes the subject as JSON. The file of known deviations also lists the formulations that affect
+ * the exit status. */
 static int show_json(const list_request *r, const list_subject *what)
 {
     truths ledger;

@@ -255,7 +255,7 @@ static void close_to(keys *k, int depth)
         fprintf(k->to, ".El\n");
 }
 
-/* Writes a key. Each depth has a list, and the list of subordinate keys is inside the item of the
+/* Writes a key. Each depth has a list. The list of subordinate keys is part of the item of their
  * superior key. */
 static void write_key(void *context, int depth, const char *name, const char *form,
                       const char *text)

@@ -294,8 +294,8 @@ static status check_word(const verb *v, const verb *const *verbs, const char *wo
                : STATUS_OK;
 }
 
-/* Checks the whole command line first. Unknown options and missing values are reported in one line,
- * with the most similar name. */
+/* Checks all options before any of them is used. Unknown options and missing values are reported in
+ * one line, with the most similar name. */
 static status check_options(const verb *v, const verb *const *verbs, int count,
                             char *const argument[], fault *f)
 {

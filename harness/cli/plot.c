@@ -182,7 +182,7 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
                               .meshes = &meshes,
                               .truths = &usual};
     TRY(defaults_fill(&missing, note, why, f));
-    solution_choice_free(why); /* it contains the choice of values, not of curves */
+    solution_choice_free(why); /* it describes the choice for values, not for curves */
     const solution_request what = defaults_request(&missing);
     TRY(solution_plan(&what, s, f));
     TRY(make_curves(&s->point[0].scene, f));

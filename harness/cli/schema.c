@@ -1,4 +1,5 @@
-/* Verb schema: contents of results files, according to the tables with which they are written. */
+/* Verb schema: describes the contents of results files from the tables with which they are
+ * written. */
 #include <stdio.h>
 #include <string.h>
 

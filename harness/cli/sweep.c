@@ -1,4 +1,4 @@
-/* Verb sweep: a case over ranges of its parameters. */
+/* Verb sweep: runs a case over ranges of its parameters. */
 #include "harness/cli/cli_impl.h"
 
 #include <stdlib.h>

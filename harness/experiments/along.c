@@ -1,6 +1,6 @@
 /* Checks of loads along one element in linear theory. The expected values are those of Timoshenko's
- * beam (Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 5 and 10). Its
- * flexibilities are measured with loads at the end of the element. */
+ * beam (Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 5 and 10). The
+ * flexibilities of the beam are measured with loads at the end of the element. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>

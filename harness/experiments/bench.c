@@ -259,8 +259,8 @@ static double sum_of(const double part[PHASES])
     return sum;
 }
 
-/* Makes one run in which the time of each part of the iterations is measured. The fastest of all
- * rounds is kept. Long cells have only one such run, in the last round. */
+/* Makes one run in which the time of each part of the iterations is measured. The times of the
+ * fastest run are kept. Long cells have only one such run, in the last round. */
 static void read_phases(const cell_request *as_is, cell_timing *out)
 {
     const double longest = 0.3; /* [s] longest run that is repeated in every round */

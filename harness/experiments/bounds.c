@@ -222,7 +222,7 @@ void checks_bounds(const formulation *chosen, claims *out)
 
 enum { STATELESS_M = SPECIMEN_STRAINS, STATELESS_N = SPECIMEN_COORDINATES };
 
-static const double longer = 1.7 * 0.2385; /* [m] length of the other element */
+static const double longer = 1.7 * 0.2385; /* [m] length of the second element */
 
 /* All results of an element for one state. */
 typedef struct call_account {
@@ -311,7 +311,7 @@ static void other_element(const specimen *s, const call_account *before, const n
 
 /* Prepares a longer element in the memory of the element, then prepares the element again, and
  * checks that its results are unchanged. Returns 0 if memory is exhausted or if the second
- * preparation fails. The failure is then recorded. */
+ * preparation fails. A failed preparation is recorded as a violation. */
 static int in_its_place(const specimen *s, const call_account *before, const node_state x[],
                         claim *one)
 {
@@ -341,8 +341,8 @@ static int in_its_place(const specimen *s, const call_account *before, const nod
     return again;
 }
 
-/* Checks that each output that is requested alone equals the output that is requested together with
- * the others. */
+/* Checks that each output has the same value when it is requested alone as when it is requested
+ * together with the others. */
 static void alone(const specimen *s, const call_account *before, const node_state x[], claim *one)
 {
     call_account a = *before;
@@ -365,8 +365,8 @@ static void alone(const specimen *s, const call_account *before, const node_stat
     same(before, &a, "a call for that output alone", s, one);
 }
 
-/* Finds the same state of an element with inner unknowns in two ways: directly from the undeformed
- * state, and through another state. */
+/* Checks that the energy of an element with inner unknowns does not depend on the path: the same
+ * state is reached from the undeformed state and from another state. */
 static void two_ways(const specimen *s, const call_account *before, const node_state x[],
                      claim *one)
 {

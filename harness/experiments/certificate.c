@@ -246,7 +246,7 @@ claim_outcome claims_outcome(const claims *c)
     if (claims_counted(c, CLAIM_BROKEN) > 0)
         return CLAIM_BROKEN;
     for (int i = 0; i < c->count;
-         i++) /* an answer is required, and a successful preparation is not an answer */
+         i++) /* at least one requirement other than "prepare" must be satisfied */
         held |= c->claim[i].outcome == CLAIM_HOLDS && strcmp(c->claim[i].name, "prepare") != 0;
     return held ? CLAIM_HOLDS : CLAIM_NOT_CLAIMED;
 }
@@ -340,7 +340,7 @@ static void write_measure(FILE *to, const element_measure *one, int path, int ve
         paragraph_write(to, fprintf(to, "      "), 6, one->words);
 }
 
-/* Prints the measured values below a line with the names of the columns. */
+/* Prints the measured errors below a line with their abscissae. */
 static void write_measures(FILE *to, screen look, const certificate *c, int part, int verbose)
 {
     const certificate_part *own = &c->part[part];

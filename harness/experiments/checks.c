@@ -25,8 +25,8 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
     {"history", "committed values continue the strains", checks_history},
 };
 
-/* Invariance under rigid motion, under reversal of the nodes, and under a change of the unit of
- * length. */
+/* Checks of invariance under rigid motion, under reversal of the nodes, and under a change of the
+ * unit of length. */
 
 enum { M = SPECIMEN_STRAINS };
 
@@ -171,8 +171,8 @@ void checks_motion(const formulation *chosen, claims *out)
                         "declares LIMIT_NOT_OBJECTIVE; see 'paths'");
 }
 
-/* States with NaN or Inf, as in a diverging iteration. The element must report them by a status or
- * by values that are not finite. */
+/* Checks of states with NaN or Inf, which occur in diverging iterations. The element must report
+ * them by a status or by values that are not finite. */
 
 enum { UNSOUND_M = SPECIMEN_STRAINS };
 

@@ -46,8 +46,8 @@ static int stress_at(const void *context, int i, double si, int j, double sj, do
     return (int)at_place(context, i, si, j, sj, &(stress_output){.sigma = values});
 }
 
-/* Returns the scale of C[i][j]: the geometric mean of C[i][i] and C[j][j]. Each is at least 1e-9 of
- * the largest diagonal entry. */
+/* Returns the scale of C[i][j]: the geometric mean of C[i][i] and C[j][j]. Diagonal entries below
+ * 1e-9 of the largest one are replaced by this bound. */
 static double size_of(const specimen *s, const double C[], int i, int j)
 {
     const int m = s->strains;
@@ -199,9 +199,9 @@ void checks_energy(const formulation *chosen, claims *out)
         claims_not_made(out, "G is symmetric", "the element has no internal geometric stiffness");
 }
 
-/* Inertia in a rotating frame. The centrifugal force and stiffness derive from a potential, and the
- * gyroscopic matrix is skew-symmetric. The kinetic energy of an element that rotates with the frame
- * is minus the centrifugal potential. */
+/* Checks of the inertia in a rotating frame. The centrifugal force and stiffness derive from a
+ * potential, and the gyroscopic matrix is skew-symmetric. The kinetic energy of an element that
+ * rotates with the frame is minus the centrifugal potential. */
 
 enum { N = SPECIMEN_COORDINATES };
 

@@ -303,7 +303,8 @@ static const record_type record_measure = {
     "errors over meshes, thicknesses or turns",
     {key_of_formulation, key_of_family, key_of_measure, fields_of_measure}};
 
-/* Returns the abscissa of a point of a measure. The group counts the points. */
+/* Returns the abscissa of a point of a measurement. The group of the subject is the index of the
+ * point. */
 static void get_at(const subject *s, field_value *out)
 {
     out->numbers = &((const element_measure *)s->record)->at[s->group];

@@ -263,7 +263,7 @@ size_t rows_cell(const rows *, int point, int formulation, int mesh);
 size_t rows_value(const rows *, int point, int formulation, int mesh, int quantity);
 size_t rows_lacks(const rows *, int point, int formulation);
 size_t rows_least(const rows *, int point, int formulation, int quantity);
-/* Returns the word used in the file. */
+/* Return the word for a kind of reference or for the status of a cell. */
 const char *rows_reference_name(int kind);
 const char *rows_status_name(int status);
 
@@ -289,8 +289,8 @@ double tally_edge(const tally *, int axis_index, int place);
 /* Adds the results of points from `first` on. */
 status ranges_file_add(ranges_file *, long first, const rows *, fault *f);
 
-/* Measures run times in rounds over the cells of a parameter point, for all cells of a completed
- * sweep. */
+/* Run times of the cells of a completed sweep. In each round, every cell of a parameter point is
+ * run. */
 
 /* Runs one more round: repeats the cell until `floor` [s] of processor time are used, but runs it
  * at least once. Cells that fail are also timed. */
@@ -358,8 +358,8 @@ void extreme_expect(extreme_sweep *s, int whole);
 /* Classifies an outcome from the first mesh: as accurate, as a failure, or as wrong until other
  * meshes are known. */
 status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outcome *o, fault *f);
-/* Decides whether an outcome is under-resolved instead of wrong. It is, if its error decreases
- * towards the finest mesh with an order of at least 0.5, as a discretisation error does. */
+/* Classifies a wrong outcome as under-resolved if its error decreases towards the finest mesh with
+ * an order of at least 0.5, as a discretisation error does. */
 void extreme_judge_neighbours(const extreme_sweep *s, const truths *t, extreme_outcome *o);
 
 /* Record types of extremes, of outcomes, and of the counts of a formulation. */
@@ -523,9 +523,9 @@ void pace_table(FILE *to, const pace *, const pace_verdicts *, int runs);
 
 /* Data that the group of a sweep contains once. */
 
-/* Writes the request, before any point. */
+/* Writes the request. Call the function before any point is written. */
 void ranges_file_request(record_file *, hid_t at, const parameter_ranges *, const char *plan);
-/* Writes the worst points, after all points. */
+/* Writes the worst points. Call the function after all points have been written. */
 void ranges_file_worst(record_file *, hid_t at, const parameter_ranges *, const tally *);
 
 /* Parameters of a point of a sweep. */
@@ -533,7 +533,8 @@ void ranges_file_worst(record_file *, hid_t at, const parameter_ranges *, const 
 /* Computes the values of all parameters from the values on the axes. */
 void ranges_points_values(const parameter_ranges *, const double at[],
                           double value[CASE_MAX_PARAMETERS]);
-/* Writes "NAME=VALUE, NAME=VALUE" for the axes. The numbers have as many digits as necessary. */
+/* Writes "NAME=VALUE, NAME=VALUE" for the axes. The numbers have the digits that are necessary to
+ * reproduce the values. */
 void ranges_points_text(const parameter_ranges *, const double at[], char *text, int size);
 
 /* Internals of the table of a sweep. */

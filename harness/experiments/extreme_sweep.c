@@ -154,7 +154,8 @@ static void set_failure(extreme_outcome *o, status why, const char *reason)
     set_kind(o, failure_of(why), reason);
 }
 
-/* Compares the number on the first mesh with the reference value. */
+/* Compares the value on the first mesh with the reference value, and sets the error and the kind of
+ * the outcome. */
 static void judge_value(const scene_quantity *q, double value, double uncertainty,
                         extreme_outcome *o)
 {

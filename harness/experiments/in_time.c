@@ -1,7 +1,7 @@
-/* Inertia in transient analysis. The forces required by a motion derive from the kinetic energy T =
- * 1/2 x' . M x' by Lagrange's equations: force = d(M x')/dt + p x w - dT/dx. The term p x w applies
- * to the rotations of each node, where p is the part of M x' for the node and w is the angular
- * velocity of the node. x' and the derivatives are spatial. */
+/* Checks of the inertia forces in transient analysis. The forces required by a motion derive from
+ * the kinetic energy T = 1/2 x' . M x' by Lagrange's equations: force = d(M x')/dt + p x w - dT/dx.
+ * The term p x w applies to the rotations of each node, where p is the part of M x' for the node
+ * and w is the angular velocity of the node. x' and the derivatives refer to spatial rotations. */
 #include <math.h>
 #include <string.h>
 
@@ -165,8 +165,9 @@ static void check_one(const specimen *s, claims *c)
                  claims_open(c, "inertia forces rotate with the element", 1e-11));
 }
 
-/* Runs the checks. Unless the section is given by matrices or the formulation has no rotary
- * inertia, the checks are repeated without it, so that only the twist has a moment of inertia. */
+/* Runs the checks, and repeats them without rotary inertia, so that only the twist has a moment of
+ * inertia. The checks are not repeated if the section is given by matrices or the type has no
+ * rotary inertia. */
 static void check(const specimen *s, claims *c)
 {
     specimen_request what = s->made;

@@ -145,7 +145,7 @@ static double states_exact_of(const state *s, const section *c, double load)
     return s->direction == 0 ? load / GI : s->direction == 1 ? -load / (2 * EIy) : load / (2 * EIz);
 }
 
-/* Concludes that the limit is wrong if the error with four elements is not much smaller than with
+/* Concludes that the limit is wrong if the error with four elements exceeds half of the error with
  * one element. Such an error is due to the section or the element, and not to the mesh. */
 static void states_conclude(const state *s, element_measure *one)
 {
@@ -244,8 +244,8 @@ enum {
     MESHES = 6,
     MESHES_Z = 4 /* number of meshes for z, where the order should be the same as for y */
 };
-static const double noise =
-    1e-8; /* smaller errors are not used, because the thickness of the column is not zero */
+static const double noise = 1e-8; /* smaller errors are not used, because they may be due to the
+                                     finite thickness of the beam */
 
 typedef struct orders_question {
     const char *name;
@@ -301,8 +301,8 @@ static double orders_exact_of(const orders_question *q, const section *c, beam_r
     }
 }
 
-/* Returns the index of the finer of the two finest meshes whose errors exceed rounding; 0: there
- * are no such meshes. */
+/* Returns the index of the finer of the two finest meshes whose errors exceed `noise`; 0: there are
+ * no such meshes. */
 static int telling(const element_measure *one)
 {
     int last = 0;

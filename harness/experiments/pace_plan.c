@@ -231,7 +231,8 @@ const char pace_method_all[] = "alpha,alpha:rho=0.5,hht,trapezoidal,conserving,r
 
 enum { SCHEME_WORDS = 6, ORDER_OF_EXPLICIT = 8 };
 
-/* Name of an integrator, and its parameters. */
+/* Names of the integrators. For each: the key of its parameter (NULL: none), the default value and
+ * the largest value. */
 static const struct {
     const char *word, *value;
     double usual, most;

@@ -120,7 +120,7 @@ enum { JUDGED, CASE, PARAMETERS, FORMULATION, ELEMENTS, INTEGRATOR, STEPS, EXPEC
 static const char *const judged_names[PACE_JUDGED] = {"order", "energy", "momentum", "tolerance",
                                                       "fate"};
 
-/* A row of the table, and its planned runs. */
+/* The motions that a row of the table requires, before rows are combined to groups. */
 typedef struct planned {
     pace_plan_request request;
     double parameter[CASE_MAX_PARAMETERS];

@@ -100,7 +100,7 @@ typedef struct walker {
     double history[ELEMENT_MAX_HISTORY];
     int strains;                   /* 0: only the energy is computed */
     double e[M], energy, force[N]; /* force: multiplied by the unit of its coordinate [J] */
-    double most_e, most_energy, most_force; /* in the first cycle */
+    double most_e, most_energy, most_force; /* largest absolute values in the first cycle */
 } walker;
 
 static void walker_begin(const specimen *s, walker *w)

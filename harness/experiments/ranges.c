@@ -10,7 +10,8 @@
  * unit, value, reference, reference_kind, error, status, cost, seconds, not_modelled. Missing
  * values are empty. */
 static void ranges_csv_head(FILE *to, const parameter_ranges *r);
-/* Writes the results of a batch of points, of which `first` is the first. FAULT: out of memory. */
+/* Writes the results of a batch of points. first: index of the first point. FAULT: out of
+ * memory. */
 static status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *,
                              fault *f);
 
@@ -49,7 +50,7 @@ static status read_axes(parameter_ranges *r, fault *f)
     const int axes = r->design.axes;
     const status outcome = design_make(r->request.design, axes, r->axis, r->request.points,
                                        r->request.seed, &r->design, f);
-    r->design.axes = axes; /* set now, so the caller frees the axis */
+    r->design.axes = axes; /* set again, so that the caller frees the axes */
     return outcome;
 }
 

@@ -92,7 +92,7 @@ static hid_t make_column(ranges_file *file, const file_column *c)
     return set;
 }
 
-/* Writes names in the order of their numbers, in one line each. */
+/* Writes the names of the numbers 0 to count - 1, in one line each. */
 static void put_names(record_file *r, hid_t set, const char *name, const char *(*of)(int),
                       int count)
 {
@@ -110,8 +110,8 @@ static const char *name_of_bit(int bit)
     return words;
 }
 
-/* Writes the words of an axis. The values of the axis in the file are the numbers of these words.
- * */
+/* Writes the words of an axis. In the file, the values of the axis are the indices of these
+ * words. */
 static void put_words(record_file *r, hid_t points, const sweep_axis *a)
 {
     char *text = NULL;

@@ -95,7 +95,7 @@ static status hold_batches(const char *folder, fault *f)
 {
     struct stat there = {.st_nlink = 0};
     while (there.st_nlink ==
-           0) { /* no links: the previous owner of the lock has removed the folder */
+           0) { /* repeated if the previous owner of the lock has removed the folder */
         const int made = mkdir(folder, 0777),
                   held = made == 0 || errno == EEXIST
                              ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)

@@ -193,7 +193,7 @@ status restart_write(const char *path, const solution_request *of, const sweep *
     return outcome;
 }
 
-/* State of reading a file. */
+/* A file that is being read. path: for messages. */
 typedef struct source {
     hid_t file;
     const char *path;
@@ -351,8 +351,8 @@ static int line_of(const char **text)
     return (int)strcspn(*text, "\n");
 }
 
-/* Length of the common text that is reported before a difference, and length of the text that is
- * reported from each line. */
+/* Numbers of characters that are reported before a difference, and from each of the different
+ * lines. */
 enum { BEFORE = 30, TOLD = 70 };
 static int told(int length)
 {

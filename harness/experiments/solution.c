@@ -24,7 +24,8 @@ void solution_choice_free(solution_choice *why)
     why->change = NULL;
 }
 
-/* Copies the preference into the request. */
+/* Copies the chosen formulation and number of elements into the request, and the reasons and
+ * changes to `why`. */
 static void take(solution_request *r, preference *p, solution_choice *why)
 {
     r->formulation = p->chosen;

@@ -307,7 +307,7 @@ void specimens_each(const formulation *chosen, claims *c, specimens_check *check
         other_choices(chosen, i, c, check);
 }
 
-/* Test elements for types that define forces or an energy of their nodes. */
+/* Checks of types that compute the forces on their nodes or only an energy. */
 
 enum { N = SPECIMEN_COORDINATES };
 

@@ -368,8 +368,8 @@ status merge_take(const shard_work *w, const stock *s, fault *f)
     return STATUS_OK;
 }
 
-/* Calls a function of the library that has no arguments and returns a string. Returns NULL if the
- * library does not have this function. */
+/* Calls a function of the BLAS library that has no arguments and returns a string. Returns NULL if
+ * the library does not have this function. */
 static const char *answer_of(const char *name)
 {
     char *(*function)(void);

@@ -281,7 +281,8 @@ static void files_drop(verification_files *to)
     to->open = 0;
 }
 
-/* Adds other programs to the comparison, and reports series that match no point of this run. */
+/* Adds the results of another program to the comparison, and reports its series that match no point
+ * of this run. */
 static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
 {
     import_left left;

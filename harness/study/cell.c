@@ -155,7 +155,7 @@ static unsigned absent_in(const section *c)
 }
 
 /* Returns the physics that have no effect in the scene: second-order physics in linear analyses,
- * and inertia in static analyses. */
+ * and rotary inertia in static analyses. */
 static unsigned absent_in_analyses(const scene *s)
 {
     const unsigned higher = FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE;
@@ -182,8 +182,8 @@ static unsigned absent_in_sections(const scene *s)
     return absent;
 }
 
-/* Returns 0 if a section is given by matrices. Physics cannot be removed from the matrices, so
- * their effect cannot be computed. */
+/* Returns 0 if a section is given by matrices. No physics can be removed from matrices, so the
+ * effect of an omission cannot be computed. Returns 1 otherwise. */
 static int can_be_shown(const scene *s)
 {
     int can = 1;

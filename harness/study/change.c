@@ -119,8 +119,8 @@ double change_scale(const scene *s, int quantity, const solve_result *r)
     return is_of_time(q) ? out : fmax(out, fabs(q->factor) * physical_scale(s, q));
 }
 
-/* Returns the change of a quantity; NAN: the value is missing in both results; INFINITY: it is
- * missing in one of them. */
+/* Returns the change of a quantity relative to its value or, if larger, to its scale; NAN: the
+ * value is missing in both results; INFINITY: it is missing in one of them. */
 static double change_of(const scene *s, int index, const solve_result *a, const solve_result *b)
 {
     const double x = index < a->quantities ? a->quantity[index].value : (double)NAN,

@@ -187,7 +187,7 @@ status derive_scene(const char *path, FILE *scene_text, derived_value **out, int
 #define BEAMWORK_DATA "/usr/local/share/beamwork"
 #endif
 
-/* Writes the path of `name` in the folder below the given folder. Returns 1 if this path can be
+/* Writes the path that consists of `folder`, `below` and `name`. Returns 1 if the file can be
  * read. */
 static int is_in(const char *folder, const char *below, const char *name, char path[PATH_MAX])
 {

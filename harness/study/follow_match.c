@@ -156,8 +156,7 @@ status follow_match_next(const follow_shapes *before, const state_matrices *s, f
     return outcome;
 }
 
-/* Finds the first modal analysis with frequency quantities, and the number of these quantities; 0:
- * none. */
+/* Finds the first modal analysis, and returns the number of its frequency quantities; 0: none. */
 static int count_wanted(const scene *s, int *analysis)
 {
     int count = 0;

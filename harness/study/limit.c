@@ -8,14 +8,16 @@ static double richardson_order(const double n[3], const double f[3]);
 /* Returns Richardson's limit f from the last two of three values. The values are assumed to be f +
  * c n^-p for n elements. */
 static double richardson_limit(const double n[3], const double f[3], double p);
-/* Returns the amplification of errors: the root of the sum of squares of the derivatives of the
- * extrapolated limit with respect to the values. */
+/* Returns the amplification of errors: the Euclidean norm of the gradient of the extrapolated limit
+ * with respect to the values. */
 static double richardson_amplification(const double n[3], const double f[3], double p);
 
 /* smallest ratio of the numbers of elements of successive meshes; changes between closer meshes are
  * mostly noise */
 static const double least_refinement = 1.4;
-static const double unmeasured_noise = 3e-11, least_noise = 2.3e-16; /* relative noise */
+static const double unmeasured_noise = 3e-11,
+                    least_noise = 2.3e-16; /* relative noise that is assumed if it was not measured,
+                                              and smallest relative noise */
 /* changes below this multiple of the noise do not give an order */
 static const double noisy_changes = 10;
 static const double least_seen_order = 0.5; /* smallest observed order that is accepted */

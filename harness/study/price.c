@@ -73,7 +73,7 @@ static int match(const char *row, const char *key)
     return options;
 }
 
-/* Returns the name of the matching rows with the most options; "*": no row matches. */
+/* Returns the name in the rows that match with the most options; "*": no row matches. */
 static const char *row_name(const price_row *rows, const char *key)
 {
     const char *best = "*";

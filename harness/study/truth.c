@@ -113,7 +113,7 @@ static uint64_t hash_of(const case_type *type, const char *quantity)
 }
 
 /* Returns the position of the first row of the case and quantity in the hash table, or the free
- * position for it. */
+ * position for such a row. */
 static int place_of(const truths *t, const case_type *type, const char *quantity)
 {
     int at = (int)(hash_of(type, quantity) % (uint64_t)t->places);

@@ -20,8 +20,8 @@ typedef struct asked {
     int task, same;
 } asked;
 
-/* Adds the inputs of a cell that the model does not contain: strings of its scene, and requested
- * quantities. */
+/* Adds the inputs of a cell that the model does not contain, such as the case, its parameters, the
+ * options of the solution, and the number of quantities. */
 static void add_request(identity *out, const workload *w, const asked *a)
 {
     const sweep_point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
