@@ -338,7 +338,7 @@ static int compare_meshes(const listing *l, const result_series *a, const result
     return same;
 }
 
-/* Returns 1 if the error has changed. */
+/* Writes a line and returns 1 if the error has changed. */
 static int compare_error(const listing *l, const char *which, const result_error *a,
                          const result_error *b)
 {

@@ -163,7 +163,8 @@ void csv_record_line(FILE *to, int parts, const csv_part part[])
     fputc('\n', to);
 }
 
-/* Writes a matrix. comment: one line; NULL: no comment. */
+/* Writes a matrix in the Matrix Market coordinate format (R. F. Boisvert, R. Pozo, K. A. Remington,
+ * NISTIR 5935, 1996) with 17 digits. comment: one line; NULL: no comment. */
 static void matrix_market_write(FILE *to, const triplets *t, const char *comment)
 {
     static const char *const kind[] = {"general", "symmetric", "skew-symmetric"};
@@ -233,7 +234,7 @@ static void name_state(const contents *c, const state_matrices *s, char name[NAM
         snprintf(name, NAME, "%s_station_%d", analysis.text, s->station);
 }
 
-/* Writes the name of a node or member, or an empty field. */
+/* Writes the name of an entry of a list of the scene, or an empty field for SCENE_NONE. */
 static void name_cell(FILE *to, const scene *s, scene_list list, int index)
 {
     if (index != SCENE_NONE)
@@ -259,7 +260,7 @@ static void write_rows(FILE *to, const void *what)
 }
 
 /* Writes the range of the member on which a load acts, and the vector of the load at the end of
- * this range. Writes nothing for a load on a node. */
+ * this range. Writes empty fields for a load on a node. */
 static void write_extent(FILE *to, const scene_load *l)
 {
     const double *last = l->varies ? l->last : l->vector;
@@ -310,8 +311,8 @@ static const char *output_unit(const scene_response *as)
     return unit[as->component >= SCENE_RX][as->of];
 }
 
-/* Writes the inputs: "force", "moment", "load", "acceleration" of a motion, "reference rate" of a
- * load. */
+/* Writes a row for each input. Its kind is "force", "moment", "load", "acceleration" (of a motion)
+ * or "reference rate" (of a load). */
 static void write_inputs(FILE *to, const void *what)
 {
     const contents *c = what;
@@ -407,7 +408,7 @@ static void write_ratio_unit(FILE *to, const contents *c, int y, int u)
     fputc('\n', to);
 }
 
-/* Writes the errors of a reduced model. */
+/* Writes the errors of a reduced model: of its natural frequencies and transfer functions. */
 static void write_errors(FILE *to, const void *what)
 {
     const contents *c = what;

@@ -148,7 +148,7 @@ static void add_float(walk *w, const char *at, size_t size)
 
 static void add_value(walk *w, hid_t type, const char *at);
 
-/* Adds the members in order, except times. */
+/* Adds the names and values of the members of a row in order, except measured times. */
 static void add_compound(walk *w, hid_t type, const char *at)
 {
     const int members = H5Tget_nmembers(type);
@@ -207,7 +207,7 @@ static void add_value(walk *w, hid_t type, const char *at)
 
 /* An open data set. */
 typedef struct table {
-    hid_t set, space, type; /* of memory */
+    hid_t set, space, type; /* type: type of the values in memory */
     int rank;
     hsize_t size[MOST_RANK];
     size_t row; /* number of bytes per value of the first index */

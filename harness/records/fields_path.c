@@ -388,7 +388,9 @@ static void get_theory(const subject *s, field_value *out)
     schema_set_text(out, words);
 }
 
-/* Gives the lowest or highest order of each analysis, according to the offset. */
+/* Gives an order of convergence of analysis offset/2. Even offset: lowest order; odd: highest
+ * order.
+ * */
 static void get_order(const subject *s, field_value *out)
 {
     const size_t i = out->of->offset;

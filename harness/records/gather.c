@@ -201,7 +201,7 @@ static void gather_series(const gathering *g, const record_type *type, int index
     }
 }
 
-/* Adds the points that have a series. */
+/* Adds the points of a case that have a series. */
 static void gather_points(const gathering *g, const case_type *of, subjects *out)
 {
     const sweep *all = g->sweep;
@@ -238,7 +238,7 @@ void gather_assumptions(const sweep_point *p, subjects *out)
         gather_add(out, &s);
 }
 
-/* Adds the records of all points, or only of the first point. */
+/* Adds the parameters of the first point, or the meanings or assumptions of all points. */
 static void gather_of_points(const gathering *g, const record_type *type, const case_type *of,
                              subjects *out)
 {

@@ -26,7 +26,8 @@ static json_t *values_of(const assignment_list *l, const double value[])
     return all;
 }
 
-/* Lists all applicable reference values of the continuum. Each has the error relative to it. */
+/* Lists all applicable reference values of the continuum, each with the error of the quantity
+ * relative to this reference value. */
 static json_t *truths_of(const subject *s, const truths *t)
 {
     const sweep_point *p = s->point;

@@ -189,7 +189,7 @@ const char *assumptions_kind(int kind)
     return kind >= 0 && kind < ASSUMPTION_KINDS ? names[kind] : "";
 }
 
-/* Returns 1 if the section has an assumption of this kind. */
+/* Returns 1 if the section has an assumption of this kind, and sets its text. */
 static int of_section(const scene *s, assumption *a)
 {
     const scene_words name = scene_name(s, SCENE_SECTIONS, a->section);

@@ -8,7 +8,8 @@
 
 enum { MOST_ROWS = 50 }; /* keeps comments on pull requests readable; JSON contains all rows */
 
-/* Writes a cell of a table. Escapes vertical bars and line ends, which would break the table. */
+/* Writes a cell of a table. Escapes vertical bars, and replaces line ends by spaces, because both
+ * would break the table. */
 static void cell(FILE *to, const char *text)
 {
     for (; *text != '\0'; text++)

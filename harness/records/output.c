@@ -43,8 +43,8 @@ static void output_forget(const char *path)
             atomic_store(&unfinished[i].owner, 0);
 }
 
-/* Removes all outputs. The following functions use only system calls, as a signal handler requires.
- * */
+/* Functions that remove incomplete outputs. They use only system calls, as a signal handler
+ * requires. */
 static void remove_all(int at, const char *name);
 
 /* Removes the entries of a folder. Returns the number of entries that were found. */
@@ -214,8 +214,8 @@ static void discard(output *out)
     }
 }
 
-/* Writes the file to the disk. Returns 1 even if the file cannot be synchronised, such as a pipe or
- * a device. */
+/* Writes the file to the disk. Returns 0 after an error. A file that cannot be synchronised, such
+ * as a pipe or a device, is not an error. */
 static int is_stored(FILE *stream)
 {
     if (ferror(stream) || fflush(stream) != 0)

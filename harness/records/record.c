@@ -271,7 +271,7 @@ void record_text_list(record_file *r, hid_t at, const char *name, int count,
     free(all);
 }
 
-/* Offset of a column in a row. */
+/* A column: its field, and its offset and size in a row [byte]. */
 typedef struct rows_column {
     const schema_field *field;
     size_t offset, size;

@@ -18,14 +18,15 @@ int results_order(const result_cell *a,
                   const result_cell *b);
 /* Computes the series from the sorted cells. FAULT: out of memory. */
 status results_series_summarise(stored_results *r, fault *f);
-/* Computes the sums of a series over those meshes that another run also has. Returns 0 if r does
- * not have all of them, or if out of memory. The caller frees out->mesh and out->limit. */
+/* Computes the sums of a series of run r over the meshes of `to`, the same series of another run.
+ * Returns 0 if r does not have all these meshes, or if out of memory. The caller frees out->mesh
+ * and out->limit. */
 int results_series_restrict(const stored_results *r, const result_series *to, result_series *out);
 
 /* Returns 1 if the text is one of the lines. Returns 0 if `lines` is NULL. */
 int results_part_has(const char *lines, const char *text);
 /* Returns 1 if the series belongs to another program, or to an element that is not loaded. No
- * selection names such a series. It is requested wherever its case is run. */
+ * selection names such a series. A run requests the series if the run includes its case. */
 int results_part_is_foreign(const char *series);
 /* Returns the name of a formulation of another program that r contains for the same case and
  * parameters but `other` does not contain; NULL: none. */
@@ -98,9 +99,6 @@ void comparison_lines_status(const listing *l, const char *before, const char *a
 
 void comparison_series(const listing *l, const result_series *a, const result_series *b);
 
-/* Matrices as text that other programs can read: Matrix Market coordinate format (R. F. Boisvert,
- * R. Pozo, K. A. Remington, NISTIR 5935, 1996) with 17 digits. */
-
 /* Outline of a section, for pictures: straight walls in the principal axes. */
 
 typedef struct outline {
@@ -141,8 +139,6 @@ extern const char results_table_head[];
 
 /* Number of digits that are written. Two runs cannot be compared with higher accuracy. */
 enum { RESULTS_ERROR_DIGITS = 6, RESULTS_LIMIT_DIGITS = 10, RESULTS_DECADES_DECIMALS = 6 };
-
-/* Centre lines and sections of the states of a path. */
 
 /* Centre lines and walls for ParaView and VTK: the group /VTKHDF of an HDF5 file (VTKHDF file
  * format, type UnstructuredGrid). A single state is written in version 1.0. Several states are

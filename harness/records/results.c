@@ -329,7 +329,7 @@ static int take(char *field[FIELDS], result_series *s)
     return s->name != NULL && s->meshes > 0;
 }
 
-/* Reads a line and removes its line end. */
+/* Removes the line end. Returns 0 if the line has no line end. */
 static int take_line(char *line)
 {
     const size_t length = strcspn(line, "\n");

@@ -98,7 +98,8 @@ static void *read_array(const sweep_file *s, const char *name, hid_t type, int r
     return out;
 }
 
-/* Reads a text column of a table. Returns the number of rows; 0: the column is missing. */
+/* Reads a text column of a table. Returns the number of rows; 0: the column is missing, or has too
+ * many rows. */
 static int read_names(const sweep_file *s, const char *table, const char *column, name_row **out)
 {
     const table_column columns[] = {{column, FIELD_TEXT, 0, sizeof(name_row)}};
@@ -232,7 +233,9 @@ static int fixed_words(const sweep_file *s, char word[MOST_WORDS][WORD])
     return count;
 }
 
-/* Writes all parameters that the file contains as text. */
+/* Writes to out[size] all parameters of a point that the file contains, in the order of their
+ * names.
+ * */
 static void point_text(const sweep_file *s, int which, char *out, size_t size)
 {
     char word[MOST_WORDS][WORD];
@@ -266,7 +269,8 @@ static result_cell *add_cell(const sweep_file *s, const char *text, const char *
     return cell;
 }
 
-/* Adds the reference values of the errors, which belong to no mesh. */
+/* Adds a cell with the reference values of a point, which belong to no mesh. Returns 0 if out of
+ * memory. */
 static int add_references(const sweep_file *s, int which, const char *text, stored_results *out)
 {
     result_cell *cell = add_cell(s, text, "reference", out);

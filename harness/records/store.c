@@ -314,7 +314,8 @@ static void put_columns(record_file *r, hid_t at, const char *name, const shapes
     free(table);
 }
 
-/* Stores a number for every state. */
+/* Stores the kind, the load case or combination, the analysis, the value and the scale of every
+ * state. */
 static void put_state_numbers(record_file *r, hid_t at, const scene *sc, const shapes *s)
 {
     const hsize_t size = (hsize_t)s->states;
@@ -351,7 +352,8 @@ static void put_integers(record_file *r, hid_t at, const char *name, int rows, i
     H5Dclose(record_array(r, at, name, H5T_NATIVE_INT, columns > 1 ? 2 : 1, size, value));
 }
 
-/* Stores the geometry: sections and ends of the members, bodies and supports of the nodes. */
+/* Stores the sections, ends and releases of the members, and the bodies and supports of the nodes.
+ * */
 static void put_structure(record_file *r, hid_t at, const scene *sc)
 {
     int *member = calloc((size_t)sc->members * 3 + 1, sizeof *member),
@@ -402,7 +404,9 @@ static void put_sections(record_file *r, hid_t at, const scene *sc)
     H5Gclose(all);
 }
 
-/* Stores the sections at the far ends of tapered members, with the numbers of the members. */
+/* Stores the outlines at the far ends of tapered members, each with the index of its member as
+ * name.
+ * */
 static void put_far_ends(record_file *r, hid_t at, const scene *sc)
 {
     if (!scene_tapers(sc))
