@@ -70,8 +70,8 @@ void contestant_elsewhere(contestant *, const bench_options *r, const char *prog
 /* Runs both cells alternately on one processor for a few seconds, and compares their counts of
  * work. */
 status contestant_compete(contestant *a, contestant *b, contest_clock *out, fault *f);
-/* contestant_show prints both times, the faster cell, and the difference of work. The second
- * function returns these data as JSON, which the caller owns. */
+/* contestant_show prints both times, the faster cell, and the difference of work. contestant_json
+ * returns these data as JSON, which the caller owns. */
 void contestant_show(const contestant *a, const contestant *b, const contest_clock *v);
 json_t *contestant_json(const contestant *a, const contestant *b, const contest_clock *v);
 /* Prints a line for each cell whose times are not ranked, with the reason. */

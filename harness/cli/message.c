@@ -157,7 +157,7 @@ static void tell(int which)
     _exit(EXIT_DIFFERS);
 }
 
-/* Uses a separate stack, so that a stack overflow is handled as well. */
+/* Lets signal handlers use a separate stack, so that a stack overflow is handled as well. */
 static void stand_on_another_stack(void)
 {
     static char stack[1 << 16];

@@ -11,7 +11,8 @@
 #include "harness/numerics/numerics.h"
 #include "harness/records/records.h"
 
-/* Letters of version 0.1. The next version will not accept them. A note gives the new names. */
+/* Letters of version 0.1. The next version will not accept them. If a letter is used, a note gives
+ * the new name. */
 static const struct {
     char letter;
     const char *name;
@@ -33,7 +34,8 @@ static const struct {
               {'u', "integrator"}, {'a', "step"},           {'3', "conservation-only"},
               {'1', "expected"}};
 
-/* Names of version 0.2. The next version will not accept them. A note gives the new names. */
+/* Names of version 0.2. The next version will not accept them. If a name is used, a note gives the
+ * new name. */
 static const struct {
     const char *was, *name;
 } renamed[] = {{"keep-all", "all-dofs"},           {"beside", "imported"},

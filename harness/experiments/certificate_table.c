@@ -13,7 +13,8 @@ enum {
     CELL = 2 * MEASURE_WORDS
 };
 
-/* Row 0 is the heading. `words`, if given, replaces all cells of the row except the first cell. */
+/* Row 0 is the heading. words[row] 1: cell 1 contains a text that extends over all following
+ * columns. */
 typedef struct paper_table {
     int latex, rows, columns;
     char caption[2 * CELL], label[CELL];

@@ -75,7 +75,7 @@ int measures_astray(const measures *m);
 /* Returns the check with the given name, and adds it if necessary. allowed: largest allowed
  * deviation. A new check passes until a larger deviation is added. */
 claim *claims_open(claims *c, const char *name, double allowed);
-/* Records that the type does not declare this property, and the reason. */
+/* Records that a requirement is not checked, and the reason. */
 void claims_not_made(claims *c, const char *name, const char *why);
 /* Adds a comparison with its deviation; NaN counts as the largest deviation. */
 void claims_departs(claim *one, double departure, const char *format, ...)
@@ -334,7 +334,8 @@ status beam_section(const beam_request *, section *out);
  * first three points has a value. */
 int beam_point(const beam_request *, double at, double exact, element_measure *one);
 
-/* Returns the outcome of a family of checks. */
+/* Returns the outcome of a family of checks: CLAIM_BROKEN if a requirement is violated, CLAIM_HOLDS
+ * if a requirement other than "prepare" is satisfied, and otherwise CLAIM_NOT_CLAIMED. */
 claim_outcome claims_outcome(const claims *);
 
 /* Prints certificates as text. Each certificate fits on one screen. */
@@ -410,8 +411,6 @@ typedef struct labour_notice {
 /* Computes batches until none is left or a batch fails. to: pipe for the messages. */
 _Noreturn void labour_work(const labour *, int self, int to);
 
-/* Distance between two motions that are computed on the same mesh. */
-
 /* Returns the largest distance between two motions over all stations, nodes and centre lines: the
  * larger of the distance between positions, relative to the size of the structure, and the angle
  * between sections [rad]. NAN: a station is missing. */
@@ -423,13 +422,11 @@ double pace_distance_of(const scene_quantity *, const quantity_result *,
 
 /* Evaluates the energy and the momenta of a motion. */
 
-/* Computes the energy-balance errors, E/E0 and the classification of a completed run. E: energy;
- * E0: initial energy. */
+/* Computes the energy drift, the momentum drift, E/E0 and the classification of a completed run. E:
+ * energy; E0: energy after the loads have ended. */
 void pace_drift(const pace *, pace_run *);
 
-/* Runs all motions and measures them. */
-
-/* Call this function after pace_plan. A motion that fails counts as a result. */
+/* Runs all planned motions and evaluates them. A motion that fails counts as a result. */
 status pace_judge(pace *, const sweep_request *, fault *);
 
 /* Observed orders of an integrator, from runs in which the step is repeatedly halved. */
@@ -472,7 +469,7 @@ const char *pace_order_name(pace_order_kind);
 
 /* Plans which motions are run. */
 
-/* Runs of one structure. */
+/* Request for the runs of one structure. */
 typedef struct pace_plan_request {
     const case_type *type;
     const double *parameter;
@@ -516,9 +513,7 @@ extern const record_type record_pace_all, record_pace_run;
 extern const record_type *const pace_records[]; /* all record types except the first;
                                                    NULL-terminated */
 
-/* Motions and their evaluation as text. */
-
-/* runs 1: prints a line for each motion, in addition to the verdicts. */
+/* Prints the verdicts on motions. runs 1: also prints a line for each motion. */
 void pace_table(FILE *to, const pace *, const pace_verdicts *, int runs);
 
 /* Data that the group of a sweep contains once. */
@@ -571,16 +566,13 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
                              const truths *derived, double tolerance);
 
 /* Elements of a formulation under test. The default element has everything that the formulation
- * supports. Other elements have each section and each choice of each option. Elements are straight
- * and curved. */
+ * supports. The other elements vary the section, the choices of the options, and the initial
+ * curvature. */
 
 typedef void specimens_check(const specimen *s, claims *c);
 /* Calls `check` for every test element. An element that the formulation rejects with a reason is
  * skipped, except the default element, which must be accepted (check "prepare"). */
 void specimens_each(const formulation *chosen, claims *c, specimens_check *check);
-
-/* Examines a sweep at some of its points before the solution. Finds the quantities, the meshes, the
- * formulations that run, and the cost of a point. */
 
 /* Sets formulations, meshes, quantities, left_out and point_cost from the scenes of the first
  * point, the last point and some intermediate points. REFUSED: no scene can be built at these

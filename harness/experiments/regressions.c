@@ -90,8 +90,8 @@ static status compare(const stored_results *former, const char *name, const stor
     return outcome;
 }
 
-/* Returns the limit of a quantity of a series at the default point of the former run; NULL: none.
- * */
+/* Returns the limit that the former run has stored for the quantity and the formulation of the
+ * verdict at the default point; NULL: none. */
 static const result_limit *limit_of_former(const stored_results *former, const sweep *s,
                                            const verdict *v)
 {

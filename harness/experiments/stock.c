@@ -294,8 +294,8 @@ void deal_order(int batches, const double cost[], int order[])
     qsort_r(order, (size_t)batches, sizeof *order, dearest, (void *)cost);
 }
 
-/* Work of a shard so far. In a heap, the shard with the lowest cost is at the top. If costs are
- * equal, the shard with the lowest number is at the top. */
+/* Cost of the batches that have been assigned to a shard. In a heap, the shard with the lowest cost
+ * is at the top. If costs are equal, the shard with the lowest number is at the top. */
 typedef struct hand {
     double sum;
     int shard;

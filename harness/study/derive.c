@@ -181,8 +181,8 @@ status derive_scene(const char *path, FILE *scene_text, derived_value **out, int
     return derive_asked(&q, out, count, f);
 }
 
-/* Folder of the data of an installed copy. This is the only file that depends on the installation
- * prefix. */
+/* Folder that contains the data of an installed copy. No other source file depends on the
+ * installation prefix. */
 #ifndef BEAMWORK_DATA
 #define BEAMWORK_DATA "/usr/local/share/beamwork"
 #endif

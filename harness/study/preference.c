@@ -192,7 +192,7 @@ static int met_unstable(const solve_result *r)
     return 0;
 }
 
-/* A formulation that is solved on successively finer meshes. */
+/* A scene that is solved with one formulation on successively finer meshes. */
 typedef struct runner {
     cell_request request;
     formulation chosen;

@@ -324,8 +324,8 @@ enum { WORKER_ENDED = -1, WORKER_NOTHING = -2, WORKER_NO_MEMORY = -3 };
  * last result; WORKER_NOTHING: no result is complete yet. A worker that writes other data is ended.
  */
 int worker_receive(workload *, worker *);
-/* Handles a worker that ended during a task, whose cell has failed. Returns 1 if the worker must be
- * replaced. */
+/* Handles a worker that has ended. If the worker ended during a task, records that the cell of the
+ * task has failed. Returns 1 if the worker must be replaced. */
 int worker_bury(workload *, int self, worker *);
 /* Ends a worker whose cell exceeds the time limit, in case the worker cannot end itself. The pipe
  * of the worker closes. */
@@ -333,14 +333,9 @@ void worker_stop_late(const workload *, int self, worker *);
 /* Ends a worker in any state. Results that it has written are still read. */
 void worker_end(workload *, worker *);
 
-/* Formulations whose verdicts affect the exit status (reference/accepted.csv), from the packed
- * file. */
-
-/* Registers the accepted formulations of an open file of reference values (formulations_accept).
- * FAULT: the table is missing or damaged. */
+/* Registers the formulations whose verdicts affect the exit status (reference/accepted.csv), from
+ * an open file of packed reference values. FAULT: the table is missing or damaged. */
 status accepted_read(const char *path, hid_t file, fault *f);
-
-/* Compares values of single meshes with stored discrete values. */
 
 /* Compares one series with the stored values of its meshes. */
 status agreements_add(const sweep *s, const truths *t, int index, judgement *out, fault *f);
