@@ -134,8 +134,8 @@ def check_words(row, where, names):
 
 
 def truth_key(row):
-    """Returns the key that distinguishes a reference value from all others. Two programs must not derive the same exact
-    value."""
+    """Returns the key that distinguishes a reference value from all others. The key of an exact value does not
+    contain its source, because two programs must not derive the same exact value."""
     return tuple("" if name == "source" and row["kind"] == "exact" else repr(row[name]) if name == "at" else row[name]
                  for name in ("case", "hash", "formulation", "theory", "elements", "quantity", "at", "kind", "model", "convention", "source"))
 

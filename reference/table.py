@@ -3,7 +3,7 @@ import csv
 
 
 class Refused(Exception):
-    """Raised for an invalid row. The text contains the name of the row."""
+    """Raised for an invalid row. The text contains the file and, for a row, its line."""
 
 
 def read_csv(path, columns):

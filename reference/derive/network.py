@@ -5,8 +5,8 @@ The unknowns of a body are its position x, its rotation and the load (f, mu) on 
 beam are F, m0 (moment about the origin, constant along the beam) and its states at the ends of the intervals. The
 problem may have additional numbers as unknowns. The equations of a body are the six equations of equilibrium and six
 conditions that depend on its support: a clamped body has a given position and rotation, and a free body has no load on
-its reference point. The equations of a beam are those of its intervals, the closure at its end, and one warping
-condition at each end.
+its reference point. The equations of a beam are those of its intervals, six equations of closure (the end of the beam
+coincides with its place on the second body), and one warping condition at each end.
 """
 import numpy as np
 from scipy.sparse import coo_matrix

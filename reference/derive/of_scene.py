@@ -87,7 +87,8 @@ class Question:
         return scene.motion[self.of["motion"]](level, scene.net.numbers)
 
     def scale(self, scene):
-        """Returns the scale of displacements and reactions in the network, which determines their round-off."""
+        """Returns the scale of a displacement, a reaction or a resultant in the network, which determines its round-off.
+        Returns 0 for other kinds."""
         turns = self.of.get("component", "ux")[0] == "r" or self.of.get("resultant", "N")[0] == "M"
         if self.kind == "displacement":
             return 1.0 if turns else scene.length
@@ -232,7 +233,7 @@ KNOWN = {"leaf_spring_guide": ("k_drive", "k_support")}  # quantities with close
 
 
 def rows():
-    """Returns the rows of the examples. The built program writes the scenes."""
+    """Yields the rows of the examples. The built program writes the scenes."""
     if not os.access(PROGRAM, os.X_OK):
         raise SystemExit(f"of_scene.py: {PROGRAM} is not there; run make all first")
     for name in EXAMPLES:

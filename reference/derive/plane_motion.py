@@ -3,9 +3,9 @@ agree.
 
 The model is the Simo-Reissner beam with the fields x, y and the rotation t of the section. The strains are (cos t x' +
 sin t y' - 1, -sin t x' + cos t y', t'), the forces are EA, GA, EI times these strains, the mass is rho A and the
-rotary inertia is rho I. In space, polynomials with values at the Lobatto points are used, whose quadrature makes the
-mass diagonal. Time integration uses the explicit Runge-Kutta method of order 8 by Dormand and Prince, with steps
-limited by wave propagation.
+rotary inertia is rho I. In each element, the fields are polynomials defined by their values at the Lobatto points.
+Lobatto quadrature makes the mass matrix diagonal. Time integration uses the explicit Runge-Kutta method of order 8 by
+Dormand and Prince, with steps limited by wave propagation.
 """
 from dataclasses import dataclass
 from functools import cache
@@ -48,8 +48,9 @@ def lobatto(degree):
 
 
 class Mesh:
-    """A rod divided into elements. G maps nodal values to derivatives at the points, and V maps them to values at the
-    points. `weight` is [points], and `lumped` is [nodes]."""
+    """A rod divided into elements. G [points, nodes] maps nodal values to derivatives at the Lobatto points of all
+    elements, and V [points, nodes] maps them to values there. `weight` [points] are the weights of the quadrature [m],
+    `lumped` [nodes] are the lengths that belong to the nodes [m], and S [nodes] are the positions of the nodes [m]."""
 
     def __init__(self, rod, elements, degree):
         x, w, D = lobatto(degree)

@@ -95,7 +95,8 @@ def bent_sheets():
 
 
 def vibrating_sheets():
-    """Yields frequencies with consistent mass, the default of the elements of J. The sheet elements have lumped mass."""
+    """Yields predicted frequencies. The elements of J have consistent mass by default, which changes the limit (option
+    `interpolated` of equilibrium.py). The sheet elements have lumped mass."""
     for name in JONKER + SHEETS:
         for given in VIBRATING:
             at = sheets.parameters({"modes": 3, **given})
@@ -271,7 +272,7 @@ def predictions(cases=CASES):
 
 
 def derived_rows(cases=CASES):
-    """Returns the rows at points and for quantities with exact values that differ from all of these values."""
+    """Yields the rows of the predictions for which exact values are known and that differ from all of these values."""
     exact = exact_values()
     for given in predictions(cases):
         point = rederive.canonical(given[2].replace("shear_stability=*", ""))

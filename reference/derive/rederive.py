@@ -30,8 +30,8 @@ def read_table(path):
 
 
 def programs(names):
-    """Returns every module in this folder with a function rows(). Modules of solids, which need another program, have
-    names solids.NAME."""
+    """Returns the names of the modules in this folder that have a function rows(): those in `names`, or all if `names` is
+    empty. Modules of solids, which need another program, have names solids.NAME."""
     here = ROOT / "reference" / "derive"
     found = sorted(".".join(p.relative_to(here).with_suffix("").parts) for p in here.rglob("*.py")
                    if "\ndef rows(" in p.read_text(encoding="utf-8"))
@@ -72,9 +72,9 @@ def confirms(name):
 
 
 def derived_rows(name, everything):
-    """Returns the rows of a program, which yields (case, parameters, quantity, value, unit[, relative uncertainty[,
-    convention[, at[, formulation]]]]). If a formulation is given, the value is the limit that this formulation must
-    have."""
+    """Yields (row of the table, value) for a program, which yields (case, parameters, quantity, value, unit[, relative
+    uncertainty[, convention[, at[, formulation]]]]). If a formulation is given, the value is the limit that this
+    formulation must have."""
     module = importlib.import_module(f"reference.derive.{name}")
     kind, model = kind_of(name), "other" if is_solid(name) else "same"
     for given in module.rows(everything) if is_solid(name) else module.rows():
@@ -129,8 +129,8 @@ def write(names):
 
 
 def differences(name, stored, seen, cases, everything):
-    """Returns (rows that agree, lines that describe differences, rows of cases that do not exist yet, largest difference
-    divided by the uncertainty) for one program."""
+    """Returns (number of rows that agree, lines that describe differences, number of rows of cases that do not exist yet,
+    largest difference divided by the uncertainty) for one program."""
     agree, lines, waiting, largest = 0, [], 0, 0.0
     for row, value in derived_rows(name, everything):
         folder = folder_of(name)

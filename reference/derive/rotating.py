@@ -29,8 +29,8 @@ RELATIVE = 5e-12
 
 
 def _basis(times):
-    """Returns the values and derivatives at Gauss points of polynomials that vanish at 0, as do their first `times` - 1
-    derivatives."""
+    """Returns Gauss points and weights on [0, 1], and the values and derivatives at these points [SIZE, times + 1,
+    points] of polynomials. The polynomials and their first `times` - 1 derivatives vanish at 0."""
     points, weights = legendre.leggauss(2 * SIZE)
     fields = []
     for n in range(SIZE):

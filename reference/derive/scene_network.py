@@ -22,8 +22,8 @@ LOAD = ("force", "moment", "distributed", "distributed_moment", "gravity", "on",
 
 
 class Place:
-    """A node, with its body, its support (if this is the support of the body), and its position [m] relative to the
-    reference point of the body."""
+    """A node, with its body, the support of the body (None for a node that is part of another node's body), and its
+    position [m] relative to the reference point of the body."""
 
     def __init__(self, body, support, offset):
         self.body, self.support, self.offset = body, support, np.array(offset)
@@ -214,7 +214,7 @@ class SceneNetwork:
         return table(numbers(entry["path"], where), numbers(entry["factor"], where))
 
     def weight(self, entry, where):
-        """Returns the weight of a body, which is a force at its centre of mass."""
+        """Returns the load entry for the weight of a body: a force at its centre of mass."""
         if entry["on"] not in self.scene["nodes"]:
             raise Refused(f"{where}: no node or member '{entry['on']}' in the deriving program")
         body = self.scene["nodes"][entry["on"]]
@@ -370,7 +370,8 @@ class Pieces:
             yield self.piece(i), one
 
     def at_place(self, name, entry):
-        """Transfers a force or a moment within the member to a node, in fixed axes."""
+        """Yields the name and the entry of a force or a moment within the member, transferred to a node, in fixed
+        axes."""
         place = number(entry["where"], name)
         end = {0.0: "from", 1.0: "to"}.get(place)
         if end in self.entry.get("release", {}):
@@ -385,7 +386,7 @@ class Pieces:
         yield name, {**out, "on": self.node(place)}
 
     def spread(self, name, entry):
-        """Distributes a load along the member to the pieces on which it acts."""
+        """Yields the names and entries of a load along the member, one for each piece on which it acts."""
         kind = next((k for k in SPREAD if k in entry), None)
         begin, end = (number(entry.get(key, usual), name) for key, usual in (("from", "0"), ("to", "1")))
         out = {key: value for key, value in entry.items() if key not in OF_PART}
@@ -412,7 +413,8 @@ def places_of(scene):
 
 
 def asked(name, entry, pieces):
-    """Transfers a quantity at the end of a member to the end of its last piece."""
+    """Returns the name and the entry of a quantity. If it is a resultant at the end of a cut member, it is transferred to
+    the end of the last piece."""
     what = entry.get("internal")
     if what is None or what["member"] not in pieces or what.get("end", what.get("where")) not in ("to", "1"):
         return name, entry

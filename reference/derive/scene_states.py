@@ -175,7 +175,8 @@ def linear(scene):
 
 
 def linear_resultants(scene, m, step):
-    """Returns the load (F, m0) at the ends of a member in its undeformed axes."""
+    """Returns the resultants (N, Qy, Qz, Mx, My, Mz) [2, 6] at the ends of a member in N and N m, in its undeformed axes.
+    `step` is the linear solution."""
     rows, p = [], step[m.at:m.at + 6]
     for y in (m.y[0, 0], m.y[-1, -1]):
         R, r = rotation(y[3:7]), y[:3]

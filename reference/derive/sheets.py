@@ -123,8 +123,8 @@ def cantilever(form=lambda beam: beam, **given):
 
 
 def twisted(form=lambda beam: beam, **given):
-    """Returns (network, tip) of sheet_wagner, with R = Ry Rz Rx and phi_y free, so that the moment about the fixed y axis
-    is zero."""
+    """Yields the rows of sheet_wagner, whose tip is rotated by R = Ry Rz Rx. phi_y is free, so the moment about the fixed
+    y axis is zero."""
     value = {**defaults.values("sheet_wagner"), **given}
     phi_x, phi_z, deflection = value["tip_phi_x"], value[
         "tip_phi_z"], value["tip_deflection"] / value["length"]

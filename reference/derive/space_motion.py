@@ -30,9 +30,10 @@ ELBOW_TIMES = ("1", "2")  # only the first of the stored times, because axial wa
 
 @dataclass(frozen=True)
 class Rod:
-    """A rod from `start` along legs of equal length, with EA = GA = force and EI = GJ = moment. The rod has a mass
-    [kg/m] and a rotary inertia about axes across and along the rod [kg m]. The load at the end of a leg is in space
-    axes. Its force and moment are functions of time with slope discontinuities."""
+    """A rod from `start` along legs of equal length, with EA = GA = `force` [N] and EI = GJ = `moment` [N m^2]. `mass` is
+    in [kg/m]. `rotary` and `polar` are the rotary inertia about axes across and along the rod [kg m]. load(t) returns
+    the force and the moment, in space axes, at the end of the leg with the index `loaded`. Their slopes are
+    discontinuous at the times `kinks`."""
     start: tuple
     legs: tuple
     force: float

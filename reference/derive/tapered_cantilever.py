@@ -34,8 +34,8 @@ def rectangle_torsion(a, b):
 
 
 class At:
-    """Constants of the section at x: A, It, Iw, and flexibilities and shear centre in principal axes, which are rotated
-    by beta."""
+    """Constants of the section at x: A, Iy, Iz, It, Iw and the shear centre (ys, zs), in principal axes, which are
+    rotated by beta."""
 
     def __init__(self, form, ratio, x):
         size = 1 + x * (ratio - 1)

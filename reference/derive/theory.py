@@ -2,7 +2,7 @@
 
 In Engesser's theory, the axial force does work on the slope of the centroidal axis. In Haringx's theory, it does work
 on the rotation of the section, as in the geometrically exact beam. column.py states both energies. Without shear
-deformation, or without stress, both theories agree. The sources are the programs that derive the reference values."""
+deformation, or without stress, both theories agree."""
 from reference.derive import defaults
 
 LARGE_DISPLACEMENT = (

@@ -28,8 +28,8 @@ COUNT = 3
 
 
 def at_rest(m, c, g, count=COUNT):
-    """Returns the exact frequencies at rest. w = A (cosh - cos) + B (sinh - sin), and its determinant vanishes between
-    samples of the wave number."""
+    """Returns the exact frequencies at rest. With w = A (cosh - cos) + B (sinh - sin), they are the zeros of the
+    determinant of the conditions at the end, found between samples of the wave number z = sqrt(omega)."""
     m, c, J = mpf(m), mpf(c), mpf(m) * mpf(g) ** 2
 
     def boundary(z):

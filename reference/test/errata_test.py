@@ -99,7 +99,8 @@ class Modes(unittest.TestCase):
         self.assertGreater(np.max(np.abs(printed6 - measured[5])), 0.1)
 
     def test_rotation_about_the_shear_centre(self):
-        """A twist of the end about an axis at (ys, zs) moves the centroid. All signs of J Eq. 60 must be opposite."""
+        """A twist of the end about an axis at (ys, zs) moves the centroid. The signs of all terms must be opposite to
+        those printed in J Eq. 60."""
         angle, ys, zs = 1e-6, 0.4, -0.3
         moved = np.array([0, 0, 0, self.l0, zs * angle, -ys * angle])
         e = self.modes(moved, np.eye(3), rotation(exponential(np.array([angle, 0, 0]))))
@@ -207,8 +208,9 @@ class Modified(unittest.TestCase):
                     ys ** 2 * e[2] ** 2 / 10), 0.01)
 
     def test_term_of_an_eccentric_shear_centre(self):
-        """For uniform twist without shear, there is no term in strains of the shear centre. In e of J, there is a product
-        of twist and bending, which equals the printed square if there is no bending."""
+        """For uniform twist without shear, the elongation has no additional term if it is written in strains of the shear
+        centre. Written in the strains e of J, it has a product of twist and bending, which equals the printed square if
+        there is no bending."""
         ys, e2 = 0.7, 0.6
         for e3, e4, alone in ((0.8, -0.5, False), (ys * e2, -ys * e2, True)):
             exact = self.elongation({2: e2, 3: e3, 4: e4, 7: e2, 8: e2}, 0.0, ys)

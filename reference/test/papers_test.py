@@ -46,8 +46,7 @@ def numbers(text):
 
 
 def defines(path, name):
-    """Returns True if a file defines a function, given in C by its name at the start of a line, in Python by its class
-    and name."""
+    """Returns True if a file defines the function `name`, which in Python may have the form Class.function."""
     text = path.read_text(encoding="utf-8")
     if path.suffix == ".py":
         of = ast.parse(text).body

@@ -62,8 +62,8 @@ class Machinery(unittest.TestCase):
                 self.assertLess(abs(one[3] / two[3] - 1), one[5], one[:3])
 
     def test_amplitude_between_the_nodes(self):
-        """If the twist rate equals the amplitude, both formulations give the same value. With J Eq. 66, the values
-        differ."""
+        """Without J Eq. 66, the twist rate equals the warping amplitude, so the frequency with `interpolated` equals that
+        without this option. With J Eq. 66, the frequencies differ."""
         for name, least, most in (("beamw_first", 0, 1e-10), ("beamw", 2e-7, 3e-7)):
             form = predicted.as_printed(name)
             nodes, between = (equilibrium.sheet_frequencies(3, {}, form, one)[2] for one in (0, 1))
@@ -135,7 +135,7 @@ class ClosedForms(unittest.TestCase):
             self.assertLess(abs(load / closed - 1), 1e-6, name)
 
     def test_right_angle(self):
-        """Uniform shear z = pi/2 without rotation: the potential of N 7 with Phi is stationary at GA = F."""
+        """Uniform shear z = pi/2 without rotation: the potential of N Eq. 7 with Phi is stationary at GA = F."""
         EA, GA, F = mpf(10) ** 9, mpf(10), mpf(10)
 
         def potential(stretch, z):

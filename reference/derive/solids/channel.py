@@ -1,4 +1,4 @@
-"""The C-shaped cantilever modelled as a solid, with a dead force at an end of the web (J section 5.2, Figs. 11-12).
+"""The channel cantilever modelled as a solid, with a dead force at an end of the web (J section 5.2, Figs. 11-12).
 
 The mesh of C3D20R has one element through each wall. The root is fixed, and the tip is free. The force acts on the
 node on the mid-line of the web at half the outer height above (D) or below (E) the axis. The deflection of this node
@@ -46,7 +46,8 @@ def channel(along, flange, web):
 
 
 def path(point, stations, mesh):
-    """Returns [(load [N], lateral displacement [m])] of the loaded point at its deflections [m]."""
+    """Returns [(load [N], lateral displacement of the loaded point [m])] at the deflections `stations` of this point
+    [m]."""
     grid = channel(*mesh)
     where = np.array([LENGTH, -WEB / 2, HEIGHT / 2 if point == "D" else -HEIGHT / 2])
     loaded = int(np.argmin(np.linalg.norm(grid.nodes - where, axis=1)))

@@ -174,7 +174,8 @@ class Tip:
         return out
 
     def directions(self, index, R):
-        """Returns [n, n], whose columns are the directions of the rotated face at its nodes, otherwise the fixed axes."""
+        """Returns the matrix [n, n] whose columns are the directions of the rotated face at the nodes of the face,
+        and the fixed axes at all other nodes."""
         out = lil_matrix(identity(len(index)))
         for n in self.nodes:
             rows = [index[n, d] for d in range(3)]
@@ -221,7 +222,8 @@ def elastic(young, poisson):
 
 
 def run(folder, name, text):
-    """Writes the deck and solves it in the folder."""
+    """Writes the deck and solves it in the folder. Returns the path of the files without suffix. Raises Failed if
+    there is no solution."""
     path = pathlib.Path(folder) / name
     path.with_suffix(".inp").write_text(text, encoding="utf-8")
     done = subprocess.run(

@@ -1,5 +1,5 @@
-"""Compliance of the sheet flexure modelled as a plate. One face is fixed, and the other face moves in the same way as the
-edge of a shell.
+"""Compliance of the sheet flexure modelled as a plate of solid elements. One face is fixed, and the other face moves in
+the same way as the edge of a shell.
 
 The mesh of C3D20R is graded towards all edges. The fixed face has no displacement normal to the face and along its
 width. Along the thickness, only the middle of the face is fixed. The motion of the tip is a translation and one
@@ -32,7 +32,8 @@ TWISTED = "C_ux_My", "C_thy_Fx", "C_ux_Fx", "C_uz_Fz", "C_thx_Mx", "C_thy_My"
 
 class Sheet:
     def __init__(self, elements, layers, folder):
-        """`elements` contains the numbers of elements along the length and along the width."""
+        """`elements` is the number of elements along the length, and also along the width. `layers` is the number of
+        elements through the thickness."""
         ys = THICKNESS * (np.arange(layers + 1) / layers - 0.5)
         self.grid, self.folder = (
             Grid(LENGTH * graded(elements), ys, WIDTH * (graded(elements) - 0.5)),
@@ -78,8 +79,8 @@ class Sheet:
 
 
 def solve(sheet, motion, free, steps=8):
-    """Returns (motion, force, moment, compliance [6, 6]) of the state in which the loads of the free components do no
-    work. `motion` [6] is the initial guess.
+    """Returns (motion, force, moment, compliance [6, 6]) of the state in which the loads do no work on changes of the
+    `free` components of the motion. `motion` [6] is the initial guess.
     """
     motion = np.array(motion, dtype=float)
     for _ in range(steps):
@@ -155,7 +156,7 @@ def rows(everything=True):
 
 
 def anticlastic(mesh=MESHES[0]):
-    """Returns the differences between the compliances of beam and plate in F_y/u_y, F_y/phi_z and M_z/phi_z in the
+    """Returns the differences between plate and beam in the stiffnesses F_y/u_y, F_y/phi_z and M_z/phi_z of the
     undeformed state (N 4.1), relative to the plate.
     """
     with tempfile.TemporaryDirectory() as folder:
