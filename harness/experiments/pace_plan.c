@@ -86,8 +86,8 @@ static status set_motion(pace *p, const pace_group *g, const pace_run *r, double
     return stations_of(spacing, g->end, &how->path, f);
 }
 
-/* Returns the number of times at which steps of all runs end, provided that the spacing divides the
- * duration. */
+/* Returns the number of times at which shapes are stored: the start and the stations. If there are
+ * fewer than SHAPES_FEW stations, the intervals between them are subdivided. */
 static int frames_of(const pace_group *g, double spacing)
 {
     const int parts = (int)ceil(g->end / spacing * (1 - same));

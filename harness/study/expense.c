@@ -13,7 +13,8 @@ static double stations_of(const scene *s, const scene_analysis *a)
     return scene_path_of(a) != NULL ? scene_path_of(a)->stations : 1;
 }
 
-/* Returns the number of load steps. Shorter initial steps count as complete steps. */
+/* Returns the estimated number of load steps. The shorter steps before the first station count as
+ * complete steps. */
 static double steps_of(const scene_analysis *a, int steps)
 {
     const int between = steps > 0 ? steps : scene_walk_of(a)->steps_between;
@@ -21,8 +22,8 @@ static double steps_of(const scene_analysis *a, int steps)
 }
 
 /* Returns the estimated number of time steps. If a tolerance is given, the number is a power of the
- * tolerance and depends little on the motion, whose time scale is given by the scene (measured on
- * four motions). */
+ * tolerance and depends little on the motion, whose time scale is given by the scene. This was
+ * measured for four motions. */
 static double motion_steps(const scene_motion *m)
 {
     static const double usual = 1e-4, steps[] = {80, 40}, power[] = {0.45, 0.3};

@@ -211,8 +211,8 @@ static void judge_series(const sweep *s, truths *t, int index, judgement *out)
     const sweep_point *p = &s->point[one->point];
     for (int q = 0; q < p->scene.quantities; q++) {
         const scene_quantity *quantity = &p->scene.quantity[q];
-        /* A curve is only drawn with its reference values. Another quantity evaluates a point of
-         * the curve. */
+        /* Curves are drawn with their reference values, but are not evaluated. Other quantities
+         * evaluate points of curves. */
         if (one->imported != NULL && (quantity->reduction == SCENE_CURVE || !is_imported(one, q)))
             continue;
         if (quantity->reduction == SCENE_CURVE)

@@ -103,9 +103,9 @@ void workload_end(workload *w)
     free(w->after);
 }
 
-/* Takes task i, which is number n of a counter. The worker first records that it works on the task,
- * so the task is not lost if the worker ends before taking it. Returns 0 if another worker has
- * taken the task. */
+/* Takes task i if the counter is still n, and then increases the counter. The worker first records
+ * that it works on the task, so the task is not lost if the worker ends before taking it. Returns 0
+ * if another worker has taken the task. */
 static int take(board *b, int self, atomic_int *counter, int n, int i)
 {
     b->since[self] = clock_wall_seconds();
