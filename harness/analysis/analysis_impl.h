@@ -426,7 +426,8 @@ void loops_release(sparse closed[]);
 double complex harmonic_dynamic(const vibration *, double w, int k);
 /* Computes K, M, C and B. whole 1: including the driven coordinates. */
 status harmonic_matrices(vibration *, int whole, fault *);
-/* Prepares the free block as a full matrix: sets v->first, row and source. */
+/* Lists the entries of the free block, including both halves of symmetric matrices: sets v->first,
+ * row and source. */
 status harmonic_pattern(vibration *, fault *);
 /* Allocates the matrix of a direct solution. */
 status harmonic_matrix(vibration *, fault *);

@@ -339,7 +339,8 @@ static status systems_keep_path(const analysis_context *c, int analysis, workspa
     const outcome_path *path = outcome_path_of(&c->outcomes[analysis]);
     const scene_analysis_kind kind = c->scene->analysis[analysis].kind;
     if (kind == SCENE_COMPLIANCE ||
-        kind == SCENE_MOTION) /* the states of others, or not in equilibrium */
+        kind == SCENE_MOTION) /* compliances use the states of other analyses, and states of motions
+                                 are not in equilibrium */
         return STATUS_OK;
     for (int i = 0; i < path->reached; i++)
         TRY(keep_state(c, analysis, i, path->state[i], w, s, f));

@@ -227,8 +227,8 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
                                               : STATUS_OK;
 }
 
-/* Stores the end of a step that may be on another branch, because smaller steps may lead to another
- * end. */
+/* Stores the end of a step, which may be on another branch, as the rival. It is compared with the
+ * end to which smaller steps lead. */
 static status rival_alloc(const continuation *p, rival *r, fault *f)
 {
     TRY(kinematics_state_alloc(p->c->model, &r->state, f));

@@ -58,7 +58,7 @@ static int ascending(const void *a, const void *b)
 
 static void describe(search *s, const unsymmetric_result *r, station *out)
 {
-    /* all squares are then replaced by magnitudes of s */
+    /* 1: |s|^2 replaces the squares of all frequencies */
     const int all = s->of.massless || s->of.damped;
     out->kind = flutter_of(&s->of, r, &s->mode);
     out->count = r->count < MOTIONS ? r->count : MOTIONS;
@@ -114,8 +114,9 @@ static void keep(search *s, const station *at)
     kinematics_state_copy(s->n->c->model, s->n->state, s->kept);
 }
 
-/* Returns the largest change of a square between two stations, relative to the lowest square. If a
- * square falls to zero, the change is relative to the lowest square at path 0. */
+/* Returns the largest relative change of a square between two stations. The change is relative to
+ * the square at station a or, if this is smaller than the lowest square at path 0, to `lowest`,
+ * this lowest square. */
 static double change(const station *a, const station *b, double lowest)
 {
     double largest = 0;

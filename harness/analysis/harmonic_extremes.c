@@ -64,7 +64,8 @@ static status refine_between(extreme_search *s, double low, double high, outcome
     return STATUS_OK;
 }
 
-/* Sets *pole to 1 if the response is inversely proportional to the distance from the frequency. */
+/* Sets *pole to 1 if the response increases by more than a factor of 3 when the distance from the
+ * frequency decreases to a tenth. */
 static status is_pole(extreme_search *s, double hertz, int *pole, fault *f)
 {
     static const double distance[] = {1e-4, 1e-5, 1e-6}, round_off = 1e-6;

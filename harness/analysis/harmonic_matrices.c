@@ -27,8 +27,8 @@ double complex harmonic_dynamic(const vibration *v, double w, int k)
     return v->damped ? D + I * w * v->C.value[k] : D;
 }
 
-/* Computes K of the undeformed structure. displaced: displacements of a linear solution, whose
- * stresses are included; NULL: none. */
+/* Computes K of the undeformed structure, and B if there are no stresses. displaced: displacements
+ * of a linear solution, whose stresses K includes; NULL: none. */
 static status linear_system_of(vibration *v, const double displaced[], fault *f)
 {
     const equations *eq = &v->c->eq;

@@ -9,10 +9,10 @@
  * where z is the solution for the output o, have no component along the modes, and o^T (D^-1 f - x)
  * = s^T D^-1 r. Scaled by the square root of K, the part of D beyond the modes has a real part of
  * at least 1 - w^2/least - |t| b - d. Here `least` is the square of the next frequency, t is the
- * factor of B in D, and b is the largest eigenvalue of K^-1 B. d is the norm of T D_m^-1 T^T, where
- * T is the coupling of this part to the D_m of the modes by damping and by B. Damping dissipates
- * energy and cannot lower the real part. The error is at most sqrt(r^H K^-1 r s^H K^-1 s) divided
- * by this real part. For a free structure, K + shift M replaces K. */
+ * factor of B in D, and b is the largest eigenvalue of K^-1 B. d is the norm of T D_m^-1 T^T. D_m
+ * is the part of D of the modes, and T couples the two parts by damping and by B. Damping
+ * dissipates energy and cannot lower the real part. The error is at most sqrt(r^H K^-1 r s^H K^-1
+ * s) divided by this real part. For a free structure, K + shift M replaces K. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <lapacke.h>

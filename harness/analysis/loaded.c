@@ -502,8 +502,9 @@ static status narrow(loaded_search *s, int passed, double *low, double *high, in
     return STATUS_OK;
 }
 
-/* Sets *low, from which the search continues, to the path parameter nearest above the load `high`
- * at which Newton's method converges, but at most to `most`. */
+/* Finds a path parameter *low, from which the search continues: the first of several values just
+ * above the load `high` at which Newton's method converges. The last value is `most`. *negative:
+ * number of negative eigenvalues at *low. */
 static status pass(loaded_search *s, double high, double width, double most, double *low,
                    int *negative, fault *f)
 {

@@ -143,8 +143,8 @@ static void append(full_column *c, int j, sparse to[])
     c->rows = 0;
 }
 
-/* Lists the entries of the symmetric K above its diagonal row by row. of[first[i]] and the
- * following entries are their positions in K. */
+/* Lists the entries of the symmetric K above its diagonal row by row. The entries of row i start at
+ * index first[i]. column: their columns; of: their positions in K. */
 static void turn(const sparse *K, int first[], int column[], int of[])
 {
     for (int j = 0; j < K->n; j++)

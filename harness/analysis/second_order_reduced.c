@@ -75,7 +75,7 @@ typedef struct transfers_compared {
     size_t each;
     double *whole, *reduced;
     double *rounding; /* [each] of the full model */
-    double *largest;  /* [each] absolute value of the full model at all frequencies */
+    double *largest;  /* [each] largest absolute value of the full model over all frequencies */
     char *exists;     /* [each] 0: zero at all frequencies, apart from rounding errors */
     char *kind;       /* [n + motions] of the full model: 0 m, 1 rad, 2 rad/m, 3 motions */
 } transfers_compared;

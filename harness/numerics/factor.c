@@ -222,9 +222,9 @@ const sparse *factor_upper(const matrix_factor *fa)
 
 /* Hager's estimate of the 1-norm condition number (W.W. Hager, SIAM J. Sci. Stat. Comput. 5, 1984),
  * which needs only solutions. Translations, rotations and warping have different units, and the
- * condition number should not depend on the units. Therefore rows and columns are scaled by the
- * square root of the diagonal. For a positive definite matrix, this scaling is within a factor n of
- * the best scaling (A. van der Sluis, Numer. Math. 14, 1969). */
+ * condition number should not depend on the units. Therefore rows and columns are divided by the
+ * square roots of the diagonal. For a positive definite matrix, this scaling is within a factor n
+ * of the best scaling (A. van der Sluis, Numer. Math. 14, 1969). */
 
 enum { MOST_STEPS = 5 };
 
@@ -364,8 +364,8 @@ void factor_unsymmetric_free(factor_unsymmetric *fu)
     free(fu);
 }
 
-/* Returns 1 if the numeric factors of `a` were computed with the pivot order of an earlier matrix.
- * */
+/* Factors `a` with the pivot order of an earlier matrix. Returns 0 if there is no earlier matrix,
+ * or if this order is not accurate for `a`. */
 static int refactor(factor_unsymmetric *fu, const sparse *a)
 {
     return fu->numeric != NULL &&

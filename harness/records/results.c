@@ -194,7 +194,7 @@ void results_table_write(FILE *to, const stored_results *r)
 }
 
 /* Reads the short table of a run. All its contents are checked, because the file may be truncated,
- * damaged or not such a file. */
+ * damaged or of another kind. */
 
 enum {
     SERIES,

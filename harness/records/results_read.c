@@ -334,8 +334,8 @@ static status results_case_read(const char *path, hid_t at, const char *name, st
     return outcome;
 }
 
-/* Reads results.h5. All its contents are checked, because the file may be truncated, damaged or not
- * such a file. */
+/* Reads results.h5. All its contents are checked, because the file may be truncated, damaged or of
+ * another kind. */
 
 enum { HDF5_NAME = 200 };
 

@@ -47,7 +47,8 @@ static void take(const model *m, int vertex, double mass, const double moment[3]
         to->inertia[i] += moved[i];
 }
 
-/* Computes the first moment and the tensor of a lumped mass, in the axes of the element. */
+/* Computes the first moment and the tensor of a lumped mass, in the axes of the element. share:
+ * fraction of the mass. */
 static void lump(const lumped_mass *l, double share, double moment[3], double tensor[9])
 {
     memset(moment, 0, 3 * sizeof *moment);

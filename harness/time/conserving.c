@@ -164,9 +164,9 @@ static void release(motion_scheme *base)
     free(s);
 }
 
-/* Checks the rotations. REFUSED: a rotation has two free angles. The mass would then have an
- * angular velocity normal to both axes at the end of a step, and the rates of the angles would not
- * contain its energy. */
+/* Checks the rotations. REFUSED: the rotation of a node has two angles, both free. A mass would
+ * have an angular velocity normal to both axes at the end of a step, and the rates of the angles
+ * would not contain its energy. */
 static status check(const model *m, fault *f)
 {
     for (int i = 0; i < model_scene(m)->nodes; i++) {

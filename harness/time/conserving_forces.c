@@ -12,8 +12,8 @@
 
 enum { N = ELEMENT_MAX_COORDINATES, M = DEFORMABLE_STRAINS };
 
-/* Computes the terms of the stresses that do not need the strains at the end of the step: (sigma_n
- * + P'(e))/2 + k W d, and eta S0 d/h for damping. */
+/* Computes the terms of sigma_m that do not depend on the gaps: (sigma_n + P'(e))/2 + k W d, and
+ * eta S0 d/h for damping. */
 static void middle_of(const conserving *s, evaluation *v)
 {
     const deformable *of = &v->of;
@@ -349,7 +349,7 @@ double conserving_update(conserving *s, const instant *from, model_state *now)
 /* Work of external loads in a step: the forces during the step times the increments of the
  * coordinates. */
 
-/* Returns the work of a force on dr and c of the coordinates, where c is 2 tan(d angle/2) for
+/* Returns the work [J] of a force on dr and c of the coordinates, where c is 2 tan(d angle/2) for
  * angles. */
 static double worked_on(const conserving *s, const double force[])
 {
@@ -394,7 +394,7 @@ static double dissipated(const conserving *s, const instant *from, model_state *
 status conserving_work(conserving *s, const instant *from, instant *to, double h, fault *f)
 {
     const size_t bytes = (size_t)s->all * sizeof *s->residual;
-    const int behind = 3; /* iteration number for which k is used */
+    const int behind = 3; /* an iteration in which conserving_stresses uses k */
     double ignored = 0;
     memset(s->residual, 0, bytes);
     conserving_loads(s, from, to->state, h, s->residual);

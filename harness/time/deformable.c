@@ -79,7 +79,7 @@ static void place_turn(const model *m, const double at[DEFORMABLE_POINTS], const
     }
 }
 
-/* Sets the states during the step in which strains are evaluated. */
+/* Sets the states of the nodes at the ends of the step and at the points inside it. */
 static void place_nodes(const conserving *s, const instant *from, const model_state *now,
                         evaluation *v)
 {
@@ -99,7 +99,7 @@ static void place_nodes(const conserving *s, const instant *from, const model_st
     place_turn(m, at, from, now, v);
 }
 
-/* Returns the nodes for which strains are evaluated. */
+/* Returns the states of the nodes at a point; point DEFORMABLE_POINTS: at the end of the step. */
 static const node_state *nodes_of(const evaluation *v, int point)
 {
     return point < DEFORMABLE_POINTS ? v->point[point].x : v->last;

@@ -117,8 +117,8 @@ status explicit_alloc(const scheme_request *request, motion_scheme **out, fault 
     return allocate(s, f);
 }
 
-/* Computes the masses of the free coordinates of a frame: of[count], M[count x count]. Returns
- * count. */
+/* Computes the mass matrix M[count x count] of the free coordinates of a frame, and their indices
+ * of[count]. Returns count. */
 static int block(const model *m, const carried_masses *masses, int index, const model_state *s,
                  const double v[], int of[6], double M[36])
 {
@@ -367,8 +367,8 @@ static void turn_rates(const explicit_scheme *s, const double inc[], const doubl
     }
 }
 
-/* Solves for the inner unknowns of an element at given strains with Newton's method. The element
- * defines the steps. */
+/* Solves for the inner unknowns of an element at given strains with Newton's method. The function
+ * `update` of the element computes the corrections. */
 static status settle_rates(const explicit_scheme *s, int i, double time, fault *f)
 {
     enum { MOST = 30 };

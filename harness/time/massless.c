@@ -70,7 +70,7 @@ static double stiffest(const body_mass *g, double none, const double diagonal[],
 }
 
 /* Performs the task for a body and the bodies that constraints join to it. Returns the rank of
- * their M. */
+ * their mass matrix. */
 static int visit(const model *m, const carried_masses *all, int body, const model_state *s,
                  body_mass *g, wish *of)
 {
@@ -146,8 +146,8 @@ status massless_motion(const model *m, const carried_masses *all, const model_st
     return walk(m, all, s, &of, &count, f);
 }
 
-/* Finds the largest ratio of stiffness to inertia [1/s^2]. diagonal[free]: diagonal of a
- * stiffness. */
+/* Finds the largest ratio of stiffness to inertia [1/s^2]. diagonal[free]: diagonal of the
+ * stiffness matrix. */
 static status massless_stiffest(const model *m, const carried_masses *all, const model_state *s,
                                 const double diagonal[], double *out, fault *f)
 {
@@ -247,7 +247,8 @@ static status column(const model *m, const carried_masses *masses, const model_s
     return STATUS_OK;
 }
 
-/* Replaces P by R^T P R for rotations that are not sequences of angles. */
+/* Replaces the projection P onto rotations by R^T P R for bodies whose rates are in rotating axes.
+ * */
 static void own_axes(const model *m, const model_state *s, massive *h)
 {
     for (int i = 0; i < model_first_release(m); i++) {

@@ -61,8 +61,8 @@ static void rescale(watched *one, double value)
     one->largest = fabs(value);
 }
 
-/* Adds an integral by six-point Gauss quadrature, which is exact for squares of fifth-degree
- * polynomials. */
+/* Adds the integral from a to b by six-point Gauss quadrature, which is exact for squares of
+ * fifth-degree polynomials. */
 static void add_inside(watches *s, watched *one, double a, double b)
 {
     static const double x[] = {0.23861918608319690863, 0.66120938646626451366,
@@ -168,7 +168,8 @@ static void doubt(watched *one, const means_part *now)
     one->holds = !pairs;
 }
 
-/* Adds an integral by Lobatto's rule. Forces and energies inside the step come from side steps. */
+/* Adds the integral from a to b by Lobatto's rule, for forces and energies, which come from side
+ * steps. */
 static void add_aside(watches *s, watched *one, double a, double b)
 {
     means_part now;

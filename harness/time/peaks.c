@@ -57,8 +57,8 @@ static void take(peak *one, double value, double time, double error)
         *one->out = (outcome_passing){1, value, time, error};
 }
 
-/* Computes the value at a time inside the next step with a side step. *known 0: the side step did
- * not converge. */
+/* Computes the value at a time inside the step that starts at `from` with a side step. *known 0:
+ * the side step did not converge. */
 static status beside(peaks *s, const scene_quantity *q, const instant *from, double time,
                      double *value, int *known, fault *f)
 {

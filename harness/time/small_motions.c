@@ -247,7 +247,8 @@ static void add_inertia(small_motions *s)
 
 /* Change of J of all damped elements and dashpots during the motion, by finite differences. */
 
-/* Returns a duration [s] in which no node moves far. */
+/* Returns a duration [s] in which nodes rotate by about turn_by and move by about turn_by times the
+ * size of the model, at most; 0: nothing moves. */
 static double short_time(const small_motions *s)
 {
     const double length = model_length(s->m);
@@ -383,7 +384,8 @@ static status add_damping(small_motions *s, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the stresses from the strains and their rates. */
+/* Makes the strains compatible with the positions, then computes the stresses from the strains and
+ * their rates. */
 static status make_compatible(const equations *eq, instant *now, fault *f)
 {
     const model *m = eq->m;

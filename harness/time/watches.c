@@ -136,7 +136,7 @@ static status crossed(watches *s, watched *one, const instant *from, double time
     return STATUS_OK;
 }
 
-/* Returns 1 if a crossing to this side is counted. */
+/* Returns 1 if a crossing to this side of the level (1: above, -1: below) is counted. */
 static int counts(const watched *one, int side)
 {
     const scene_direction way = one->q->passing.direction;
