@@ -166,7 +166,7 @@ static double value_of(const series *one, int mesh, int quantity)
     return is_there ? r->quantity[quantity].value : NAN;
 }
 
-/* Computes the cells of one formulation at one point. */
+/* Stores the results of the cells of one formulation at one point in the rows of the batch. */
 static void fill_cells(const making *m, int at, int which)
 {
     const series *one = &m->s->series[at * m->of->formulations + which];
