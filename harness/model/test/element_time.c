@@ -1,6 +1,6 @@
-/* Cost of one evaluation of every formulation: kinematics (strains, gradient, second derivatives),
- * stress with stiffness, and the update of the inner unknowns. The times are in microseconds, the
- * smallest of many repetitions, for a sheet bent by 3 % of its length. */
+/* Measures the cost of one evaluation of every formulation for a sheet bent by 3 % of its length:
+ * kinematics (strains, gradient, second derivatives), stress with stiffness, and the update of the
+ * inner unknowns. The times are in microseconds, each the smallest of many repetitions. */
 #include <stdio.h>
 
 #include "elements/test/chain.h"
@@ -70,7 +70,7 @@ int main(void)
         const element_type *type = registry_formulations[i];
         measure(type, NULL, type->name, &s);
         for (int k = 0; k < parameter_count(type->options); k++) {
-            /* this option changes the size of the element */
+            /* the first option of these types changes the size of the element */
             const int shapes = type->inner != NULL || type->nodes != NULL;
             for (int v = 0;
                  shapes && k == 0 && v < parameter_choices(parameter_at(type->options, k)); v++) {

@@ -1,4 +1,5 @@
-"""Initial shapes of members compared with closed forms: magnified moments, frequencies of a shallow arch, no stress."""
+"""Initial shapes of members compared with closed forms: magnified moments, frequencies of a shallow arch, and absence
+of stress."""
 import math
 
 from cases.format.test.scene_case import SceneCase, values
@@ -43,8 +44,8 @@ class ImperfectionTest(SceneCase):
             self.record("solve", "--scene", self.scene(text), "-f", formulation, "-n", n, *more))
 
     def test_magnified_moment(self):
-        """The moment is N a/(1 - N/N_k), where N_k is the buckling load for the same number of half-waves, about both
-        axes."""
+        """The moment is N a/(1 - N/N_k), for bending about both axes, where N_k is the buckling load for the same
+        number of half-waves."""
         bow = 1e-5
         for half_waves, part, where in ((1, 0.5, 0.5), (2, 2.0, 0.25), (3, -3.0, 1 / 6)):
             for amplitude, resultant in ((f"[{bow}, 0]", "Mz"), (f"[0, {bow}]", "My")):
@@ -53,12 +54,12 @@ class ImperfectionTest(SceneCase):
                     got = abs(self.solve(
                         column(amplitude, half_waves) + pushed(part, where, resultant), formulation,
                         12 * half_waves)["moment"])
-                    # a path beyond the first buckling load does not follow the symmetry-breaking instability
+                    # beyond the first buckling load, the path must stay on this branch although it is unstable
                     self.assertAlmostEqual(got / abs(exact), 1, delta=2e-4,
                                            msg=(formulation, half_waves, resultant))
 
     def test_chords_converge(self):
-        """Formulations without initial curvature use chords, and converge with order 2."""
+        """Formulations without initial curvature replace the shape by chords, and converge with order 2."""
         exact = 0.5 * CRITICAL * 1e-5 / 0.5
         for formulation in ("beamw", "beamw_consistent", "beamw_first", "beamw_vlasov"):
             error = [abs(abs(self.solve(column("[1e-5, 0]") + pushed(0.5), formulation, n)["moment"])
@@ -81,8 +82,8 @@ class ImperfectionTest(SceneCase):
                 self.assertLess(abs(value), 1e-3 * (1e-6 if name == "ux" else 1), (formulation, name))
 
     def test_either_order_of_ends(self):
-        """If the ends are exchanged, y and its component are reversed, and a bow must not change. With an even number
-        of half-waves, the bow begins on the other side."""
+        """If the ends of a member are exchanged, its y axis and the component of the bow are reversed, so the bow must
+        not change. With an even number of half-waves, the bow begins on the other side."""
         for half_waves in (1, 2):
             sign = 1 if half_waves == 1 else -1
             for formulation in ("collocation", "beamw", "sheet_third"):
@@ -113,8 +114,8 @@ class ImperfectionTest(SceneCase):
             self.assertAlmostEqual(got / exact, 1, delta=2e-3, msg=formulation)
 
     def test_mode(self):
-        """The first buckling mode, for a single load and for two equal loads, and the first mode of a modal analysis are
-        the sine of a bow. The critical load remains that of the perfect column."""
+        """As imperfections, the first buckling mode, single or double, and the first mode of a modal analysis must
+        equal a sinusoidal bow. The critical load remains that of the perfect column."""
         bow, exact = 1e-5, 0.5 * CRITICAL * 1e-5 / 0.5
         for inertia, direction, of in ((f"Iy: {100 * I}, Iz: {I}", "", "{buckling: {}}"),
                                        (f"Iy: {I}, Iz: {I}", ", direction: [0, 1, 0]", "{buckling: {}}"),
@@ -174,7 +175,7 @@ omit: [shear]
 """
 
     def test_mode_of_a_frame(self):
-        """Rigid arms by offsets and by bodies, with a hinge, must give the same shape."""
+        """Rigid arms given by offsets and by attached nodes, with a hinge, must lead to the same shape."""
         offsets = self.FRAME.replace("NODE", "").replace("MORE", "").replace(
             "to: LEFT,", "to: knee, offset: {to: [0, -0.2, 0]},").replace(
                 "from: RIGHT,", "from: top, offset: {from: [0.1, -0.1, 0]},")
@@ -214,8 +215,8 @@ omit: [shear]
             self.refused(2, words, "solve", "--scene", self.scene(filed), "-n", 1)
 
     def test_shifted_lengths(self):
-        """Strains refer to the shifted length. A member drawn with 1 m is 0.98 m long after the shift, and its unstressed
-        length is 0.979 m."""
+        """Strains refer to the shifted length. A member with the length 1 m in the scene is 0.98 m long after the
+        shift, and its unstressed length is 0.979 m."""
         def bar(at, length, shift):
             return f"""beamwork: 1
 sections: {{bar: {{rectangle: {{width: 20e-3, thickness: 10e-3}}, young: 200e9, shear_modulus: 77e9}}}}
@@ -264,8 +265,8 @@ quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}
         self.assertIn("meshes: [6, 12, 24, 48]", written)
 
     def test_on_a_foundation(self):
-        """Springs of the foundation have the weights of a straight member, whatever the direction of the bow in space. A
-        zero bow changes nothing, and rounding of the element lengths does not matter."""
+        """The springs of a foundation must have the weights of the straight member, for any direction of the bow. A
+        zero bow must change nothing, and round-off in the element lengths must not matter."""
         def founded(bow, tip=(LENGTH, 0, 0), y=(0, 1, 0)):
             return f"""beamwork: 1
 sections:

@@ -17,8 +17,8 @@ static const char *const names[] = {
     "geometrically_exact", "geometrically_exact:nodes=2", "collocation"};
 enum { NAMES = sizeof names / sizeof names[0] };
 
-/* Solves a rectangular member of length 2 m with the strains g[3] whose tip is held in the
- * components held[6]. Returns the six coordinates and six reactions. */
+/* Solves a rectangular member of length 2 m with the initial strains g[3]. Its tip is held in the
+ * components held[6]. u[6] and F[6] are the coordinates and the reactions of the tip. */
 static void solve(const char *name, const double g[3], const int held[6], double u[6], double F[6])
 {
     static const char *const quantity[12] = {"u0", "u1", "u2", "u3", "u4", "u5",
@@ -88,8 +88,8 @@ static void shear(const char *name, int direction)
                  "xyz"[direction]);
     gsl_test_abs(u[direction == 1 ? 5 : 4] / small, 0, 1e-5, "%s: and does not turn", name);
     solve(name, g, held, u, F);
-    /* Timoshenko's clamped beam under the imposed sliding L g has the force 12 EI L g/(L^3 (1 +
-     * Phi)) */
+    /* Timoshenko's clamped beam with the transverse displacement L g of one end has the force 12 EI
+     * L g/(L^3 (1 + Phi)) */
     const double EI = 2e9 * (direction == 1 ? 0.2 * 0.1 * 0.1 * 0.1 : 0.1 * 0.2 * 0.2 * 0.2) / 12,
                  L = 2;
     const double Phi = 12 * EI / (GA * L * L), expected = -12 * EI * small / (L * L * (1 + Phi));
@@ -151,7 +151,7 @@ static void initial_tests(void)
     not_offered();
 }
 
-/* Centre lines for pictures: a twisted shaft, and a beam bent to an arc. */
+/* Tests centre lines for pictures: a twisted shaft, and a beam bent to an arc. */
 
 enum { POINTS = 13, MOST = 60 };
 
@@ -224,7 +224,7 @@ static void centreline_tests(void)
     }
 }
 
-/* Start and end of the pieces of members, and the element at a position. */
+/* Tests the division of members into pieces between loads, and the element at a position. */
 
 enum { WHOLE, LOADED, OWN };
 
@@ -247,7 +247,8 @@ static void row(scene *s)
     scene_load *part = scene_load_at(s, scene_add_load(s, SCENE_DISTRIBUTED, LOADED, 1, 0, 0));
     part->range[0] = 0.2;
     part->range[1] = 0.7 + 1e-16;
-    scene_add_load_within(s, SCENE_MEMBER_MOMENT, LOADED, 0.7005, 1, 0, 0); /* too close */
+    scene_add_load_within(s, SCENE_MEMBER_MOMENT, LOADED, 0.7005, 1, 0,
+                          0); /* too close to the force at 0.7 to begin a new piece */
     scene_add_load_within(s, SCENE_MEMBER_MOMENT, LOADED, 0.9995, 1, 0, 0);
     scene_add_load_within(s, SCENE_MEMBER_MOMENT, OWN, 1, 1, 0, 0);
     scene_add_load_within(s, SCENE_MEMBER_FORCE, OWN, 0.5, 1, 0, 0);
@@ -317,13 +318,13 @@ static void division_tests(void)
     scene_free(&s);
 }
 
-/* Rigid motions about an origin, at a node in a given position. */
+/* Tests the matrix of rigid motions about the origin for a node in a given position. */
 
 static void supports_tests(void)
 {
     enum { N = 6 };
     const double at[3] = {0.3, -0.7, 1.1}, length = 2;
-    /* u = t + w x at / length, and w / length, in the columns t and w */
+    /* in the columns t and w: u = t + w x at / length, and the rotation w / length */
     const double expected[N][N] = {{1, 0, 0, 0, at[2] / length, -at[1] / length},
                                    {0, 1, 0, -at[2] / length, 0, at[0] / length},
                                    {0, 0, 1, at[1] / length, -at[0] / length, 0},

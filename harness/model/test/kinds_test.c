@@ -1,4 +1,4 @@
-/* Elements must share their data if they do not differ in any relevant property. */
+/* Elements must share the data of one kind if all properties that affect these data are equal. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -56,8 +56,8 @@ static void row_of(int count, const kinds_link links[], double force, scene *s)
     }
 }
 
-/* Returns 1 if the scene was solved. `value` contains the reaction at the end, and the displacement
- * of the first joint. */
+/* Solves a row of links. Returns 1 if successful; `value` is then the reaction at the end and the
+ * displacement of the first joint. */
 static int solve(const element_type *type, int count, const kinds_link links[], double force,
                  int elements, double value[2], int *kinds)
 {
@@ -82,7 +82,7 @@ static int solve(const element_type *type, int count, const kinds_link links[], 
     return outcome == STATUS_OK;
 }
 
-/* There is one kind for all elements of equal members. Each property that differs adds a kind. */
+/* Equal members have one kind of element. Each property that differs adds a kind. */
 static void counts(const element_type *type)
 {
     static const struct {
@@ -136,7 +136,7 @@ static void lengths(const element_type *type)
 }
 
 /* With the strain e in one of two equal links, the force at the end is -EA e/2, and the joint moves
- * by e/2. */
+ * by e/2 times the length of a link. */
 static void strains(const element_type *type)
 {
     static const double strain[] = {1e-3, -1e-7, 1e-10};
@@ -154,7 +154,8 @@ static void strains(const element_type *type)
     }
 }
 
-/* Members whose areas differ by 2e-6 share a force in proportion to their stiffness. */
+/* Members whose areas differ by 2e-6 are of different kinds. They share a force in proportion to
+ * their stiffness. */
 static void sections(const element_type *type)
 {
     const double A0 = side[0] * side[0], A1 = side[1] * side[1], force = 1e-6 * young * A0;
@@ -186,10 +187,10 @@ static void kinds_tests(void)
 }
 
 /* The metric of arc length is the mean of (displacement/size)^2 + angle^2 over the moving bodies,
- * for any motion in any direction. Small steps and differences of states must have the same
- * metric. */
+ * for any motion. A small step and the difference between the states before and after it must have
+ * the same length. */
 
-enum { ELEMENTS = 3, BODIES = 6 }; /* one of seven vertices is held */
+enum { ELEMENTS = 3, BODIES = 6 }; /* one of the seven vertices is held */
 
 static void one_motion(const model *m, int vertex, int component, double size)
 {
@@ -244,8 +245,9 @@ static void metric_tests(void)
     scene_free(&s);
 }
 
-/* Members whose section changes along their length: the number of kinds of elements, their
- * sections, and properties along the member that the ends do not have. */
+/* Members whose section changes along their length. The tests check the number of kinds of
+ * elements, their sections, and properties of the section between the ends that the ends do not
+ * have. */
 
 enum { PROFILE_ELEMENTS = 5 };
 
@@ -256,7 +258,8 @@ static section_spec rectangle(double width)
     return spec;
 }
 
-/* Builds members in a row along x between the sections of these indices. */
+/* Builds members in a row along x. ends[i] are the indices of the sections at both ends of member
+ * i. */
 static void profile_row_of(int members, const int ends[][2], scene *s)
 {
     const double y[3] = {0, 1, 0};
@@ -279,8 +282,8 @@ static model *meshed(const scene *s, const element_type *type, int elements, fau
     return model_alloc(&what, &m, f) == STATUS_OK ? m : NULL;
 }
 
-/* There is one kind for each element of a taper, whatever the number of members with this taper,
- * and one kind for a prismatic member. */
+/* Each element of a taper has its own kind. Members with the same taper share these kinds, and all
+ * prismatic members share one kind. */
 static void kinds(const element_type *type)
 {
     static const struct {
@@ -306,7 +309,7 @@ static void kinds(const element_type *type)
     }
 }
 
-/* Element i of n has the section at (i + 1/2)/n. */
+/* Element i of n must have the section at its middle, (i + 1/2)/n. */
 static void middles(const element_type *type)
 {
     const int ends[][2] = {{2, 0}};
@@ -324,8 +327,8 @@ static void middles(const element_type *type)
     scene_free(&s);
 }
 
-/* Returns a section with flanges, which are doubly symmetric at both ends of a member but on
- * opposite sides, so the section between is a channel. */
+/* Returns the section at one end of a member. Its flanges are on one side of the web, and at the
+ * other end of the member they are on the opposite side, so the section between is a channel. */
 static section_spec flanges(double upper, double lower)
 {
     const double point[][2] = {{upper, 0.05}, {0, 0.05}, {0, -0.05}, {lower, -0.05}},
@@ -367,13 +370,13 @@ static void profile_tests(void)
 }
 
 /* If the section of a structure is described in axes rotated by any angle about the beam, every
- * formulation must give the same results. The test detects errors in terms of a single axis (a
- * Wagner moment, a distance of the shear centre, an entry of D). */
+ * formulation must give the same results. The test detects an error in a term that belongs to one
+ * axis, such as a Wagner moment, a coordinate of the shear centre or an entry of D. */
 
 enum { ANGLE = CASE_MAX_PARAMETERS - 1, ORIGINAL = CASE_MAX_PARAMETERS - 2 };
 
-/* Applies y = y' cos - z' sin: the local y axis of every member along x rotates by the angle, and
- * the points of the sections rotate by its negative. */
+/* Rotates the axes of sections, y = y' cos - z' sin: the local y axis of every member along x
+ * rotates by the angle, and the points of the sections rotate by its negative. */
 static status turned(const double value[], scene *s, fault *f)
 {
     const double c = cos(value[ANGLE]), d = sin(value[ANGLE]);
@@ -408,8 +411,6 @@ static status turned_solve(int original, double angle, const element_type *eleme
     return cell_run(&request, out, &f);
 }
 
-/* Quantities of the same sign and order must be equal, except that a rotation by 180 degrees
- * exchanges the signs of moments. */
 static int compare(int original, const element_type *element)
 {
     static const double angle[] = {0.5, 1.5707963267948966, -2.2};
@@ -418,7 +419,7 @@ static int compare(int original, const element_type *element)
     const int runs = turned_solve(original, 0, element, &before) == STATUS_OK;
     gsl_test(!runs && ask_offered(&before.scene, element), "%s, %s: solved where it is offered %s",
              before.scene.name, element->name, before.solve.reason);
-    /* a formulation without shear along y is a different model if y is a different axis */
+    /* without shear along y, a formulation is a different model if y is a different axis */
     const int lacks = (element->lacks & LACKS_SHEAR_Y) && !ask_offered(&before.scene, element);
     const size_t angles = runs && !lacks ? sizeof angle / sizeof angle[0] : 0;
     for (size_t k = 0; k < angles; k++) {

@@ -1,5 +1,5 @@
-/* The dimensions of the spaces of motions must be those of exact axes, despite round-off and units
- * in the computed axes. */
+/* The spaces of possible motions must have the dimensions that exact axes give, despite round-off
+ * and different units in the axes. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -51,7 +51,7 @@ static double apart_from_unit(const movable *v)
     return worst;
 }
 
-/* Returns the size of the part of a column outside the span. */
+/* Returns the size of that part of a column which is not in the span. */
 static double outside(int columns, const double *T, double length, const movable *v)
 {
     double worst = 0;
@@ -86,8 +86,8 @@ static void dimensions(void)
     }
 }
 
-/* Two rotations span the plane of x and y up to round-off. The result must be whole components, and
- * the third component must be excluded exactly. */
+/* Two rotations span the plane of x and y up to round-off. The result must be exactly the rotations
+ * about x and y. */
 static void whole_components(void)
 {
     const double c = cos(0.35), s = sin(0.35),
@@ -100,8 +100,8 @@ static void whole_components(void)
         gsl_test(v.span[i] != (double)(i == 6 || i == 9), "unit vectors: %g at %d", v.span[i], i);
 }
 
-/* Columns with a single component must give the same motions as without the detection of single
- * components by their zeros. One component is repeated, and one is zero. */
+/* Columns with one nonzero component are treated separately. They must give the same motions as
+ * columns with a tiny second component. One column is repeated, and one is zero. */
 static void components_alone(void)
 {
     const double alone[24] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0,
@@ -127,8 +127,8 @@ static void nothing(void)
     gsl_test(v.count != 0, "no coordinates: %d dimensions", v.count);
 }
 
-/* Free rotations transmit no moment. The remaining moment is perpendicular to the free rotations,
- * and exactly zero if these span space. */
+/* Free rotations transmit no moment. The moment must be reduced to its part perpendicular to the
+ * free rotations, which is exactly zero if these span space. */
 static void prescribed_moment(void)
 {
     uint64_t state = 3;
@@ -161,8 +161,8 @@ static void movable_tests(void)
     prescribed_moment();
 }
 
-/* Masses at the nodes of straight elements: their moments, and the moments of sections given by
- * matrices. */
+/* Masses at the nodes of straight elements: their moments, and the moments of inertia of sections
+ * given by matrices. */
 
 enum { MOST = SPECIMEN_COORDINATES };
 
@@ -179,9 +179,9 @@ static void make(const char *name, const specimen_request *what, specimen *out)
     gsl_test(specimen_make(what, out, &f) != STATUS_OK, "%s: prepared %s", name, f.text);
 }
 
-/* Lumped masses at the nodes of an element follow the rule for loads: the trapezoidal rule with two
- * nodes, Simpson's rule with three, whose second moment about the end is exact. The twist has the
- * polar inertia of the section. */
+/* Lumped masses at nodes follow the rule for loads: the trapezoidal rule with two nodes, Simpson's
+ * rule with three nodes. The second moment of mass about an end is exact only with three nodes. The
+ * twist has the polar inertia of the section. */
 static void lumped_moments(const char *name)
 {
     formulation chosen;
@@ -210,7 +210,8 @@ static void lumped_moments(const char *name)
     specimen_free(&s);
 }
 
-/* The mass matrix of one node of a two-node element is that of the slice times half the length. */
+/* For each node of a two-node element, the mass matrix must be that of a slice, given per length,
+ * times half the length. */
 static void slice(const char *name)
 {
     formulation chosen;
@@ -243,8 +244,9 @@ static void inertia_moments_tests(void)
     slice("collocation");
 }
 
-/* Springs: derivatives compared with finite differences, for any relative rotation of their ends,
- * no deformation if both ends move as one rigid body, and known deformations. */
+/* Tests springs. Derivatives are compared with finite differences for any relative rotation of the
+ * ends. If both ends move as one rigid body, there must be no deformation. Other deformations are
+ * known. */
 
 static void two_ends(const element_data *data, const node_state x[], strain_output *out)
 {

@@ -1,5 +1,5 @@
 /* Features that a scene needs: each kind of shear coupling violates double symmetry on its own, and
- * frequencies under load need the stiffness due to this load. */
+ * frequencies under load require the geometric stiffness. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

@@ -1,4 +1,5 @@
-/* A model whose last end is rotated relative to its node, which no scene can describe. */
+/* A model in which the last end of a member is rotated relative to its node. No scene can describe
+ * this. */
 #ifndef BEAMWORK_TEST_TURNED_END_H
 #define BEAMWORK_TEST_TURNED_END_H
 
@@ -8,8 +9,8 @@
 #include "elements/math/rotation.h"
 #include "harness/model/model_impl.h"
 
-/* Rotates the last end by a vector, from its present orientation. `own` receives the triads of the
- * element after the rotation. */
+/* Rotates the last end further by a rotation vector. `own` receives the triads of the element after
+ * the rotation. */
 static inline void turned_end(model *m, const double vector[3], mesh_triad own[ELEMENT_MAX_NODES],
                               mesh_triad *before)
 {

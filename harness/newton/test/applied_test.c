@@ -1,5 +1,5 @@
-/* Loads along members and at offsets must have the correct total force and moment, in the axes of
- * members with any section. An offset acts as a rigid arm. */
+/* Loads along members and at offsets must have the correct total force and moment, in the axes of a
+ * member with any section. An offset acts as a rigid arm. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,7 @@
 enum { MOST = 120 };
 static const double along[3] = {0.6, 0.8, 0}, across[3] = {-0.8, 0.6, 0};
 
-/* An angle with unequal legs, whose principal axes are oblique to the walls. */
+/* Adds an angle section with unequal legs, whose principal axes are oblique to the legs. */
 static int add_angle(scene *s)
 {
     static const double point[3][2] = {{0, 0}, {0.1, 0}, {0, 0.05}}, thickness[2] = {0.01, 0.01};
@@ -117,7 +117,8 @@ static void along_a_member(const char *name)
     }
 }
 
-/* Checks a load that varies along a part of a member: q = (v + w)/2 + s (w - v), x = c + h s. */
+/* Checks a load that varies from v to w along a part of a member: q = (v + w)/2 + s (w - v) at x =
+ * c + h s, where s is from -1/2 to 1/2. */
 static void along_a_part(const char *name, int lumped)
 {
     static const double v[3] = {1, -2, 3}, w[3] = {-0.5, 1, 2}, range[2] = {0.15, 0.72};
@@ -200,8 +201,8 @@ static void applied_tests(void)
         offset_is_an_arm(registry_formulations[i]);
 }
 
-/* Elements evaluated in lanes, with members of two alternating sections, must give the same results
- * as elements evaluated one at a time. An element that cannot be evaluated must be named. */
+/* Elements evaluated in lanes must give the same results as elements evaluated one at a time. The
+ * members have two sections in turn. An element that cannot be evaluated must be named. */
 
 enum { ELEMENTS = 7, MEMBERS = 3, QUANTITIES = 6 };
 
@@ -262,11 +263,12 @@ static void same_answers(const element_type *type)
 }
 
 static const element_type *inner;
-static int asked; /* processors without AVX2 evaluate one element at a time */
+static int asked; /* calls for several elements; none on processors without AVX2, which evaluate one
+                     element at a time */
 static const double failing =
     0.4 + 0.2 * 3 / ELEMENTS; /* start of the fourth element of the last member [m] */
 
-/* Makes the evaluation of one element fail. */
+/* Makes the evaluation of the element at a certain position fail. */
 static void fail(int count, const node_state x[], int nodes, status outcome[])
 {
     for (int k = 0; k < count; k++)
@@ -335,8 +337,8 @@ static void chunk_tests(void)
     gsl_test(found == 0, "a formulation with equations in lanes");
 }
 
-/* For a beam on an arm, the reactions of the body at the foot are the force at the tip and the
- * moment of this force about the body. */
+/* A beam starts from a rigid arm of a held body. The reactions of the body must be the force at the
+ * tip and the moment of this force about the body. */
 static void foot_of_an_arm(const element_type *type)
 {
     const double y[3] = {0, 1, 0}, end = 1, P[3] = {0.01, -0.02, 0.03};

@@ -1,5 +1,5 @@
-/* Links and chains must agree with dense matrices of all coordinates, and a long chain must agree
- * with the beam that it represents. */
+/* Links and chains must agree with dense matrices of all coordinates. A long chain must agree with
+ * the beam that it represents. */
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
 #include <math.h>
@@ -16,10 +16,9 @@
 
 enum { LINKS = 5, STRAINS = 18, MOST = CHAIN_JOINT * (2 * LINKS + 1) };
 
-/* Elements with random matrices. If `indefinite` is 1, H makes some of their eigenvalues
- * negative. */
+/* Elements with random matrices. If `indefinite` is 1, their H have negative eigenvalues. */
 typedef struct chain_row {
-    int nodes, joint, joints, all; /* of the whole chain: joints x joint coordinates */
+    int nodes, joint, joints, all; /* coordinates per joint, joints, and all = joints x joint */
     double J[LINKS][STRAINS * ELEMENT_MAX_COORDINATES], C[LINKS][STRAINS * STRAINS],
         H[LINKS][ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[LINKS][9];
 } chain_row;
@@ -95,8 +94,8 @@ static double largest(int n, const double a[], const double b[])
     return most;
 }
 
-/* Compares the number of negative eigenvalues of the inner coordinates in the dense matrix and in
- * the chain. The coordinates of the ends come first and last. */
+/* Compares the numbers of negative eigenvalues of the inner coordinates that the dense matrix and
+ * the chain have. Returns the number. The coordinates of the ends come first and last. */
 static int held_inside(const chain_row *of, const double K[], const chain *s)
 {
     const int inside = of->all - 2 * of->joint;
@@ -110,8 +109,8 @@ static int held_inside(const chain_row *of, const double K[], const chain *s)
     return negative;
 }
 
-/* Solves for loads on all coordinates, with both ends on springs, with the dense matrix and with
- * the condensed ends. */
+/* Solves for loads on all coordinates, once with the dense matrix and once with the condensed ends.
+ * Both ends are on springs. */
 static void solutions(const chain_row *of, double K[], chain *s, uint64_t *seed)
 {
     const int c = of->joint, n = of->all;
@@ -133,7 +132,8 @@ static void solutions(const chain_row *of, double K[], chain *s, uint64_t *seed)
     chain_expand(s, b + c, ends, b + c);
     memcpy(b, ends, (size_t)c * sizeof *b);
     const double error = largest(n, b, x) / largest(n, x, NULL),
-                 most = of->H[0][0] == 0 ? 1e-10 : 1e-4; /* digits are lost near critical states */
+                 most = of->H[0][0] == 0 ? 1e-10 : 1e-4; /* if H is not zero, the matrix may be
+                                                            almost singular, and digits are lost */
     gsl_test(!(error < most), "%d nodes, %d coordinates: solution by way of the ends, off by %.1e",
              of->nodes, c, error);
 }
@@ -225,8 +225,7 @@ static void chain_tests(void)
 }
 
 /* The initial guess for the next state of a path must be exact for polynomial paths of a degree
- * that the number of stored states allows. The initial guess must not extrapolate further than the
- * states support. */
+ * that the number of stored states allows. It must not extrapolate too far. */
 
 enum { MOST_DEGREE = MODEL_EXTRAPOLATED };
 
@@ -254,7 +253,8 @@ static void extrapolate_fill(const model *m, int degree, double path, model_stat
     }
 }
 
-/* Returns the largest difference in vertices that have coordinates. */
+/* Returns the largest difference of strains and stresses, and of displacements and rotations of
+ * vertices with coordinates. */
 static double apart(const model *m, const model_state *a, const model_state *b)
 {
     double worst = 0;
@@ -271,8 +271,8 @@ static double apart(const model *m, const model_state *a, const model_state *b)
     return worst;
 }
 
-/* Returns the error of the guess at `to` after states at path[count], for a path of the given
- * degree that reverses at a kink. */
+/* Returns the error of the guess for the parameter `to`, after states at the parameters
+ * path[count]. The path is a polynomial of the given degree and reverses at `kink`. */
 static double error_of_guess(const model *m, int degree, double kink, int count,
                              const double path[], double to)
 {
@@ -301,7 +301,6 @@ static double error_of_guess(const model *m, int degree, double kink, int count,
     return error;
 }
 
-/* Checks steps of different lengths, in a larger number than are stored. */
 static void smooth_paths(const model *m)
 {
     static const double path[] = {0.04, 0.09, 0.15, 0.2,  0.26, 0.33, 0.39, 0.46,
@@ -318,7 +317,7 @@ static void smooth_paths(const model *m)
         }
 }
 
-/* The longest extrapolated step is one and a half times the last step. */
+/* Extrapolation is allowed for steps of up to one and a half times the last step. */
 static void long_steps(const model *m)
 {
     static const double path[] = {0.1, 0.2, 0.3, 0.4, 0.5};

@@ -10,7 +10,7 @@ enum { MOST = 40 };
 enum { LINE, SPIN };
 
 /* Computes the forces of one component on the vertices of a member of length 2 along x, due to a
- * load along it or to a frame that rotates about z. The ends come first. */
+ * load along it or to a frame that rotates about z. The vertices at both ends come first. */
 static void forces_along(int what, const char *name, double path, int follows, int nodes,
                          double out[])
 {
@@ -49,8 +49,9 @@ static void forces_along(int what, const char *name, double path, int follows, i
     scene_free(&s);
 }
 
-/* The nodal forces have the total and the first moment of the load along a member. The second
- * moment is that of the trapezoidal rule, or of Simpson's rule, which is exact. */
+/* The nodal forces must have the resultant and the first moment of the load along a member. The
+ * second moment is that of the trapezoidal rule, or, with three nodes, the exact one of Simpson's
+ * rule. */
 static void along_a_member(const char *name, int nodes)
 {
     double F[MOST], sum[3] = {0};
@@ -66,8 +67,8 @@ static void along_a_member(const char *name, int nodes)
     gsl_test_rel(sum[2], nodes == 2 ? 3 * 4 : 3 * 8 / 3.0, 1e-14, "%s: its second moment", name);
 }
 
-/* Centrifugal forces are proportional to the square of the angular velocity, which is proportional
- * to the path parameter if it follows the path. */
+/* Centrifugal forces are proportional to the square of the angular velocity. This is proportional
+ * to the path parameter if `follows` is 1. */
 static void turning_faster(void)
 {
     static const char name[] = "geometrically_exact:nodes=2";

@@ -12,7 +12,8 @@
 #include "harness/newton/test/turned_body.h"
 #include "harness/tools/kit/scenes.h"
 
-/* Returns a five-point difference of the work, with an error of fourth order. */
+/* Returns the derivative of the work with respect to coordinate k, by finite differences of fourth
+ * order. */
 static double slope(const turned_body *s, int k)
 {
     return (8 * (turned_body_work_at(s, k, turned_body_step, -1, 0) -
@@ -61,8 +62,8 @@ static void follow_stations(scene_load *load, const double path[3], const double
     memcpy(load->factor, value, 3 * sizeof *value);
 }
 
-/* The factors are 0, 2, 1 at path 0, 1, 3. The rate at a station is that of the next piece, and is
- * zero outside. */
+/* The factors of the load are 0, 2, 1 at path 0, 1, 3. Their rate at a station is that of the next
+ * interval, and it is zero outside the stations. */
 static void rates(void)
 {
     static const double path[] = {0, 1, 3}, value[] = {0, 2, 1};
@@ -91,7 +92,7 @@ static void rates(void)
     turned_body_release(&s);
 }
 
-/* The load is linear between its stations and constant outside. */
+/* Factors of loads are linear between stations and constant outside. */
 static void factors(void)
 {
     static const double path[] = {0.5, 1, 3}, value[] = {0.25, 2, 1};
@@ -118,7 +119,8 @@ static void factors(void)
     turned_body_release(&s);
 }
 
-/* Each load has a different factor: along x proportional to the path, along y given at stations. */
+/* Two loads have different factors: the load along x is proportional to the path parameter, and the
+ * factor of the load along y is given at stations. */
 static void reference(void)
 {
     static const double path[] = {0.5, 1, 3}, value[] = {0.25, 2, 1};
@@ -165,8 +167,8 @@ static void loads_tests(void)
     reference();
 }
 
-/* A dead force has a potential, so its stiffness is the second derivative of its work, with the
- * sign that it has in K. */
+/* A dead force has a potential, so its contribution to K is minus the second derivative of its
+ * work. */
 static void stiffness(int body)
 {
     turned_body s;
@@ -201,9 +203,9 @@ static void stiffness(int body)
     turned_body_release(&s);
 }
 
-/* If the coordinates are angles, the stiffness must be the derivative of the generalised loads,
- * even for moments and follower loads, which have no potential. `at` [m] is the offset from the
- * node. */
+/* If coordinates are angles, the contribution to K must be minus the derivative of the generalised
+ * loads, also for moments and follower loads, which have no potential. `at` [m] is the offset from
+ * the node. */
 static void stiffness_of_angles(int body, scene_load_kind kind, int follower, const double at[3])
 {
     turned_body s;

@@ -40,8 +40,8 @@ static void soft_spring(scene *s, int node, double k)
     scene_add_spring(s, SCENE_NONE, node, K);
 }
 
-/* A clamped member to a body, and a member from the body to a node on a spring. Loads of every kind
- * act on the second member. */
+/* Builds a clamped member to a body, and a member from the body to a node on a spring. Loads of
+ * every kind act on the second member. */
 static void bent(int place, const char *const set[2], scene *s)
 {
     static const double sequence[3][3] = {{0, 0, 1}, {0.6, 0.8, 0}, {1, 0, 0}};
@@ -164,7 +164,8 @@ static void residual_at(release_subject *t, int k, double h, double out[])
     model_linearisation lin = {.path = 1, .residual = out};
     kinematics_state_copy(t->m, t->s, t->moved);
     dx[k] = h;
-    linearise_state(&t->eq, &t->run.memory, t->moved, &lin, &f); /* memory for advance_state */
+    linearise_state(&t->eq, &t->run.memory, t->moved, &lin,
+                    &f); /* prepares the memory that advance_state uses */
     advance_state(&t->eq, &t->run.memory, t->moved, dx, 1, NULL);
     linearise_make_compatible(&t->eq, t->moved, &f);
     linearise_state(&t->eq, &t->run.memory, t->moved, &lin, &f);
@@ -231,8 +232,8 @@ static void release_tests(void)
 }
 
 /* The size of a correction includes every coordinate: translations relative to the size of the
- * scene, rotations in radians, warping amplitudes times that size. The rigid motion that is
- * reported must be one that the supports allow. */
+ * scene, rotations in radians, warping amplitudes times that size. If a support is missing, the
+ * rigid motion that is reported must be one that the supports allow. */
 
 static const double length = 2;
 
@@ -290,7 +291,7 @@ static void corrections(const element_type *type)
             const double size = size_of(m, k, step) / step;
             const int translation = fabs(size * length - 1) < 1e-9, turn = fabs(size - 1) < 1e-9,
                       warp = fabs(size - length) < 1e-9;
-            /* inner unknowns of an element are included */
+            /* inner unknowns of an element also contribute to the size */
             gsl_test(type->inner != NULL ? !(size > 0.4 / length) : translation + turn + warp != 1,
                      "%s: coordinate %d counts as %g", type->name, k, size);
             gsl_test(!isnan(size_of(m, k, NAN)), "%s: coordinate %d may be no number", type->name,
@@ -362,7 +363,8 @@ static status test_condensation_solve(const case_type *type, const char *of, int
     return cell_run(&request, out, &f);
 }
 
-/* Returns the largest value of quantities with the same unit, which is the scale for zeros. */
+/* Returns the largest magnitude of the quantities with this unit, to which differences are
+ * relative. */
 static double scale_of(const cell_result *r, const char *unit)
 {
     double largest = 0;
@@ -373,7 +375,6 @@ static double scale_of(const cell_result *r, const char *unit)
     return largest;
 }
 
-/* Compares all values. Returns their number. */
 static int compare(const char *name, const char *of, const cell_result *a, const cell_result *b)
 {
     int compared = 0;
@@ -415,8 +416,8 @@ static void cases(void)
     gsl_test(compared < 500, "%d values of cases were compared", compared);
 }
 
-/* Two leaves joined by a hinge, the second one starting from a body. The tip slides in its
- * holder. */
+/* Builds two leaves joined by a hinge. The second leaf starts from a body, and its tip can slide.
+ */
 static status hinged(const double value[], scene *s, fault *f)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -456,8 +457,8 @@ static void released(void)
     gsl_test(compared < 12, "%d values with released ends were compared", compared);
 }
 
-/* With 4000 elements and a condition of 1e16 of the assembled tangent, Newton's method must
- * converge as with few elements. */
+/* With 4000 elements, the assembled tangent has a condition number of 1e16. Newton's method must
+ * nevertheless converge as with few elements. */
 static void many(const case_type *type)
 {
     cell_result few, more;
@@ -487,8 +488,8 @@ static void condensation_tests(void)
     gsl_test(!found, "c_cantilever is there");
 }
 
-/* An analysis must pass on all eigenvalues, and the reason why there are no more. Results of one
- * kind of analysis cannot be read as those of another kind. */
+/* An analysis must return all eigenvalues that were found, and the reason if some are missing.
+ * Results of one kind of analysis cannot be read as those of another kind. */
 
 static void handed_over(status outcome, int rounding, const char *reason, const char *said)
 {

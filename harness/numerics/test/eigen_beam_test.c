@@ -31,7 +31,7 @@ static void beam_init(beam *b, int elements)
     matrices_add_elements(&b->M, elements, 2, 0, m);
     sparse *const all[] = {&b->K, &b->G, &b->M};
     for (int i = 0; i < 3;
-         i++) { /* the two held deflections become separate unknowns without a load */
+         i++) { /* the two held deflections become unknowns that are uncoupled from all others */
         const int held[2] = {0, 2 * elements};
         for (int e = 0; e < 2; e++)
             for (int j = 0; j < all[i]->n; j++)
@@ -63,9 +63,9 @@ static double beam_energy(void *context, const double x[])
     return sum;
 }
 
-/* Returns mu of the mesh: w = W sin(k pi j h) and slope = S cos(k pi j h) at node j leave the two
- * unknowns W and S. The function is for coarse meshes, because the determinants lose digits in
- * proportion to (k pi h)^4. */
+/* Returns eigenvalue mu of the discretised beam. With w = W sin(k pi j h) and slope S cos(k pi j h)
+ * at node j, only the two unknowns W and S remain. The function is accurate only for coarse meshes,
+ * because the determinants lose digits in proportion to (k pi h)^4. */
 static double mesh_value(const beam *b, int k, int vibration)
 {
     double K[16], G[16], M[16], form[2][3];
@@ -85,8 +85,9 @@ static double mesh_value(const beam *b, int k, int vibration)
     return (q + sqrt(q * q - 4 * p * r)) / (2 * p);
 }
 
-/* Returns the expected value from Euler's loads and frequencies (k pi)^2. The loads of the mesh are
- * too high by a factor 1 + (k pi h)^4/720, and its frequencies by half of this difference. */
+/* Returns the expected value from Euler's loads and frequencies (k pi)^2. The loads of the
+ * discretised beam are larger by the relative difference (k pi h)^4/720, and its frequencies by
+ * half of this difference. */
 static double expected_value(const beam *b, int k, int vibration)
 {
     if (b->elements <= 20)
@@ -95,7 +96,7 @@ static double expected_value(const beam *b, int k, int vibration)
 }
 
 /* Checks the values and the errors estimated by the solver, which must include the actual errors
- * and rounding of order n^2 in the quadratic form of A. */
+ * and round-off of order n^2 in x^T A x. */
 static void compare(const beam *b, const eigen_side *found, int vibration, double allowed)
 {
     const double rounding = 1e-15 + 1e-17 * b->elements * b->elements;
@@ -158,8 +159,9 @@ static void spoilt_product(void *context, const double x[], double y[])
     sparse_mul(((const spoilt *)context)->K, x, y);
 }
 
-/* Whatever the assembly of K has changed, the result must be that of the elements, and the reported
- * error must be the actual error. */
+/* The accurate matrix is known only through its elements, and digits were lost in the assembled K.
+ * The results must be those of the elements, and the reported errors must include the actual
+ * errors. */
 static void test_spoilt(double part)
 {
     enum { ELEMENTS = 60, WANTED = 5 };
@@ -175,8 +177,8 @@ static void test_spoilt(double part)
     memcpy(good.value, b.K.value, (size_t)b.K.column[b.K.n] * sizeof *good.value);
     for (int j = 0; j < b.K.n; j++)
         for (int k = b.K.column[j]; k < b.K.column[j + 1]; k++)
-            if (b.K.row[k] == j && j % 2 == 1) /* each rotation has a separate spring, which becomes
-                                                  stiffer along the column */
+            if (b.K.row[k] == j && j % 2 == 1) /* each rotation is attached to a spring, whose
+                                                  stiffness increases along the column */
                 b.K.value[k] += part * 20 * b.h * (1 + 3.0 * j / b.K.n);
     spoilt context = {&good, 1e-4};
     p.K_energy = spoilt_energy;
@@ -219,7 +221,7 @@ static void eigen_beam_tests(void)
 }
 
 /* If the iteration has found one copy of a repeated eigenvalue, the inertia shows that copies are
- * missing, and the other copies are found in the complement of that copy. */
+ * missing, and they must be found in the space orthogonal to that copy. */
 static void test_missed_copies(void)
 {
     enum { COPIES = 3, MASSES = 40, N = COPIES * MASSES };
@@ -242,7 +244,8 @@ static void test_missed_copies(void)
     for (int c = 0; c < COPIES; c++)
         for (int i = 0; i < MASSES; i++)
             all[c * N + i * COPIES + c] = 1e5 * sin((i + 1) * PI / (MASSES + 1));
-    for (int i = 0; i < MASSES; i++) /* starts from the second mode of the first string */
+    for (int i = 0; i < MASSES;
+         i++) /* the iteration starts from the second mode of the first string */
         x[i * COPIES] = sin(2 * (i + 1) * PI / (MASSES + 1));
     const double first = strings_exact(&s, 0), second = strings_exact(&s, COPIES),
                  scale = candidates_scale(&p, &work.solutions);
@@ -287,7 +290,8 @@ static void candidates_tests(void)
     test_missed_copies();
 }
 
-/* Data of a function that returns x^T A x, but fails for one sign within a range of magnitudes. */
+/* Data of a function that returns x^T A x, but fails for values of one sign within a range of
+ * magnitudes. */
 typedef struct broken {
     const sparse *A;
     double sign, least, most;
@@ -300,9 +304,8 @@ static double broken_energy(void *context, const double x[])
     return size > b->least && size < b->most ? NAN : energy;
 }
 
-/* Values of both signs, where those of one sign are lost as soon as they are found. The values of
- * the other sign must be found as if they alone had been requested, and the loss must be
- * reported. */
+/* Eigenvalues have both signs. Those of one sign are lost as soon as they are found. Those of the
+ * other sign must be found as if only they had been requested, and the loss must be reported. */
 static void test_sides_apart(void)
 {
     enum { N = 800, WANTED = 4 };
@@ -339,8 +342,8 @@ static void test_sides_apart(void)
     strings_free(&s);
 }
 
-/* One value of a side is lost. The values before it are returned, and none after it, because one of
- * those is missing. */
+/* One eigenvalue of one sign is lost. The preceding values must be returned, and none after it,
+ * because there would be a gap. */
 static void test_side_in_part(int lost)
 {
     enum { N = 800, WANTED = 4 };
@@ -375,8 +378,8 @@ static double much(void *context, const double x[])
     return *(const double *)context;
 }
 
-/* The estimate of rounding by the caller determines if a value is significant, and to how many
- * digits. */
+/* The caller's estimate of round-off must determine whether a value is significant, and how many of
+ * its digits. */
 static void test_rounding(int masses)
 {
     enum { WANTED = 3 };
@@ -443,7 +446,7 @@ static void test_strings(int copies, int masses, double spread, int wanted, int 
     strings_free(&s);
 }
 
-/* Compares the first values of both signs, if all values were found. */
+/* Compares the first eigenvalues of both signs with those of LAPACK, if all were found. */
 static void compare_sides(const eigen_result *sparse_way, const eigen_result *dense_way, int wanted,
                           double tolerance, const char *what)
 {
@@ -495,8 +498,8 @@ static void test_both_signs(void)
     matrices_free(&A);
 }
 
-/* Two strings are coupled only by A, each with the slope of the other, so every value is double and
- * occurs with both signs. */
+/* Two strings are coupled only by A, which multiplies the displacements of one string by the slopes
+ * of the other, so every value is double and occurs with both signs. */
 static void test_coupled_strings(int masses)
 {
     enum { WANTED = 3 };

@@ -51,7 +51,7 @@ static inline double strings_energy(void *context, const double x[])
     return sum;
 }
 
-/* Returns mu of rank k, counted from 0. */
+/* Returns eigenvalue mu number k, counted from 0. */
 static inline double strings_exact(const strings *s, int k)
 {
     double all[8 * 64];

@@ -51,7 +51,7 @@ static inline void gyroscopic_problem_fill(problem *p, double gyroscopic, int ma
     free(B);
 }
 
-/* Returns the upper triangle, including zeros. */
+/* Returns the upper triangle in sparse form, including zero entries. */
 static inline sparse gyroscopic_problem_upper(int n, const double A[])
 {
     sparse s = {n, 1, calloc((size_t)n + 1, sizeof(int)), NULL, NULL, 0};
@@ -73,8 +73,8 @@ static inline int gyroscopic_problem_ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Finds all frequencies (lambda almost imaginary) in ascending order, and the largest real part.
- * Returns the number of frequencies. */
+/* Finds all frequencies in ascending order, which belong to almost imaginary lambda, and the
+ * largest real part of all lambda. Returns the number of frequencies. */
 static inline int gyroscopic_problem_by_lapack(const problem *p, double frequency[], double *growth)
 {
     const int n = p->n, m = 2 * n;
@@ -83,8 +83,8 @@ static inline int gyroscopic_problem_by_lapack(const problem *p, double frequenc
     double *re = calloc(3 * (size_t)m, sizeof *re), *im = re + m, *beta = im + m;
     int count = 0;
     for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n;
-             j++) { /* nu = 1/lambda: nu [K, 0; 0, 1] z = [-G, -M; 1, 0] z, column-major */
+        for (int j = 0; j < n; j++) { /* column-major matrices of nu [K, 0; 0, 1] z = [-G, -M; 1, 0]
+                                         z, column-major */
             A[j * m + i] = -p->G[i * n + j];
             A[(n + j) * m + i] = -p->M[i * n + j];
             B[j * m + i] = p->K[i * n + j];
@@ -123,7 +123,8 @@ static inline void gyroscopic_problem_product(void *context, const double x[], d
     }
 }
 
-/* Solves with K_of as the matrix. If given, the product and its rounding error are used. */
+/* Solves the problem with K_of as the sparse matrix of K. If a product K x and its rounding error
+ * are given, they are used. */
 static inline status gyroscopic_problem_solve_by(problem *p, const double K_of[],
                                                  eigen_product *product, eigen_form *rounding,
                                                  gyroscopic_result *r, fault *f)

@@ -56,7 +56,7 @@ static void definite(void)
         }
 }
 
-/* In two uncoupled copies, every frequency occurs twice. */
+/* Two uncoupled copies of a problem have every frequency twice. */
 static void equal_frequencies(void)
 {
     static const int size[] = {5, 50};
@@ -80,9 +80,8 @@ static void equal_frequencies(void)
     }
 }
 
-/* A problem with two unknowns diverges without gyroscopic terms and is stable with strong
- * gyroscopic terms. The eigenvalues are the roots of lambda^4 + (k1 + k2 + g^2) lambda^2 + k1
- * k2. */
+/* Without gyroscopic terms, a problem with two unknowns diverges. With strong gyroscopic terms, it
+ * is stable. The eigenvalues are the roots of lambda^4 + (k1 + k2 + g^2) lambda^2 + k1 k2. */
 static void indefinite(void)
 {
     static const double k1 = -1, k2 = -2, g[] = {0.5, 4};
@@ -118,7 +117,7 @@ static void indefinite(void)
 }
 
 /* For K = -diag(1, 4), gyroscopic forces stabilise the motion if g >= sqrt(1) + sqrt(4). Real parts
- * due to rounding must not count as growth. */
+ * due to round-off must not be reported as growth. */
 static void held_from(void)
 {
     static const double g[] = {2.999, 3.001};
@@ -140,8 +139,8 @@ static void held_from(void)
     }
 }
 
-/* With heavy, light and massless coordinates and an indefinite K, the requested modes with mass
- * must be found, and no other modes. */
+/* The problem has heavy, light and massless coordinates and an indefinite K. The requested modes
+ * must be found among those with mass, and massless coordinates must give no modes. */
 static void light_and_massless(void)
 {
     for (int decade = 0; decade <= 16; decade += 2)
@@ -176,7 +175,7 @@ static void light_and_massless(void)
         }
 }
 
-/* If the matrix has lost digits that the product retains, the frequencies must be those of the
+/* The matrix has lost digits that the product K x retains. The frequencies must be those of the
  * product. */
 static void spoilt_matrix(void)
 {
@@ -235,8 +234,9 @@ static double large_rounding(void *context, const double x[])
     return part_of_rounding * sum;
 }
 
-/* The error of every frequency includes the effect of rounding in K. Without gyroscopic terms, the
- * error is between 0.5 and 10 times the relative change. */
+/* The error of every frequency must include the effect of round-off in K. Without gyroscopic terms,
+ * the stated error must be between 0.5 and 10 times the change of the frequency that this round-off
+ * causes. */
 static void rounding_is_told(void)
 {
     static const double strength[] = {0, 2};
@@ -284,8 +284,9 @@ static void gyroscopic_tests(void)
     indefinite();
 }
 
-/* Compares the number of frequencies below a given one with LAPACK: between all neighbours, below
- * the first and above the last. Missing frequencies must be found or reported. */
+/* Compares the number of frequencies below a given frequency with LAPACK. The given frequencies are
+ * between all neighbours, below the first and above the last. Missing frequencies must be found or
+ * reported. */
 static void compare_counts(const problem *p, const char *name)
 {
     double *frequency = calloc(2 * (size_t)p->n, sizeof *frequency), growth;
@@ -327,11 +328,12 @@ static void counts(void)
             }
 }
 
-/* Makes `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, followed by oscillators of stiffness
- * 1e6. The first two of the latter form a top whose slow precession is `slow` [rad/s]. */
+/* Makes `masses` uncoupled oscillators with the frequencies 1, 2, 3 ... rad/s, followed by `behind`
+ * unknowns with the stiffness 1e6. The first two of these form a top, whose slow precession is
+ * `slow` [rad/s]. */
 static void oscillators_and_top(int masses, int behind, double slow, problem *p)
 {
-    const double k = 1e6, g = (k / slow) - slow; /* root of w^2 + g w - k */
+    const double k = 1e6, g = (k / slow) - slow; /* such that `slow` is a root of w^2 + g w - k */
     gyroscopic_problem_alloc(masses + behind, p);
     for (int i = 0; i < p->n; i++) {
         p->K[i * (p->n + 1)] = i < masses ? (i + 1.0) * (i + 1.0) : k;

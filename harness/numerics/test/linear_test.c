@@ -19,8 +19,8 @@ enum { MOST = 60 };
 
 typedef enum kind { DEFINITE, INDEFINITE, UNSYMMETRIC } kind;
 
-/* Fills about four entries in every row in addition to the diagonal. The units of rows and columns
- * differ by up to 1e3. */
+/* Fills four random entries per row in addition to the diagonal. The units of rows and columns
+ * differ by factors of up to 1e3. */
 static void fill_random(int n, kind what, uint64_t *seed, double A[])
 {
     memset(A, 0, (size_t)(n * n) * sizeof *A);
@@ -30,8 +30,8 @@ static void fill_random(int n, kind what, uint64_t *seed, double A[])
             const double value = random_number(seed);
             if (what == UNSYMMETRIC) {
                 A[i * n + j] += value;
-            } else if (i != j) { /* a Laplacian, which is positive definite after an addition to the
-                                    diagonal */
+            } else if (i != j) { /* makes a Laplacian, which is positive definite because the
+                                    diagonal is increased */
                 A[i * n + j] -= fabs(value);
                 A[j * n + i] -= fabs(value);
                 A[i * n + i] += fabs(value);
@@ -78,8 +78,8 @@ static int negative_eigenvalues(int n, const double A[])
     return count;
 }
 
-/* Returns the 1-norm condition number of S A S from the inverse, where the diagonal of S contains
- * 1/sqrt(a_ii). */
+/* Returns the condition number of S A S in the 1-norm from its inverse, where S is diagonal with
+ * the entries 1/sqrt(a_ii). */
 static double scaled_condition(int n, const double A[])
 {
     double scaled[MOST * MOST] = {0}, norm[2];
@@ -109,8 +109,8 @@ static int determinant_sign(int n, const double A[])
     return sign;
 }
 
-/* Returns the number of right-hand sides whose joint solution is not bitwise equal to the separate
- * solution. Numbers stored between the right-hand sides must not change. */
+/* Solves for several right-hand sides together and one at a time. Returns the number of solutions
+ * that differ in any bit. Numbers stored between the right-hand sides must not change. */
 static int apart_together(matrix_factor *fa, uint64_t *seed)
 {
     enum { SIDES = 7, STRIDE = MOST + 2 };
@@ -139,7 +139,7 @@ static void random_matrices(kind what, const char *name, double allowed)
         matrix_factor *fa;
         failures += factor_alloc(&s, &fa, NULL) != STATUS_OK;
         for (int turn = 0; turn < 2;
-             turn++) { /* the second round has different values on the same pattern */
+             turn++) { /* the second round has different values in the same pattern */
             for (int k = 0; k < s.column[n]; k++)
                 s.value[k] *= turn == 0 ? 1 : -0.3;
             for (int i = 0; i < n * n; i++)
@@ -180,8 +180,8 @@ static void random_matrices(kind what, const char *name, double allowed)
 }
 
 /* The upper triangle and the full symmetric matrix have the same condition number. For a chain of n
- * springs held at one end, the result is the exact condition number in the 1-norm, with rows and
- * columns scaled to a unit diagonal. */
+ * springs held at one end, the result must be the exact condition number in the 1-norm, with rows
+ * and columns scaled to a unit diagonal. */
 static void condition_of_a_triangle(void)
 {
     enum { N = 6 };
@@ -305,7 +305,8 @@ static void small_singular_matrices(void)
     matrices_free(&s);
 }
 
-/* Factors a beam of n elements whose first node has `held` unknowns held. */
+/* Factors the matrix of a beam of n elements. The first `held` unknowns of its first node are held.
+ */
 static status beam_outcome(int n, int held, int unsymmetric)
 {
     double k[16], g[16], m[16];
@@ -344,8 +345,8 @@ static void singular_matrix_tests(void)
     beams_that_are_not_held();
 }
 
-/* Threads that share a loop must process every index once, whatever their number. There are
- * thousands of rounds, and sleeping threads are woken. */
+/* Threads that share a loop must process every index once, for any number of threads. Sleeping
+ * threads must be woken in each of thousands of rounds. */
 
 enum { TEST_TEAM_MOST = 1000 };
 
@@ -385,7 +386,7 @@ static void count_parts(void *context, int first, int end)
     ((int *)context)[first] = 1; /* each part begins at a different index */
 }
 
-/* However many threads are requested, there are at most TEAM_MOST, with one part per thread. */
+/* If more threads are requested than TEAM_MOST, only TEAM_MOST are used, with one part for each. */
 static void no_more_than_there_is_room_for(int threads)
 {
     int begins[TEST_TEAM_MOST] = {0}, parts = 0;
@@ -460,8 +461,8 @@ static void team_tests(void)
     team_free(NULL);
 }
 
-/* Rows computed in groups and solutions for several right-hand sides must agree bitwise with LDL of
- * SuiteSparse, with and without AVX2. */
+/* Rows computed in groups, and joint solutions for several right-hand sides, must agree bitwise
+ * with LDL of SuiteSparse, with and without AVX2. */
 
 enum {
     TRIANGULAR_MOST = 90,
@@ -479,7 +480,8 @@ typedef struct triangular_problem {
     double L_value[FILL], D[TRIANGULAR_MOST], y[TRIANGULAR_MOST];
 } triangular_problem;
 
-/* Fills blocks of `size`, each coupled with a random other block, and a few random entries. */
+/* Fills dense blocks with `size` rows, couples each with another random block, and adds a few
+ * random entries. */
 static void fill(int n, int size, uint64_t *state, triangular_problem *p)
 {
     int linked[TRIANGULAR_MOST], entries = 0;
@@ -529,7 +531,8 @@ static void hold(const triangular_problem *p, const triangular_groups *g, const 
     const triangular_factors t = {p->n,  p->path, p->begin,   L_row,
                                   value, D,       g->columns, g->of_columns};
     const size_t entries = (size_t)p->begin[p->n];
-    for (int again = 0; again < 2; again++) /* leaves its workspace unchanged */
+    for (int again = 0; again < 2;
+         again++) /* the second call uses the workspace of the first, which must be unchanged */
         gsl_test(!factor(&rows, p->value), "%s: no pivot is zero", name);
     gsl_test(memcmp(value, p->L_value, entries * sizeof *value) != 0, "%s: L of %d", name, p->n);
     gsl_test(memcmp(D, p->D, (size_t)p->n * sizeof *D) != 0, "%s: D of %d", name, p->n);
@@ -549,7 +552,7 @@ static void hold(const triangular_problem *p, const triangular_groups *g, const 
     }
 }
 
-/* All rows are in groups and all columns in runs. The rows of a block form a group. */
+/* Every row must be in a group and every column in a run. The rows of a block must form a group. */
 static void whole(const triangular_problem *p, const triangular_groups *g, int size)
 {
     int columns = 0, largest = 0;

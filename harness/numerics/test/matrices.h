@@ -28,8 +28,8 @@ static inline sparse matrices_from_dense(int n, int symmetric, const double A[])
     return s;
 }
 
-/* Returns a block tridiagonal matrix of zeros with `nodes` blocks of `size` x `size`, upper
- * triangle. */
+/* Returns the upper triangle of a block tridiagonal matrix of zeros with `nodes` diagonal blocks
+ * [size x size]. */
 static inline sparse matrices_chain(int nodes, int size)
 {
     const int n = nodes * size;
@@ -63,7 +63,7 @@ static inline void matrices_free(sparse *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Returns the matrix with all entries stored. */
+/* Returns a matrix that stores both triangles of the symmetric matrix a. */
 static inline sparse matrices_both_triangles(const sparse *a)
 {
     const int n = a->n;
@@ -81,8 +81,8 @@ static inline sparse matrices_both_triangles(const sparse *a)
         s.column[j + 1] += s.column[j];
         next[j] = s.column[j];
     }
-    /* The upper part of column j is complete before a later column adds to its lower part, because
-     * rows ascend. */
+    /* rows ascend, so the upper part of column j is complete before a later column adds to its
+     * lower part */
     for (int j = 0; j < n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
             const int i = a->row[k];
@@ -106,7 +106,7 @@ static inline void matrices_add(sparse *s, int i, int j, double value)
 }
 
 /* Adds element matrices k[2 size x 2 size] of all pairs of neighbouring nodes. The first `left_out`
- * unknowns do not exist. */
+ * unknowns of the nodes are omitted. */
 static inline void matrices_add_elements(sparse *s, int elements, int size, int left_out,
                                          const double k[])
 {

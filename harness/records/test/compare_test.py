@@ -1,4 +1,4 @@
-"""beamwork compare: the exit status is as for diff, changes are called better or worse, and all contents of a file are
+"""Tests of beamwork compare. The exit status is that of diff, changes are called better or worse, and the whole file is
 checked."""
 import unittest
 
@@ -15,7 +15,7 @@ def of_cell(table):
 
 
 def change_rows(file, name, change):
-    """Applies change(rows of the cell) to a table. Removes the rows if `change` returns False."""
+    """Applies change(rows of the cell) to a table of the file. Removes the rows if `change` returns False."""
     group, rows = file[TABLES], file[TABLES][name][()]
     own = of_cell(rows)
     part = rows[own]
@@ -37,7 +37,7 @@ class Compare(ProgramTest):
         return run("compare", *options, old or self.old, altered(self.old, self.new, change))
 
     def check(self, code, words, change, *options):
-        """Compares with the complete previous run and with its short table, whose lines of sums have no mesh."""
+        """Compares with the complete previous run and with its short table, in which the lines with sums have no mesh."""
         for old, mesh in ((self.old, " n=4"), (self.table, "")):
             done = self.compared(change, *options, old=old)
             self.assertEqual(done.returncode, code, done)
@@ -163,8 +163,8 @@ class Compare(ProgramTest):
         self.assertRegex(done.stdout, r"(?m)^new      warping_torsion/default/beamw n=4: other$")
 
     def test_near_zero(self):
-        """A value without a reference value must be reported as changed if the change exceeds the floor, relative to
-        the size of the value, or to near_zero if the value may vanish."""
+        """A changed value without a reference value must be reported if the change exceeds the floor. The floor is
+        relative to the size of the value or, if the value may be zero, to near_zero."""
 
         def without_truth(near_zero):
 

@@ -1,5 +1,5 @@
-/* Every column must contain the data that its name states. A constructed sweep with distinct
- * numbers is read field by field. */
+/* Every column must contain the data that its name states. The fields of an artificial sweep with
+ * distinct numbers are read one by one. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -46,7 +46,8 @@ static void fill_path(fields_bench *b)
         b->iteration[i].correction = i + 1;
 }
 
-/* Makes meshes with errors of 0.4, 0.04, ..., each of which is the first within the next level. */
+/* Makes meshes with errors of 0.4, 0.04, .... Each is the coarsest mesh within one of the levels.
+ */
 static void make(fields_bench *b)
 {
     memset(b, 0, sizeof *b);
@@ -201,8 +202,8 @@ static void errors(const gathering *g)
     gather_free(&list);
 }
 
-/* The times of every round are stored, for the cell as it is and with all coordinates kept. None
- * are stored if nothing was timed. */
+/* The times of every round are stored, for the cell and for the same cell with all coordinates
+ * kept. None are stored if nothing was timed. */
 static void timings(void)
 {
     cell_timing t = {.as_is = {.setup = 1, .solve = 2, .rounds = ROUNDS_COUNT},
@@ -281,8 +282,8 @@ static void fields_tests(void)
     scene_free(&b.p.scene);
 }
 
-/* The line after a convergence table: order, ties, excluded formulations, and formulations with
- * general cost coefficients. */
+/* Tests the line below a convergence table: order, ties, excluded formulations, and formulations
+ * with general cost coefficients. */
 
 enum { LINE_MESHES = 5, SERIES = 4 };
 static const parameter_type parameter[] = {{.name = NULL}};
@@ -302,8 +303,8 @@ typedef struct reach_line_bench {
     truths t;
 } reach_line_bench;
 
-/* Adds a series with values limit (1 + 0.1 n^-2), and `work` evaluations on the coarsest mesh. The
- * number of evaluations doubles on each finer mesh. */
+/* Adds a series with the values limit (1 + 0.1 n^-2). There are `work` evaluations on the coarsest
+ * mesh and twice as many on each finer mesh. */
 static void add(reach_line_bench *b, double limit, long work)
 {
     const int i = b->s.seriess++;
@@ -320,8 +321,8 @@ static void add(reach_line_bench *b, double limit, long work)
     }
 }
 
-/* Makes three series that agree, with the work of the second `times` that of the first, and a
- * fourth that does not agree. */
+/* Makes three series that agree and a fourth that does not. The work of the second is `times` that
+ * of the first. */
 static void line_make(reach_line_bench *b, double times)
 {
     fault f;
@@ -340,7 +341,7 @@ static void line_make(reach_line_bench *b, double times)
     gsl_test(families_add_truths(&b->s, 0, &b->t, &f) != STATUS_OK || b->t.rows != 1, "agreed");
 }
 
-/* Adds a row with the load according to a different model. */
+/* Adds a reference value of a different model for the load. */
 static void add_model(reach_line_bench *b, const char *kind, double value)
 {
     truth *row = realloc(b->t.row, (size_t)(b->t.rows + 1) * sizeof *row);
@@ -399,7 +400,7 @@ static void line_expect(const reach_line_bench *b, double level, const char *rig
     gsl_test(strcmp(line, right) != 0, "'%s', not '%s'", line, right);
 }
 
-/* Quantities without a reference are named together. Curves are excluded. */
+/* Quantities without a reference value are listed together. Curves are excluded. */
 static void not_every_quantity(void)
 {
     reach_line_bench b;
@@ -425,8 +426,8 @@ static void not_every_quantity(void)
     finish(&b);
 }
 
-/* The model error of passing formulations is on a separate line. An agreement is not a different
- * model. */
+/* The model error of the formulations that pass must be on a separate line. An agreement of
+ * formulations is not a different model. */
 static void other_models(void)
 {
     reach_line_bench b;

@@ -1,4 +1,4 @@
-"""Files of results, and the frames of motions in them."""
+"""Files of results, with the frames of motions."""
 import csv
 import io
 import json
@@ -21,13 +21,13 @@ from reference.pack import seal
 
 
 SELECTION = ("verify", "-k", "warping_torsion/default")
-# Many cells, of which the first are the most expensive and end early.
+# selects many cells and excludes expensive ones, so that the first cells end early
 QUICK = " and ".join(f"not {word}" for word in ("_motion", "leaf_guide", "flight", "rigid_body", "release",
                                                 "pendulum", "spin_up", "lee_frame"))
 
 
 def small_files():
-    """Limits files to 2000 bytes, as on a full disk, in the child process."""
+    """In the child process, limits files to 2000 bytes, which acts like a full disk."""
     signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
     resource.setrlimit(resource.RLIMIT_FSIZE, (2000, 2000))
 
@@ -60,7 +60,7 @@ class Complete(Folder):
             process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")],
                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
             if look % 2 == 1:
-                process.stdout.read(1)   # the work is done, and the file is written next
+                process.stdout.read(1)   # the work is done, and writing the file is next
             for _ in range(40 * (look // 2)):
                 if os.path.exists(self.path("r.h5")) or process.poll() is not None:
                     break
@@ -84,10 +84,11 @@ class Complete(Folder):
 
 
 class Interrupted(Folder):
-    """After a request to end (Ctrl-C, SIGTERM), the results so far are stored under names that mark them as partial."""
+    """After a request to end (Ctrl-C, SIGTERM), the finished results must be stored in files whose names mark them as
+    partial."""
 
     def started(self, cells, *arguments):
-        """Returns a run that, according to its terminal output, has solved this number of cells."""
+        """Starts a run. Returns it when its terminal output states that this number of cells is solved."""
         terminal, end = pty.openpty()
         self.addCleanup(os.close, terminal)
         process = subprocess.Popen([PROGRAM, "verify", *arguments], stdout=subprocess.PIPE,
@@ -123,7 +124,8 @@ class Interrupted(Folder):
             os.remove(self.path(name))
 
     def check_content(self, summary):
-        """Checks that values agree with those of an uninterrupted run. Limits lack the noise, which is measured last."""
+        """Checks that values agree with those of an uninterrupted run. Limits are excluded, because the noise is
+        measured last."""
         self.assertGreater(summary["unfinished_cells"], 0)
         self.assertGreater(len(summary["verdicts"]), 0)
         with h5py.File(self.path("r.partial.h5")) as file:
@@ -239,7 +241,7 @@ class Readable(Folder):
 class Gate(Folder):
 
     def altered(self, change):
-        """Returns the exit status and the output of a run of one case with a changed copy of the reference values."""
+        """Runs one case with a changed copy of the reference values. Returns the exit status and the output."""
         pathlib.Path(self.path("t.h5")).write_bytes(pathlib.Path(TRUTHS).read_bytes())
         with h5py.File(self.path("t.h5"), "r+") as file:
             change(file)

@@ -1,4 +1,4 @@
-/* A separate folder for a test, and its contents. */
+/* A temporary folder for a test, and its contents. */
 #ifndef BEAMWORK_TEST_FOLDER_H
 #define BEAMWORK_TEST_FOLDER_H
 

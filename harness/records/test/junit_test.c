@@ -1,5 +1,5 @@
-/* JUnit: well-formed XML whose header counts its elements, for every kind of verdict, expected or
- * not, and for any mixture of other failures of a run. */
+/* A JUnit file must be well-formed XML whose header counts its elements. The verdicts are of every
+ * kind, expected or not, with any mixture of other failures of a run. */
 #include <fcntl.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -15,14 +15,16 @@
 
 enum { DEEPEST = 8, NAME = 32, HEADER = 3 };
 
-/* Contents of a document according to an XML reader. */
+/* Contents of a document that an independent XML reader has found. */
 typedef struct tree {
     int bad;                                     /* 1 if the document is not well-formed */
-    int tests, failures, skipped, both, outside; /* `both` counts failed and skipped tests */
-    int header[HEADER];                          /* tests, failures and skipped of the suite */
+    int tests, failures, skipped, both, outside; /* `both`: tests that failed and were skipped;
+                                                    `outside`: failures outside a test */
+    int header[HEADER]; /* numbers of tests, failures and skipped tests in the header of the suite
+                         */
     int depth;
     char open[DEEPEST][NAME];
-    int marks; /* number of marks of the open test */
+    int marks; /* number of failure and skip marks of the current test */
 } tree;
 
 static const char *const header_name[HEADER] = {"tests", "failures", "skipped"};
@@ -110,7 +112,7 @@ static tree read_tree(const char *text)
     return t;
 }
 
-/* One point, one series, and any verdicts. */
+/* A sweep with one point, one series, and any verdicts. */
 typedef struct junit_bench {
     sweep s;
     sweep_point p;
@@ -141,8 +143,7 @@ static void bench_make(junit_bench *b)
     b->j.agreement = b->a;
 }
 
-/* Adds a verdict and counts it as in the evaluation (harness/study), whose sums the other reports
- * show. */
+/* Adds a verdict and counts it in the way of harness/study, whose sums the other reports show. */
 static void add_verdict(junit_bench *b, verdict_kind kind, int matches)
 {
     verdict *v = &b->v[b->j.verdicts++];
@@ -235,7 +236,7 @@ static void mixtures(void)
     }
 }
 
-/* Tests the reader itself, which must detect errors. */
+/* Tests this XML reader, which must detect errors. */
 static void reader(void)
 {
     static const char head[] = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
@@ -261,8 +262,8 @@ static void junit_tests(void)
     mixtures();
 }
 
-/* Lines of CSV, read back according to RFC 4180. Whatever a text contains, every field must be in
- * the column of its name. */
+/* Lines of CSV are read back according to RFC 4180. For any text, every field must be in the column
+ * of its name. */
 
 enum { MOST_FIELDS = 8, ROOM = 256, LINES = 2 };
 
@@ -359,8 +360,8 @@ static void csv_tests(void)
     no_number();
 }
 
-/* A section that is high at one end and wide at the other end. The corners stay in their
- * quadrants. */
+/* Outlines of a section that is high at one end of a member and wide at the other end. Each corner
+ * must stay in its quadrant. */
 static void rectangles(void)
 {
     const section_spec high = section_spec_rectangle(2e11, 8e10, 0.1, 0.2),
@@ -409,8 +410,8 @@ static void outline_tests(void)
     matrices();
 }
 
-/* The target of a link must be replaced, not the link: in the same folder, in another folder,
- * through several links, and if the target does not exist. */
+/* If an output is a symbolic link, its target must be replaced, not the link. The target is in the
+ * same or another folder, behind several links, or does not exist. */
 static void links(void)
 {
     const test_folder of = folder_make();
@@ -466,8 +467,8 @@ static void no_places(void)
     folder_remove(&of);
 }
 
-/* One target with many names: different spellings, links and hard links, even for files that do not
- * exist yet. */
+/* One file with many names: different spellings, symbolic links and hard links. All must be
+ * recognised as the same file, even if it does not exist yet. */
 static void same_places(void)
 {
     const test_folder of = folder_make();

@@ -1,5 +1,5 @@
-/* One file for many experiments: groups that are replaced completely while other groups remain,
- * simultaneous runs, and killed runs. */
+/* One file for many experiments. A group must be replaced completely while other groups remain,
+ * even if several runs write simultaneously or are killed. */
 #include <gsl/gsl_test.h>
 #include <signal.h>
 #include <stdio.h>
