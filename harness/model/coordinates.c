@@ -114,7 +114,8 @@ static void number_vertex(model *m, int index, int pass, int used, coordinates_t
 {
     mesh_vertex *v = &m->mesh.vertex[index];
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
-        const int other = c >= SCENE_RX && is_stretched(m, index); /* part of a vector */
+        const int other =
+            c >= SCENE_RX && is_stretched(m, index); /* the other rotations are fixed */
         const int motion = v->body == index && !other ? motion_of(m, index, c) : SCENE_HELD;
         const scene_tie *tie = index < m->scene->nodes ? model_tie(m, index, c) : NULL;
         if (tie != NULL && !(tie->node == index && tie->coordinate == c)) {

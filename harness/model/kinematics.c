@@ -65,7 +65,7 @@ void kinematics_swing(const model *m, const model_state *s, int vertex, double m
         by[i] = twice * (across[i] * cos(mean) - v->arm[i] * sin(mean));
 }
 
-/* Moves a vertex across the normal of its diaphragm: u = u_master + (R - 1) arm. */
+/* Moves a vertex in the plane of its diaphragm: u = u_master + (R - 1) arm. */
 static void follow_leader(const model *m, model_state *s, int vertex)
 {
     const mesh_vertex *v = &m->mesh.vertex[vertex];

@@ -144,7 +144,7 @@ static void begin_lists(size_t pairs, const int index[], int n, int begin[])
 typedef struct pairs {
     size_t count;
     int *row, *column, *by_row; /* [count] */
-    int *begin, *end;           /* [n + 1] starts of the lists of rows, and of columns */
+    int *begin, *end;           /* [n + 1] starts of the lists of rows; ends of lists so far */
 } pairs;
 
 /* Sorts columns after the pairs have been sorted by rows, so the rows of each column are in

@@ -126,7 +126,9 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
     return 0;
 }
 
-/* Names the inertia that a motion requires and that is missing. */
+/* Names the inertia that a motion requires but the type does not have. Returns 0 if none is
+ * missing.
+ * */
 static int mass_lacks(const scene *s, const element_type *type, char *words, int size)
 {
     for (int i = 0; i < s->analyses && !type->spreads; i++)
@@ -135,7 +137,8 @@ static int mass_lacks(const scene *s, const element_type *type, char *words, int
     return 0;
 }
 
-/* Names the strains that the scene changes but that a type with nodal forces does not have. */
+/* Names the strains that the scene changes but that a type with nodal forces does not have. Returns
+ * 0 if there are none. */
 static int strains_lack(const scene *s, const element_type *type, char *words, int size)
 {
     scene_words who;
@@ -193,7 +196,7 @@ int missing_refused(const scene *s, const element_type *type, char *words, int s
     return mass_lacks(s, type, words, size) || strains_lack(s, type, words, size);
 }
 
-/* Returns the physics of sections that exceeds the limits of the type. */
+/* Returns the physics that must be omitted because sections exceed the limits of the type. */
 static unsigned omits_of_sections(const scene *s, const element_type *type)
 {
     const int warps = (features_needed(s) & FEATURE_WARPING) != 0;

@@ -27,7 +27,8 @@ static void chord_of(const double k[3], double s, double c[3])
         c[i] = s * e[i] + a * first[i] + b * second[i];
 }
 
-/* Rotates from the axes in which the scene describes the section to its principal axes. */
+/* Rotates the triad, bow and curvatures of an arc from the axes in which the scene describes the
+ * section to its principal axes. */
 static void turn_to_principal(double angle, member_arc *a)
 {
     const double c = cos(angle), d = sin(angle), ky = a->k[1];

@@ -165,7 +165,7 @@ static void residual(const motion_estimate *e, double complex lambda)
     }
 }
 
-/* Returns half^T S^-1 half. */
+/* Returns half^T S^-1 half, for the real or the imaginary part of a residual. */
 static double size_of(motion_estimate *e, const double half[])
 {
     double *x = part(e, WORK);

@@ -61,7 +61,7 @@ static void basis_product(void *context, const double x[], double y[])
         y[i] += s->shift * s->product[i];
 }
 
-/* Adds the combination sum_k c_k vector_k, multiplied by `times`, to out_re + i out_im. */
+/* Adds the combination sum_k c_k vector_k, multiplied by `times`, to re + i im. */
 static void accumulate(const gyroscopic_solver *s, const double *vectors, const double complex c[],
                        double complex times)
 {
@@ -253,7 +253,8 @@ static double rate_of_turning(const sparse *G, const sparse *M)
     return rate;
 }
 
-/* Finds the smallest shift, in powers of ten, for which K + shift M is positive definite. */
+/* Finds a shift for which K + shift M is positive definite: increases an initial shift in steps of
+ * a factor of ten. */
 static status find_shift(gyroscopic_solver *s, fault *f)
 {
     const sparse *K = s->p->K, *M = s->p->M;
@@ -284,7 +285,7 @@ static status find_shift(gyroscopic_solver *s, fault *f)
 }
 
 /* Returns the shift that the first start shows to be necessary because K or K + shift M is nearly
- * singular, as at a critical speed. Returns the present shift if no larger shift is needed. */
+ * singular, as at a critical speed; 0: the present shift is sufficient. */
 static double shift_after(const gyroscopic_solver *s, status started)
 {
     const double rate = rate_of_turning(s->p->G, s->p->M);

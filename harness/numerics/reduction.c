@@ -59,7 +59,7 @@ static status decompose(reduction *b, fault *f)
                                  "the modes for a reduced model did not converge");
 }
 
-/* Checks that the number of modes does not exceed the number of coordinates with mass, apart from
+/* Sets the number of modes. REFUSED: it exceeds the number of coordinates with mass, apart from
  * rounding errors. Modes with the same frequency are kept together: one mode of a pair has an
  * arbitrary direction, which would couple planes that are independent. */
 static status take_modes(reduction *b, int modes, fault *f)

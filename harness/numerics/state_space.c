@@ -23,8 +23,8 @@ typedef struct split {
     /* [n x motions] forces due to motions through K, C and M; [n x inputs] forces of inputs */
     double *moved[3], *F;
     double shift;  /* shift of the squares of frequencies */
-    double *still; /* [rigid x (n + motions + inputs)] eliminated coordinates as functions of the
-                      others */
+    double *still; /* [rigid x (masses + slow + motions + inputs)] eliminated coordinates as
+                      functions of the others */
     double *row, *of_input; /* [states x states], [states x inputs] */
 } split;
 
@@ -211,8 +211,8 @@ static status eliminate(split *s, fault *f)
                     : STATUS_OK;
 }
 
-/* Computes G = R L^-T from K + shift M = R^T R and M = L L^T, column by column, for the coordinates
- * with mass. L is the lower triangle [masses x masses]. Returns 0 if K + shift M is not positive
+/* Computes L and G = R from K + shift M = R^T R and M = L L^T for the coordinates with mass:
+ * triangles [masses x masses], stored by columns. Returns 0 if K + shift M or M is not positive
  * definite. */
 static int relative(const split *s, double L[], double G[])
 {
@@ -263,8 +263,8 @@ static status decompose(split *s, double L[], double G[], double V[], int *posit
     return STATUS_OK;
 }
 
-/* Computes the undamped modes of the coordinates with mass. The stiffness of a free structure is
- * shifted just enough to become positive definite. */
+/* Computes the undamped modes of the coordinates with mass. If the structure is free, K is shifted
+ * by the lowest square of a frequency that is not zero. */
 static status take_modes(split *s, double L[], double G[], double V[], fault *f)
 {
     const size_t n = (size_t)s->n, p = (size_t)s->masses;

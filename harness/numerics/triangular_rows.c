@@ -10,8 +10,9 @@ enum { ROWS = TRIANGULAR_LANES };
 typedef double lanes
     __attribute__((vector_size(ROWS * sizeof(double)), aligned(sizeof(double)), may_alias));
 
-/* Copies the entries of the rows in a run from x[columns], after the previous columns have been
- * subtracted, and sets them to zero in x. */
+/* Moves the entries of the rows in the columns of a run from t->rest to x[columns], and sets them
+ * to zero in t->rest. Previous columns must have been subtracted. Subtracts the columns of the run
+ * from each other and from t->rest. */
 static inline __attribute__((always_inline)) void subtract(const triangular_rows *t, int first,
                                                            int columns, lanes x[])
 {

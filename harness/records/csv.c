@@ -429,7 +429,8 @@ static void write_errors(FILE *to, const void *what)
     }
 }
 
-/* Writes the title with the number of elements. The title says if feedback loops are closed. */
+/* Writes the title of a state with the given name. If the scene has feedback, the title says if the
+ * loops are closed. */
 static void titled_state(const contents *c, const char *name, int closed, char out[TITLE])
 {
     snprintf(out, TITLE, "%.120s%s, %.90s", c->title,

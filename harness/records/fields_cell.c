@@ -14,7 +14,7 @@ static void get_features(const subject *s, field_value *out)
     out->text = out->room;
 }
 
-/* Gives the eliminated coordinates. Lines that do not fit are truncated. */
+/* Gives the eliminated coordinates. Lines that do not fit are omitted. */
 static void get_left_out(const subject *s, field_value *out)
 {
     const cell_result *cell = fields_keys_cell(s);

@@ -216,7 +216,7 @@ static json_t *regressions_of(const judgement *j)
     return all;
 }
 
-/* Returns the document without the verdicts. */
+/* Returns the document with an empty list of verdicts. */
 static json_t *around_verdicts(const sweep *s, const judgement *j, const environment *e)
 {
     const gathering g = {s, j, NULL};

@@ -80,7 +80,7 @@ static json_t *curves_of(const sweep *s, const series *one)
     return all;
 }
 
-/* Returns the output of one of the functions below, without its line end; NULL: out of memory. */
+/* Returns the output of `write`, without its line end; NULL: out of memory. */
 static char *said(void (*write)(FILE *, const sweep *, const truths *, double), const sweep *s,
                   const truths *t, double level)
 {
@@ -111,8 +111,8 @@ static json_t *sentence_of(const sweep *s, const truths *t, double level)
     return out;
 }
 
-/* Lists the formulations within the level, in the same order as in the line. rank 0: the verdict on
- * the formulation is not a pass, or the formulation is not ranked by cost. */
+/* Lists the formulations within the level, in the same order as in the text output. rank 0: the
+ * verdict on the formulation is not a pass, or the formulation is not ranked by cost. */
 static json_t *answers_of(const sweep *s, const truths *t, double level)
 {
     json_t *out = json_array();
@@ -263,7 +263,7 @@ static void write_worst(FILE *to, const reach_question *q, int series_index)
             isfinite(most) ? " %" : "");
 }
 
-/* Writes the series of one kind (reach_asks) that are not in the list. */
+/* Writes the series that are not in the list and for which reach_asks returns `kind`. */
 static void write_others(FILE *to, const reach_question *q, const reached list[], int count,
                          int kind, const char *words)
 {

@@ -287,7 +287,7 @@ static int take_limit(char *text, result_series *s)
     return word(text, limit->quantity, sizeof limit->quantity) && number(value, &limit->value);
 }
 
-/* Reads every word of a list. */
+/* Reads every word of a list with the function `take`. Returns 0 if it cannot read a word. */
 static int take_words(char *list, result_series *s, int take(char *text, result_series *s))
 {
     char *rest;
