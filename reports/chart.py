@@ -187,7 +187,7 @@ class Chart:
 
 
 class Writer:
-    """Writes one chart."""
+    """Writes one chart as SVG."""
 
     def __init__(self, chart, site, name):
         self.chart, self.name, self.said, self.told = chart, name, site.said, {}

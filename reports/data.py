@@ -21,7 +21,7 @@ BENCH = "experiments/bench"  # group of the times, which version 2 stored in a s
 
 
 def column(values):
-    """Returns a column as plain numbers or strings."""
+    """Returns a column as a list of plain numbers or strings."""
     return [value.decode()
             for value in values.tolist()] if values.dtype.kind == "S" else values.tolist()
 

@@ -73,7 +73,8 @@ class Way:
 
 @dataclass
 class Problem:
-    """A mesh of a formulation in a case. `reached` is {error: [Way]}, the cheapest first."""
+    """The motion of a case with one formulation on one mesh, and the runs that compute it. `reached` is {error: [Way]},
+    the cheapest first. `uncertainty` is that of the reference."""
 
     case: str
     parameters: str

@@ -352,7 +352,7 @@ def failures_of(problems):
 
 
 def diagrams_of(site, problems):
-    """Returns [(case, parameters, Image)]."""
+    """Returns [(case, parameters, Image)] of the work-precision diagrams."""
     found = [(case, parameters, work_precision(site, f"{case}_{i}", own))
              for i, ((case, parameters), own) in enumerate(integrators.by_case(problems).items())]
     return [one for one in found if one[2]]

@@ -250,7 +250,8 @@ def largest(x, y, most=MOST_POINTS):
 
 
 def line(site, panel, name, look, x, y, unit, size):
-    """Draws a curve that belongs to no formulation. `size` is the size of the unit of the axis."""
+    """Draws a curve that belongs to no formulation. `unit` is the unit of y, and `size` is the size of the unit of the
+    axis in terms of `unit`."""
     index, dash = look
     marks = thinned(x, 9)
     told = site.points(name, ("time", f"value [{unit}]"),

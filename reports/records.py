@@ -61,7 +61,7 @@ class Mesh:
 
 @dataclass
 class Verdict:
-    """One verdict: columns of the table `verdicts` in SI. Errors are relative."""
+    """One verdict: columns of the table `verdicts` in SI units. Errors are relative."""
 
     quantity: str
     verdict: str

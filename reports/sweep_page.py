@@ -139,7 +139,8 @@ class Winners:
       images    [(Image, alt)]
       shares    [(letter, formulation, points won, mean cost at these points [s])], most points first
       ahead     the formulations that are listed first
-      none      number of points without a winner, and number of points with a reference value
+      none      number of points with a reference value but without a winner
+      known     number of points with a reference value
       unranked  formulations without counted costs"""
 
     def __init__(self, sweep, found, axes):
@@ -261,8 +262,8 @@ def look(fill, sign, words):
 
 
 def axis_of(part):
-    """Returns the data of an axis for maps: names of its parts, the boundaries between them, and possible positions of
-    ticks in units of parts."""
+    """Returns the data of an axis for maps: its name and range, the names of its parts, the boundaries between them, its
+    slices as a third axis, and possible positions of ticks in units of parts."""
     low, high = part.low[0], part.high[-1]
     return {"name": part.axis.name, "range": [float(f"{low:.6g}"), float(f"{high:.6g}")],
             "cuts": part.cuts.tolist(), "words": bool(part.axis.words), "title": maps.title_of(part), "names":

@@ -13,7 +13,7 @@ class Kind:
     meaning: str
 
 
-# Kinds from good to bad, then kinds without a verdict. The last of several kinds is the worst.
+# Kinds from good to bad, then kinds without a verdict. Of several kinds, the worst is the last one in this order.
 KINDS = (
     Kind("pass", "✓", "pass", "the limit agrees with the reference value within the uncertainties"),
     Kind("low order", "↓", "other", "the limit is the reference value, approached more slowly than expected"),
@@ -138,7 +138,7 @@ def corrected(key):
 
 
 def standing(v, key, second_names, judged):
-    """Returns how a verdict counts. `judged` is {(formulation, quantity): verdict} at the point."""
+    """Returns OWN, ALIAS or MISPRINT. `judged` is {(formulation, quantity): verdict} at the point."""
     if v.quantity in second_names:
         return ALIAS
     return MISPRINT if judged.get((corrected(key), v.quantity)) == v.verdict else OWN

@@ -129,7 +129,7 @@ def shortened(lines):
 
 
 def describe(scene):
-    """Returns [(heading, lines)] of the contents."""
+    """Returns [(heading, lines)], the description of the contents of a scene."""
     spin = scene.spin
     turning = [] if spin is None else [f"{place(spin.omega)} rad/s about {place(spin.centre)}"]
     kinds = (("Supports", [support(scene, n) for n in scene.nodes.values()]),
@@ -146,7 +146,7 @@ def describe(scene):
 
 
 def counts(scene):
-    """Describes the size of the scene."""
+    """Describes the numbers of members and rigid bodies, and whether members are curved and sections have a shape."""
     bodies = {n.part_of for n in scene.nodes.values() if n.part_of}
     several = ((len(scene.members), "member"), (len(bodies), "rigid body"))
     words = [f"{n} {what if n == 1 else {'rigid body': 'rigid bodies'}.get(what, what + 's')}"

@@ -226,8 +226,8 @@ def proven(rows):
 
 
 def references(sweep, found):
-    """Returns [(quantity, {kind: points}, largest uncertainty, uncertain points, points without a reference value, Box of
-    the latter)]."""
+    """Returns [(quantity, {kind: number of points}, largest relative uncertainty, number of points with an uncertainty
+    beyond the tolerance, number of points without a reference value, Box of the latter or None)]."""
     rows = []
     for q, quantity in enumerate(sweep.quantities):
         kinds = {name: int(n) for name, n in zip(sweep.kinds, found.kinds[q])

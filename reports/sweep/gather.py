@@ -102,7 +102,7 @@ def shortened(edges, width):
 
 
 def parts_of(axis, extent, most):
-    """Divides an axis into at most this number of parts."""
+    """Returns the Parts of an axis: one for each of its words, or at most `most` parts of its numbers."""
     if axis.words:
         number = np.arange(len(axis.words), dtype=float)
         return Parts(axis, number, number, number[1:] - 0.5, True, levels=number)
@@ -289,7 +289,8 @@ def reached_in(sweep, piece, asked):
 
 
 def take_winners(into, sweep, piece, cell, asked, reached):
-    """Counts the formulations of lowest cost within the tolerance for all quantities."""
+    """Adds to `into` the points at which each formulation has the lowest cost within the tolerance for all quantities, or
+    ties."""
     into.ranked |= np.isfinite(piece.cost).any(axis=(0, 2))
     count = len(sweep.meshes)
     mesh = np.minimum(reached[:, :, -1], count - 1)

@@ -213,7 +213,7 @@ class Figures(unittest.TestCase):
 class Looks(unittest.TestCase):
 
     def test_for_ever(self):
-        """The style of a formulation depends only on its name. Options change only the line."""
+        """The colour and the marker of a formulation depend only on its name. Options change only the line."""
         for keys in (["beamw"], ["another", "beamw"]):
             self.assertEqual(Styles(keys).of("beamw")["color"], "#0072b2")
         self.assertEqual(Styles.of("mine"), Styles.of("mine"))
@@ -258,8 +258,8 @@ class Geometry(unittest.TestCase):
         self.assertEqual(len(shapes.hull(corners)), 12)
 
     def test_chosen(self):
-        """On an even path, whose middle is slightly less than half as far, the end is shown. On a path that returns, both
-        extremes are shown."""
+        """On a path with even steps, the states near the middle and at the end are chosen. On a path that passes through
+        its start again, both extremes are chosen."""
         for moved, wanted in (([0, 0.75, 1.499, 2.25,
                                 3], [0, 2, 4]), ([0, 0.6, 1.2, 1.8, 2.4,
                                                   3], [0, 3, 5]), ([0, -3, -1.5, 0, 1.5,

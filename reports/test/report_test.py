@@ -294,7 +294,7 @@ class Figures(unittest.TestCase):
         lost = re.search(r'points="([^"]+)" stroke="none"[^>]* style="([^"]*)"', image.markup)
         self.assertEqual([len(full[0].split()), len(lost[1].split())], [2, 2])
         self.assertEqual(len({p.split(",")[1] for p in lost[1].split()}), 1)
-        self.assertNotEqual(full[1], lost[2])  # another marker
+        self.assertNotEqual(full[1], lost[2])  # the markers are different
         self.assertIn('fill-opacity=".07"', image.markup)
 
     def test_above_the_digits(self):
