@@ -37,7 +37,7 @@ def work(k, force, y, z, polar):
 
 
 def factors(k, warping, stress):
-    """Returns the positive critical factors of one half-wave."""
+    """Returns the positive critical factors on `stress` for the half-wave k."""
     roots = [sqrt(s) for s in stiffness(k, warping)]
     b = work(k, *stress)
     scaled = matrix(3, 3)

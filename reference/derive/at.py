@@ -11,7 +11,7 @@ import sys
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2]))
 from reference.derive import defaults  # noqa: E402
 
-SIZES = ("height", "width", "web_thickness", "flange_thickness")  # dimensions of the C-shaped section
+SIZES = ("height", "width", "web_thickness", "flange_thickness")  # dimensions of the channel section
 
 
 class NotDerivable(Exception):
@@ -23,7 +23,7 @@ def numbers(given):
 
 
 def channel_section(case, given):
-    """Returns (section, all parameters) of a case with the C-shaped section."""
+    """Returns (section, all parameters) of a case with the channel section."""
     from reference.derive import column
     if given.get("section_data") == "printed" and any(name in given for name in SIZES):
         raise NotDerivable("printed section data belong to the default sizes")

@@ -154,7 +154,7 @@ def length_of(case, given):
 
 
 def other_sizes():
-    """Yields a deep channel and a channel with a thin web."""
+    """Yields rows for a deep channel and for a channel with a thin web."""
     for given in ({"length": 4, "height": "0.9", "width": "0.3"}, {"web_thickness": "0.01"}):
         s, l = channel_data(**given), length_of("c_column", given)
         yield "c_column", _text(**given), "buckling_load", buckling_load(s, l, True, False), "N"

@@ -25,7 +25,8 @@ TILTS_FREE = ("first", "last", "between")
 
 
 def hinge(given, intervals=4, nodes=14, form=lambda beam: beam):
-    """Returns the network and its arm. `form` is explained at sheets.cantilever."""
+    """Returns (network, arm, conditions that prescribe the rotation of the arm). `form` is explained at
+    sheets.deflected."""
     value = {**DEFAULTS, **given}
     beam = form(sheet(**{k: value[k] for k in SIZES}))
     net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=intervals, nodes=nodes)

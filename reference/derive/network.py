@@ -60,7 +60,7 @@ class Loaded(Scaled):
 
     def slope(self, y, p):
         n = self.plain.states
-        place = y[:7].real if self.stays else y[:7]  # values that are not varied have no derivative
+        place = y[:7].real if self.stays else y[:7]  # without the complex step, loads do not follow the motion
         R, out = rotation(place[3:]), np.zeros((6, y.shape[1]), dtype=np.result_type(y, p))
         s = y[n].real if self.varies else 0 * y[0].real
         for load in self.loads:
@@ -389,8 +389,8 @@ class Network:
 
     def response(self, level, body, override):
         """Returns the compliance [6, 6] in SI units, which is the change of (u, theta) of a body due to unit dead loads
-        (f, mu) on it. `override` contains other conditions for some bodies. In the components of the loads, the
-        overriding conditions of the loaded body must be those of a free body.
+        (f, mu) on it. `override` contains other conditions for some bodies. For each component of the load, the
+        overriding condition of the loaded body must be that of a free body.
         """
         matrix, _ = self.system(level, override)
         right = np.zeros((matrix.shape[0], 6))

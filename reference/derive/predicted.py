@@ -39,8 +39,8 @@ def as_printed(name):
 
 
 def shear_elastica():
-    """Yields predictions for shear_elastica. For GA = 10, the path of the beams of J ends before the last point.
-    sheet_second_consistent is treated in right_angle."""
+    """Yields predictions for shear_elastica. GA = 10 is omitted for the beams of J, whose path ends before the full load,
+    and for sheet_second_consistent, which right_angle() treats."""
     for name in JONKER + SHEETS:
         stiffnesses = (500, 50, 10) if name in ("sheet_second", "sheet_third") else (500, 50)
         for row in cantilevers.shear_elastica(stiffnesses, form=as_printed(name)):
@@ -126,7 +126,7 @@ JOINTS = (({}, SHEETS), ({"wagner": 0}, ("beamw", "beamw_first", "sheet_third"))
 
 
 def joints():
-    """Yields predictions for joints, each of which requires twenty seconds."""
+    """Yields predictions for joints. Each joint takes about twenty seconds."""
     for given, names in JOINTS:
         at = sheets.parameters(given)
         for name in names:
@@ -141,7 +141,7 @@ HEXAPODS = (({}, SHEETS), ({"wagner": 0}, ("beamw", *SHEETS)))
 
 
 def hexapods():
-    """Yields predictions for hexapods, each of which requires a minute and a half."""
+    """Yields predictions for hexapods. Each hexapod takes about ninety seconds."""
     for given, names in HEXAPODS:
         at = sheets.parameters(given)
         for name in names:

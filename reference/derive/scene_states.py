@@ -97,7 +97,7 @@ def reaction(scene, name, component, level):
 
 def compliance(scene, level, entry, name):
     """Returns the compliance C [6, 6] in SI units for dead forces and moments on a node. Released components of the node
-    are free, and their loads remain."""
+    are free, and their present reactions remain as dead loads."""
     net, place = scene.net, scene.places[entry["node"]]
     if place.support is None:
         raise Refused(

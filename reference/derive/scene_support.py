@@ -42,7 +42,7 @@ class Applied:
             v, dtype=float) for v in (force, moment, arm)), turns, factor)
 
     def at(self, level, R):
-        R = R.real if self.stays else R  # values that are not varied have no derivative
+        R = R.real if self.stays else R  # without the complex step, the load does not follow the motion
         turned = R if self.turns else np.eye(3)
         f = self.factor(level) * (turned @ self.force)
         return np.concatenate(
@@ -50,9 +50,9 @@ class Applied:
 
 
 class Support:
-    """A support. `kinds` contains FREE, HELD or a motion(level, numbers) for each of the six components (dimensionless).
-    `sequence` is [(axis, FREE, HELD or a motion)], and `vector` contains three motions. A sequence or a vector
-    replaces the last three kinds, which are then HELD."""
+    """The support of a body. `kinds` contains FREE, HELD or a motion(level, numbers) for each of the six components
+    (dimensionless). `sequence` is [(axis, FREE, HELD or a motion)], and `vector` contains three motions. A sequence or
+    a vector replaces the last three kinds, which are then HELD."""
 
     def __init__(self, place):
         self.place, self.kinds, self.sequence, self.vector = np.array(
@@ -101,7 +101,7 @@ class Support:
     def _turns(self, level, R, moment, numbers, kinds):
         if FREE not in kinds:
             return skew(R @ self.prescribed(level, numbers).T)
-        now = skew(R @ R.real.T)  # an increment is zero and has only a derivative
+        now = skew(R @ R.real.T)  # increment from the present rotation: zero, with the derivative as imaginary part
         out = []
         for i, kind in enumerate(kinds):
             j, k = (i + 1) % 3, (i + 2) % 3
@@ -179,9 +179,9 @@ class Support:
 
 
 class Release:
-    """A release. `words` are the components in their order. The columns of `axes` are the axes of the end. `at` is the
-    position of the node relative to the point of its body (dimensionless). new_number() adds a number to the problem,
-    one for each component except for three rotations."""
+    """The release at one end of a member. `words` are the released components in their order. The columns of `axes` are
+    the axes of the end. `at` is the position of the node relative to the point of its body (dimensionless). new_number()
+    adds a number to the problem: one for each component, but none for three released rotations."""
 
     def __init__(self, words, axes, at, new_number):
         components = [WORDS.index(word) for word in words]

@@ -16,7 +16,7 @@ def names():
 
 
 def line_of(row):
-    """Returns a derived row in the form used in a scene."""
+    """Returns a derived row as a line in the syntax of scene files."""
     given = row["parameters"].replace("=", ": ").replace(";", ", ")
     text = ", ".join(f"{name}: {row[name]}" for name in FIELDS[:4])
     of = f', formulation: {row["formulation"]}' if row["formulation"] else ""

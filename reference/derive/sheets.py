@@ -2,8 +2,8 @@
 
 The moment m of the reaction follows a convention as the tip rotates by theta. A spatial moment is dead about fixed
 axes, as in the response of the network. A semitangential moment becomes m + theta x m/2, and its stiffness is the
-spatial stiffness plus m~/2 on the rotations. The symmetrised stiffness is the symmetric part of the spatial stiffness,
-which equals the semitangential stiffness if the beam has a potential.
+spatial stiffness plus m~/2 on the rotations. The symmetrised stiffness is the symmetric part of the spatial stiffness.
+It equals the semitangential stiffness if the beam has a potential.
 """
 import math
 

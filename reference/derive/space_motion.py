@@ -7,9 +7,10 @@ rest, e = t + g, and the forces F and moments M of the strains, the equations ar
   g' = v_s + k x v + e x w,      k' = w_s + k x w.
 At rest, the section axes are the space axes. In each element, velocities are polynomials defined by their values at the
 Lobatto points. Lobatto quadrature makes the mass matrix diagonal. Strains are defined by their values at the Gauss
-points, one fewer. Products that cancel in the power cancel at each point, so the energy of the rod changes only by the
-work of the loads. Positions and quaternions of nodes are integrated in time. The time integration uses the explicit
-Runge-Kutta method of order 8 by Dormand and Prince, restarted at slope discontinuities of the load.
+points, one fewer. Terms whose contributions to the power cancel in the equations also cancel at each Gauss point, so
+the energy of the rod changes only by the work of the loads. The positions and quaternions of the start and of the ends
+of the legs are integrated in time. The time integration uses the explicit Runge-Kutta method of order 8 by Dormand and
+Prince, restarted at slope discontinuities of the load.
 """
 from collections.abc import Callable
 from dataclasses import dataclass
@@ -25,7 +26,7 @@ KIND = "consensus"  # kind of the stored rows with which these values are compar
 MESHES = ((10, 10), (8, 8))  # number of elements of a leg, degree
 TIMES = ("1", "2", "2.5", "4", "5", "7", "7.5", "9", "10")
 ELBOW_MESHES = ((4, 10), (3, 8))
-ELBOW_TIMES = ("1", "2")  # only the first of the stored times, because axial waves are ten times as fast
+ELBOW_TIMES = ("1", "2")  # only the first of the stored times, because its fast axial waves require small steps
 
 
 @dataclass(frozen=True)

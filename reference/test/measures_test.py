@@ -162,7 +162,7 @@ class Measures(unittest.TestCase):
         self.assertGreater(np.min(np.abs(printed - first)), 1e-3)
 
     def test_sheets(self):
-        """For the sheet elements, without warping shear, W equals p."""
+        """The sheet elements are compared without warping shear, for which the amplitude W equals the twist rate p."""
         for sheared, name in ((False, "sheet_second"), (True, "sheet_second_consistent")):
             p = KAPPA[0] + KAPPA[1] * GAMMA[1] / (1 + GAMMA[0])
             limit = values(predicted_beam.OF[name], a=p)

@@ -127,7 +127,7 @@ def fork(place, along):
 
 
 def network_load(bracket, ratio, K):
-    """Returns the critical load of two members with a dead force on the body between them."""
+    """Returns the critical dead force in the middle of a beam on two forks, computed with two members."""
     beam = Beam(0.5, EA=fork_beams.EA, EIy=ratio, EIz=1.0, GJ=1.0, EIw=1 / K if K else 0.0)
     net = Network(1.0, 1.0, intervals=3, nodes=14)
     first = net.body((0, 0, 0), fork((0, 0, 0), False))
