@@ -114,6 +114,15 @@ double scene_instant_of(const scene *s, int analysis)
     return isnan(a->time) ? path->value[path->stations - 1] : a->time;
 }
 
+double scene_motion_begin(const scene *s, int analysis)
+{
+    const int before = s->analysis[analysis].follows;
+    if (before == SCENE_NONE || s->analysis[before].kind != SCENE_MOTION)
+        return 0;
+    const scene_path *path = scene_path_of(&s->analysis[before]);
+    return path->value[path->stations - 1];
+}
+
 scene_alpha scene_alpha_of_radius(double rho)
 {
     return (scene_alpha){(2 * rho - 1) / (rho + 1), rho / (rho + 1)};

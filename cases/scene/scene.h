@@ -206,6 +206,8 @@ void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame
 /* Returns the time [s] of the instant of a motion about which an analysis is made, or NAN if the
  * analysis is not about a motion. */
 double scene_instant_of(const scene *, int analysis);
+/* Returns the start [s] of a motion: 0, or the end of the motion that it continues. */
+double scene_motion_begin(const scene *, int analysis);
 
 /* Returns the key of an analysis in a scene file, such as "linear" or "static". */
 const char *scene_analysis_name(scene_analysis_kind);

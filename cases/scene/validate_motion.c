@@ -456,13 +456,8 @@ static status check_instant(const scene *s, const scene_analysis *a, int i, faul
                          : a->axes_of != SCENE_NONE ? "axes_of"
                                                     : "axes");
     const scene_analysis *motion = &s->analysis[a->follows];
-    const scene_path *path = scene_path_of(motion),
-                     *before = motion->follows != SCENE_NONE &&
-                                       s->analysis[motion->follows].kind == SCENE_MOTION
-                                   ? scene_path_of(&s->analysis[motion->follows])
-                                   : NULL;
-    const double begin = before != NULL ? before->value[before->stations - 1] : 0,
-                 end = path->value[path->stations - 1];
+    const scene_path *path = scene_path_of(motion);
+    const double begin = scene_motion_begin(s, a->follows), end = path->value[path->stations - 1];
     return time >= begin && time <= end
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
@@ -564,6 +559,21 @@ status scene_spectrum_stations(const scene *s, const scene_quantity *q, int *fir
     return STATUS_OK;
 }
 
+/* Rejects a window that begins in the motion that this motion continues. */
+static status check_begin(const scene *s, const scene_quantity *q, fault *f)
+{
+    const double from = q->passing.from, begin = scene_motion_begin(s, q->analysis);
+    if (!(from > 0) || from >= begin * (1 - 1e-9))
+        return STATUS_OK;
+    return fault_set(
+        f, STATUS_REFUSED,
+        "quantity %s: its window begins at %g s, but %s begins at %.10g s, where %s ends; let the "
+        "window begin there or later, or name %s",
+        q->name, from, scene_called(s, SCENE_ANALYSES, q->analysis).text, begin,
+        scene_name(s, SCENE_ANALYSES, s->analysis[q->analysis].follows).text,
+        scene_name(s, SCENE_ANALYSES, s->analysis[q->analysis].follows).text);
+}
+
 static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_passing *p = &q->passing;
@@ -585,6 +595,7 @@ static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
                          "quantity %s: the window from %g to %g s is invalid; give a window that "
                          "starts at 0 s or later and ends after its start",
                          q->name, p->from, p->until);
+    TRY(check_begin(s, q, f));
     return scene_spectrum_stations(s, q, &first, &count, f);
 }
 
@@ -642,7 +653,7 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
                          "a finite level, a direction (rising, falling or either), and a window "
                          "that starts at 0 s or later and ends after its start",
                          q->name, p->from, p->until);
-    return STATUS_OK;
+    return check_begin(s, q, f);
 }
 
 /* Returns the path whose stations are the points of the curve. Sets *points to 1 if the curve has

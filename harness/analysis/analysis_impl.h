@@ -316,6 +316,11 @@ void extract_quantity(const analysis_context *, const scene_quantity *, quantity
 void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                   quantity_result *);
 
+/* Returns 1 if the quantity has no value because it needs a part of a motion that this run omits:
+ * the run continues the motion of another run. r contains the reason. Otherwise returns 0, and r
+ * states if a curve lacks its first stations. */
+int extract_continued(const analysis_context *, const scene_quantity *, quantity_result *r);
+
 /* Sets the spectrum of the quantity from `count` values in the unit of the quantity, at equal time
  * steps [s]. */
 void spectrum_take(const scene_quantity *, int count, double step, const double value[],

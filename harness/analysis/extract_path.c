@@ -367,6 +367,8 @@ static void take_loops(const analysis_context *c, const scene_quantity *q, quant
 void extract_path(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                   quantity_result *r)
 {
+    if (extract_continued(c, q, r))
+        return;
     if (scene_is_passed(q, o->kind)) {
         extract_passing(c, q, o, r);
         return;

@@ -278,8 +278,8 @@ static status take_restart(solve_request *r, restart *from, fault *f)
     return STATUS_OK;
 }
 
-static status prepare_ends(const solve_request *r, const restart *from, solution_request *what,
-                           scene *s, fault *f)
+static status prepare_ends(const solve_request *r, restart *from, solution_request *what, scene *s,
+                           fault *f)
 {
     what->keep_ends = r->ends != NULL;
     if (r->ends != NULL || r->restart != NULL)
@@ -445,7 +445,7 @@ static const verb_option own[] = {
     {"restart", 0, "FILE",
      "continue the motions of another run from its --save-state file; give the same scene with "
      "later stations; the results are bit-for-bit equal to those of an uninterrupted run if the "
-     "steps are the same",
+     "steps are the same; windows must begin at the saved state or later",
      IN(restart), .traits = OPTION_INPUT},
     {0}};
 static const verb_group shared[] = {SHARED(case, of),           SHARED(formulations, chosen),

@@ -1057,10 +1057,10 @@ status restart_write(const char *path, const solution_request *, const sweep *, 
  * restart_free even after a failure. */
 status restart_read(const char *path, restart *, fault *);
 void restart_free(restart *);
-/* Prepares the scene for continuation: only the stations after the stored state remain. REFUSED:
+/* Prepares the scene for continuation: only stations from the stored state on remain. REFUSED:
  * the formulation, the mesh, or a part of the scene other than stations and quantities differs, or
  * there is no later station. */
-status restart_begin(const restart *, solution_request *, scene *, fault *);
+status restart_begin(restart *, solution_request *, scene *, fault *);
 
 /* Formulations that run a case, or cases that a formulation runs, and the reasons why others do
  * not. */

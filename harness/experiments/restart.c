@@ -54,17 +54,21 @@ static status check_chosen(const restart *r, const solution_request *of, fault *
     return STATUS_OK;
 }
 
-/* Removes the stations up to the time of the stored state. REFUSED: no station remains. */
-static status drop_stations(const outcome_end *e, scene *s, fault *f)
+/* Removes the stations before the stored state. REFUSED: no station is later. */
+static status drop_stations(outcome_end *e, scene *s, fault *f)
 {
-    const double same_instant = 1e-9;
     scene_motion *m = &s->analysis[e->analysis].of.motion;
-    const double last = m->path.value[m->path.stations - 1];
+    const double last = m->path.value[m->path.stations - 1], near = 1e-9 * m->step;
     int kept = 0;
+    e->omits = 0;
     for (int i = 0; i < m->path.stations; i++)
-        if (m->path.value[i] > e->time + same_instant * m->step)
+        if (m->path.value[i] >= e->time - near)
             m->path.value[kept++] = m->path.value[i];
-    if (kept == 0)
+        else {
+            e->omits++;
+            e->omitted = m->path.value[i];
+        }
+    if (!(last > e->time + near))
         return fault_set(f, STATUS_REFUSED,
                          "the motion continues from %.10g s, but its last station is at %.10g s; "
                          "add a later station",
@@ -73,7 +77,7 @@ static status drop_stations(const outcome_end *e, scene *s, fault *f)
     return STATUS_OK;
 }
 
-status restart_begin(const restart *r, solution_request *of, scene *s, fault *f)
+status restart_begin(restart *r, solution_request *of, scene *s, fault *f)
 {
     TRY(check_chosen(r, of, f));
     TRY(restart_text_check(r->scene, s, f));

@@ -311,6 +311,10 @@ typedef struct outcome_end {
     double scale, extent, rate, density; /* see time_impl.h */
     double stress, contraction;          /* convergence history of Newton's method */
     int quiet; /* number of steps since the last discontinuity of the loads */
+    /* stations of the scene before `time`, which a run that continues the motion omits: their
+     * number, and the last of them [s] */
+    int omits;
+    double omitted;
     size_t states, coordinates, strains, released, between;
     /* [2 states + 3 coordinates + 2 strains + released + 5 between] NULL: none. The order is: the
      * state; the initial state; rates, their derivatives, and the accelerations that

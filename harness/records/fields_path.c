@@ -60,7 +60,7 @@ static const schema_field fields_of_quantity[] = {
     {"value", OWN_UNIT, FIELD_DOUBLE, "the value", VALUE(value)},
     {"meaning", "", FIELD_TEXT,
      "envelope: governing combination; frequency: damped or not; critical load of loads without a "
-     "potential: kind of instability",
+     "potential: kind of instability; curve of a continued motion: its start",
      VALUE(meaning)},
     {"not_modelled", "", FIELD_TEXT, "omitted physics of the formulation that affects the value",
      .get = get_not_modelled},

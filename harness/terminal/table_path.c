@@ -183,8 +183,8 @@ static void energy_line(FILE *to, const motion_extent *e)
     paragraph words;
     FILE *text = paragraph_begin(&words, to);
     fprintf(text,
-            "%.6g J at the end, of which %.6g J is kinetic; work since the start %.6g J, "
-            "dissipated %.3g J; energy-balance error at most %.2g J",
+            "%.6g J at the end, of which %.6g J is kinetic; work since 0 s %.6g J, dissipated "
+            "%.3g J; energy-balance error at most %.2g J",
             last->balance[SCENE_ENERGY], last->balance[SCENE_KINETIC], last->balance[SCENE_WORK],
             last->balance[SCENE_DISSIPATED], fabs(drift));
     if (size > 0 && drift != 0)
@@ -234,11 +234,12 @@ static void momentum_line(FILE *to, const motion_extent *e)
 {
     const motion_record *last = &e->record[e->end - 1];
     const int at = fprintf(to, "momenta: ");
-    paragraph_say(to, at, MOTION_INDENT,
-                  "%.6g kg m/s at the end, %.6g kg m^2/s about the origin; largest changes from "
-                  "the start: %.2g and %.2g",
-                  length_at(last, SCENE_PX), length_at(last, SCENE_LX), change_of(e, SCENE_PX),
-                  change_of(e, SCENE_LX));
+    paragraph_say(
+        to, at, MOTION_INDENT,
+        "%.6g kg m/s at the end, %.6g kg m^2/s about the origin; largest changes: %.2g and "
+        "%.2g from those at %g s",
+        length_at(last, SCENE_PX), length_at(last, SCENE_LX), change_of(e, SCENE_PX),
+        change_of(e, SCENE_LX), e->record[e->first].at.time);
 }
 
 /* Reports a load whose factor at the end of the preceding path differs from its factor at the start

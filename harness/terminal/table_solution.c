@@ -130,6 +130,16 @@ static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
                     r->quantity[i].rounding);
 }
 
+/* Prints that curves of a motion that continues another run lack their first stations. */
+static void continued_curves(FILE *to, const scene *s, const solve_result *r)
+{
+    for (int i = 0; i < r->quantities; i++)
+        if (r->quantity[i].curve.points > 0 &&
+            s->analysis[s->quantity[i].analysis].kind == SCENE_MOTION &&
+            r->quantity[i].meaning[0] != '\0')
+            fprintf(to, "%-*s %s\n", NAME, s->quantity[i].name, r->quantity[i].meaning);
+}
+
 /* Prints the combinations if loads have load cases, for example "ULS = 1.35 dead + 1.5 wind; ...".
  * */
 static void combinations(FILE *to, const scene *s)
@@ -331,6 +341,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     unfinished_curves(to, p, &c->solve);
     table_curves_values(to, &p->scene, &c->solve);
     bounded_curves(to, &p->scene, &c->solve);
+    continued_curves(to, &p->scene, &c->solve);
     table_path_matrices(to, &p->scene, &c->solve);
     table_motion(to, &p->scene, &c->solve);
     loop_lines(to, &p->scene);

@@ -184,6 +184,8 @@ void feedback_signals(const equations *, const model_state *, int load, double p
 /* Transient analysis: computes the states at the requested times. */
 
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
+/* Returns the stored end of another run from which the motion continues; NULL: none. */
+const outcome_end *resume_given(const analysis_context *, int analysis);
 /* Returns REFUSED with the reason why the quantity has no value (outcome_motion.undefined). */
 status motion_undefined(const scene *, const scene_quantity *, fault *);
 

@@ -1052,8 +1052,6 @@ typedef struct resume_control {
  * motion is stored for another run (solve_options.keep_ends). Otherwise does nothing. */
 status resume_keep(const analysis_context *, int analysis, const instant *now,
                    const resume_control *, outcome_motion *, fault *);
-/* Returns the stored end of another run from which the motion continues; NULL: none. */
-const outcome_end *resume_given(const analysis_context *, int analysis);
 /* Finds the end of an earlier motion of the scene. NOT_CONVERGED: this motion stopped prematurely.
  * */
 status resume_before(const analysis_context *, int before, const outcome_end **, fault *);
