@@ -524,7 +524,7 @@ int harmonic_modes_damped(const harmonic_modes *, const double **U);
 /* Sets out[count] to U^T r, where r are the static displacements due to a unit displacement of the
  * driven coordinate. */
 void harmonic_modes_carried(const vibration *, int driven, double out[]);
-/* Adds the static shapes of inputs and outputs, f: [count x free] forces, and computes the
+/* Adds the static shapes due to the forces f[count x free] of inputs and outputs, and computes the
  * projected matrices. */
 status harmonic_modes_project(vibration *, int count, const double f[], fault *);
 /* Factors D at a circular frequency. SINGULAR: as in a direct solution. */

@@ -40,8 +40,8 @@ static unsigned needs_of_analyses(const scene *s)
     return needs;
 }
 
-/* Returns the FEATURE bits of the quantities. Stresses of fibres exert a torque if the fibres are
- * inclined because of twist. */
+/* Returns the FEATURE bits that the quantities require. Stresses of fibres exert a torque if the
+ * fibres are inclined because of twist. */
 unsigned features_of_quantities(const scene *s)
 {
     unsigned needs = 0;

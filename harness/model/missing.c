@@ -409,7 +409,8 @@ static void add(ends_words *w, const char *text)
     w->names++;
 }
 
-/* Adds the node if all its ends have this state. Otherwise adds each end with this state. */
+/* Adds the name of a node to the text if all member ends at the node have this state. Otherwise
+ * adds the name of each end with this state. */
 static void add_node(const held_ends *e, int node, int state, ends_words *out)
 {
     const scene *s = e->scene;

@@ -50,7 +50,7 @@ status profile_members(model *m, int *sections, fault *f);
 
 /* Returns the number of released ends of all members. */
 int release_count(const scene *);
-/* Creates the vertices of released ends, together with the elements. */
+/* Creates the vertices of released ends, and assigns them to the elements. */
 status release_build(model *, fault *);
 
 /* Adds to d[6] the motion of the end relative to its node due to the increment dx of its released

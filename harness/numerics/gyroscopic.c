@@ -81,7 +81,8 @@ static void clear(const gyroscopic_solver *s)
     memset(s->im, 0, (size_t)s->basis.n * sizeof *s->im);
 }
 
-/* Returns r^H S^-1 r for one half of a residual, and replaces this half by S^-1 times the half. */
+/* Replaces `half`, the real or the imaginary part of a residual, by S^-1 half. Returns the product
+ * of both. */
 static double solve_half(gyroscopic_solver *s, double half[])
 {
     memcpy(s->work, half, (size_t)s->basis.n * sizeof *half);

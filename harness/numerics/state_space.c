@@ -92,9 +92,9 @@ static status project(split *s, fault *f)
     return STATUS_OK;
 }
 
-/* Replaces columns `from` to s->n of T by eigenvectors of the symmetric part of A [n x n], scaled
- * by the square roots of its diagonal. Eigenvectors whose eigenvalue exceeds rounding come first.
- * Returns their number; -1: the fault contains the reason. */
+/* Replaces columns `from` to s->n of T by eigenvectors of the symmetric part of A [n x n], with
+ * rows and columns multiplied by `scale`. Eigenvectors whose eigenvalue exceeds rounding come
+ * first. Returns their number; -1: the fault contains the reason. */
 static int range_of(split *s, const double A[], const double scale[], int from, fault *f)
 {
     const size_t n = (size_t)s->n, size = n - (size_t)from;

@@ -132,8 +132,8 @@ static void turns(const double step[], place_chain *by, frame_place *p)
 }
 
 /* Computes the direction (before + after)/2 - c x (after - before)/4 of a slide and its derivative.
- * `before` and `after` are the axis of the slide at the two ends of the step. The shift changes by
- * c x its mean plus the direction times the change of the coordinate. */
+ * `before` and `after` are the directions of its axis at the start and at the end of the step. The
+ * shift changes by c x its mean plus the direction times the change of the coordinate. */
 static void direction(const double before[3], const double after[3], const place_chain *by,
                       int columns, double along[3], double change[])
 {
@@ -340,7 +340,7 @@ static int index_of(int column, int at, int own)
     return column < SIX ? at + column : own + column - SIX;
 }
 
-/* Computes out[columns] = A^T of, with A[6 x columns]. */
+/* Computes out[columns] = A^T of[6], with A[6 x columns]. */
 static void transposed(const frame_place *p, const double A[], const double of[SIX], double out[])
 {
     memset(out, 0, (size_t)p->columns * sizeof *out);

@@ -1,8 +1,8 @@
 /* Small motions about a state with rates: M x'' + (C + G) x' + K x, where x contains increments of
  * the coordinates, with rotations about fixed axes. For a free rotation with W = R^T w, dW = R^T x'
  * and dW' = R^T (x'' - w x x'), so M w~ is subtracted from the derivatives with respect to the
- * rates. Strains e(x) of damped members have the rates J x', which change by J x' + J' x, where J'
- * is the change of J along the motion. */
+ * rates. Strains of damped members have the rates J v, where v contains the rates of the state.
+ * Small motions x change these rates by J x' + J' x, where J' is the rate of J along the motion. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -247,8 +247,8 @@ static void add_inertia(small_motions *s)
 
 /* Change of J of all damped elements and dashpots during the motion, by finite differences. */
 
-/* Returns a duration [s] in which nodes rotate by about turn_by and move by about turn_by times the
- * size of the model, at most; 0: nothing moves. */
+/* Returns a duration [s] in which no node rotates by much more than turn_by or moves by much more
+ * than turn_by times the size of the model; 0: nothing moves. */
 static double short_time(const small_motions *s)
 {
     const double length = model_length(s->m);

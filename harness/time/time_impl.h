@@ -44,9 +44,9 @@ double work_trapezoid(outer_work *, const instant *from, const instant *to, cons
  * rounding. */
 double account_most(const account *, double part, double rounding);
 
-/* Checks the energy balance. NOT_CONVERGED: the motion gained more energy than account_gained
- * without cause, or lost more than account_lost although the scene does not request numerical
- * damping. rounding: see balance_rounding [J]. */
+/* Checks the energy balance. NOT_CONVERGED: without cause, the motion gained more energy than
+ * account_gained allows, or it lost more than account_lost allows although the scene does not
+ * request numerical damping. rounding [J]: see balance_rounding. */
 status account_judge(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
 
@@ -59,7 +59,7 @@ status account_judge(const account *, const scene_motion *, double time,
 void damping_follow(const equations *, double g, const double known[], const model_state *from);
 /* Copies the strains of elements and springs to e[model_stresses]. */
 void damping_strains(const model *, const model_state *, double e[]);
-/* Computes e' = J x' for the rates v[free + driven]: rate[model_stresses]. */
+/* Computes the strain rates e' = J v for the rates v[free + driven]: rate[model_stresses]. */
 status damping_rates(const model *, const model_state *, const double v[], double rate[], fault *);
 /* dashpots_subtract subtracts the forces of dashpots for the rates v from out[free + driven], and
  * returns the dissipated power [W]. room[dashpots_room]: work space. */
@@ -273,10 +273,10 @@ typedef enum rotation_form {
 } rotation_form;
 
 /* Checks the rotations of all nodes. REFUSED: two rotations about fixed axes are free while the
- * third rotation is fixed or follows a driver, and its row is kept or eliminated. Such rotations
- * fix a component of the angular velocity at zero. This constraint is not integrable: exp(-b e_j~)
- * exp(-a e_i~) exp(b e_j~) exp(a e_i~) = 1 - a b e_k~ + ..., so the coordinates do not determine
- * the orientation of the node. */
+ * third rotation is fixed or follows a driver, whether its row is kept or eliminated. Such
+ * rotations fix a component of the angular velocity at zero. This constraint is not integrable:
+ * exp(-b e_j~) exp(-a e_i~) exp(b e_j~) exp(a e_i~) = 1 - a b e_k~ + ..., so the coordinates do not
+ * determine the orientation of the node. */
 status forms_check(const model *, fault *);
 rotation_form forms_of(const model *, int vertex);
 
@@ -349,7 +349,7 @@ typedef struct inertia_parts {
 } inertia_parts;
 void inertia_frame(const model *, const carried_masses *, int index, const model_state *,
                    const double v[], const double a[], inertia_parts *out);
-/* inertia_times computes out = A diag(1 for translations, B for rotations). K is the sum of such
+/* inertia_times computes out = A diag(translation 1, B). K is the sum of such
  * products. inertia_finish transforms the rows of K to coordinates, and adds the motion on an arm.
  * rate, place: as for inertia_swing_column. */
 void inertia_times(const double A[36], double translation, const double B[9], double out[36]);
@@ -431,7 +431,7 @@ typedef struct conserving {
 } conserving;
 
 /* Functions for all elements and springs (conserving_strain.c). */
-/* Computes the energies and the springs at the start of the step, and sets d to zero. */
+/* Computes the energies, and the data of the springs, at the start of the step. Sets d to zero. */
 status conserving_begin(conserving *, const instant *from, fault *);
 /* Computes the stresses for the present strains, and k. k is 0 until it is reliable. */
 status conserving_stresses(conserving *, const instant *from, model_state *now, int iteration,
@@ -878,7 +878,7 @@ void peaks_end(peaks *);
 enum { PLACE_MOST = 6 + SCENE_RELEASED };
 
 typedef struct frame_place {
-    /* number of coordinates: six of the node, followed by released rotations and released slides */
+    /* number of coordinates: six of the body, followed by released rotations and released slides */
     int columns;
     /* [6 x columns] forces F on the frame become work^T F in these coordinates */
     double work[6 * PLACE_MOST];
@@ -1103,14 +1103,14 @@ void spread_subtract(const model *, const model_state *, const double v[], const
                      double damping, double out[]);
 void spread_add_tangent(const equations *, const model_state *, const double v[], const double a[],
                         double damping, const inertia_relation *, sparse *S);
-/* Adds the terms that K of the elements omits (inertia_output) to S. */
+/* Adds to S the terms that K of the elements omits (inertia_output). */
 void spread_add_omitted(const equations *, const model_state *, const double v[], const double a[],
                         double damping, sparse *S);
 void spread_add_balance(const model *, const model_state *, const double v[], double *kinetic,
                         double momentum[3], double angular[3]);
 
 /* Derivatives of the inertia forces of an element with respect to the motions of the bodies that
- * move its nodes, with 7 coordinates per node, and of its released ends. */
+ * move its nodes (7 coordinates per node), and with respect to those of its released ends. */
 typedef struct spread_parts {
     const struct mesh_element *el;
     const model_state *state;
@@ -1214,7 +1214,7 @@ void turning_add(double t[3], const double d[3]);
 /* Computes the rates of the frame of a node or of a released end, as given by forms_rates. */
 void inertia_rates(const model *, const model_state *, int vertex, const double v[],
                    const double a[], frame_rates *);
-/* Rates of any vertex. */
+/* Like inertia_rates, for any vertex. */
 void vertex_rates(const model *, const model_state *, int vertex, const double v[],
                   const double a[], frame_rates *);
 
@@ -1303,8 +1303,8 @@ void watches_free(watches *);
 status watches_step(watches *, const instant *from, const instant *to, fault *);
 /* Completes the data at the end of the motion. */
 void watches_end(watches *);
-/* Returns the value of the quantity at a time of the step, before factor and offset; NAN: there is
- * no value. */
+/* Returns the value of the quantity at a time of the step, before its factor and offset are
+ * applied; NAN: there is no value. */
 double watched_value(watches *, const watched *, double time);
 /* Computes the difference between a side step to the given time and the polynomial; 0 for
  * quantities that do not use the polynomial. */

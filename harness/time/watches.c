@@ -214,7 +214,8 @@ static void lose(watched *one)
     one->out->known = one->aside ? PASSING_UNSOLVED : PASSING_LOST;
 }
 
-/* Returns a bound on the rounding error of a force or an energy. */
+/* Returns a bound on the rounding error of a reaction, a resultant or an energy; 0 for other
+ * quantities. */
 static double rounding_of(const watches *s, const watched *one)
 {
     const scene_quantity_kind kind = one->q->what.kind;
