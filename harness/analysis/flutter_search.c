@@ -77,8 +77,8 @@ static void describe(search *s, const unsymmetric_result *r, station *out)
 }
 
 /* Computes the station at `path`, starting from the stored state. STATUS_SINGULAR: the tangent is
- * singular. Flag before `out` 1: growth within rounding is ignored. */
-static status look_closely(search *s, double path, int surely, station *out, fault *f)
+ * singular. significant 1: growth within rounding is ignored. */
+static status look_closely(search *s, double path, int significant, station *out, fault *f)
 {
     newton_run *n = s->n;
     step_record unused = {0};
@@ -90,7 +90,8 @@ static status look_closely(search *s, double path, int surely, station *out, fau
     if (increment != 0)
         TRY(s->walk(n, path, &increment, f));
     TRY(newton_direction(n, path, &unused, f));
-    status outcome = flutter_motions(n, &s->of, s->of.damped ? WATCHED : MOTIONS, surely, &r, f);
+    status outcome =
+        flutter_motions(n, &s->of, s->of.damped ? WATCHED : MOTIONS, significant, &r, f);
     if (outcome == STATUS_OK)
         describe(s, &r, out);
     if (outcome == STATUS_OK && out->kind != FLUTTER_NONE) {
