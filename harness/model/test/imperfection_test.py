@@ -134,7 +134,8 @@ class ImperfectionTest(SceneCase):
                     self.assertAlmostEqual(got["critical"], 2, delta=1e-5, msg=formulation)
 
     def test_mode_of_a_twisted_beam(self):
-        """The twist of a mode is included, with order 2 for every formulation (cases/examples/crooked_beam.yaml)."""
+        """The twist of a mode is included in the initial shape. Every formulation converges with order 2
+        (cases/examples/crooked_beam.yaml)."""
         path = ROOT / "cases/examples/crooked_beam.yaml"
         for formulation in FORMULATIONS:
             error = [values(self.record("solve", "--scene", path, "-f", formulation, "-n", n))["moved"] / 1e-4 - 1

@@ -78,8 +78,7 @@ def scaled(K, *others):
 
 
 def frequencies(K, M, inside=None):
-    """Returns the frequencies [Hz] of K x = omega^2 M x in ascending order. M may be singular. If `inside` is given, each
-    mode satisfies x.K x = omega^2 x.M x + omega^4 x.inside x."""
+    """Returns the frequencies [Hz] of K x = omega^2 M x in ascending order. M may be singular. If `inside` is given, each mode satisfies x.K x = omega^2 x.M x + omega^4 x.inside x."""
     K, M, inside = scaled(K, M, 0*K if inside is None else inside)
     mu, x = scipy.linalg.eigh(M, K)
     mu, x = mu[mu > 1e-14 * mu[-1]], x[:, mu > 1e-14 * mu[-1]]
@@ -88,8 +87,8 @@ def frequencies(K, M, inside=None):
 
 
 def turning_frequencies(K, M, G):
-    """Returns the frequencies [Hz] of (K + i omega G - omega^2 M) x = 0, which is Hermitian in 1/omega with K = L L^T and
-    M = R^T R."""
+    """Returns the frequencies [Hz] of (K + i omega G - omega^2 M) x = 0. With K = L L^T and M = R^T R, this is a
+    Hermitian eigenproblem for 1/omega."""
     K, M, G = scaled(K, M, G)
     L = scipy.linalg.cholesky(K, lower=True)
     size, vectors = scipy.linalg.eigh(M)
@@ -106,7 +105,8 @@ def turning_frequencies(K, M, G):
 class Matrices(ProgramTest):
 
     def solve(self, scene, formulation, *more, n=2):
-        """Returns values by name and the folder, or None if the request is rejected."""
+        """Solves the scene with output of matrices. Returns the values by name and the folder, or None if the request
+        is rejected."""
         file, folder = self.folder / "scene.yaml", self.folder / formulation.replace(":", "_")
         file.write_text(scene, encoding="utf-8")
         work = ("solve", "--scene", file, "-f", formulation, "-n", n, "--matrices", folder, *more)
@@ -143,8 +143,8 @@ class Matrices(ProgramTest):
 class Frequencies(Matrices):
 
     def test_loaded(self):
-        """The matrices are checked at rest, prestressed, and bent by a quarter of the length, with a rigid body. At rest,
-        the frequencies include the internal motions of elements."""
+        """The matrices are those at rest, under prestress, and in a state bent by a quarter of the length, also with a
+        rigid body. At rest, frequencies include the internal motions of elements."""
         checked = with_inside = 0
         for formulation in FORMULATIONS:
             folder, values = self.solved(LOADED, formulation)
@@ -172,7 +172,7 @@ class Frequencies(Matrices):
             self.agree(values, state, found, "lumped")
 
     def inputs(self, folder, value):
-        """K x = B 1 is the linear solution, and the table identifies the rows."""
+        """Checks that K x = B 1 gives the linear solution, and that the table identifies the rows."""
         K, B = self.read(folder, "undeformed", "K"), self.read(folder, "undeformed", "B")
         x = numpy.linalg.solve(K, B.sum(axis=1))
         rows = self.rows(folder)
@@ -185,8 +185,8 @@ class Frequencies(Matrices):
                          [("1", "tip", 40), ("2", "tip", 5)])
 
     def test_loads_on_members(self):
-        """The table states the part of the member on which each load acts. The columns of B are the loads, and K x = B 1
-        is the linear solution."""
+        """The table states the part of the member on which each load acts. The columns of B are the loads, so the
+        solution of K x = B 1 must be the linear solution."""
         loads = """  part: {distributed: [0, 6, 0], on: bar, from: 0.25, to: 0.75, to_value: [0, 0, 3]}
   point: {force: [1, 2, 3], on: bar, where: 0.5}
   halves: {distributed: [0, 0, 4], on: bar, lumped: yes}
@@ -257,7 +257,8 @@ FOLLOWING = "loads:\n  p: {force: [-5, 5, 8], on: tip, follower: true}\n"
 
 
 def responses(*choices):
-    """Returns the real and imaginary curves of (output, input) texts."""
+    """Returns the entries of the quantities for the real and imaginary parts of responses, given as texts (output,
+    input)."""
     return "".join(f"  {part}_{i}: {{response: {{analysis: steady, {choice}, part: {part}, take: curve}}}}\n"
                    for i, choice in enumerate(choices) for part in ("real", "imaginary"))
 
@@ -268,10 +269,11 @@ ALL = responses(*(f"node: tip, component: uy, of: {of}, {by}" for of in ("displa
 
 
 class StateSpace(Matrices):
-    """x' = A x + B u, y = C x + D u compared with the harmonic analysis."""
+    """The state space x' = A x + B u, y = C x + D u must agree with the harmonic analysis."""
 
     def transfer(self, folder, state, hertz, of_motions=True):
-        """Returns the transfer matrix [outputs x inputs], for motions instead of their accelerations."""
+        """Returns the transfer matrix [outputs x inputs]. The inputs at the base are motions if `of_motions`, otherwise
+        their accelerations."""
         A, B, C, D = (self.read(folder, f"{state}/state_space", letter)
                       if (folder/state/"state_space"/f"{letter}.mtx").exists() else 0 for letter in "ABCD")
         s = 2j*numpy.pi*hertz
@@ -287,7 +289,7 @@ class StateSpace(Matrices):
         return ((L[0] + s*L[1] + s*s*L[2]) @ numpy.linalg.solve(K + s*C + s*s*M, B) + L[3])*moved
 
     def compare(self, scene, formulation, n=2, within=1e-8):
-        """Compares every response of the scene, and returns the folder and the values."""
+        """Compares every response of the scene with that of its state space. Returns the folder and the values."""
         shutil.rmtree(self.folder/formulation.replace(":", "_"), ignore_errors=True)
         folder = self.solve(scene, formulation, "--state-space", n=n)
         if folder is None:
@@ -315,7 +317,7 @@ class StateSpace(Matrices):
         return folder, {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_responses(self):
-        """The poles are the damped modes."""
+        """The poles of the state space must be the damped modes."""
         bent = "  path: {static: {stations: [1]}}\n"
         checked = 0
         for formulation in FORMULATIONS:
@@ -348,8 +350,8 @@ class StateSpace(Matrices):
         self.assertLess(max(poles.real), 1e-3)
 
     def test_without_mass(self):
-        """Massless coordinates with damping are of first order, and other massless coordinates are eliminated. An
-        output rate that follows its force instantaneously is rejected."""
+        """A massless coordinate with damping has one state. Other massless coordinates are eliminated. An output rate
+        that follows its force instantaneously is rejected."""
         scene = BENT.replace("  modes: {modal: {damped: yes%s}}\n", "%.0s")
         scene = scene[:scene.index("  f_$n")] + scene[scene.index("mass: lumped"):]
         holds = (0, SHAKEN, "", "", "", "", "")
@@ -394,7 +396,7 @@ class StateSpace(Matrices):
             V[inner, len(edge):len(edge) + 6] = modes[:, :-7:-1]
             V[inner, -1] = -numpy.linalg.solve(K[numpy.ix_(inner, inner)], K[inner, n])
             V[n, -1] = 1
-            if not nodes: # static shapes of the two forces
+            if not nodes: # without nodes, the shapes are the static shapes of the two forces
                 V = numpy.hstack((V[:, :-1], numpy.vstack((numpy.linalg.solve(K[:n, :n], B[:n, [0, 2]]), [[0, 0]])), V[:, -1:]))
             T = self.read(folder, "steady/reduced", "T")
             self.assertEqual(T.shape, V.shape)
@@ -434,7 +436,7 @@ class StateSpace(Matrices):
             self.assertFalse((self.folder/"new").exists())
 
     def test_modes_without_mass(self):
-        """An eccentric point mass has three modes with mass, whichever quantity is requested."""
+        """An eccentric point mass has three modes with mass, for any requested quantity."""
         (self.folder/"scene.yaml").write_text("""beamwork: 1
 sections: {bar: {constants: {A: 1e-4, Iy: 5e-7, Iz: 8e-7, It: 9e-7}, young: 1e9, shear_modulus: 4e8}}
 nodes: {root: {at: [0, 0, 0], hold: all}, mid: {at: [1, 0, 0]}, tip: {at: [2, 0, 0], mass: 2, centre: [0.1, 0.2, 0.3]}}

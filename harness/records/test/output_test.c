@@ -1,5 +1,5 @@
-/* Files must appear completely or not at all: replaced files, files written directly, permissions
- * and full disks. */
+/* Files must appear completely or not at all. The tests include files that are replaced or written
+ * directly, permissions and full disks. */
 #include <fcntl.h>
 #include <gsl/gsl_test.h>
 #include <signal.h>
@@ -59,7 +59,7 @@ static void write_failures(void)
     struct rlimit kept, small;
     getrlimit(RLIMIT_FSIZE, &kept);
     small = kept;
-    small.rlim_cur = 1000; /* bytes, which are too few for a compressed file, as on a full disk */
+    small.rlim_cur = 1000; /* [bytes] too few for a compressed file, as on a full disk */
     signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &small);
     write_record(path, folder, 0, "no room");
@@ -161,7 +161,7 @@ static void permissions(void)
     folder_remove(&of);
 }
 
-/* A link with a temporary name would be followed, so temporary names are unpredictable. */
+/* If the name of a temporary file could be predicted, a link with this name would be followed. */
 static void temporary_names(void)
 {
     enum { NAMES = 50 };
@@ -187,7 +187,8 @@ static void temporary_names(void)
     folder_remove(&of);
 }
 
-/* Text can be written to pipes and devices, which are not replaced. A whole file cannot. */
+/* Text may be written to pipes and devices, which must not be replaced. A file that must appear
+ * completely cannot be written to them. */
 static void streams(void)
 {
     const test_folder of = folder_make();

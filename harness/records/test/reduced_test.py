@@ -1,4 +1,4 @@
-"""Reduced models of structures with multiple frequencies and with transfer functions that are zero."""
+"""Reduced models of structures with multiple frequencies, or with transfer functions that are zero."""
 import csv
 import shutil
 import unittest
@@ -8,7 +8,8 @@ import scipy.io
 
 from harness.tools.kit.program import ProgramTest
 
-# uy and rz are independent of uz. If the member is inclined, functions that are zero contain round-off.
+# Loads along uz cause neither uy nor rz, so these transfer functions are zero. If the member is inclined, they are not
+# exactly zero because of round-off.
 CANTILEVER = """beamwork: 1
 sections: {s: {%(section)s, young: 70e9, shear_modulus: 26e9, density: 2700}}
 nodes:
@@ -37,7 +38,7 @@ quantities:
   across: {response: {analysis: h, node: tip, component: uz, force: tip, along: uy, of: velocity}}
   other: {response: {analysis: h, node: tip, component: %s, force: tip, along: uz, of: acceleration}}
 """
-# scene, reduction, and number of modes used
+# scene, reduction, and number of modes that the reduced model uses
 TABLE = [(CANTILEVER % dict(place, section=section), reduction, taken)
          for section, places, rows in ((RECTANGLE, (STRAIGHT, INCLINED), (("1", 1), ("3:mid", 3))),
                                        (TUBE, (STRAIGHT, INCLINED, SKEW), (("1", 2), ("2", 2), ("3", 4), ("1:mid", 2), ("4:mid", 4))))
@@ -79,7 +80,8 @@ class Reduced(ProgramTest):
                 self.check(functions, line)
 
     def check(self, functions, line):
-        """Errors are those of numpy. Functions that couple the planes are zero in both models."""
+        """Checks that the stated errors are those computed with numpy. Functions between different planes must be zero
+        in both models."""
         inputs, outputs = self.rows("inputs.csv"), self.rows("outputs.csv")
         H, h = (numpy.array([self.transfer(f"h/{state}", hertz) for hertz in (3, 11, 60)]) for state in ("second_order", "reduced"))
         largest, zeros = 0, 0

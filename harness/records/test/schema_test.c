@@ -54,7 +54,7 @@ static void parameters_differ(const case_type *type)
                      "%s: parameter %s beside a field", type->name, list[k]->name);
 }
 
-/* Stores a value that no other field has at the offset of the field. */
+/* Stores a value at the offset of the field. No other field has this value. */
 static void plant(void *record, const schema_field *f, int value)
 {
     char *at = (char *)record + f->offset;
@@ -99,8 +99,8 @@ static void all_same(const record_type *type, const void *a, const void *b)
                      list[i]->name);
 }
 
-/* Transfers one record of each kind in a cell, with distinct values, including matrices and
- * curves. */
+/* One record of each kind in a cell is transferred between processes, with distinct values,
+ * including matrices and curves. */
 static void pipe_carries_all(void)
 {
     double x[2] = {1, 2}, y[2] = {3, 4}, path = 5, compliance[36], stiffness[36];
@@ -168,7 +168,8 @@ static void schema_tests(void)
     pipe_carries_all();
 }
 
-/* The summary for a pull request contains the differences in a table, which no text can break. */
+/* The summary for a pull request lists differences in a table. No text in its cells may break the
+ * table. */
 
 static const case_type type = {.name = "case_of_test"};
 
@@ -202,8 +203,8 @@ static int lines_with(const char *text, const char *part)
 }
 
 /* At most fifty rows of a list must be written, followed by the number of the remaining rows. If
- * there are more cases than rows, the cases that pass must be named, and separately the cases
- * without a verdict. */
+ * there are more cases than rows, the names of the cases that pass must be listed, and separately
+ * the names of those without a verdict. */
 static void long_lists(void)
 {
     enum { MANY = 60, JUDGED = 40, WORSE = 53 };

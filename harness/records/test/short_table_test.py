@@ -1,4 +1,4 @@
-"""The short table of a run: a change in any position must be detected, and all contents are checked."""
+"""The short table of a run. A change in any position of the run must be detected, and the whole table is checked."""
 import csv
 import unittest
 
@@ -17,7 +17,7 @@ def names_of(case, rows):
 
 
 def change_rows(file, table, change):
-    """Applies change(case, its rows) to every case."""
+    """Applies change(case, rows of the case) to a table of every case."""
     for case, group in file["cases"].items():
         rows = group[table][()]
         change(case, rows)
@@ -38,20 +38,21 @@ class ShortTable(ProgramTest):
         cls.row = list(csv.DictReader(cls.text.splitlines()))
 
     def noticed(self, table, change, former=None):
-        """Returns the lines of the comparison with a run to which change(case, rows) was applied."""
+        """Compares the table with a run to which change(case, rows) was applied. Returns the lines of output."""
         altered(self.old, self.new, lambda file: change_rows(file, table, change))
         done = run("compare", former or self.table, self.new)
         self.assertIn(done.returncode, (0, 1), done)
-        return done.stdout.splitlines()[:-2]  # the last two lines are the sums
+        return done.stdout.splitlines()[:-2]  # without the last two lines, which are sums
 
     def expect(self, planted, lines, words):
-        """Expects at least one line with the words for each changed name, and for no other."""
+        """Checks that there is at least one line with the words for each changed name, and no other line."""
         self.assertEqual({line.split()[1].rstrip(":") for line in lines}, set(planted), lines)
         for word in words:
             self.assertTrue(all(word in line for line in lines), lines)
 
     def plant(self, table, allowed, alter, words):
-        """Applies alter(rows, i) to the k-th row of every series, for every k. Returns the number of changes."""
+        """For every k, applies alter(rows, i) to the k-th row of every series and expects the change to be detected.
+        Returns the number of changes."""
         total = 0
         for k in range(1000):
             planted = []
@@ -98,8 +99,8 @@ class ShortTable(ProgramTest):
         )
 
     def test_work(self):
-        """One more iteration or factorisation in any mesh must be detected, as must 50 % more evaluations in any mesh
-        except the coarse meshes, whose share of the sum is small."""
+        """One more iteration or factorisation on any mesh must be detected. On meshes that are not coarse, 50 % more
+        evaluations must be detected. The coarse meshes contribute little to the sum."""
 
         def one(column):
             def more(rows, i):

@@ -1,4 +1,4 @@
-"""Stored runs for tests, which are produced by verify, changed in one place, and compared."""
+"""Stored runs for tests. Runs of verify are changed in one place and then compared."""
 import contextlib
 import math
 import shutil
@@ -39,7 +39,7 @@ def altered(old, new, change):
 
 @contextlib.contextmanager
 def group_of(path, name="sweep"):
-    """Returns the contents of the group of an experiment."""
+    """Yields the group of an experiment in a file."""
     with h5py.File(path) as file:
         yield file["experiments"][name]
 
@@ -50,14 +50,14 @@ def replace(group, name, rows):
 
 
 def of_dtype(values):
-    """Converts a column of texts, flags or numbers. Absent numbers become None."""
+    """Converts a column of texts, flags or numbers to an array. None becomes NaN."""
     if isinstance(values[0], str):
         return numpy.array([value.encode() for value in values] or [b""])
     return numpy.array([math.nan if value is None else value for value in values])
 
 
 def put_experiment(path, name, record):
-    """Writes a constructed record, {attribute or table: value or rows}, as an experiment would."""
+    """Writes an artificial record {attribute or table: value or rows} in the way of an experiment."""
     with h5py.File(path, "a") as file:
         if "schema" not in file.attrs:
             file.attrs.update(schema=numpy.bytes_("beamwork-results"), schema_version=3)

@@ -38,7 +38,7 @@ class Sweeps(ProgramTest):
         return lines, pairs
 
     def check(self, change, lines, *options):
-        """Compares with a changed copy, in both directions."""
+        """Compares the sweep with a changed copy, in both directions."""
         new = altered_sweep(self.old, self.new, change)
         self.assertEqual(self.compared(int(bool(lines)), new, *options)[0], lines)
         back, _ = self.compared(int(bool(lines)), self.old, *options, old=new)
@@ -90,8 +90,8 @@ class Sweeps(ProgramTest):
         self.assertRegex("\n".join(lines), r"^changed  elastica/load=0.5/reference: theta .* -> .*$")
 
     def test_points(self):
-        """Points are matched if they come from a different range or in a different order, if a parameter is fixed or
-        varied, or if numbers round differently."""
+        """Points of two sweeps must be matched by their parameters. Their ranges or their order may differ, a parameter
+        may be fixed in one sweep and varied in the other, and numbers may be rounded differently."""
         one = sweep(self.folder / "one.h5", "elastica", "--vary", "load=0.1..0.4/3", "-s", "axial=1e6", *OPTIONS)
         two = sweep(self.folder / "two.h5", "elastica", "--vary", "axial=1e7,1e6", "--vary", "load=0.3,0.2,0.7", *OPTIONS)
         with group_of(one) as file:
@@ -105,8 +105,8 @@ class Sweeps(ProgramTest):
         self.refused(2, "nothing was compared", "compare", self.old, one, silent=False)
 
     def test_formulations_and_meshes(self):
-        """There is one line for each formulation or mesh, whatever the number of points. The references come from other
-        formulations."""
+        """There must be one line for each formulation or mesh that is new or gone, for any number of points. Reference
+        values come from formulations that are not compared."""
         new = sweep(self.new, "elastica", "--vary", "load=0.5..2/3", "-f", "sheet_third", "-f", "collocation", "-n", "1,4,8")
         lines, _ = self.compared(1, new)
         self.assertEqual(sorted(line for line in lines if "gone" in line or "new" in line),
@@ -177,7 +177,7 @@ class Part(ProgramTest):
         folder = cls.class_folder()
         cls.whole, cls.table = folder / "whole.h5", folder / "whole.csv"
         verify(f"{CASE}/default or elastica/default or c_column/default", cls.whole)
-        with h5py.File(cls.whole) as file:  # treated as a complete run
+        with h5py.File(cls.whole) as file:  # marks the run as complete
             cls.series = sum(len({(r["point"], r["formulation"]) for r in group["cells"][()]})
                              for group in file["cases"].values())
         cls.whole = altered(cls.whole, folder / "all.h5", lambda f: f.attrs.pop("selection"))

@@ -1,6 +1,7 @@
 /* A rod is integrated from one end as an initial value problem (GSL, 1e-13), which gives the frames
- * and forces at both ends and the values between them. Values recovered from the ends must agree
- * with the integrated values, for rods with bending, shear, warping and loads. */
+ * and forces at both ends and the values between them. Values between the ends, computed only from
+ * those at the ends, must agree with the integrated values. The rods have bending, shear, warping
+ * and loads. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <gsl/gsl_test.h>
@@ -12,7 +13,8 @@
 #include "elements/math/rotation.h"
 #include "harness/section_forces/section_forces.h"
 
-/* state: r (3), q (4), force and moment in fixed axes (6), amplitude and bimoment */
+/* first indices in the state: r (3), quaternion q (4), force (3) and moment (3) in fixed axes,
+ * warping amplitude, bimoment */
 enum { R = 0, Q = 3, FORCE = 7, MOMENT = 10, AMPLITUDE = 13, BIMOMENT = 14, STATE = 15 };
 
 typedef struct rod {
@@ -20,7 +22,8 @@ typedef struct rod {
     section section;
     unsigned features;
     double length, curvature[3], strain[3], start[STATE];
-    double dead[3], dead_moment[3], follower[3]; /* loads per length */
+    double dead[3], dead_moment[3], follower[3]; /* forces and moments per length in fixed axes, and
+                                                    forces that rotate with the sections */
     double tolerance;
 } rod;
 
@@ -49,8 +52,8 @@ static void law(const rod *b, const double y[], double N[3], double M[3], double
         fibres += M[1] * c->wagner_z / c->Iy - M[2] * c->wagner_y / c->Iz;
     fibres += -2 * zs * M[1] + 2 * ys * M[2];
     *rate = 0;
-    for (int i = 0; i < 200; i++) { /* fixed-point iteration without Newton's method, which
-                                       converges for the torques of the tests */
+    for (int i = 0; i < 200; i++) { /* fixed-point iteration, which converges for the torques of the
+                                       tests and is independent of Newton's method */
         const double cubic =
             has(b, FEATURE_WAGNER_TORQUE) ? 4 * E * c->wagner_torque * *rate * *rate : 0;
         const double K = G * c->It + fibres + cubic;

@@ -99,7 +99,8 @@ static inline void bench_make(judge_bench *b)
     b->t = (truths){.rows = 1, .row = b->row};
 }
 
-/* Adds a second row, equal to the first one except for its value and the changes by the caller. */
+/* Adds a second row with this value. It is otherwise equal to the first row, and the caller may
+ * change it. */
 static inline truth *bench_add_row(judge_bench *b, double value)
 {
     b->row[1] = b->row[0];
@@ -124,7 +125,7 @@ static inline void bench_fill(judge_bench *b, double limit, double size, double 
         b->quantity[i].value = limit + size * pow(mesh[i], -order);
 }
 
-/* Makes a bench with a series that converges to the reference value. */
+/* Makes a bench whose series converges to the reference value with order 2. */
 static inline void bench_converge(judge_bench *b)
 {
     bench_make(b);
@@ -153,7 +154,7 @@ static inline void bench_expect(judge_bench *b, verdict_kind kind, int code, con
     gsl_test_int(judgement_exit(&b->j), code, "%s: exit code", what);
 }
 
-/* Checks the verdict in words. */
+/* Checks the text of the verdict. */
 static inline void bench_says(const judge_bench *b, const char *words_of_it)
 {
     char sentence[2 * FAULT_TEXT];

@@ -1,7 +1,7 @@
 /* reference/defaults.csv, which the programs of reference/derive read, must agree with the
  * parameter tables of the cases: the same parameters in the same order, with the same numbers and
- * words. The file excludes the last parameters, for omitted physics and the position of mass, which
- * the original source does not have. */
+ * words. The last parameters of each case, for omitted physics and the position of mass, are not in
+ * the file, because the derivations do not use them. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>

@@ -24,8 +24,8 @@ POINTS = (
     ("bend_45", "sheet_third", ("force=300", ), "u_tangent", "8,16,32,64,128"),
     ("bend_45", "sheet_third_printed", ("force=300", ), "u_tangent", "8,16,32,64,128"),
 )
-# 64 elements of these sheets are as long as the thickness of the sheet. They show orders of 3.2 and 3.7, which are
-# not true orders, so the limit seems more accurate than it is.
+# 64 elements of these sheets are as long as the thickness of the sheet. The observed orders are 3.2 and 3.7, which are
+# not asymptotic, so the limit seems more accurate than it is.
 AS_THICK = (("tip_deflection=0.05", ), ("tip_warping=1", ))
 # cases that are undecided or biased on the usual meshes (rules meshes-hexapod, meshes-roll-up), but pass on these
 # meshes
@@ -45,7 +45,7 @@ PRINTED = ("beamw", "sheet_second", "sheet_third", "sheet_third_printed", "sheet
 class Digits(ProgramTest):
 
     def limit(self, case, formulation, given, quantity, meshes):
-        """Returns the result of the series for one quantity."""
+        """Returns the record of converge for one quantity of one formulation."""
         words = [word for one in given for word in ("--set", one)]
         series, = self.record("converge", case, "-f", formulation, "-n", meshes, "-j", 1,
                               *words)["series"]
@@ -67,8 +67,8 @@ class Digits(ProgramTest):
                 self.assertGreater(found["order"], 1.9)
 
     def test_orders_that_rise(self):
-        """With 128 elements, two orders agree on a value below the minimum, but the order before them does not, so the
-        verdict is not a low order. 1024 elements show second order."""
+        """With up to 128 elements, two successive orders agree on a value below the minimum. The preceding order does
+        not agree, so the verdict must not be a low order. With 1024 elements, the order is two."""
         for quantity, given in SLOW:
             with self.subTest(quantity=quantity, given=given):
                 what = "unsymmetric_column", "beamw", given, quantity
@@ -86,8 +86,9 @@ class Digits(ProgramTest):
             self.assertEqual(fine["verdict"], "wrong limit, as predicted")
 
     def test_shorter_than_the_sheet_is_thick(self):
-        """Up to 128 elements, orders of 4.5 and 4.7 of C_uz_My agree although four is the highest possible order. The
-        limit has a correspondingly larger uncertainty, and 1024 elements agree with the derived limit."""
+        """With up to 128 elements, the observed orders of C_uz_My are 4.5 and 4.7. They agree although four is the
+        highest possible order. The limit has a correspondingly larger uncertainty, and 1024 elements agree with the
+        derived limit."""
         what = "sheet_cantilever", "sheet_second", ("tip_warping=1", ), "C_uz_My"
         coarse = self.limit(*what, "1,2,3,4,8,16,32,64,128")
         self.assertGreater(coarse["order"], 4.4)
@@ -105,8 +106,8 @@ class Digits(ProgramTest):
         }
 
     def test_joints(self):
-        """From 32 elements per sheet on, elements are shorter than the thickness of the sheet. The distance from the
-        derived limit must decrease with every mesh, at least in proportion to the element length."""
+        """With 32 or more elements per sheet, the elements are shorter than the thickness of the sheet. The distance
+        from the derived limit must decrease with every mesh, at least in proportion to the element length."""
         for formulation in PRINTED:
             with self.subTest(formulation=formulation):
                 apart = self.from_prediction("spherical_joint", formulation, JOINT,

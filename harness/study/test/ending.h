@@ -38,11 +38,12 @@ static inline formulation ending_good(void)
     return chosen;
 }
 
-/* A formulation for which preparing an element ends the process of the cell in the given way. */
+/* A formulation in which the preparation of an element ends the process in the given way. */
 static struct {
     element_type type;
     status (*prepare)(const element_request *, element_data *, fault *);
-    int end, says; /* says is the descriptor to which an endless cell writes its process number */
+    int end, says; /* `end`: how the process ends; `says`: descriptor to which an endless cell
+                      writes its process number */
 } ending;
 
 static inline status prepare_end(const element_request *request, element_data *data, fault *f)
@@ -53,7 +54,7 @@ static inline status prepare_end(const element_request *request, element_data *d
         _exit(3);
     if (ending.end == HANGING)
         never_end(ending.says);
-    if (ending.end == STOPPED) /* the alarm of a stopped process has no effect */
+    if (ending.end == STOPPED) /* while a process is stopped, its alarm has no effect */
         raise(SIGSTOP);
     return ending.prepare(request, data, f);
 }

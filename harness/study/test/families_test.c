@@ -1,5 +1,5 @@
-/* Cross-formulation agreement: the number of families that it requires, its limit, and its
- * absence. */
+/* Agreement between formulations: the required number of families, the agreed limit, and cases
+ * without agreement. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -59,7 +59,7 @@ static void add(families_bench *b, int which, double limit, double size)
     }
 }
 
-/* Adds formulations of the red and the blue family, which agree on 3. */
+/* Adds a formulation of each of the two families, which agree on the limit 3. */
 static void make_two(families_bench *b)
 {
     make(b);
@@ -114,8 +114,8 @@ static void two_families(void)
     finish(&b);
 }
 
-/* If the limit of a third family is poorly known, the agreed limit and its uncertainty must not
- * become worse. */
+/* A third family with an uncertain limit must make neither the agreed limit nor its uncertainty
+ * worse. */
 static void known_badly(void)
 {
     families_bench b;
@@ -152,8 +152,8 @@ static void disputes(void)
     finish(&b);
 }
 
-/* The most accurate formulation is the centre. A formulation whose distance from the centre exceeds
- * its uncertainty is named. */
+/* The limit with the smallest uncertainty is the centre. A formulation must be named if its
+ * distance from the centre exceeds its uncertainty. */
 static void known_best(void)
 {
     families_bench b;
@@ -174,7 +174,7 @@ static void known_best(void)
 }
 
 /* A formulation with an uncorrected misprint, or with a known deviation for a feature of the scene,
- * is excluded. */
+ * must be excluded. */
 static void known_wrong(void)
 {
     char formulations[] = "red_one", condition[] = "shear", verdicts[] = "wrong limit|undecided";
@@ -209,8 +209,8 @@ static void uncertain(void)
     finish(&b);
 }
 
-/* Returns the index of the coarsest mesh for which the series is within 1 % in all quantities on it
- * and on all finer meshes, or -1. */
+/* Returns the index of the coarsest mesh on which all quantities of the series are within 1 %, as
+ * on all finer meshes. Returns -1 if there is none. */
 static int every(const families_bench *b, int series_index)
 {
     reach_question q = {.s = &b->s, .quantity = REACH_EVERY, .level = 0.01};
@@ -225,8 +225,8 @@ static int every(const families_bench *b, int series_index)
     return found;
 }
 
-/* Finds this mesh by comparison with the reference values or, if there are none, with the
- * agreement. */
+/* The mesh of every() is found by comparison with the reference values or, if there are none, with
+ * the agreement. */
 static void reach(void)
 {
     families_bench b;
@@ -257,7 +257,7 @@ static void families_tests(void)
     reach();
 }
 
-/* Cost of counted work: which rows apply to a formulation, and the cost of a cell. */
+/* Tests the cost of counted work: the rows that apply to a formulation, and the cost of a cell. */
 
 static const price_row rows[] = {
     {"", PRICE_one, PRICE_one, 1},
@@ -330,9 +330,9 @@ static void price_tests(void)
     committed();
 }
 
-/* Formulations that reach an error are ranked by counted work, never by measured time. Those known
- * to be wrong come last, and costs that differ by less than the uncertainty of the cost
- * coefficients tie. */
+/* Formulations that reach an error must be ranked by counted work, never by measured time.
+ * Formulations known to be wrong come last. Formulations tie if their costs differ by less than the
+ * uncertainty of the cost coefficients. */
 
 enum { SERIES = 4, REACH_MESHES = 4, QUANTITIES = 2 };
 enum { CHEAP, DEAR, OTHER, LAST };
@@ -399,7 +399,7 @@ static void by_work(void)
     expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "by work");
     gsl_test_int(reach_ties(b.list, b.count), 1, "one is the cheapest");
     gsl_test_int(b.list[0].mesh, 0, "on the least mesh");
-    for (int i = 0; i < SERIES; i++) /* the first formulation took the longest time */
+    for (int i = 0; i < SERIES; i++) /* the measured times are in the opposite order of the work */
         for (int k = 0; k < REACH_MESHES; k++)
             b.cell[i][k].solve.seconds_solve = 1.0 / (1 + i) + k;
     ask(&b, 0, 0.01);
@@ -407,7 +407,7 @@ static void by_work(void)
 }
 
 /* A formulation that is within 1 % on the coarsest mesh, but not on the second mesh, must be ranked
- * by the third mesh, with the work on that mesh. */
+ * by its work on the third mesh. */
 static void by_accident(void)
 {
     reach_bench b;
@@ -466,8 +466,8 @@ static void ties(void)
     gsl_test_int(reach_ties(b.list, 0), 0, "nothing ties");
 }
 
-/* A formulation that does not run, or that has no reference value of its theory for some quantity,
- * is excluded from the ranking over all quantities. */
+/* A formulation that does not run is excluded from the ranking over all quantities, as is one
+ * without a reference value of its theory for some quantity. */
 static void not_asked(void)
 {
     reach_bench b;

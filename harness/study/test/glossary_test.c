@@ -34,7 +34,8 @@ static void a_file_without_one_is_refused(const char *path)
              "no glossary: %s", f.text);
 }
 
-/* Returns the number of ends of sentences. Initials and "Eq. 7" do not end a sentence. */
+/* Returns the number of sentences in a text. A full stop after an initial or in "Eq. 7" does not
+ * end a sentence. */
 static int sentences_of(const char *text)
 {
     int count = 0;

@@ -1,6 +1,6 @@
 /* No process may outlive the process that started it, and an interrupted run must keep its finished
- * results. The tests do not depend on the speed of the machine, because every step waits for an
- * event. END and WAIT only stop a test that would never end. */
+ * results. The tests wait for events, so they do not depend on the speed of the machine. END and
+ * WAIT only stop a test that would never end. */
 #include <gsl/gsl_test.h>
 #include <poll.h>
 #include <signal.h>
@@ -12,9 +12,10 @@
 #include "harness/study/study.h"
 #include "harness/study/test/ending.h"
 
-enum { END = 900, WAIT = 120 }; /* [s] */
+enum { END = 900, WAIT = 120 }; /* [s] time limits of a test and of one event */
 
-/* A process that runs a sweep of endless cells, and a descriptor on which the cells report. */
+/* A process that runs a sweep of endless cells, and a descriptor to which the cells write their
+ * process numbers. */
 typedef struct family {
     pid_t parent;
     int says;
@@ -63,8 +64,8 @@ static family begin_family(const sweep_request *request, int sound)
     return out;
 }
 
-/* Returns the process of a cell that has started, 0 if no process can report any more, or -1 if
- * nothing happens. */
+/* Returns the process number of the next cell that has started. Returns 0 if no process can report
+ * any more, or -1 if nothing happens within WAIT. */
 static pid_t next_cell(const family *of)
 {
     struct pollfd end = {.fd = of->says, .events = POLLIN};
@@ -150,7 +151,8 @@ static int is_asked(const interrupt *i)
     return poll(&end, 1, 0) > 0;
 }
 
-/* An ignored signal (nohup) is not a request. The signal mask is restored at the end. */
+/* A signal that is ignored (nohup) must not count as a request. The signal mask must be restored at
+ * the end. */
 static void requests(void)
 {
     interrupt i;

@@ -78,8 +78,8 @@ static void publications(void)
     bench_free(&b);
 }
 
-/* If a limit was derived, the distance from the derived limit must be within the range of the rule,
- * whatever the reference value. */
+/* If a limit was derived, the range of a rule applies to the distance from this limit, not to that
+ * from the reference value. */
 static void bound_by_the_derived_limit(void)
 {
     static char kind[] = "wrong limit, as predicted|undecided";
@@ -257,8 +257,8 @@ static void stored_values(void)
     bench_free(&b);
 }
 
-/* Stored values must be compared with the series of the same formulation, even if the previous
- * series has other values on the same meshes. */
+/* Stored values must be compared with the series of the same formulation, even if the series before
+ * it has the same meshes. */
 static void of_its_own_series(void)
 {
     judge_bench b;
@@ -304,7 +304,7 @@ static void judge_truths_tests(void)
     of_its_own_series();
 }
 
-/* Verdicts on artificial series: every kind, and if the verdict counts. */
+/* Verdicts on artificial series: every kind of verdict, and its effect on the exit status. */
 
 static void limits(void)
 {
@@ -442,8 +442,8 @@ static void failures(void)
     bench_free(&b);
 }
 
-/* Measuring noise is useful if the last change is tiny or the verdict is open, and if there is a
- * reference value. */
+/* Measuring the noise is requested if the last change is tiny or the verdict is open. There must
+ * also be a reference value. */
 static void doubtful_noise(void)
 {
     judge_bench b;

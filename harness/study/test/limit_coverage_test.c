@@ -9,13 +9,13 @@
 
 enum { FEWEST = 4, MOST = 7, DRAWS = 500, GRIDS = 5 };
 
-static const double value = 3; /* the limit of all families */
+static const double value = 3; /* the exact limit of all families of sequences */
 
 static const int grid[GRIDS][MOST] = {
     {1, 2, 4, 8, 16, 32, 64},
     {2, 4, 8, 16, 32, 64, 128},
     {5, 10, 20, 40, 80, 160, 320},
-    {1, 2, 3, 4, 8, 16, 32}, /* thinning drops mesh 3 if mesh 4 is used */
+    {1, 2, 3, 4, 8, 16, 32}, /* mesh 3 is ignored because it is too close to mesh 4 */
     {2, 4, 8, 16, 30, 32, 64}};
 
 /* Parameters of one random sequence. */
@@ -25,7 +25,7 @@ typedef struct draw {
                               the coarsest mesh */
     double bend;           /* number of elements at which the behaviour changes */
     double phase;
-    int first, last; /* meshes */
+    int first, last; /* first and last number of elements */
 } draw;
 
 static double between(gsl_rng *r, double low, double high)
@@ -43,7 +43,7 @@ static double sign(gsl_rng *r)
     return gsl_rng_uniform(r) < 0.5 ? -1 : 1;
 }
 
-/* Returns the error of mesh i with n elements, before scaling. */
+/* Returns the error on mesh i with n elements, relative to that on the first mesh. */
 static double power(const draw *d, int i, double n)
 {
     (void)i;
@@ -84,8 +84,8 @@ static double plateau(const draw *d, int i, double n)
     return 1 / (1 + pow(n / d->bend, d->order));
 }
 
-/* Mean of a function that decays from an end over 1/bend of the length. The order is one before
- * this length is resolved, then two. */
+/* Returns the error of the mean of a function that decays from one end over the length 1/bend. The
+ * order is one until the mesh resolves this length, and then two. */
 static double layer(const draw *d, int i, double n)
 {
     (void)i;
@@ -112,7 +112,7 @@ typedef struct coverage_family {
     const char *name;
     error_function *error;
     mixture mixture;
-    double order;   /* 0 for an order that is randomly 1, 1.5, 2, 3 or 4 */
+    double order;   /* 0: an order that is randomly 1, 1.5, 2, 3 or 4 */
     double covered; /* fraction of the limits that must lie within their uncertainty */
 } coverage_family;
 
@@ -186,14 +186,14 @@ static draw draw_from(gsl_rng *r, const coverage_family *f, const int n[], int m
     return d;
 }
 
-/* Returns the limit for one random sequence of the family. */
+/* Returns the computed limit for one random sequence of the family. */
 static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
 {
     const int *n = grid[gsl_rng_uniform_int(r, GRIDS)];
     const draw d = draw_from(r, f, n, meshes);
     const double round_off = 1e-14,
                  first = sign(r) * between_log(r, 1e-3, 0.3) * value / f->error(&d, 0, n[0]);
-    /* position where the first two terms cancel on the coarsest mesh */
+    /* limits the error if the first two terms almost cancel on the coarsest mesh */
     const double usual = fmin(first, 0.3 * value / fabs(f->error(&d, 1, n[1])));
     double v[MOST];
     for (int i = 0; i < meshes; i++)
@@ -225,7 +225,8 @@ static void coverage_of_families(void)
     gsl_rng_free(r);
 }
 
-/* Noise of any size, which is known only within a factor of three. */
+/* The values have noise of different sizes. The computation of the limit knows the size only within
+ * a factor of three. */
 static void coverage_under_noise(void)
 {
     static const coverage_family noisy[] = {{"n^-2", power, ONE_TERM, 2, 0.95},
@@ -299,10 +300,10 @@ static void limit_coverage_tests(void)
     coverage_under_noise();
 }
 
-/* Limits of sequences must agree with results computed by hand, including special cases. */
+/* Limits of sequences must agree with results computed by hand, also in special cases. */
 
 enum { LIMIT_MOST = 7, DOUBLED = 6 };
-static const double limit_value = 3; /* the limit of all one-term sequences */
+static const double limit_value = 3; /* the exact limit of all sequences with one term */
 static const int mesh[LIMIT_MOST] = {1, 2, 4, 8, 16, 32, 64};
 
 /* Computes the limit from values on 1, 2, 4, ... elements. Round-off was not measured, and the
@@ -351,8 +352,8 @@ static mesh_limit of_changes(int changes, const double change[], double noise)
     return limit_of(&(limit_sequence){changes + 1, mesh, v, noise, 2, 4, 0});
 }
 
-/* Sequences computed by hand on meshes that double. With the ratio r of two changes, the limit is
- * change/(r - 1) beyond the last value. */
+/* On meshes that double, sequences computed by hand have the limit change/(r - 1) beyond the last
+ * value, where r is the ratio of the last two changes. */
 static void worked(void)
 {
     const double pure[] = {-16, -4, -1}, agreeing_by_accident[] = {-20, -4, -1, -0.25},
@@ -380,8 +381,8 @@ static void worked(void)
     gsl_test(isfinite(slow.order), "is not believed");
 }
 
-/* Two values show no order. Order 1 is assumed, and the uncertainty is three times the change plus
- * four times the noise. Three values never suffice to estimate two orders. */
+/* From two values, no order can be computed. Order 1 is assumed, and the uncertainty is three times
+ * the change plus four times the noise. Three values never suffice to estimate two orders. */
 static void few_meshes(void)
 {
     const double v[] = {1, 1.5, 1.75};
@@ -466,14 +467,14 @@ static void out_of_order(void)
     is_kind(doubled(DOUBLED, v), LIMIT_SETTLED, "alternating beyond interest");
 }
 
-/* Failed meshes and meshes too close to each other are ignored. The order of the meshes does not
- * matter. */
+/* Failed meshes and meshes too close to each other are ignored. The meshes may be given in any
+ * order. */
 static void gaps(void)
 {
     const int n[] = {32, 1, 2, 4, 8, 16, 31, 3};
     double v[8];
     fill(8, n, 0.3, 2, v);
-    v[6] = 99; /* 31 elements are too close to 32 */
+    v[6] = 99; /* the mesh of 31 elements is too close to that of 32 */
     v[1] = INFINITY;
     v[2] = NAN;
     v[7] = NAN;

@@ -27,7 +27,8 @@ char *__wrap_strdup(const char *text);
 FILE *__wrap_open_memstream(char **text, size_t *size);
 char *__wrap_strndup(const char *text, size_t size);
 
-static long calls, refused_call, live; /* refused_call is the number of the call that fails, or 0 */
+static long calls, refused_call,
+    live; /* `refused_call` is the number of the call that must fail, or 0 */
 
 static int refuse(void)
 {
@@ -84,12 +85,12 @@ FILE *__wrap_open_memstream(char **text, size_t *size)
     return file;
 }
 
-/* A tested operation. *value is a sum over its results. Returns STATUS_OK after *value has been
- * set. */
+/* An operation to be tested. Sets *value to a sum over its results and returns STATUS_OK, or
+ * returns a failure. */
 typedef status memory_attempt(const void *what, double *value, fault *f);
 
-/* Runs the operation once with enough memory, then with the k-th allocation failing, k = 1, 1 +
- * step, ... */
+/* Runs the operation once with enough memory. Then runs it again with the k-th allocation failing,
+ * for k = 1, 1 + step, ... */
 static void exhaust(const char *name, memory_attempt *run, const void *what, int most)
 {
     double right = NAN;
@@ -165,8 +166,8 @@ static status read_truths(const void *what, double *value, fault *f)
     return outcome;
 }
 
-/* Reads a scene file, its scene and its reference values. *value is the number of reference values
- * plus a weighted sum over the positions of nodes. */
+/* Reads a scene file, its scene and its reference values. *value becomes the number of reference
+ * values plus a weighted sum of the positions of nodes. */
 static status read_scene(const void *what, double *value, fault *f)
 {
     scene_file *file = NULL;
@@ -209,8 +210,9 @@ static status write_results(const void *what, double *value, fault *f)
         outcome = store_write(what, NULL, &s, &j, &e, f);
     *value = access(what, F_OK) == 0;
     if (outcome != STATUS_OK && *value != 0)
-        fault_set(f, STATUS_OK, "a file\nwas left"); /* a remaining file is reported as a failure
-                                                        whose message is not one line */
+        fault_set(
+            f, STATUS_OK,
+            "a file\nwas left"); /* lets the test fail, because this message is not one line */
     unlink(what);
     judgement_free(&j);
     sweep_free(&s);

@@ -1,5 +1,6 @@
-"""Modes that cross between coarse meshes (rule meshes-high-modes). On the coarse meshes, another mode has the number of a
-high mode, so the limit is uncertain. With one more mesh, the verdict is a pass."""
+"""The order of high modes differs between coarse and fine meshes (rule meshes-high-modes). A quantity with the number
+of a high mode is then another mode on coarse meshes, so its limit is uncertain. With one more mesh, the verdict is a
+pass."""
 import unittest
 
 from harness.tools.kit.program import ProgramTest
@@ -42,8 +43,8 @@ class Modes(ProgramTest):
                 self.assertLess(abs(found["order"] - 2), 0.01)
 
     def test_modes_cross(self):
-        """Extrapolation with order 2 from the finer meshes gives the frequency of this mode on the coarsest mesh, where
-        it is the value of another quantity."""
+        """The order-2 extrapolation of a mode from the finer meshes to the coarsest mesh must give the value of another
+        quantity there."""
         for case, formulation, given, quantity, other, meshes in CROSSINGS:
             with self.subTest(case=case, formulation=formulation, quantity=quantity):
                 found = self.series(case, formulation, given, meshes)

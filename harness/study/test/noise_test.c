@@ -1,5 +1,5 @@
-/* Noise on a finest mesh is measured on request, is twice the larger difference, and is due only to
- * rounding. */
+/* The noise of the values on the finest mesh is measured on request. It is twice the larger of two
+ * differences, and is due only to round-off. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -39,7 +39,8 @@ static int all_but_the_first(void *context, const sweep *s, int series_index)
     return series_index > 0;
 }
 
-/* Noise is due only to rounding, even for formulations that depend on the order of nodes. */
+/* The measured noise must be due only to round-off, also for formulations that depend on the order
+ * of nodes. */
 static void rounding(const case_type *type)
 {
     sweep s;
@@ -62,7 +63,7 @@ static void rounding(const case_type *type)
     sweep_free(&s);
 }
 
-/* A change of the value on the finest mesh. */
+/* An artificial change of a value on the finest mesh. */
 typedef struct accident {
     sweep *of;
     double factor;
@@ -76,7 +77,8 @@ static int change(void *context, const sweep *s, int series_index)
     return 1;
 }
 
-/* If one value is changed, the value must differ from both repetitions by the change. */
+/* If a value is changed, both repetitions differ from it by this change. The noise must be twice
+ * the change. */
 static void size_of_it(const case_type *type)
 {
     for (int k = 0; k < 2; k++) {
@@ -96,7 +98,8 @@ static void size_of_it(const case_type *type)
     }
 }
 
-/* Returns one value of a case and formulation for an equivalent scene. */
+/* Returns one value of a case and formulation for a scene that `edit` changes to an equivalent
+ * scene. */
 static double in_other_words(const case_type *type, const formulation *chosen, scene_edit edit,
                              int quantity)
 {
@@ -114,7 +117,8 @@ static double in_other_words(const case_type *type, const formulation *chosen, s
     return out;
 }
 
-/* The noise is the larger of the two differences, for either repetition. */
+/* The larger of the differences between a value and its two repetitions must determine the noise,
+ * whichever it is. */
 static void larger_of_two(const case_type *type)
 {
     sweep s;
@@ -156,8 +160,8 @@ static void run_values(const char *name, const char *text, int values_only, swee
     gsl_test(run_sweep(&request, s, &f) != STATUS_OK, "run %s", f.text);
 }
 
-/* Values needed only for curves and matrices are not computed, and the other values are bit-for-bit
- * equal. */
+/* If only values are requested, numbers for curves and matrices are not computed, and the other
+ * values are bit-for-bit equal. */
 static void values_only(const char *name, const char *text)
 {
     sweep whole, some;
@@ -194,8 +198,8 @@ static void noise_tests(void)
     larger_of_two(case_find("elastica", &f));
 }
 
-/* Every cell must occur once among the tasks. Cells of the most expensive series come first, and
- * the other cells follow in order. Within a series, the finest mesh comes first. */
+/* Every cell must be one of the tasks exactly once. Cells of the most expensive series come first,
+ * and the other cells follow in order. Within a series, the finest mesh comes first. */
 
 static const int mesh[] = {1, 2, 4};
 
@@ -274,7 +278,7 @@ static void order(int jobs)
     sweep_free(&s);
 }
 
-/* Checks the counted work of the analyses of a case at its defaults. */
+/* Checks the counted work of the analyses of a case with its default parameters. */
 static void counted(const char *name, expense_kind kind, double wanted)
 {
     fault f = {""};
@@ -292,7 +296,8 @@ static void counted(const char *name, expense_kind kind, double wanted)
     scene_free(&s);
 }
 
-/* The number of adaptive steps is a power of the tolerance, and the steps of Radau are longer. */
+/* The estimated number of adaptive steps must be a power of the tolerance. The steps of Radau are
+ * longer. */
 static void adapts(void)
 {
     const double instant = 3;
@@ -315,7 +320,7 @@ static void adapts(void)
     scene_free(&s);
 }
 
-/* Every cost coefficient is known, and at least one formulation has a separate row. */
+/* Every cost coefficient must be known, and at least one formulation must have its own row. */
 static void prices(void)
 {
     double all = 0;

@@ -12,7 +12,7 @@
 
 enum { VERDICTS = 40 };
 
-/* Two cases and three formulations with artificial verdicts. */
+/* A sweep of two cases and three formulations with artificial verdicts. */
 typedef struct run {
     sweep s;
     sweep_point point[2];
@@ -59,8 +59,8 @@ static void shows(const run *r, int row, int column, const char *ascii, const ch
     overview_free(&o);
 }
 
-/* Each kind of verdict must be shown if it occurs alone or if the other verdicts are less severe,
- * in any order. */
+/* The worst kind of verdict must be shown, whether it occurs alone or with less severe verdicts in
+ * any order. */
 static void the_worst(void)
 {
     static const verdict_kind rising[] = {VERDICT_SKIP,
@@ -86,7 +86,7 @@ static void the_worst(void)
         }
 }
 
-/* One unexpected verdict is shown even if ten expected ones are worse. */
+/* One unexpected verdict must be shown, even if there are ten expected verdicts that are worse. */
 static void the_unexpected(void)
 {
     run r;
@@ -259,7 +259,7 @@ static const size_t failing[] = {
     offsetof(judgement, unobserved), offsetof(judgement, unmet),
     offsetof(judgement, flaws),      offsetof(judgement, breaches),
     offsetof(judgement, regressions)};
-/* Counts of checks: if all of these are zero, nothing was evaluated. */
+/* Counts that make the run fail if they are not zero. */
 static const size_t checking[] = {offsetof(judgement, judged), offsetof(judgement, agreements)};
 enum {
     FAILING = sizeof failing / sizeof failing[0],
@@ -291,7 +291,8 @@ static void set(judgement *j, size_t offset, int value)
     memcpy((char *)j + offset, &value, sizeof value);
 }
 
-/* Changes every count of the judgement separately, including counts that are new. */
+/* Changes every count of the judgement separately. Counts that are added to the structure in future
+ * are included. */
 static void exit_codes(void)
 {
     int walked = 0;
@@ -335,7 +336,7 @@ static void failures_together(void)
 
 static const double truth_value = -4;
 
-/* A series with times, and the verdict used for the mesh that reaches an error. */
+/* A series with measured times, and the verdict on it. */
 typedef struct timed {
     judge_bench b;
     cell_timing timing[MESHES];
@@ -370,8 +371,8 @@ static void throw_errors(double error[MESHES])
     }
 }
 
-/* Returns the index of the coarsest mesh for which the error on it and on all finer meshes is
- * within the level, by a test of each mesh. */
+/* Returns the index of the coarsest mesh whose error is within the level, as are those of all finer
+ * meshes. Each mesh is tested. */
 static int by_definition(const double error[MESHES], double level)
 {
     for (int first = 0; first < MESHES; first++) {
@@ -395,7 +396,7 @@ static void meshes_reached(void)
         for (int i = 0; i < MESHES; i++) {
             t.b.quantity[i].value = truth_value + error[i] * fabs(truth_value);
             error[i] = verdict_error(&t.b.p.scene.quantity[0], t.b.quantity[i].value, truth_value);
-            t.timing[i].as_is.round[0] = uniform(); /* the measured time must have no effect */
+            t.timing[i].as_is.round[0] = uniform(); /* a measured time, which must have no effect */
         }
         for (int k = 0; k < REACH_LEVELS; k++) {
             const int right = by_definition(error, reach_level[k]);
@@ -416,7 +417,8 @@ static void levels(void)
         gsl_test_rel(reach_level[k], pow(10, -1 - k), 1e-15, "level %d", k);
 }
 
-/* No level is met without a reference value, without the formulation, or with a missing value. */
+/* A level cannot be reached without a reference value, without the formulation, or if a value is
+ * missing. */
 static void unreached(void)
 {
     timed t;
@@ -450,19 +452,18 @@ static void gate_tests(void)
 /* Determines if a limit agrees with the derived limit: at the edges given by the uncertainties, on
  * either side of the reference value, and for any source of the uncertainty. */
 
-/* Distance inside or outside an edge, relative to the distance of the edge. */
+/* distance of a test value from an edge, relative to the distance of the edge */
 static const double just = 3e-3;
 
-/* Returns the verdict if the derived limit is at the distance `apart` above the limit (or below the
- * limit if negative). */
+/* Whether a limit agrees with the derived limit is tested at the edges given by the uncertainties,
+ * on either side of the reference value, and for any source of the uncertainty. */
 static verdict_kind judged(judge_bench *b, double limit, double apart)
 {
     b->row[1].value = limit + apart;
     return bench_judge(b)->kind;
 }
 
-/* A limit must agree with the derived limit up to the distance `edge` between them, but not
- * beyond. */
+/* A limit must agree with the derived limit if their distance is up to `edge`, but not beyond. */
 static void edges(judge_bench *b, double edge, verdict_kind beyond, const char *what)
 {
     const double limit = bench_judge(b)->fit.limit;
@@ -487,8 +488,9 @@ static void with_prediction(judge_bench *b, double limit)
     bench_add_prediction(b, limit);
 }
 
-/* For an accurately known limit, the uncertainty of the derived limit determines the verdict, for
- * any size and sign of the error. A distance of even a small fraction of the error is too large. */
+/* The limit is known accurately, so the uncertainty of the derived limit determines the verdict,
+ * for any size and sign of the error. Without this uncertainty, even a distance of a thousandth of
+ * the error is too large. */
 static void sharp_limits(void)
 {
     static const double error[] = {0.003, -0.003, 0.3, -0.03};
@@ -511,7 +513,7 @@ static void sharp_limits(void)
     }
 }
 
-/* For an uncertain limit, three times its uncertainty determines the verdict. */
+/* The limit is uncertain, so three times its uncertainty determines the verdict. */
 static void uncertain_limits(void)
 {
     judge_bench b;
@@ -526,8 +528,8 @@ static void uncertain_limits(void)
     bench_free(&b);
 }
 
-/* An accurately known, different limit within the tolerance is biased, unless it is the derived
- * limit. */
+/* A limit that is known accurately and differs from the reference value by less than the tolerance
+ * is biased, unless the derived limit predicts this difference. */
 static void biases(void)
 {
     static const double error[] = {2e-4, -2e-4};
@@ -551,7 +553,7 @@ static void biases(void)
     }
 }
 
-/* A limit that has not settled must not agree with the derived limit, even if the values are
+/* A limit that has not settled must not agree with the derived limit, even if both values are
  * equal. */
 static void undecided(void)
 {
@@ -579,7 +581,7 @@ int main(void)
 {
     gate_tests();
     predicted_tests();
-    overview_tests(); /* must be the last test, because it loads a formulation, after which verdicts
-                         on other formulations do not affect the exit status */
+    overview_tests(); /* must be last, because after a formulation is loaded, verdicts on others do
+                         not affect the exit status */
     return gsl_test_summary();
 }

@@ -59,13 +59,13 @@ class Own(ProgramTest):
 
     @staticmethod
     def dip(factor):
-        """Returns a row with the deflection of a slender cantilever, or a multiple of it."""
+        """Returns a row with the deflection of a slender cantilever, times `factor`."""
         value = 0.1 * 0.1**3 / 3 / (210e9 * 50e-3 * 0.5e-3**3 / 12)
         return f"leaf,,,,,dip,,{factor * value:.12g},m,{1e-4 * value},exact,same,,beam theory"
 
     @staticmethod
     def explained(needed):
-        """Gives each proposed rule a cause and states how it is known."""
+        """Adds to each proposed rule a cause and how it is known."""
         text = needed.read_text(encoding="utf-8")
         needed.write_text(text.replace('"to be found: why is this not a pass?",', "planted,test"),
                           encoding="utf-8")
@@ -101,8 +101,8 @@ class Findings(Own):
         self.assertIn("of known deviation", self.verified("wrong", "--deviations", small, code=1).stdout)
 
     def test_a_rule_nobody_shows(self):
-        """A rule that is not observed is reported with its position in the file, if everything to which it applies was
-        run."""
+        """A rule that is not observed must be reported with its position in the file, if all cells to which it applies
+        were run."""
         rule = "old,collocation,leaf,,*,wrong limit,0.1,,once,paper"
         truths = self.write("t.csv", ROWS, self.dip(1))
         run = ("verify", "-f", "collocation", "--scene", self.scene(), "--truths", truths)
@@ -111,7 +111,7 @@ class Findings(Own):
         out = self.answered(*run, "--deviations", path, code=1).stdout
         self.assertIn(f"known deviation old ({path}:2) was not observed", " ".join(out.split()))
         for change in (("collocation", "collocation beamw"), ("leaf", "leaf elastica")):
-            other = self.write("o.csv", RULES, rule.replace(*change))  # other formulations or cases may show it
+            other = self.write("o.csv", RULES, rule.replace(*change))  # other formulations or cases may show this deviation
             self.answered(*run, "--deviations", other)
 
     def test_a_rule_nobody_shows_of_a_selected_case(self):
@@ -181,7 +181,7 @@ class Repository(Own):
         self.assertEqual(codes, [0, 0, 0, 0, 1])
 
     def called(self, words):
-        """Runs a command with the paths of this clone, on two cases, which are sufficient."""
+        """Runs a command from the documentation with the paths of this clone, on two cases only."""
         program = [str(ROOT) if w == "beamwork" else w for w in words]
         if program[0].endswith("/beamwork"):
             program = [PROGRAM, *program[1:], "-k", "elastica or tapered_cantilever/default"]
@@ -284,8 +284,8 @@ class Follow(ProgramTest):
         self.assertLess(max(curve) / min(curve) - 1, tolerance, what)
 
     def test_crossing(self):
-        """The modes cross at the square section and obey their laws before and after it, even if the crossing itself is
-        one of the values."""
+        """The modes cross at the square section and must follow their laws before and after it, also if one of the
+        values is at the crossing."""
         for formulation in FORMULATIONS:
             for over in ("width=5e-3..12e-3/7", "width=12e-3..4.5e-3/3"):
                 got = self.follow(PLAIN, formulation, over)
@@ -304,7 +304,7 @@ class Follow(ProgramTest):
                 self.assertEqual([e for e in got["events"] if e["kind"] == "veering"], [])
 
     def test_torsion(self):
-        """Torsion and bending over the length cross where the two laws are equal."""
+        """The frequencies of torsion and bending cross at the length at which their two laws give equal values."""
         got = self.follow(TWIST, "collocation", "length=0.3..1.5/12")
         values, curves = got["values"], [c["frequency"] for c in got["curves"]]
         powers = {1: [], 2: []}
@@ -323,8 +323,8 @@ class Follow(ProgramTest):
             self.assertLess(abs(found[0] / known[0] - 1), 1e-8)
 
     def test_veering(self):
-        """A body with oblique axes couples the two planes. The frequencies no longer cross, however coarse the requested
-        values, and are closest near the square section."""
+        """A body with oblique axes couples the two planes. The frequencies then do not cross and are closest near the
+        square section. No crossing may be reported, however coarse the requested values."""
         for parts in (1, 2, 9):
             got = self.follow(COUPLED, "collocation", f"width=6e-3..10e-3/{parts}", "--set",
                               "coupling=1e-5")

@@ -37,8 +37,8 @@ static truth row_of(const case_type *type)
     return row;
 }
 
-/* Counts the points of one case. *own is the number of series of that formulation that contain the
- * mesh of a row. */
+/* Counts the points of one case. *own becomes the number of series of the row's formulation that
+ * contain the row's mesh. */
 static int count_points(const sweep *s, const case_type *type, int *own)
 {
     int points = 0;
@@ -91,8 +91,8 @@ static void points(const case_type *type, const int number[2])
     expect(type, 3, row, 2, 0, "of one that holds at none of them");
 }
 
-/* Each series has the given number of additional meshes. The last one has 2^n times the elements,
- * and the other meshes do not change. */
+/* With `doublings` n, each series must have n additional meshes. The last has 2^n times the
+ * elements of the finest original mesh, and the other meshes do not change. */
 static void doublings(void)
 {
     const truths none = {.rows = 0};
@@ -115,8 +115,8 @@ static void doublings(void)
     sweep_free(&two);
 }
 
-/* Builds the first case of the registry, with as many meshes as a scene can have, or with the given
- * number of elements. */
+/* Builds the first case of the registry, with as many meshes as a scene can have, or with one given
+ * mesh. */
 static status with_meshes(const double value[], scene *s, fault *f)
 {
     double defaults[CASE_MAX_PARAMETERS] = {0};
@@ -174,9 +174,9 @@ static void plan_tests(void)
     gsl_test(cases < 10, "%d cases have two numbers", cases);
 }
 
-/* Effect of omitted physics: bounds must agree with fine meshes, for beams of any thickness under
- * any load, and for every case at its defaults. If there is no bound, the scene must be treated as
- * another model. */
+/* Bounds of the effect of omitted physics must agree with results on fine meshes, for beams of any
+ * thickness under any load, and for every case at its defaults. If there is no bound, the scene
+ * must be treated as another model. */
 
 static const double length = 0.1, young = 2e11, shear_modulus = 8e10;
 
@@ -222,7 +222,6 @@ static void leaf(scene *s, double thickness, omission_acting how, int held)
     }
 }
 
-/* Returns a formulation without shear that supports everything else. */
 static const element_type *rigid_one(const scene *s)
 {
     for (int i = 0; registry_formulations[i] != NULL; i++)
@@ -253,7 +252,6 @@ static void of_leaf(double thickness, omission_acting how)
     scene_free(&s);
 }
 
-/* Compares the bounds for a case with its own meshes. */
 static int of_case(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};

@@ -1,4 +1,4 @@
-/* The default choice of a formulation and a mesh. */
+/* The default choice of a formulation and a mesh, and the transfer of cells between processes. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -27,7 +27,6 @@ static preference_chosen choose(const scene *s, const case_type *type, const dou
     return out;
 }
 
-/* A list of known deviations with one rule. */
 static rule made_up(char *formulations, char *cases, char *verdicts)
 {
     static char any[] = "*", none[] = "";
@@ -43,7 +42,8 @@ static rule made_up(char *formulations, char *cases, char *verdicts)
                   .largest_error = 1};
 }
 
-/* The chosen formulation must support the whole scene, and a known deviation changes the choice. */
+/* The chosen formulation must support the whole scene. If it has a known deviation for this case,
+ * another must be chosen. */
 static void of_case(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -74,8 +74,8 @@ static void of_case(const case_type *type)
     scene_free(&s);
 }
 
-/* The chosen mesh must be one of the meshes of the scene or the finest mesh of the scene doubled,
- * and must have converged unless stated otherwise. */
+/* The chosen mesh must be one of the meshes of the scene or have twice the elements of the finest
+ * of them. The values must have converged, unless the output states the contrary.. */
 static void of_meshes(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -120,12 +120,13 @@ static void nothing_offers_all(void)
     const case_type *type = registry_cases[0];
     parameters_default(type, value);
     cell_scene(type, value, NULL, &s, &f);
-    scene_demand(&s, FEATURE_END); /* no formulation has this feature, and none can omit it */
+    scene_demand(&s,
+                 FEATURE_END); /* no formulation has this feature, and the scene cannot omit it */
     gsl_test(choose(&s, type, value, NULL, 0).outcome != STATUS_REFUSED, "refused");
     scene_free(&s);
 }
 
-/* If only one formulation is accepted, the choice is either that formulation or none. */
+/* If only one formulation is accepted, either this formulation is chosen or none. */
 static void no_new_one(void)
 {
     const element_type *accepted = registry_formulations[0];
@@ -151,7 +152,7 @@ static void preference_tests(void)
     for (int i = 0; registry_cases[i] != NULL; i++)
         of_case(registry_cases[i]);
     for (int i = 0; registry_cases[i] != NULL; i++)
-        if (i % 4 == 0) /* a sample */
+        if (i % 4 == 0) /* every fourth case */
             of_meshes(registry_cases[i]);
     nothing_offers_all();
     no_new_one();
@@ -190,7 +191,7 @@ static void round_trips(dice *d)
     fclose(file);
 }
 
-/* The smallest content: a cell that failed before it had results. */
+/* A cell that failed before it had any results has the smallest content. */
 static void empty_cell(void)
 {
     const cell_result sent = {.solve = {.status = STATUS_SINGULAR, .reason = "nothing"}};
@@ -212,7 +213,8 @@ static int is_empty(const cell_result *c)
            s->shapes.state == NULL && s->shapes.point == NULL && s->shapes.node == NULL;
 }
 
-/* Every truncation must be detected and leave no data, whichever part comes last. */
+/* Every truncation must be detected and must leave no data. If `pictured` is 1, the last part of
+ * the data is a picture. */
 static void truncated(dice *d, int pictured)
 {
     cell_result sent = random_cell(d), got;
@@ -277,8 +279,8 @@ static double seconds(const cell_result *c)
     return c->solve.seconds_setup + c->solve.seconds_solve;
 }
 
-/* Returns the number of cells whose time is bit-for-bit equal to that of another cell, which shows
- * that they share its results. */
+/* Returns the number of cells whose time is bit for bit that of another cell. Such cells share the
+ * results of one solution. */
 static int shared(const sweep *s)
 {
     int out = 0;

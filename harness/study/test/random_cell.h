@@ -1,4 +1,5 @@
-/* Cells with random contents: every member is filled, including special numbers and bytes. */
+/* Makes cells in which every member is filled with random contents, including special numbers and
+ * bytes. */
 #ifndef BEAMWORK_TEST_RANDOM_CELL_H
 #define BEAMWORK_TEST_RANDOM_CELL_H
 
@@ -64,7 +65,7 @@ static inline void fill_counts(dice *d, cell_result *c)
     for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
         *size[i] = whole(d, 1 << 30);
     c->size.features = (unsigned)roll(d);
-    /* any bits, even of counters that are new */
+    /* random bits, also for counters that are added to the structure in future */
     for (size_t at = 0; at < sizeof c->counters; at += sizeof(uint64_t)) {
         const uint64_t bits = roll(d);
         memcpy((char *)&c->counters + at, &bits, sizeof bits);

@@ -1,5 +1,5 @@
-/* Rules of the list of known deviations: the verdicts to which the rules apply, their conditions,
- * and their observation. */
+/* Rules of the list of known deviations: the verdicts to which they apply, their conditions, and
+ * whether they are observed. */
 #include <gsl/gsl_test.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -90,7 +90,8 @@ static void conditions(const char *path)
     truths_file_refused(path, "condition", r, "a word for a number");
 }
 
-/* A rule is observed if a verdict shows it and verdicts confirm each of its derived limits. */
+/* A rule is observed if a verdict shows it and, in addition, verdicts confirm each of its derived
+ * limits. */
 static void predictions(const char *path)
 {
     truths t;

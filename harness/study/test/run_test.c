@@ -75,7 +75,7 @@ static void parameters(void)
              "refused: %s", f.text);
 }
 
-/* Any value is recovered from its text, and so is any formulation with every option changed. */
+/* Every value must be recovered from its text, and every formulation with any option changed. */
 static void texts(void)
 {
     static const double value[] = {1.0 / 3, 0.1 + 0.2, 1e-300, 123456789.123456789,
@@ -115,8 +115,8 @@ static void meshes(void)
     sweep_free(&s);
 }
 
-/* Random combinations of pieces of valid input are accepted, or rejected in one line. There is
- * never a crash or another status. */
+/* Random combinations of pieces of valid input must be accepted, or rejected in one line, without a
+ * crash or another status. */
 static void random_input(void)
 {
     static const char *const piece[] = {"length",
@@ -265,7 +265,7 @@ static void change_tests(void)
     for (int i = 0; i < ROWS; i++)
         gsl_test_rel(change_scale(&s, i, &r), (i % 2 ? 1 : 10) * row[i].scale, 1e-13, "%s",
                      row[i].name);
-    value[0].value = -3; /* a large value in the same unit */
+    value[0].value = -3; /* a larger value in the same unit */
     gsl_test_rel(change_scale(&s, 0, &r), 3e-9, 1e-13, "beside a value of its unit");
     s.quantity[0].near_zero = 7;
     gsl_test_rel(change_scale(&s, 0, &r), 7, 1e-13, "beside what the case says");
@@ -295,7 +295,7 @@ static void percent(double error, const char *expected)
     gsl_test(strlen(text) > 11, "'%s' is no wider than its column", text);
 }
 
-/* For any number, the text is the value up to its uncertainty, without further digits. */
+/* For any number, the text must contain the value up to its uncertainty and no further digits. */
 static void every_size(void)
 {
     for (int size = -12; size <= 12; size++)
@@ -338,8 +338,8 @@ static void rounding_tests(void)
     every_size();
 }
 
-/* Returns the output of a run, which the caller frees. The remaining time is computed from the
- * work, not from the number of cells. */
+/* Returns the text of the progress display. The caller frees it. The remaining time is computed
+ * from the work, not from the number of cells. */
 static char *shown(double now, int done, double share, int ends)
 {
     char *text = NULL;

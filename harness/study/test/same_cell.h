@@ -6,7 +6,7 @@
 
 #include "harness/study/study.h"
 
-/* Finds the first member that differs. */
+/* Records the first member that differs. */
 typedef struct difference {
     const char *name;
 } difference;

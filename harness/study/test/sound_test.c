@@ -1,6 +1,6 @@
-/* The check of run records. One cell is artificial and consistent, and each of its numbers is
- * changed separately. Other cells are real, with every kind of analysis and form of Newton's method
- * and with elements that count evaluations. */
+/* Tests the check of run records. One cell is artificial and consistent, and each of its numbers is
+ * changed separately. Other cells are computed, with every kind of analysis and of Newton's method,
+ * and with elements that count their evaluations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -32,8 +32,8 @@ static void add_analysis(scene_analysis_kind kind, scene *s)
         scene_add_rotation(s, 1, &end, 1, 0, (scene_rotating_frame){{0}, {0}});
 }
 
-/* Makes three steps of four iterations. Each step of a continuation starts with the existing
- * tangent. */
+/* Makes a record of three steps with four iterations each. Each step of a continuation starts with
+ * the existing tangent. */
 static void make(scene_analysis_kind kind, sound_bench *b)
 {
     memset(b, 0, sizeof *b);
@@ -136,7 +136,7 @@ static void steps(void)
     scene_free(&b.s);
 }
 
-/* The formulation in use, and the number of its evaluations. */
+/* the original formulation, whose calls are counted */
 static const element_type *inner;
 static long strains, stresses, inertias;
 
@@ -184,8 +184,8 @@ static void counted_equations(int count, const element_data *const data[], const
     inner->equations_many(count, data, x, e, own, s, out, outcome);
 }
 
-/* For a real cell, the counters must agree with the counts of the elements. Strains evaluated for
- * reactions are not counted. */
+/* For a cell that is computed, the counters must agree with the counts of the elements. Strains
+ * that are evaluated for reactions are not counted. */
 static void actual(const char *name, int elements, const char *formulation_name,
                    const char *parameters, newton_form newton, int reactions, int looks)
 {
@@ -215,8 +215,8 @@ static void actual(const char *name, int elements, const char *formulation_name,
              formulation_name, newton, f.text);
     gsl_test(sound_cell(&cell, &cell.scene, newton, why) != 1, "%s, %s, Newton %d: %s", name,
              formulation_name, newton, why);
-    /* Evaluations of the stiffness at rest, which are made because a path is unstable, do not
-     * belong to the work of the solution. */
+    /* if a path is unstable, the stiffness at rest is evaluated in addition, which is not counted
+     * as work of the solution */
     stresses -= looks * cell.size.elements;
     strains -= looks * cell.size.elements;
     gsl_test(cell.counters.stress_evaluations != stresses,
@@ -255,8 +255,8 @@ static void sound_tests(void)
     actual("hexapod", 3, "sheet_third", "steps=3", NEWTON_MIXED, 1, 0);
 }
 
-/* Times of the parts of a solution and of the whole must come from one clock. The times must not
- * include idle time, and no part may be missing. */
+/* The times of the parts of a solution and of the whole solution must come from one clock. They
+ * must not include idle time, and no part may be missing. */
 
 static const element_type *sleepy_type;
 
@@ -267,7 +267,8 @@ static void sleep_and_strain(const element_data *data, const node_state x[], str
     sleepy_type->strain(data, x, out);
 }
 
-/* Makes a type that sleeps for a millisecond in each evaluation, which takes microseconds. */
+/* Makes a type that sleeps for a millisecond in each evaluation, which otherwise takes
+ * microseconds. */
 static element_type make_sleepy(const element_type *type)
 {
     element_type sleepy = *type;
@@ -289,7 +290,8 @@ static void parts_are_the_whole(const cell_request *request, const char *what)
                  phase_name((newton_phase)k), cell.solve.phase[k], cell.solve.seconds_solve);
     }
     gsl_test(!(cell.solve.phase[PHASE_ELEMENTS] > 0), "%s: elements take time", what);
-    /* the gaps between the readings are at most four fifths of the total time */
+    /* the times of the parts must sum to at least a fifth of the total time; the rest is between
+     * the readings */
     gsl_test(!(sum <= cell.solve.seconds_solve && sum > 0.2 * cell.solve.seconds_solve),
              "%s: the parts, %g s, are the whole, %g s, but for the readings", what, sum,
              cell.solve.seconds_solve);

@@ -32,8 +32,8 @@ static void crashes(int end, int jobs, const char *reason)
     sweep_free(&s);
 }
 
-/* With `together`, a killed worker ends the process that requested the sweep. A worker that crashes
- * or exceeds the time limit gives a result. */
+/* If a worker crashes or exceeds the time limit, its cell must have this result. If a worker is
+ * killed, the process that requested the sweep must end. */
 static void together(int end, int dies)
 {
     static const int mesh[] = {1};
@@ -93,7 +93,7 @@ static void jobs(void)
     sweep_free(&s[1]);
 }
 
-/* Log of the calls of a follower. */
+/* A log of the calls of a follower. */
 typedef struct follower_log {
     int told, disorder, unfinished, doubted;
     int most; /* number of series that the follower accepts before it fails */
@@ -119,7 +119,7 @@ static status is_told(void *context, const sweep *s, int series_index, fault *f)
 }
 
 /* The follower must receive every series in order, with its cells and its noise, while other cells
- * run. */
+ * are computed. */
 static void followed(int jobs, int most)
 {
     static const int mesh[] = {1, 2, 4};
@@ -148,7 +148,7 @@ static void followed(int jobs, int most)
     sweep_free(&s);
 }
 
-/* Builds the first case of the registry, but only in the planning process. */
+/* Builds the first case of the registry in the planning process, and fails in any other process. */
 static status build_in_plan(const double value[], scene *s, fault *f)
 {
     double defaults[CASE_MAX_PARAMETERS] = {0};

@@ -83,7 +83,6 @@ static void put_truth(hid_t file, const recipe *r, const case_type *type)
     H5Gclose(all);
 }
 
-/* Returns the usual string if the recipe gives none. */
 static const char *or_else(const char *given, const char *usual)
 {
     return given != NULL ? given : usual;
@@ -146,7 +145,7 @@ static void truths_file_make(const char *path, const recipe *r)
     truths_file_checksum(path);
 }
 
-/* Requires that the file is rejected with one line that contains the word. */
+/* Checks that the file is rejected with one line that contains the word. */
 static inline void truths_file_refused(const char *path, const char *word, recipe r,
                                        const char *what)
 {
@@ -158,7 +157,7 @@ static inline void truths_file_refused(const char *path, const char *word, recip
              "%s: %s", what, f.text);
 }
 
-/* Runs every test with the path of a separate file. Returns the result of main. */
+/* Runs every test with the path of its own file. Returns the exit status of the program. */
 static int truths_file_run(int count, void (*const test[])(const char *path))
 {
     char path[] = "/tmp/beamwork-truths-XXXXXX";

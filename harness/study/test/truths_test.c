@@ -1,5 +1,5 @@
-/* Files of reference values: a valid file is read, and files that are invalid in any way are
- * rejected. */
+/* A valid file of reference values must be read, and invalid files of every kind must be rejected.
+ */
 #include <gsl/gsl_test.h>
 #include <hdf5.h>
 #include <math.h>
@@ -13,8 +13,8 @@
 #include "harness/study/study.h"
 #include "harness/study/test/truths_file.h"
 
-/* HDF5 1.10 never frees a few bytes of the header of a damaged file. Leaks of this program are
- * still found. */
+/* HDF5 1.10 never frees a few bytes of the header of a damaged file. Only these leaks are ignored.
+ */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
@@ -97,8 +97,8 @@ static void wrong_files(const char *path)
     truths_file_refused(path, "at", r, "infinite abscissa");
 }
 
-/* Rows that are not used for limits: those of one formulation, of a curve, or without effect on the
- * exit status. */
+/* Rows that must not be used for limits: those of one formulation, of a curve, and those without
+ * effect on the exit status. */
 static void rows_that_do_not_judge(const char *path)
 {
     recipe of_formulation = right, of_curve = right, agreed = right, unrepeatable = right;
@@ -122,8 +122,8 @@ static void rows_that_do_not_judge(const char *path)
     }
 }
 
-/* A row that is valid for any value of a parameter, or of all parameters, applies to every point
- * with the remaining values. */
+/* A row that is valid for any value of a parameter, or of all parameters, must apply to every point
+ * at which the other parameters have the values of the row. */
 static void any_value(const char *path)
 {
     const case_type *type = registry_cases[0];

@@ -1,5 +1,5 @@
-/* The matrix on a screen: no line may exceed its width, for any names. Every name and every mark is
- * shown. If there are many cases, those that pass share lines. */
+/* The matrix of verdicts on a terminal. No line may be wider than the terminal, for any names.
+ * Every name and every mark must be shown. If there are many cases, those that pass share lines. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -41,7 +41,6 @@ static void make(table_bench *b, int rows, int columns, const char *name)
         b->cell[i].mark = OVERVIEW_PASS;
 }
 
-/* Returns the output, which the caller frees. */
 static char *shown(const table_bench *b, screen look)
 {
     char *text = NULL;
@@ -125,7 +124,7 @@ static void passing(void)
     b.cell[4 * 7 + 2] = (overview_cell){OVERVIEW_UNDECIDED, 0, 3};
     b.cell[4 * 9 + 1] = (overview_cell){OVERVIEW_BIASED, 1, 2};
     for (int c = 0; c < 4;
-         c++) /* passes of this case are not in the sentence about passing cases */
+         c++) /* this case passes but is not in the sentence about passing cases */
         b.cell[4 * 11 + c] =
             (overview_cell){c == 2 ? OVERVIEW_OTHER_MODEL : OVERVIEW_NOTHING, 0, 1};
     char *text = shown(&b, plain);
@@ -177,8 +176,8 @@ static void overview_table_tests(void)
     legend();
 }
 
-/* Unexpected results are reported in full: verdicts, stored values, contradictions, and findings
- * and reference values that match no run. */
+/* Unexpected results of every kind must be reported: verdicts, stored values, contradictions, and
+ * findings and reference values that match no run. */
 
 static const case_type made_up = {.name = "made_up"};
 static char words[][300] = {"load",       "N",       "exact", "book, page 3",
@@ -242,7 +241,6 @@ static void unexpected_make(unexpected_bench *b)
     b->j = (judgement){.verdicts = 1, .verdict = &b->v};
 }
 
-/* Returns the output, which the caller frees. */
 static char *unexpected_shown(const unexpected_bench *b)
 {
     char *text = NULL;
@@ -303,11 +301,11 @@ static void unexpected_tests(void)
     holds(&b, "\n 6. reference values for 2 unknown cases, the first: gone\n");
 }
 
-/* Descriptions of the stable ranges of a path: runs of steps, for several analyses. */
+/* Texts on the stability of a path, which join steps with equal stability, for several analyses. */
 
 enum { STABILITY_MOST = 16 };
 
-/* Checks the description of a path with a letter for each step: o open, d no divergence, s stable,
+/* Checks the text for a path. There is one letter for each step: o open, d no divergence, s stable,
  * u unstable, h held. The steps end at 0.5, 1, ... */
 static void is(const char *letters, scene_analysis_kind kind, const char *expected)
 {

@@ -1,5 +1,6 @@
-/* The energy balance: an allowed error is accepted, and a larger one ends the motion with a
- * one-line message. Work of external loads of every kind is included, with every integrator. */
+/* The energy balance of motions. An allowed error must be accepted, and a larger one must end the
+ * motion with a message of one line. The work of external loads of every kind is included, with
+ * every integrator. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -40,7 +41,8 @@ static double missing(const solve_result *r, double *turned)
     return most / account_size(&of);
 }
 
-/* Checks fixed steps. Adaptive steps with a tolerance must be at least as accurate. */
+/* Checks that fixed steps have an energy-balance error below `most`. Adaptive steps with a
+ * tolerance must be at least as accurate. */
 static void balanced(scene_scheme by, double step, double most)
 {
     for (int k = 0; k < KINDS; k++) {
@@ -66,8 +68,8 @@ static void balanced(scene_scheme by, double step, double most)
     }
 }
 
-/* A motion with an energy of 10 J, and work of 2 J that alternates `turned` times. `drift` [J] of
- * the energy is unexplained. */
+/* A motion with an energy of 10 J, and work of 2 J that changes its sign `turned` times. `drift`
+ * [J] is the part of the energy that no work explains. */
 static const struct {
     double drift, turned, rounding, rho, tolerance;
     scene_scheme by;
@@ -166,15 +168,17 @@ static void account_tests(void)
     balanced(SCENE_EXPLICIT, 1 / 512.0, 1e-8);
 }
 
-/* Strains from stresses: a member that is a million times stiffer in elongation than in bending
- * must have strains that match its stresses, even if Newton's method does not find them
- * immediately. Elements that already agree keep all bits, and types with linear stresses do not
- * change. */
+/* Tests the strains that belong to given stresses. A member that is a million times stiffer in
+ * elongation than in bending must have strains that match its stresses. Elements whose strains
+ * already match must keep all bits, and types with linear stresses must not change. */
 
 extern const element_type element_beamw_consistent, element_beamw, element_geometrically_exact,
     element_collocation;
 
-enum { ELEMENTS = 9, MOST = ELEMENT_MAX_STRAINS }; /* more elements than are evaluated together */
+enum {
+    ELEMENTS = 9,
+    MOST = ELEMENT_MAX_STRAINS
+}; /* more elements than are evaluated in one call */
 
 /* A long thin leaf along x. */
 static model *leaf(const element_type *type, scene *s)
@@ -286,7 +290,7 @@ static void take(const element_type *type, double angle)
     scene_free(&s);
 }
 
-/* Strains do not change if no strains have the given stresses. */
+/* If no strains belong to the given stresses, the strains must not change. */
 static void keep(void)
 {
     scene s;
@@ -345,11 +349,12 @@ static void complement_tests(void)
     leave(&element_collocation, "it has unknowns of its own");
 }
 
-/* Work of forces on coordinates without inertia, with warping amplitudes that have mass or not. */
+/* Tests the work of forces on coordinates without inertia. Warping amplitudes have mass or not. */
 
 enum { MASSLESS_MOST = 80 };
 
-/* A free member with an I-section. `omit` contains physics to be omitted. */
+/* Checks a free member with an I-section. `omit` is the omitted physics; heavy 1: warping
+ * amplitudes have mass. */
 static void warps(unsigned omit, int heavy)
 {
     static const double y[3] = {0, 1, 0}, point[][2] = {{-0.03, 0.05},  {0, 0.05},  {0.03, 0.05},

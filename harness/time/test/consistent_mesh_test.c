@@ -1,6 +1,6 @@
-/* Meshes with consistent mass must converge to the limit of meshes with lumped mass. For a released
- * structure that oscillates, coarse meshes are more accurate with consistent mass, whose order is
- * higher. */
+/* Meshes with consistent mass must converge to the limit of meshes with lumped mass. For a
+ * structure that is released and oscillates, consistent mass is of higher order and more accurate
+ * on coarse meshes. */
 #include <math.h>
 
 #include "harness/time/test/moving.h"
@@ -8,7 +8,6 @@
 extern const element_type element_beamw_consistent;
 extern const case_type case_release, case_leaf_guide;
 
-/* Returns the value of a quantity of a motion. */
 static double value_of(const case_type *type, const char *parameters, const char *quantity,
                        scene_mass mass, int elements)
 {
@@ -29,9 +28,9 @@ static double value_of(const case_type *type, const char *parameters, const char
     return answer_of(&a, quantity);
 }
 
-/* Checks the errors of the coarsest and the third mesh with respect to the finest one. Their order
- * must be `order`, and they must be at most the fraction `part` of the errors with lumped mass,
- * which must converge to the same limit within `near`. */
+/* Checks the errors of the coarsest and the third mesh with respect to the finest one. The errors
+ * must have the given order and be at most the fraction `part` of those with lumped mass. The limit
+ * with lumped mass must be the same within `near`. */
 static void meshes(const case_type *type, const char *parameters, const char *quantity,
                    double order, double part, double near)
 {

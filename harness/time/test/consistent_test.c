@@ -44,7 +44,8 @@ static void ask_momenta(scene *s, int motion)
         scene_add_quantity(s, name[i], "1", motion, scene_balance_of(SCENE_PX + i));
 }
 
-/* A rod bent by a static force and released with a velocity and a spin. */
+/* A rod that is bent by a moment, which rises and ends, and that starts with a velocity and a spin.
+ */
 static void add_free(scene *s, double stiffening, scene_mass mass, scene_scheme scheme, double step,
                      double end)
 {
@@ -117,8 +118,9 @@ static void free_flight(const element_type *type)
              "what is missing by radau: %.1e, %.1e, %.1e", d.momentum, d.angular, d.energy);
 }
 
-/* A base that is moved along two axes and rotated about two. A rod with a body at its end is
- * attached to the base with an offset, and a second rod is attached to a node of that body. */
+/* A base with prescribed translations along two axes and rotations about two axes. A rod with a
+ * body at its end is attached to the base with an offset, and a second rod is attached to a node of
+ * that body. */
 static void add_driven(scene *s, int released, double step, double end)
 {
     scene_init(s, "driven base");
@@ -172,7 +174,8 @@ static void driven(const element_type *type, int released)
         gsl_test(a[i].outcome != ASK_ANSWERED, "%s is driven (%s)", type->name, a[i].reason);
     }
     double size = 0;
-    a[1].value[9] -= answer_of(&a[1], "z") * answer_of(&a[1], "Fy"); /* moment about the origin */
+    a[1].value[9] -=
+        answer_of(&a[1], "z") * answer_of(&a[1], "Fy"); /* reduces the moment to the origin */
     a[1].value[10] += answer_of(&a[1], "z") * answer_of(&a[1], "Fx");
     for (int i = 0; i < 6; i++)
         size = fmax(size, fabs(a[1].value[6 + i]));
@@ -220,7 +223,7 @@ static double iterations_of(double stiffening, scene_mass mass, scene_scheme sch
     return mean;
 }
 
-/* Newton's method must require as many iterations as with lumped mass, whichever stiffness is
+/* Newton's method must require as many iterations as with lumped mass, if any of the stiffnesses is
  * large. */
 static void iterations(void)
 {
@@ -277,7 +280,7 @@ static void consistent_tests(void)
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_spin_up, case_elbow, case_pendulum;
 
-/* Returns the largest difference over all stations, relative to the largest energy. */
+/* Returns the largest energy-balance error of all stations, relative to the largest energy. */
 static double drift(const case_type *type, scene_scheme scheme, double step, double end)
 {
     scene s;
@@ -295,7 +298,8 @@ static double drift(const case_type *type, scene_scheme scheme, double step, dou
     return moving_largest(&a, "drift") / energy;
 }
 
-/* for radau with the shortest step, and for conserving with the first two steps */
+/* `conserving`: largest energy-balance error of the conserving scheme, with step sizes `step` and
+ * step/2 */
 static const struct {
     const case_type *type;
     double step, end, conserving;
@@ -325,12 +329,13 @@ static void drift_tests(void)
     }
 }
 
-/* In free flight, the momentum is the time integral of the load, to round-off, with every
- * integrator, because the loads are piecewise linear. Generalized-alpha averages accelerations over
- * two steps. Therefore, while a load rises, the momentum lags by a fraction of h^2, which vanishes
- * when the load has ended. Unsupported options of motion cases must be rejected. */
+/* In free flight under piecewise linear loads, every integrator must give the time integral of the
+ * load as momentum, to round-off. Generalized-alpha averages accelerations over two steps.
+ * Therefore, while a load rises, the momentum lags by a fraction of h^2, which vanishes when the
+ * load has ended. Unsupported options of motion cases must be rejected. */
+    ted.* /
 
-extern const element_type element_geometrically_exact;
+    extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_free_flight_plane, case_release,
     case_leaf_guide, case_rigid_body, case_pendulum;
 
@@ -408,8 +413,7 @@ static void flight_tests(void)
 }
 
 /* Members that are stiff in elongation must need no additional iterations, with any formulation.
- * The test is a swing of the pendulum with EA times 1, 1e3 and 1e6, in long steps, none of which is
- * halved. */
+ * The pendulum swings with EA times 1, 1e3 and 1e6 in long steps, none of which may be halved. */
 
 extern const case_type case_pendulum;
 extern const element_type element_collocation;
@@ -422,7 +426,6 @@ typedef struct swing {
     long steps;
 } swing;
 
-/* Makes steps of equal length. */
 static swing take(const formulation *with, scene_scheme by, double stiffening, double step,
                   int steps, int elements)
 {
@@ -469,8 +472,8 @@ static void compare(const element_type *type, scene_scheme by, double step, doub
     }
 }
 
-/* One element whose moments have more digits than its forces, which have no more digits than eps EA
- * allows. */
+/* In one element, the moments have more accurate digits than the forces, whose round-off is eps EA.
+ */
 static void one_element(void)
 {
     const int steps = 60;

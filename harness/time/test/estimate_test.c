@@ -1,5 +1,5 @@
-/* Error estimates of integrators for one step, which determine the next step size. A mass on a
- * spring has a step in closed form. For prescribed, rotating and damped masses, the order of the
+/* Error estimates of integrators for one step, which determine the next step size. For a mass on a
+ * spring, a step has a closed form. For prescribed, rotating and damped masses, the order of the
  * estimate is checked. */
 #include <math.h>
 
@@ -31,7 +31,8 @@ static void add_motion(scene *s, scene_scheme by, const scene_alpha *alpha, doub
                                     .start = {.velocity = {vx}}});
 }
 
-/* A mass on a spring. `eta` is the damping [s], and the force is 2 + 3 t. */
+/* A mass on a spring under the force 2 + 3 t [N]. `eta` is the stiffness-proportional damping [s].
+ */
 static void add_oscillator(scene *s, scene_scheme by, const scene_alpha *alpha, double eta,
                            int forced)
 {
@@ -113,7 +114,7 @@ static void radau_errors(double eta)
     scene_free(&s);
 }
 
-/* Compares one step with the exact motion from the start of the step. */
+/* Compares the result of one step with the exact motion from the state at its start. */
 static void of_second_order(scene_scheme by, const char *name, const scene_alpha *alpha,
                             double tolerance)
 {
@@ -153,8 +154,8 @@ static void explicit_one(void)
     gsl_test(!(log2(error[0] / error[1]) > 7.5), "explicit: estimates %g, %g", error[0], error[1]);
 }
 
-/* Returns the estimate for a rod on a body that is lifted and rotates freely. The centre of mass of
- * the body is at a distance from the lifted point. */
+/* Returns the estimate for a step of a rod on a body with a prescribed lift and free rotation. The
+ * centre of mass of the body is not at the lifted point. */
 static double of_lifted(double eta, double h)
 {
     const section_spec spec = timed_profile(&(timed_section){
@@ -208,10 +209,10 @@ static void estimate_tests(void)
     explicit_one();
 }
 
-/* Only the twist has rotary inertia, and its gyroscopic moment acts on the bending rotations. Rods
- * with an oblique spin start in equilibrium with that moment and are integrated with the order of
- * each integrator. They are the limit of rods whose bending inertia decreases. A restart in
- * equilibrium changes nothing. */
+/* In rods without rotary inertia of bending, only the twist has inertia, and its gyroscopic moment
+ * acts on the bending rotations. Rods with an oblique spin must start in equilibrium with that
+ * moment, and errors must decrease with the order of each integrator. The motion must be the limit
+ * of motions with decreasing bending inertia. A restart must change nothing. */
 
 extern const element_type element_geometrically_exact;
 
@@ -224,8 +225,9 @@ static struct {
     int joint, thrown;
 } how;
 
-/* A rod oblique to all axes. With a joint, another rod at its end rotates about a single axis. If
- * thrown, the rods start at rest, under a force and a moment that rise and end. */
+/* Builds a rod oblique to all axes. If how.joint is 1, another rod at its end rotates about a
+ * single axis. If how.thrown is 1, the rods start at rest, under a force and a moment that rise and
+ * end. */
 static void build(scene *s, scene_scheme by, double step)
 {
     scenes_read(s, RODS,
@@ -265,7 +267,7 @@ static double error_of(scene_scheme by, double step)
     return distance(place, exact);
 }
 
-/* Compares the time-integration errors for a step size and for half of it. */
+/* Checks the ratio of the time-integration errors for a step size and for half of it. */
 static void converge(scene_scheme by, double step, double ratio)
 {
     const double first = error_of(by, step), second = error_of(by, step / 2);
@@ -279,7 +281,8 @@ static void agree(scene_scheme by, double step, double most)
     gsl_test(!(error < most), "integrator %d, spin %g, joint: error %g m", by, how.spin, error);
 }
 
-/* Compares with explicit steps, which require inertia, while the inertia decreases. */
+/* Compares with explicit steps for decreasing bending inertia, because explicit steps require
+ * inertia. */
 static void limit(void)
 {
     double place[3][PLACES], without[PLACES];
@@ -379,7 +382,6 @@ static void motion_massless_tests(void)
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space;
 
-/* A free rod in motion. */
 static void throw_rod(scene *s, scene_scheme by, const scene_alpha *alpha)
 {
     moving_case(&case_free_flight_space, "", s);
@@ -421,8 +423,8 @@ static void reverse(void)
     scene_free(&s);
 }
 
-/* Compares a body with J = diag(1, 2, 3) and w(0) = (0.5, 0.2, 2) at 10 s with Jacobi's elliptic
- * functions. */
+/* Returns the error at 10 s of a body with J = diag(1, 2, 3) and w(0) = (0.5, 0.2, 2), by
+ * comparison with Jacobi's elliptic functions. */
 static double turn_body(scene_scheme by, double h)
 {
     static const double w[3] = {0.069492061156576, 0.5340139075307, 1.9794636602342},
@@ -472,8 +474,8 @@ static void check_body(scene_scheme by, double h, double order, double least)
              log2(first / second));
 }
 
-/* The impulse of 50 N s must be exact. Only steps that are shortened end at a slope
- * discontinuity. */
+/* The impulse of 50 N s must be exact. Steps must be shortened so that they end at slope
+ * discontinuities of the load. */
 static void impulse(scene_scheme by)
 {
     scene s;

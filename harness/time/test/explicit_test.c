@@ -17,7 +17,6 @@
 
 static const double J[3] = {1, 2, 3}, start[3] = {0.5, 0.2, 2};
 
-/* Parameters of the cases in this test. */
 static struct {
     scene_scheme scheme;
     double step, tolerance, time;
@@ -35,7 +34,7 @@ static int add_motion(scene *s)
     return scene_add_motion(s, SCENE_NONE, 1, &how.time, m);
 }
 
-/* A body with J = diag(1, 2, 3), with a rod between two of its points. */
+/* Builds a body with J = diag(1, 2, 3) and a rod between two of its points. */
 static status body(const double value[], scene *s, fault *f)
 {
     static const double y_axis[] = {0, 1, 0};
@@ -81,7 +80,7 @@ static void exact_rates(double t, double w[3])
 
 static double error_of_body(double step, double tolerance)
 {
-    /* first column of R at 10 s, by quadrature of the precession */
+    /* first column of R at 10 s, computed by quadrature of the precession */
     static const double column[3] = {0.1439879275647, 0.9873599189256, -0.066240978366};
     double w[3], largest = 0;
     cell_result r;
@@ -109,7 +108,7 @@ static void free_body(void)
              half, order);
 }
 
-/* A soft rod, hinged at one end and lifted there. */
+/* Builds a soft rod that is hinged at one end, where it is lifted. */
 static status rod(const double value[], scene *s, fault *f)
 {
     static const double y_axis[] = {0.1, 1, 0.2};
@@ -142,7 +141,7 @@ static status rod(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Compares two integrators that differ in order and share no Newton iteration. */
+/* Compares with RADAU5, which has a different order and a different Newton iteration. */
 static void against_radau(const char *chosen)
 {
     cell_result one, other;
@@ -275,8 +274,7 @@ static void turn(double angle)
     check("one turn behind another", angle, back, other);
 }
 
-/* The series must be accurate to rounding error at the angle below which they are used, without a
- * jump. */
+/* At the angle below which the series are used, both formulas must be accurate to round-off. */
 static void seam(double angle)
 {
     static const char *const what[] = {"Jr", "its inverse", "its derivative"};

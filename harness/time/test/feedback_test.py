@@ -1,4 +1,4 @@
-"""Loads with feedback: two masses and a bar with a controller are compared with the matrix exponential."""
+"""Loads with feedback. Two masses and a bar with a controller are compared with the matrix exponential."""
 import json
 import unittest
 
@@ -32,7 +32,8 @@ MOTION = "  last: {motion: {stations: [1.5], step: %g, integrator: %s}}"
 
 
 def exact(kp, kd, ki, damping, place, end, measured=2):
-    """Returns the displacements of tool and cart, from the states x1, v1, x2, v2, integral, 1."""
+    """Returns the displacements of the tool and the cart at `end`, from the linear system of the states x1, v1, x2, v2,
+    the integral and 1."""
     A = np.zeros((6, 6))
     A[0, 1] = A[2, 3] = 1
     A[1] = [-K / M1, -damping / M1, K / M1, damping / M1, ki / M1, kp * place / M1]
@@ -56,8 +57,8 @@ class Feedback(ProgramTest):
         return found, [s["iterations"] for s in said["steps"]]
 
     def test_exponential(self):
-        """Proportional, derivative and integral gains, at the cart and across the bar, must give the exact motion, stable
-        or unstable, in few iterations."""
+        """Proportional, derivative and integral gains, for forces on the cart or between the ends of the bar, must give
+        the exact motion, stable or unstable, in few iterations."""
         for scheme, step, near in (("radau", 0.01, 1e-6), ("alpha", 1e-3, 2e-3),
                                    ("explicit", 0.02, 1e-9)):
             for kp, kd, ki, node in ((20, 3, 5, 2), (20, 0, 0, 2), (300, -4, 0, 2), (50, 8, 90, 1)):
@@ -91,7 +92,8 @@ class Feedback(ProgramTest):
             self.assertAlmostEqual(centre / (3 * 1.5**2 / 2 / (M1 + M2)), 1, 5)
 
     def test_continued(self):
-        """The integral must continue in a motion that continues another motion, even if the reference value jumps."""
+        """The integral must keep its value in a motion that continues another motion, also if the reference value
+        jumps."""
         gains = "node: tool, component: ux, proportional: 20, derivative: 3, integral: 40"
         jump = "pieces: [{until: 0.5, is: 0.01}, {is: 0.03 + 0.01*t}],"
         for scheme in ("radau", "alpha", "explicit"):
@@ -164,7 +166,7 @@ class Driven(ProgramTest):
     """A scene with placeholders for the parts that tests vary."""
 
     def solved(self, *words, code=0):
-        """Returns the values of quantities or, if an exit code is given, the printed text."""
+        """Solves the scene. Returns the values of quantities or, if an exit code is given, the printed text."""
         path = self.folder / "scene.yaml"
         path.write_text(self.scene % words, encoding="utf-8")
         done = self.answered("solve", "--scene", path, "-f", "collocation", "-n", self.elements, "--format", "json",
@@ -173,7 +175,7 @@ class Driven(ProgramTest):
 
 
 class Elongation(Driven):
-    """A member with prescribed length and a stiffness of 50 N/m, with a mass of 0.5 kg at its end."""
+    """A member with a prescribed unstressed length, a stiffness of 50 N/m, and a mass of 0.5 kg at its end."""
 
     scene, elements = BAR, 2
 
@@ -182,7 +184,7 @@ class Elongation(Driven):
             self.assertAlmostEqual(self.solved("0.01", part, "linear: {}")["x"], 0.01, 12)
 
     def test_motion(self):
-        """The mass follows m x'' = k (s(t) - x), s = 0.01 (1 - cos 7 t), with eigenfrequency 10 rad/s."""
+        """The mass follows m x'' = k (s(t) - x), s = 0.01 (1 - cos 7 t). Its eigenfrequency is 10 rad/s."""
         t = 1.3
         x = 0.01 * (1 - 100 / 51 * np.cos(7 * t) + (100 / 51 - 1) * np.cos(10 * t))
         for scheme, step, near in (("radau", 0.01, 1e-7), ("alpha", 5e-4, 1e-4)):
@@ -229,13 +231,13 @@ omit: [trapeze, wagner_moments, wagner_torque]
 
 
 class Tension(Driven):
-    """A rigid boom on a spring, which is pulled towards a fixed point and has one degree of freedom."""
+    """A rigid boom on a spring is pulled towards a fixed point and has one degree of freedom."""
 
     scene, elements = BOOM, 1
 
     @staticmethod
     def lever(angle):
-        """Returns minus the derivative of the distance between lug and top."""
+        """Returns minus the derivative of the distance between lug and top with respect to the angle."""
         return np.cos(angle) / np.sqrt(2 - 2 * np.sin(angle))
 
     def test_static(self):

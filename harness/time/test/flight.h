@@ -32,8 +32,8 @@ typedef struct flight {
     fault why;
 } flight;
 
-/* Prepares the scene, whose only analysis is the motion. After REFUSED and other failures, `why`
- * gives the reason. */
+/* Prepares the scene, whose only analysis is the motion. If it is rejected or fails, `why` is the
+ * reason. */
 static inline status flight_prepare(flight *f, const char *with, int elements)
 {
     model_request request = {&f->scene, NULL, f->chosen.option, elements, 0, 0};
@@ -56,8 +56,8 @@ static inline status flight_prepare(flight *f, const char *with, int elements)
     return instant_alloc(f->m, &f->next, &f->why);
 }
 
-/* Prepares the flight. `build` is the function of a case without parameters. The flight starts at
- * rest in the undeformed state. */
+/* Prepares a case without parameters, whose function is `build`. It starts at rest in the
+ * undeformed state. */
 static inline status flight_ready(flight *f,
                                   status (*build)(const double value[], scene *, fault *),
                                   const char *with, int elements)

@@ -1,6 +1,6 @@
-/* Fixed rotations of a node. The motion must not depend on whether their rows are kept or
- * eliminated. With kept and with eliminated rows, the model must be rejected if two rotations about
- * fixed axes remain free, because they do not determine the orientation of the node. */
+/* Fixed rotations of a node. The motion must not depend on whether their equations are kept or
+ * eliminated. In both cases, a model must be rejected if two rotations about fixed axes remain
+ * free, because they do not determine the orientation of the node. */
 #include <math.h>
 #include <stdio.h>
 
@@ -97,8 +97,8 @@ static void kept(int held, int released, int integrator)
                  integrator, released, plain.name[i], plain.value[i], all.value[i]);
 }
 
-/* Rotates the node about y, then about z, and back about both, with the rotation about x fixed, and
- * checks its orientation. */
+/* With the rotation about x fixed, rotates the node about y, then about z, then back about both,
+ * and checks its orientation. */
 static void way(void)
 {
     static const double angle = 0.5, path[] = {0, 1, 2, 3, 4}, first[] = {0, angle, angle, 0, 0},

@@ -7,7 +7,7 @@
 #include "harness/time/test/masses.h"
 #include "harness/time/time_impl.h"
 
-/* Computes the rates of the coordinates as increments about fixed axes. */
+/* Computes the rates as derivatives of increments with spatial rotations. */
 static void in_space(const moving_one *o, const double v[], double out[])
 {
     memcpy(out, v, (size_t)o->all * sizeof *out);
@@ -26,8 +26,8 @@ static void in_space(const moving_one *o, const double v[], double out[])
     }
 }
 
-/* Computes the momenta and the kinetic energy after a short time dt, so short that third
- * derivatives do not matter. */
+/* Computes the momenta and the kinetic energy after the time dt, which is so short that third
+ * derivatives are negligible. */
 static void later(const moving_one *o, double dt, inertia_balance *out)
 {
     fault f = {""};
@@ -77,7 +77,7 @@ static void forces(const moving_one *o)
     near("power", power, (after.kinetic - before.kinetic) / (2 * dt), 4e-7);
 }
 
-/* For any virtual velocity, the inertia forces must do the same work on the frames as on the
+/* For any virtual velocity, the power of the inertia forces on the frames must equal that on the
  * coordinates. */
 static void virtual_work(const moving_one *o)
 {
@@ -102,8 +102,8 @@ static void virtual_work(const moving_one *o)
     near("virtual work", given, found, 1e-11);
 }
 
-/* Returns the energy of a mass whose centre is at a distance from the frame, from the motion of the
- * frame. J is about the centre of mass. */
+/* Returns the kinetic energy of a mass `of` whose centre is at `beside` in the frame, from the
+ * velocity and angular velocity of the frame. J is about the centre of mass. */
 static double energy_of(double of, const double beside[3], const double J[9], const double W[3],
                         const double v[3])
 {
@@ -115,7 +115,7 @@ static double energy_of(double of, const double beside[3], const double J[9], co
     return (of * vec3_dot(at, at) + vec3_dot(W, JW)) / 2;
 }
 
-/* Computes the velocity of any vertex in the axes of the vertex. */
+/* Computes the velocity and angular velocity of a vertex in its own axes. */
 static void own_rates(const moving_one *o, int vertex, double v[3], double W[3])
 {
     const mesh_vertex *at = model_vertex(o->m, vertex);
@@ -183,9 +183,9 @@ static void inertia_tests(void)
     }
 }
 
-/* Interpolation between two instants must reproduce both instants: positions, shifts, angles,
- * warping, rates and accelerations, for bodies, sequences of angles and released ends that rotate
- * by half a radian. */
+/* Interpolation between two instants must give their values at both ends: positions, shifts,
+ * angles, warping, rates and accelerations, for bodies, sequences of angles and released ends that
+ * rotate by half a radian. */
 
 static void rates_of(const moving_one *o, uint64_t seed, instant *at)
 {
@@ -201,7 +201,8 @@ static double apart(size_t count, const double a[], const double b[])
     return largest;
 }
 
-/* Returns the largest difference of rates. Ends that rotate freely have no rates inside a step. */
+/* Returns the largest difference of rates. Ends that rotate freely are excluded, because they have
+ * no rates within a step. */
 static double rates_apart(const model *m, const double a[], const double b[])
 {
     double largest = 0;
@@ -292,8 +293,8 @@ static void between_tests(void)
     }
 }
 
-/* Factors for which the rates follow the increments: v = g inc, a = b inc. The tangent of inertia
- * forces is their derivative in the exponential chart. */
+/* Factors of the increments in the rates: v = g inc, a = b inc. The tangent of inertia forces is
+ * their derivative in the exponential chart. */
 static const double b = 7, g = 3;
 
 static void force_at(const moving_one *o, const double inc[], const double from[], double out[])
@@ -312,8 +313,8 @@ static void force_at(const moving_one *o, const double inc[], const double from[
     kinematics_state_free(s);
 }
 
-/* Transforms moments to the exponential chart by adding half of their vector product with the
- * increment. */
+/* Adds half of the vector product of the moments with the increment, because the tangent is in the
+ * exponential chart. */
 static void add_chart(const moving_one *o, const double out[], int column, double slope[])
 {
     for (int i = 0; i < model_first_release(o->m); i++) {
@@ -386,8 +387,9 @@ static void tangent_tests(void)
     }
 }
 
-/* A rotation prescribed by its vector along any path. From any state, increments must lead to the
- * prescribed orientation, and rates and their derivatives must be those of the frame. */
+/* A rotation is prescribed by the components of its vector as functions of time. From any state,
+ * increments must lead to the prescribed orientation, and rates and their derivatives must be those
+ * of the frame. */
 
 static void build_driven(scene *s)
 {
@@ -420,7 +422,7 @@ static void go(const equations *eq, const model_state *from, double time, model_
     forms_rates(m, to, 0, v, a, r);
 }
 
-/* Checks the prescribed rotation at a time, starting from a state. */
+/* Checks the prescribed rotation at time t after increments from a state. */
 static void check(const equations *eq, const model_state *from, double t, model_state *to)
 {
     const double dt = 1e-4;

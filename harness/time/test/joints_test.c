@@ -1,6 +1,6 @@
 /* Two bars with every kind of joint are loaded by a follower force and a moment with fixed axes,
- * and then move without loads. The energy gained must be the work of the loads and then remain
- * constant. If nothing is fixed, both momenta must remain constant. */
+ * and then move without loads. The gain of energy must equal the work of the loads, and the energy
+ * must then remain constant. If nothing is fixed, both momenta must remain constant. */
 #include <stdio.h>
 
 #include "harness/model/model.h"
@@ -9,12 +9,13 @@
 
 static const double y_axis[] = {0, 1, 0};
 
-/* The connection of the second bar to the first. */
+/* How the second bar is connected to the first. */
 typedef struct tested_joint {
     const char *name;
     int released, component[SCENE_RELEASED]; /* released components at the start of the second
                                                 bar */
-    int offset, spring, ground, hinge;       /* hinge 2: the hinge is prescribed */
+    int offset, spring, ground, hinge; /* 1 if the joint has an offset, a spring, or a spring to the
+                                          ground; hinge 1: free, 2: prescribed */
 } tested_joint;
 
 static const tested_joint joints[] = {
@@ -185,8 +186,7 @@ static const double bodies_y_axis[] = {0, 1, 0};
 
 static struct {
     double stiffness;
-    int rod; /* 0 for one body, 1 for two bodies that together equal the one body, 2 for bodies at
-                offsets */
+    int rod; /* 0: one body; 1: two bodies that are together equal to it; 2: bodies at offsets */
 } how;
 
 static int profile_of(scene *s, double E, double mass)
@@ -211,7 +211,8 @@ static void bodies_add_motion(scene *s, const double spin[3])
     scene_add_motion(s, SCENE_NONE, 1, &end, motion);
 }
 
-/* A body with J = diag(1, 2, 3) about the middle, which does not move. The rod is massless. */
+/* Builds a body with J = diag(1, 2, 3) about the middle of a massless rod. The middle does not
+ * move. */
 static status free_body(const double value[], scene *s, fault *f)
 {
     static const double spin[] = {0.5, 0.2, 2};
@@ -263,8 +264,8 @@ static void bodies_fly(flight *f, int steps, double h, double *drift, double *an
     gsl_test(outcome != STATUS_OK, "steps of %g s: %s", h, f->why.text);
 }
 
-/* Returns the error of R at 10 s as the largest error of an entry. The exact value is computed by
- * quadrature of the precession. */
+/* Returns the error of R at 10 s which is the largest error of its entries. The exact value is
+ * computed by quadrature of the precession. */
 static double error_of_body(double h)
 {
     static const double exact[9] = {0.1439879275647, -0.9562925632996, 0.2545034579204,
@@ -341,10 +342,10 @@ static void bodies_tests(void)
     offsets();
 }
 
-/* Rotations without inertia with the conserving scheme. Conserved quantities must remain constant,
- * the rates must follow the motion without changing sign in every step, and a node may rotate by
- * several angles. Two scenes must be rejected: one in which no rotation has inertia, and one in
- * which a node rotates by two free angles. */
+/* Rotations without inertia with the conserving scheme. Conserved quantities must remain constant.
+ * The rates must not change their sign from step to step. A node may rotate by several angles. Two
+ * scenes must be rejected: one in which no rotation has inertia, and one in which a node rotates by
+ * two free angles. */
 
 static const double massless_y_axis[] = {0, 1, 0};
 
@@ -353,7 +354,7 @@ static struct {
     int angles;
 } massless_how = {20, 0};
 
-/* A rod thrown by a force and a moment that rise and end. */
+/* Builds a rod that is thrown by a force and a moment that rise and end. */
 static status massless_build(const double value[], scene *s, fault *f)
 {
     static const double end = 10;

@@ -77,7 +77,8 @@ class MassDampingTest(ProgramTest):
         return {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_free(self):
-        """For any deformation, momenta decay as exp(-a t), and the lost energy is accounted for."""
+        """The momenta of a free structure must decay as exp(-a t), and the lost energy must equal the dissipated
+        energy."""
         for how, most in HOW:
             for formulation in ("collocation", "sheet_third") if how[12] != "e" else ("sheet_third",):
                 plain, damped = (self.values(FREE % (how, a), formulation) for a in (0, 3))
@@ -105,8 +106,8 @@ class MassDampingTest(ProgramTest):
         self.assertRegex(done.stdout + done.stderr, "conserving does not support damping of masses")
 
     def test_light_dashpot(self):
-        """A dashpot in parallel with a spring given by a table starts in the same equilibrium as one with a spring of
-        equal stiffness."""
+        """A dashpot parallel to a spring given by a table must start in the same equilibrium as a dashpot parallel to a
+        spring of equal stiffness."""
         for damping in ("1e-6", "1e-4"):
             for integrator in ("alpha", "radau"):
                 both = []

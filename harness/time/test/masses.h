@@ -1,6 +1,6 @@
 /* Rods and bodies in motion, for tests of masses: bodies at offsets from their nodes, sections with
- * an eccentric centre of mass, a channel with warping, and on request a sequence of angles and
- * released ends. */
+ * an eccentric centre of mass, and a channel with warping. A sequence of angles and released ends
+ * are optional. */
 #ifndef BEAMWORK_TEST_MASSES_H
 #define BEAMWORK_TEST_MASSES_H
 
@@ -28,8 +28,8 @@ static inline void turn_in_sequence(scene *s, int node)
     memcpy(scene_node_at(s, node)->axis, axis, sizeof axis);
 }
 
-/* Properties per metre of the rods: mass, position of its centre relative to the line, and inertia
- * about that centre. */
+/* Properties of the rods per length: mass [kg/m], position of its centre relative to the line [m],
+ * and moments of inertia about this centre [kg m]. */
 static const double mass = 1.5, centre[3] = {0, 0.06, -0.1}, about[3] = {0.04, 0.025, 0.015};
 
 static inline section_spec heavy(void)
@@ -48,7 +48,6 @@ static inline section_spec heavy(void)
     return spec;
 }
 
-/* A section with warping. */
 static inline section_spec channel(void)
 {
     static const double point[4][2] = {{0.1, 0.14}, {0, 0.14}, {0, -0.14}, {0.1, -0.14}},
@@ -106,7 +105,7 @@ static inline void some(int n, double size, uint64_t *seed, double out[])
         out[i] = size * random_number(seed);
 }
 
-/* Begins a motion. `add` adds further parts to the scene, or is NULL. */
+/* Begins a motion. `add` adds parts to the scene; NULL: none. */
 static inline void begin_with(moving_one *o, const element_type *type, int released,
                               void (*add)(scene *))
 {

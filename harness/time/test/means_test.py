@@ -35,7 +35,7 @@ def vy(t):
     return V*math.cos(5*t)
 
 
-# keys of the quantity, its value over time, first crossing of zero after 0.05 s and time between crossings
+# keys of the quantity, its function of time, its first zero after 0.05 s, and the time between zeros
 KINDS = {
     "force": ("reaction: {analysis: go, node: wall, component: ux", lambda t: -100*x(t), (math.pi/10, math.pi/10)),
     "moment": ("reaction: {analysis: go, node: wall, component: rz", lambda t: -25*y(t)/2, (math.pi/5, math.pi/5)),
@@ -55,7 +55,7 @@ KINDS = {
                      (math.pi/10, math.pi/10)),
     "jerk": ("rate: {analysis: go, node: tip, component: uy, of: jerk", lambda t: -25*vy(t), (math.pi/10, math.pi/5))}
 WINDOWS = {"whole": (0, 2), "part": (0.333, 1.777), "step": (0.5003, 0.5007)}
-# integrator, step, error relative to the root mean square, and the kinds that the integrator does not compute
+# integrator, step, allowed error relative to the root mean square, and the kinds that the integrator does not compute
 SCHEMES = (("radau", 0.01, 1e-7, {}), ("explicit", 0.02, 1e-7, {}),
            ("alpha", 0.005, 6e-4, {"jerk"}), ("conserving", 0.005, 6e-4, {"acceleration", "jerk"}))
 
@@ -81,7 +81,8 @@ quantities:
 omit: [shear, wagner_torque]
 """
 
-# The load on the fixed node is 6 N at the end of the path, and then 1 N + 1 N/s. At 0.3 s, another load jumps.
+# The load on the fixed node is 6 N at the end of the static path. In the motion it is (1 + t) N. Another load jumps at
+# 0.3 s.
 INSTANTS = """beamwork: 1
 sections: {bar: {constants: {A: 1, Iy: 1, Iz: 1, It: 1}, young: 100, shear_modulus: 100}}
 nodes:
@@ -103,7 +104,7 @@ omit: [shear, wagner_torque]
 
 
 def mean(f, begin, end, count=4000):
-    """Returns the mean by Gauss's rule with two points (order 4)."""
+    """Returns the mean of f by Gauss's rule with two points in each of `count` intervals."""
     h = (end - begin)/count
     nodes = (begin + (i + k)*h for i in range(count) for k in (0.5 - math.sqrt(1/12), 0.5 + math.sqrt(1/12)))
     return sum(map(f, nodes))/(2*count)
@@ -117,7 +118,8 @@ class MeansTest(SceneCase):
         return record, {one["quantity"]: one for one in record["quantities"]}
 
     def test_table(self):
-        """Every integrator, kind, statistic and window. The stated error must cover slopes that jump."""
+        """Every statistic of every kind of quantity is checked in every window and with every integrator. The stated
+        error must cover errors at jumps of the slope."""
         for scheme, step, most, none in SCHEMES:
             lines = []
             for kind, (keys, _, passes) in KINDS.items():
@@ -147,7 +149,8 @@ class MeansTest(SceneCase):
                     self.assertAlmostEqual(one["value"]/exact, 1, delta=3*allowed, msg=(scheme, kind, take))
 
     def test_jump(self):
-        """A jump of a force must be counted as a crossing, and divide the mean."""
+        """A jump of a force must be counted as a crossing, and the mean must be integrated separately before and after
+        it."""
         def after(t):
             return 2 - (1 - math.cos(10*t))
         for scheme, step, most in (("radau", 0.01, 1e-8), ("explicit", 0.02, 1e-8), ("alpha", 1e-3, 2e-4),
@@ -163,8 +166,8 @@ class MeansTest(SceneCase):
             self.assertIn("crosses the level fewer times", got["gone"]["reason"])
 
     def test_instants(self):
-        """At the start and at a jump, stations must read the loads that act afterwards, and extremes must include the
-        loads on both sides."""
+        """At the start and at a jump, stations must have the loads that act afterwards. Extremes must include the loads
+        on both sides."""
         for scheme, *_ in SCHEMES:
             record, got = self.solve(INSTANTS % scheme)
             for value, exact in zip(record["curves"][0]["curve_value"], (-1, 2.7, 2.5)):

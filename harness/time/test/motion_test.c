@@ -1,6 +1,7 @@
 /* Motions of all formulations. The results must not depend on the direction of a member, on the
- * axes of the scene, on whether the base moves or the equivalent inertia field acts, or on the
- * stiffness of modes that are not examined. A small motion must have the frequency of its mode. */
+ * axes of the scene, on whether the base moves or an equivalent gravity field acts, or on the
+ * stiffness of modes that do not affect the results. A small motion must have the frequency of its
+ * mode. */
 #include <math.h>
 
 #include "elements/math/scalar.h"
@@ -13,10 +14,10 @@ extern const case_type case_free_flight_space;
 
 static const double length = 1;
 
-/* Motion of a cantilever after a small static force is removed at 0 s. If `turn` is 1, the axes x,
- * y, z become y, z, x. If `back` is 1, the member runs from its tip to its root. `early` and `late`
- * are the deflections of the tip at a sixteenth of a period and at two periods, and f is the
- * frequency from a modal analysis. */
+/* Computes the motion of a cantilever after a small static force is removed at 0 s. If `turn` is 1,
+ * the axes x, y, z become y, z, x. If `back` is 1, the member runs from its tip to its root.
+ * `early` and `late` are the deflections of the tip at a sixteenth of a period and at two periods,
+ * and f is the frequency from a modal analysis. */
 static void swing(const element_type *type, scene_scheme by, int turn, int back, answer *a)
 {
     const double one[1] = {1}, first = 1.875104 * 1.875104 * sqrt(EI / mass);
@@ -82,7 +83,6 @@ static void check_same(scene_scheme by)
              answer_of(&plain, "late"));
 }
 
-/* A rod along x, fixed at its root. */
 typedef struct motion_rod {
     int profile, root, tip, member;
 } motion_rod;
@@ -131,8 +131,8 @@ static void check_frequency(scene_scheme by, double step, double tolerance)
              u, a.reason);
 }
 
-/* Returns the result if the base moves as t^3 or, with moves 0, if the equivalent inertia field
- * acts. */
+/* Returns the displacement relative to the base if the base moves as t^3 or, if moves is 0, under
+ * an equivalent gravity field. */
 static double base(scene_scheme by, int moves)
 {
     const double at[1] = {0.7};
@@ -193,7 +193,8 @@ static void check_stiffness(const char *integrator)
              integrator, stiff, rigid);
 }
 
-/* Without rotary inertia, accelerations with the trapezoidal rule are unbounded. */
+/* Without rotary inertia, the accelerations of the trapezoidal rule grow without bound. This must
+ * be rejected. */
 static void check_massless(void)
 {
     const double at[1] = {0.1};

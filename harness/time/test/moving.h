@@ -29,7 +29,6 @@ static inline void moving_case(const case_type *type, const char *parameters, sc
     s->analyses = s->quantities = 0;
 }
 
-/* Removes the loads. */
 static inline void moving_unload(scene *s)
 {
     for (int i = 0; i < s->loads; i++) {
@@ -46,14 +45,16 @@ static inline int motion_added(scene *s, scene_scheme by, double step, double en
     double path[MOVING_STATIONS];
     for (int i = 0; i < MOVING_STATIONS; i++)
         path[i] = end * (i + 1) / MOVING_STATIONS;
-    return scene_add_motion(s, SCENE_NONE, MOVING_STATIONS, path,
-                            (scene_motion){.scheme = by,
-                                           .alpha = scene_alpha_of_radius(0.9),
-                                           .step = step,
-                                           .mass = SCENE_LUMPED}); /* all integrators support it */
+    return scene_add_motion(
+        s, SCENE_NONE, MOVING_STATIONS, path,
+        (scene_motion){.scheme = by,
+                       .alpha = scene_alpha_of_radius(0.9),
+                       .step = step,
+                       .mass = SCENE_LUMPED}); /* lumped mass is supported by all integrators */
 }
 
-/* Adds the quantities NAME_max and NAME_min over the stations. */
+/* Adds the quantities NAME_max and NAME_min, the extremes of an energy or momentum over the
+ * stations. */
 static inline void moving_range(scene *s, const char *name, int motion, scene_balance what)
 {
     char full[SCENE_NAME];
@@ -64,7 +65,7 @@ static inline void moving_range(scene *s, const char *name, int motion, scene_ba
     }
 }
 
-/* Returns the larger magnitude of the two quantities. */
+/* Returns the larger magnitude of NAME_max and NAME_min. */
 static inline double moving_largest(const answer *a, const char *name)
 {
     char full[SCENE_NAME];

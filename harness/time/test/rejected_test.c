@@ -1,6 +1,6 @@
-/* A rejected step must have no effect. No bit of the instant from which the step started and of the
- * following steps may change, with inner unknowns, springs, damping and prescribed motions, nor any
- * watched quantity, station or record. */
+/* A rejected step must have no effect. No bit may change in the state from which the step started,
+ * in the following steps, or in any quantity, station or record. The structures have inner
+ * unknowns, springs, damping and prescribed motions. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -26,12 +26,12 @@ static void throw_rod(scene *s, scene_scheme by)
     motion_added(s, by, 0.05, 1);
 }
 
-/* Two rods with a joint and a spring across it, on a base that shakes. */
+/* Two rods with a joint between them and a spring across the joint, on a base that shakes. */
 static void shake_rods(scene *s, scene_scheme by)
 {
     scenes_read(s, REJECTED_SWUNG, "base=shaken;second=%s;integrator=%s;step=0.02",
                 by == SCENE_EXPLICIT ? "joined" : "slides", scenes_integrator[by]);
-    /* the reader would not accept this body, which cannot exist */
+    /* this inertia cannot exist and would be rejected in a scene file */
     scene_set_body(s, scenes_find(s, SCENE_NODES, "tip_free"),
                    (scene_body){0.3, {0, 0.1, 0.1}, {0.1, 0.2, 0.3, 0, 0.01, 0}});
 }
@@ -41,8 +41,8 @@ static int same(const flying *f, const double a[], const double b[])
     return memcmp(a, b, flying_numbers(f, &f->now, NULL) * sizeof *a) == 0;
 }
 
-/* Returns 1 if two instants are equal. Pivots of an unsymmetric tangent are kept from step to step,
- * and those of a rejected step may differ. */
+/* Returns 1 if two instants are equal up to round-off. The pivots of an unsymmetric tangent are
+ * kept from step to step, and those of a rejected step may lead to different round-off. */
 static int is_close(const flying *f, const double a[], const double b[])
 {
     const double rounding = 1e-11;
@@ -52,8 +52,7 @@ static int is_close(const flying *f, const double a[], const double b[])
     return 1;
 }
 
-/* Tries steps, the last of which are too long for Newton's method. The successful ones are not
- * accepted. */
+/* Tries steps without accepting them. The last steps are too long for Newton's method. */
 static int try_in_vain(flying *f, double h)
 {
     int failed = 0;
@@ -102,7 +101,8 @@ static void reject(const char *name, void (*build)(scene *, scene_scheme), const
 
 enum { STATIONS = 60, CROSSINGS = 4, PERIOD = CROSSINGS, MEAN, WAY, TIP };
 
-/* Watches the base, whose motion 0.3 sin 5 t is known, and the tip at many stations. */
+/* Solves for quantities of the base, whose motion 0.3 sin 5 t is known, and of the tip at many
+ * stations. */
 static void watch(int by, double step, double tolerance, cell_result *out)
 {
     scenes_solve(REJECTED_SWUNG, "collocation", 1, out,
@@ -116,9 +116,9 @@ static void near(int by, const char *what, double found, double expected)
              found, expected);
 }
 
-/* Each crossing must be counted once, whatever steps were tried before. Stations are those of the
- * accepted steps, which must agree within `close` [m] with the motion of the tip for short
- * steps. */
+/* Each crossing must be counted once, regardless of rejected steps. Stations are those of the
+ * accepted steps, which must agree within `close` [m] with the motion of the tip for short steps.
+ */
 static void pass(int by, double step, double tolerance, double close, const cell_result *exact)
 {
     cell_result r;
@@ -168,9 +168,9 @@ static void rejected_tests(void)
     cell_result_free(&exact);
 }
 
-/* A damped leaf without rotary inertia is bent far by an impulse, or rotated by a moment that is
- * applied suddenly. Energies, reactions and resultants are checked for all integrators, with linear
- * and nonlinear stresses. */
+/* A damped leaf without rotary inertia is bent by an impulse with large displacements, or twisted
+ * or bent by a sudden moment. Energies, reactions and resultants are checked for all integrators,
+ * with linear and nonlinear stresses. */
 
 extern const element_type element_geometrically_exact, element_beamw, element_beamw_consistent,
     element_collocation;
@@ -178,8 +178,8 @@ extern const element_type element_geometrically_exact, element_beamw, element_be
 static const double y_axis[3] = {0, 1, 0};
 
 typedef struct blow {
-    double force[3], moment[3]; /* load at the tip [N, N m], of which only one is nonzero */
-    const char *first;          /* factor of the load until 0.0205 s */
+    double force[3], moment[3]; /* load at the tip [N], [N m]; one of the two is zero */
+    const char *first;          /* factor of the load until 0.0205 s, and after it */
     const char *then;
 } blow;
 
@@ -284,8 +284,9 @@ static double changed(const flying *f, const double before[])
     return most / size;
 }
 
-/* After a moment reverses instantly, the rates must be in equilibrium with it, and nothing has
- * moved. A moment that continues changes nothing. */
+/* A moment reverses suddenly, and the motion is started again at this instant. The rates must then
+ * be in equilibrium with the new moment, and nothing may have moved. If the moment does not change,
+ * the rates must not change. */
 static void launch_there(const char *then, double least, double most)
 {
     const blow back = {{0}, {0.1, 0.3, 0.1}, "1", then};
@@ -299,11 +300,12 @@ static void launch_there(const char *then, double least, double most)
     gsl_test(flying_begin(&s, &element_geometrically_exact, 4, &f) != STATUS_OK, "begins: %s",
              f.why.text);
     for (int i = 0; i < steps;
-         i++) /* ends exactly at the jump, because otherwise the load after the jump would act */
+         i++) /* ends exactly at the jump; beyond it, the load after the jump would act */
         gsl_test(flying_step(&f, (0.0205 - f.now.time) / (steps - i)) != STATUS_OK, "step %d: %s",
                  i, f.why.text);
     for (int k = 0; k < model_elements(f.m) * model_strains(f.m); k++)
-        f.now.state->e[k] *= 1 + 1e-9; /* gaps such as those that iterations leave */
+        f.now.state->e[k] *= 1 + 1e-9; /* small differences between strains and positions, such as
+                                          those that Newton's method leaves */
     kinematics_frame(f.m, f.now.state, 1, r, before);
     double *rates = malloc((size_t)model_unknowns(f.m) * sizeof *rates);
     memcpy(rates, f.now.v, (size_t)model_unknowns(f.m) * sizeof *rates);
@@ -347,9 +349,9 @@ static void damped_kick_tests(void)
              ratio);
 }
 
-/* Strain rates of a beam after a large rotation must be the time derivatives of its strains, even
- * those that generalized-alpha carries from step to step. The energy lost in a step is their
- * power. */
+/* After a large rotation, the strain rates of a beam must be the time derivatives of its strains.
+ * This includes the strain rates that generalized-alpha keeps from step to step. The energy that
+ * damping dissipates in a step must follow from them. */
 
 #define RATES_SWUNG "harness/time/test/swung.yaml"
 
@@ -405,16 +407,16 @@ static void damped_rates_tests(void)
     scene_free(&s);
 }
 
-/* Initial rates of a motion must be those of the requested velocity field about its centre, at all
- * frames. If the first angle of a sequence with oblique axes is prescribed, the other angles must
- * represent the remaining components. */
+/* Initial rates of a motion must be those of the requested velocity field, at all nodes. If the
+ * first angle of a sequence with oblique axes is prescribed, the other angles must represent the
+ * remaining components. */
 
 #define LAUNCH_SWUNG "harness/time/test/swung.yaml"
 
 static const double driven_rate = 0.4, none = 1e-10;
 
-/* A beam whose tip rotates by angles about oblique axes. If `driven` is 1, the first angle is
- * prescribed. */
+/* Starts a beam whose tip rotates by a sequence of angles about oblique axes. If `driven` is 1, the
+ * first angle is prescribed. */
 static void launched(int driven)
 {
     scene s;
@@ -454,7 +456,8 @@ static void launched(int driven)
     scene_free(&s);
 }
 
-/* A state that is at rest in axes that rotate about a point where a node is fixed. */
+/* A node is fixed at a point of the axis of a rotating frame. The structure starts at rest in this
+ * frame. */
 static void turning(double beside)
 {
     scene_rotating_frame frame = {.omega = {0.8, -1.5, 1.1}, .centre = {0.3, 0.5, beside}};

@@ -1,4 +1,4 @@
-"""Constant steps must end at the stations without a very short step, whose rates would be rounding errors."""
+"""Constant steps must end at the stations without a very short last step, whose rates would be round-off."""
 import math
 import unittest
 
@@ -21,7 +21,7 @@ quantities:
 JERK = """  j: {rate: {analysis: go, node: n, component: ux, of: jerk}}
   early: {rate: {analysis: go, node: n, component: ux, of: jerk, at: 0.4}}
 """
-# Jumps of two loads, and the end of the first motion, at times that differ by rounding.
+# Jumps of two loads, and the end of the first motion, at times that differ only by round-off.
 JUMPS = HEAD + """loads:
   p: {force: [1, 0, 0], on: n, pieces: [{until: 0.3, is: 0}, {is: 30}]}
   q: {force: [1, 0, 0], on: n, pieces: [{until: 3*0.1, is: 0}, {is: 30}]}
@@ -32,7 +32,7 @@ quantities:
   a: {rate: {analysis: go, node: n, component: ux, of: acceleration}}
   greatest: {rate: {analysis: go, node: n, component: ux, of: acceleration, take: max}}
 """
-# A jerk and an acceleration inside a step, after some steps.
+# Quantities at a time within a step, after several steps, read a jerk and an acceleration.
 SHORT = HEAD + """analyses: {go: {motion: {stations: [0.001234567, 0.002], start: {velocity: [1, 0, 0]}, integrator: %s, step: %s}}}
 quantities:
   a: {rate: {analysis: go, node: n, component: ux, of: acceleration, at: 0.001234567}}
@@ -46,12 +46,12 @@ SCHEMES = (("radau", 1e-6), ("explicit", 1e-6), ("alpha", 2e-4))
 class ShortStepsTest(SceneCase):
 
     def solve(self, text):
-        """Returns the values and the step sizes, without the starts of motions."""
+        """Returns the values and the step sizes, without the entries for the starts of motions."""
         record = self.record("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 1)
         return values(record), [one["step"] for one in record["motion"] if one["step"] > 0]
 
     def test_long_sum(self):
-        """The number of steps must be exact although their sum is rounded in each step."""
+        """The number of steps must be exact, although the time is rounded in each step."""
         for scheme, most in SCHEMES:
             for end in (1.1, 2.0):
                 got, steps = self.solve(FREE % (end, scheme, "1e-4") + (JERK if scheme != "alpha" else ""))
@@ -65,7 +65,8 @@ class ShortStepsTest(SceneCase):
                     self.assertAlmostEqual(got["early"], -100*math.cos(4), delta=0.05, msg=why)
 
     def test_remainder(self):
-        """A tiny remainder must be added to the last step. The last two steps must share a short remainder."""
+        """A tiny remainder must be added to the last step. A short remainder must be distributed between the last two
+        steps."""
         for scheme, _ in SCHEMES:
             for beyond, count, last in ((1e-9, 10, 0.1), (1e-4, 11, 0.05), (0.03, 11, 0.03)):
                 _, steps = self.solve(FREE % (1 + beyond, scheme, "0.1"))
@@ -74,7 +75,7 @@ class ShortStepsTest(SceneCase):
                 self.assertAlmostEqual(sum(steps), 1 + beyond, delta=1e-14, msg=(scheme, beyond))
 
     def test_equal_instants(self):
-        """After both jumps, x = 0.6 (1 - cos(10 (t - 0.3)))."""
+        """Both loads jump at 0.3 s. After the jumps, x = 0.6 (1 - cos(10 (t - 0.3)))."""
         for scheme, most in (("radau", 1e-6), ("explicit", 1e-5), ("alpha", 2)):
             for end in ("0.2", "0.3", "3*0.1"):
                 got, steps = self.solve(JUMPS % (end, scheme, scheme))
@@ -84,7 +85,8 @@ class ShortStepsTest(SceneCase):
                 self.assertAlmostEqual(got["greatest"], 60, delta=most, msg=(scheme, end))
 
     def test_rounding(self):
-        """Errors of rates with short steps are within their stated round-off; a rate of which no digit is left has no value."""
+        """With short steps, errors of rates must be within their stated round-off. A rate without any accurate digit
+        must have no value."""
         time = 0.001234567
         exact = {"a": -10*math.sin(10*time), "j": -100*math.cos(10*time), "largest": -100}
         for scheme in ("radau", "explicit"):

@@ -26,7 +26,7 @@ static void add_more(scene *s)
     scene_drive(s, 0, SCENE_UY, d);
 }
 
-/* A state of a motion, with its equations. */
+/* A state of a motion, with the equations about it. */
 typedef struct way {
     moving_one o;
     run_state run;
@@ -37,7 +37,7 @@ typedef struct way {
     double size; /* size of the stresses */
 } way;
 
-/* Finds the strains, stresses and inner unknowns for given positions. */
+/* Computes the strains, stresses and inner unknowns for the present positions. */
 static void settle_inner(way *w)
 {
     const model *m = w->o.m;
@@ -108,7 +108,8 @@ static void forces(way *w, double h, const double *const d[3], double out[])
     inertia_subtract(o->m, &o->masses, w->at.state, v, a, out);
 }
 
-/* Adds half of the effect of the moments on free rotations, as in the exponential chart. */
+/* Adds half of the vector product of the moments with the increments of free rotations, because the
+ * tangent is in the exponential chart. */
 static void add_chart(way *w, const double dx[], double out[])
 {
     static const double none[MOST];
@@ -185,7 +186,7 @@ static void case_of(const element_type *type, int released, int spread)
         memset(&w.o.masses, 0, sizeof w.o.masses);
         gsl_test(carried_alloc_spread(w.o.m, &w.o.masses, &f) != STATUS_OK, "%s", f.text);
     }
-    /* small increments, for which the equations inside the element have a solution */
+    /* collocation: smaller increments, so that the equations within the elements have a solution */
     for (int c = 0; c < w.o.all && type == &element_collocation; c++)
         w.o.inc[c] *= 0.1;
     increment_apply(w.o.m, w.o.rest, w.o.inc, 0, w.o.now);

@@ -1,6 +1,6 @@
 /* Steady spin of a rod that is stretched by 2 %, bent by 0.8 rad and twisted by 0.6 rad between
- * prescribed ends. The shape in equilibrium at the rate w = (2/h) tan(turn/2) must remain constant
- * for every formulation, about any axis, up to 3 rad per step. */
+ * prescribed ends. The shape that is in equilibrium at the angular velocity w = (2/h) tan(turn/2)
+ * must remain constant. This holds for every formulation, about any axis, up to 3 rad per step. */
 #include <stdio.h>
 
 #include "cases/scene/scene.h"
@@ -20,10 +20,10 @@ static const double rate = 3, stretch = 0.02, first[3] = {0.5, 0.2, 0.1}, along[
 
 static struct {
     double axis[3], turn; /* unit vector, and rotation per step [rad] */
-    double h;             /* rate = (2/h) tan(turn/2) */
+    double h;             /* step size [s]; the angular velocity is (2/h) tan(turn/2) */
 } present;
 
-/* Prescribes the motion of a node around the origin, from the position r + d, where r is the
+/* Prescribes the motion of a node. It rotates about the origin, starting from r + d, where r is the
  * undeformed position. */
 static void drive(scene *s, int node, const int vector[3], const double r[3], const double d[3])
 {
@@ -144,7 +144,7 @@ static double settle_flight(flight *f)
     return correction;
 }
 
-/* Moves prescribed coordinates to their initial values. */
+/* Moves the prescribed coordinates to their values at the start. */
 static void pull(flight *f)
 {
     model *m = f->m;
@@ -228,12 +228,14 @@ static void spin_tests(void)
  * Results must depend neither on the axes nor on the direction of the member. */
 
 static struct {
-    double stiffening, turn[4]; /* turn is the quaternion of the axes of the scene */
+    double stiffening,
+        turn[4]; /* factor of the stiffness, and quaternion of the axes of the scene */
 } how = {1, {1, 0, 0, 0}};
 
-static const double flights_h = 0.05, thrown = 5; /* step size, and end of the loads [s] */
+static const double flights_h = 0.05,
+                    thrown = 5; /* step size, and time at which the loads end [s] */
 
-/* The rod of free_flight_space. */
+/* Builds the rod of the case free_flight_space. */
 static status flights_build(const double value[], scene *s, fault *f)
 {
     static const double end = 50, y[3] = {0, 1, 0}, at[2][3] = {{0, 0, 8}, {6, 0, 0}},
@@ -274,7 +276,7 @@ static status reversed(const double value[], scene *s, fault *f)
     return scene_edit_apply(s, &edit, f);
 }
 
-/* Makes the given number of steps. A failure fails the test. */
+/* Makes this number of steps. The test fails if a step fails. */
 static void fly(flight *f, int steps, double step)
 {
     status outcome = STATUS_OK;
@@ -283,7 +285,7 @@ static void fly(flight *f, int steps, double step)
     gsl_test(outcome != STATUS_OK, "EA x %g, steps of %g s: %s", how.stiffening, step, f->why.text);
 }
 
-/* Computes the positions of both ends in the axes of the scene without rotation. */
+/* Computes the positions of both ends, and rotates them back from the axes of the scene. */
 static void ends_of(const flight *f, double r[6])
 {
     double back[4];
@@ -348,7 +350,7 @@ static void stiff_flights(const char *with)
              least, most);
 }
 
-/* Differences of results must decrease by a factor of 4 when steps are halved. */
+/* If steps are halved, the differences between results must decrease by a factor of 4. */
 static void order(const char *with)
 {
     double r[4][6];
@@ -431,7 +433,7 @@ typedef struct look {
     section_kind kind;
     double curvature[3]; /* [1/m] */
     int tapers;
-    double h, speed, spin; /* step size [s], speed of the swing [m/s], rate of the spin [rad/s] */
+    double h, speed, spin; /* step size [s], velocity of the swing [m/s], spin [rad/s] */
 } look;
 
 static const look looks[] = {
@@ -461,7 +463,7 @@ static section_spec profile_of(double thickness)
     return spec;
 }
 
-/* A member of unit length, whose initial axes are those of the scene. */
+/* Builds a member of unit length, which starts along the axes of the scene. */
 static status formulations_build(const double value[], scene *s, fault *f)
 {
     static const double y_axis[] = {0, 1, 0}, axis[] = {0.36, 0.48, -0.8}, end = 1;
@@ -484,7 +486,8 @@ static status formulations_build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Starts a bending motion by transverse velocities, which have no momentum for a straight rod. */
+/* Starts a bending motion by transverse velocities. Their total momentum is zero for a straight
+ * rod. */
 static void swing(flight *f)
 {
     const model *m = f->m;

@@ -1,7 +1,7 @@
 /* Initial states of motions, and quantities read from them. A beam in steady rotation must keep its
- * shape in the motion that follows. Reactions are those of the steady rotation. Section forces
- * balance the inertia of the parts beyond the section. A state at rest oscillates when its load
- * ends. */
+ * shape in the motion that follows. Its reactions must be those of the steady rotation. Resultants
+ * must balance the inertia of the part beyond the cross-section. A structure at rest must oscillate
+ * when its load ends. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -59,7 +59,8 @@ static void refuse_otherwise(void)
              "a drive beside the axes is refused (%s)", a.reason);
 }
 
-/* A beam bent by a force that remains or ends. */
+/* Checks a beam at rest under a force that remains (rings 0) or ends (rings 1), in which case it
+ * oscillates. */
 static void release(const char *then, int rings)
 {
     answer a;
@@ -83,8 +84,8 @@ static void start_tests(void)
 
 /* Resultants between nodes in a motion must agree with a closed form. A rod along x spins about z
  * through its end: r = sin(k X)/(k cos(k L)) and N = EA (cos(k X)/cos(k L) - 1) with k^2 = m
- * w^2/EA. For small strains, N is m w^2 (L^2 - X^2)/2. The order is 2 at nodes and between them, as
- * for lumped masses. */
+ * w^2/EA. For small strains, N is m w^2 (L^2 - X^2)/2. With lumped masses, the order is 2 at nodes
+ * and between them. */
 
 extern const element_type element_geometrically_exact, element_collocation;
 
@@ -100,8 +101,8 @@ static double expected(int i)
     return EA * (cos(k * place[i] * length) / cos(k * length) - 1);
 }
 
-/* Checks a formulation. `order` is the minimum order between the two finest meshes. An order of 2
- * is also the maximum. */
+/* Checks the errors of a formulation. `order` is the minimum order between the two finest meshes.
+ * If it is 2, the order must also not exceed 2 by more than 0.2. */
 static void spin(const element_type *type, scene_scheme scheme, double order)
 {
     double error[MESHES][PLACES];
@@ -129,12 +130,12 @@ static void between_nodes_tests(void)
 {
     spin(&element_collocation, SCENE_CONSERVING, 2);
     spin(&element_collocation, SCENE_RADAU, 2);
-    spin(&element_geometrically_exact, SCENE_CONSERVING, 3); /* three nodes, order 4 at nodes */
+    spin(&element_geometrically_exact, SCENE_CONSERVING, 3); /* three nodes; of order 4 at nodes */
     spin(&element_geometrically_exact, SCENE_RADAU, 3);
 }
 
-/* Two rods swing on a ball joint in space, with released rotations or shifts between them. The
- * inertia of released ends must move with them, because energy would otherwise be gained. */
+/* Two rods swing on a ball joint in space, with released rotations or translations between them.
+ * The inertia of released ends must move with them, because energy would otherwise be gained. */
 
 extern const element_type element_geometrically_exact;
 
@@ -177,8 +178,8 @@ static void linked_tests(void)
 }
 
 /* Ends that are released from their nodes have inertia at the position of the end, with every
- * integrator. All integrators must give the same motion and reaction, with errors of second order
- * or smaller. */
+ * integrator. All integrators must give the same motion and reaction, with errors of at least
+ * second order. */
 
 extern const element_type element_geometrically_exact;
 
@@ -188,7 +189,7 @@ enum { COMPONENTS = 3, ASKED = COMPONENTS + 2 };
 
 static const char *const ends_joints[] = {"hinge", "universal", "ball", "slide", "sliding_hinge"};
 
-/* Computes the position of the tip, the reaction of the node from which the other rod is released,
+/* Computes the position of the tip, the reaction of the node from which the second rod is released,
  * and the energy-balance error. */
 static void ends_solve(const char *of, scene_scheme by, double step, double found[ASKED])
 {
@@ -235,8 +236,8 @@ static void ends_tests(void)
     }
 }
 
-/* Stiffness-proportional damping. A slow mode decays at the rate eta w/2, a rigid rotation does not
- * decay, and the lost energy is accounted for. */
+/* Tests stiffness-proportional damping. A slow mode decays at the rate eta w/2, a rigid rotation
+ * does not decay, and the lost energy is accounted for. */
 
 extern const element_type element_geometrically_exact;
 
@@ -250,7 +251,7 @@ static double lowest(void)
     return 2 * PI * answer_of(&a, "f");
 }
 
-/* Checks the decay. h is the step size as a fraction of the period. */
+/* Checks the decay of the lowest mode. h is the step size as a fraction of the period. */
 static void decay(scene_scheme scheme, double h, double drift)
 {
     const double w = lowest(), ratio = 0.03, eta = 2 * ratio / w, period = 2 * PI / w;
@@ -266,7 +267,7 @@ static void decay(scene_scheme scheme, double h, double drift)
              moving_largest(&a, "drift"), moving_largest(&a, "energy"));
 }
 
-/* A free rod rotates and is bent only by its inertia, so the energy loss remains small. Returns the
+/* Rotates a free rod that only its inertia bends, so little energy is dissipated. Returns the
  * energy-balance error. */
 static double turn(scene_scheme scheme, double eta, double h)
 {

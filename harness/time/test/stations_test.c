@@ -1,4 +1,4 @@
-/* Stations at any times. Values inside steps must be as accurate as at the ends of steps, with any
+/* Stations at any times. Values within steps must be as accurate as at the ends of steps, with any
  * number of stations in one step and at the start. Stations must not affect the motion. */
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -9,7 +9,7 @@
 
 #define STATIONS_SWUNG "harness/time/test/swung.yaml"
 
-/* Positions of the requested stations in the steps, by the parameter. */
+/* Positions of the stations: within steps, at ends of steps, or within steps for forces. */
 enum { ODD, ENDS, BOTH, ASKED_KINDS };
 
 static const char *const asked_for[ASKED_KINDS] = {
@@ -22,7 +22,8 @@ static void solve(int scheme, double step, int asked, cell_result *out)
                  scenes_integrator[scheme], step, asked_for[asked]);
 }
 
-/* Returns the largest difference of the curves, each relative to its largest value. */
+/* Returns the largest difference of the curves of quantities `first` to `last`, each relative to
+ * the largest value of the curve. */
 static double apart(const cell_result *a, const cell_result *b, int first, int last)
 {
     double largest = 0;
@@ -41,7 +42,8 @@ static double apart(const cell_result *a, const cell_result *b, int first, int l
     return largest;
 }
 
-/* Computes the errors with two step sizes, by comparison with a much smaller step. */
+/* Computes the errors for a step size and for half of it, by comparison with a much smaller step.
+ */
 static void errors_of(int scheme, double step, int asked, int last, double out[2])
 {
     cell_result exact, r;
@@ -54,8 +56,8 @@ static void errors_of(int scheme, double step, int asked, int last, double out[2
     cell_result_free(&exact);
 }
 
-/* Results inside and at the ends of steps have the order of the scheme, and the errors inside are
- * not larger. Order 8 is an exception, because the polynomial inside a step has order 6. */
+/* Results within steps and at their ends must have the order of the scheme. The errors within steps
+ * must not be larger. Order 8 is an exception, because the polynomial inside a step has order 6. */
 static void orders(const char *name, int scheme, double step, double order)
 {
     double inside[2], at_ends[2], forces[2];
@@ -73,8 +75,8 @@ static void orders(const char *name, int scheme, double step, double order)
     gsl_test(!(inside[0] > 1e-9), "%s: nothing to be seen, %.1e", name, inside[0]);
 }
 
-/* The steps must be bit-for-bit the same as without stations, and values from a side step must be
- * close to those of the polynomial. */
+/* The steps must be bit for bit the same as without stations. Values that need a separate step to
+ * the station must be close to those of the polynomial. */
 static void undisturbed(const char *name, int scheme, double step)
 {
     cell_result with[ASKED_KINDS];
@@ -119,8 +121,8 @@ static void turn(scene_scheme by, double step, double tolerance, double spin, ce
                  scenes_integrator[by], step, tolerance, spin);
 }
 
-/* A step may rotate by at most one radian. Therefore, at 3 rad/s, a step of 0.5 s is halved
- * whenever it is tried. */
+/* A step may rotate a node by at most one radian. At 3 rad/s, a step of 0.5 s must therefore be
+ * halved. */
 static void halve(void)
 {
     cell_result r;
@@ -158,7 +160,7 @@ static void follow(scene_scheme by, double order, double tolerance)
 }
 
 /* If errors of steps add up, the allowed error of a step is proportional to its size. The total
- * error must be below the tolerance, but by less than a factor of ten. */
+ * error must be below the tolerance, but not by a factor of more than ten. */
 static void share(scene_scheme by, double tolerance)
 {
     cell_result r;
@@ -184,13 +186,14 @@ static void control_tests(void)
     follow(SCENE_RADAU, 4, 1e-8);
 }
 
-/* Motions that continue each other must equal one motion, bit for bit. If errors are estimated,
- * they are equal up to the round-off of a factorisation with new pivots. */
+/* A sequence of motions, each of which continues the previous one, must equal one motion bit for
+ * bit. If errors are estimated, both must be equal up to the round-off of a factorisation with new
+ * pivots. */
 
 #define RESUME_SWUNG "harness/time/test/swung.yaml"
 
-/* A load jumps at 0.5 s. Steps end at the jump, even if no motion ends there. If `joint` is 1, a
- * rod at the tip is attached by a joint. */
+/* A load jumps at 0.5 s. Steps must end at the jump, also if no motion ends there. If `joint` is 1,
+ * a rod at the tip is attached by a joint. */
 static void same_linked(const char *name, int scheme, double tolerance, int parts, int joint)
 {
     cell_result one, more;
@@ -235,8 +238,8 @@ static void resume_tests(void)
     same_linked("conserving with a joint", SCENE_CONSERVING, 0, 3, 1);
 }
 
-/* If a load is not finite for some time, the motion must end before this time, and every accepted
- * step must have a finite state. */
+/* A load is not finite for some time. The motion must end before this time, and every accepted step
+ * must have a finite state. */
 
 #define FINITE_SWUNG "harness/time/test/swung.yaml"
 
@@ -270,8 +273,8 @@ static void not_finite_tests(void)
 }
 
 /* Largest and smallest values of quantities that are known at the ends of steps. A peak must be
- * found between stations and, with the order of the cubic, between steps, in a time window, and at
- * a jump of the loads. */
+ * found between stations, in a time window, and at a jump of the loads. A peak within a step must
+ * have the accuracy of cubic interpolation. */
 
 #define PEAKS_SWUNG "harness/time/test/swung.yaml"
 
@@ -309,7 +312,7 @@ static void peaks_tests(void)
 
 #define WATCHES_SWUNG "harness/time/test/swung.yaml"
 
-/* The base moves as 0.3 sin 5 t until 3 s. */
+/* The base moves as 0.3 sin 5 t until 3 s, so all values are known. */
 static const struct {
     const char *name;
     double expected, at, tolerance; /* at < 0: there is no value */
@@ -360,8 +363,8 @@ static void fly(int scheme, double step, int watched, cell_result *out)
                  watched ? "crossings" : "way", scenes_integrator[scheme], step);
 }
 
-/* Errors must decrease with the order of the scheme, and estimates of the interpolation error must
- * decrease as fast. */
+/* Errors of a free motion must decrease with the order of the scheme, and the estimates of the
+ * interpolation error must decrease as fast. */
 static void freely(const char *name, int scheme, double step, double order)
 {
     cell_result exact, r[2], unwatched;

@@ -1,5 +1,5 @@
-"""The faults that `make verify` detects: the tables must be complete and within the required bounds, and samples are
-confirmed by runs."""
+"""The faults that `make verify` detects. The tables must be complete and within the required bounds, and a sample of
+rows is confirmed by runs."""
 import csv
 import json
 import pathlib
@@ -9,7 +9,7 @@ from harness.tools.kit.program import PROGRAM, ROOT, environment, run
 from harness.tools import blind_spots
 
 PLANTED = pathlib.Path(PROGRAM).parent / "planted"
-MOST = 40  # number of quantities for which a fault of 0.1 % remains undetected in some formulation
+MOST = 40  # largest number of quantities for which some formulation may have an undetected fault of 0.1 %
 
 
 def table(name):
@@ -49,8 +49,8 @@ class BlindSpots(unittest.TestCase):
                 self.assertEqual(fault["noticed"], "", fault)
 
     def seen(self, row, constant, size, *options):
-        """Returns True if a run with a fault of this size fails. The run is selected by -k, because a formulation given
-        by -f would also be checked against the interface requirements, which detect faults in masses."""
+        """Returns True if a run with a fault of this size fails. The formulation is selected by -k, not by -f, because
+        the checks of -f against the interface requirements would detect faults in masses."""
         select = f"={row['case']} and =default and ={row['formulation']} and ={row['quantity']}"
         done = run("verify", "-k", select, "-j", 1, *options, program=PLANTED,
                    env=environment(BEAMWORK_PLANT=f"{constant}={size}"))

@@ -1,4 +1,4 @@
-"""Causes of known deviations and their bounds."""
+"""Tests of the causes of known deviations and of their bounds."""
 import pathlib
 import re
 import unittest
@@ -29,7 +29,7 @@ def source(formulation):
 
 
 def shared():
-    """Returns {name: text} of the declarations that the formulations of a family share."""
+    """Returns {name: text} of the declarations shared by the formulations of a family."""
     found = {}
     for header in (ROOT / "elements").glob("*/*.h"):
         text = header.read_text(encoding="utf-8").replace("\\\n", " ")
@@ -38,9 +38,9 @@ def shared():
 
 
 def members(formulation):
-    """Returns {member: value} of the declarations of a formulation, including those of its family."""
+    """Returns {member: value} of the declaration of a formulation, including declarations of its family."""
     body, macros = source(formulation).split(f"element_{formulation} = {{")[1], shared()
-    for _ in range(3):  # because declarations refer to each other
+    for _ in range(3):  # declarations may refer to others, at most three levels deep
         body = re.sub(r"(?<![.\w])([A-Z]\w+)(?=,)", lambda m: macros.get(m[1], m[1]), body)
     return dict(re.findall(r"\.(\w+) =\s*(.*?),\s*(?=\.|\};)", body, re.S))
 
@@ -63,8 +63,8 @@ class OneThing(unittest.TestCase):
                 for name in one.keys() | other.keys() if one.get(name) != other.get(name)} - ABOUT
 
     def test_formulations(self):
-        """Paired formulations differ in one word of `prepare`, or in the whole stress function with the same strains and
-        inertia."""
+        """The two formulations of a pair must differ in one word of `prepare`, or in the whole stress function while
+        strains and inertia are the same."""
         for a, b in self.pairs(False):
             differing = self.differing(a, b)
             if differing:
@@ -133,7 +133,8 @@ class Choice(unittest.TestCase):
 class Outcome(unittest.TestCase):
 
     def laboratory(self, errors):
-        """Returns a laboratory with errors: {changed parameters, or formulation: error of the limit}."""
+        """Returns a laboratory whose limits have these errors: {changed parameters, or formulation: error of the
+        limit}."""
         made = causes.Laboratory("program", 0)
 
         def series(case, formulation, parameters, meshes):
@@ -214,7 +215,7 @@ class Bounds(unittest.TestCase):
     def test_loose(self):
         """A bound is loose if it exceeds ten times the observed error with a derived limit, or 1.5 times without a
         derived limit."""
-        derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}  # by 1e-3
+        derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}  # the derived limit differs from the limit by 1e-3 of the reference value
         for allowed, verdicts, loose in (("1e-2", [derived], False), ("1.1e-2", [derived], True),
                                          ("1.5e-3", [verdict_of_bounds(1e-3)], False), ("1.6e-3", [verdict_of_bounds(1e-3)], True),
                                          ("1e-3", [derived, verdict_of_bounds(1e-9)], True), ("", [verdict_of_bounds(None)], False),
@@ -223,7 +224,7 @@ class Bounds(unittest.TestCase):
         self.assertIn("a separate entry", bounds.text_of(self.said("1e-3", [derived, verdict_of_bounds(1e-9)])))
 
     def test_derived_limits_bind(self):
-        """The distance must be measured from the derived limit if there is one, relative to the reference value."""
+        """If there is a derived limit, the distance from it must be bounded, relative to the reference value."""
         derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}
         self.assertAlmostEqual(self.said("1e-3", [derived])["seen"], 1e-3)
         self.assertAlmostEqual(self.said("1", [derived, verdict_of_bounds(2e-3)])["seen"], 2e-3)
@@ -234,7 +235,8 @@ class Bounds(unittest.TestCase):
         self.assertFalse(self.said("1e-3", given)["stands"])
 
     def test_covered(self):
-        """Limits within 3 U and the uncertainty of the prediction are counted for any verdict."""
+        """A limit is covered if it is within three times its uncertainty plus that of the prediction. Covered limits
+        must be counted for any verdict."""
         given = [{**verdict_of_bounds(0.1, limit, 2.0), "limit_uncertainty": 1e-6}
                  for limit in (2.0, 2.0000029, 2.0000031, None)]
         self.assertEqual(bounds.covered(given + [verdict_of_bounds(0.1)]), (2, 3))

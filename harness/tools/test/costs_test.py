@@ -1,4 +1,4 @@
-"""Cost of work: instruction counts, and coefficients fitted to measured times."""
+"""The cost of work: counts of instructions, and coefficients fitted to measured times."""
 import csv
 import math
 import os
@@ -18,8 +18,8 @@ from harness.tools.kit.program import ProgramTest, ROOT
 
 
 def planted():
-    """Returns runs with artificial costs: a modal analysis costs 1 us and 20 us per element, a load step 5 us and 3 us
-    per element. One formulation is three times as expensive per element."""
+    """Returns runs with artificial costs. A modal analysis costs 1 us plus 20 us per element, and a load step 5 us plus
+    3 us per element. One formulation is three times as expensive per element."""
     dice, out = random.Random(7), []
     for case in range(12):
         modal, steps = dice.randrange(2), dice.randrange(12)
@@ -88,7 +88,7 @@ NAMES = ("red", "blue", "green")
 
 
 def planted_of_prices(noise):
-    """Returns runs of artificial cases with 20 us per run, 1 ns per flop, and 2, 4 and 8 us per evaluation."""
+    """Returns runs of artificial cases with 20 us per run, 1 ns per flop, and 2, 4 or 8 us per evaluation."""
     dice, out = random.Random(11), []
     for case in range(10):
         for name, price in zip(NAMES, (2e-6, 4e-6, 8e-6)):
@@ -137,7 +137,8 @@ class PricesFit(unittest.TestCase):
         cost = dice.uniform(0, math.log(prices.NEAR), 20000)
         sure = prices.noise_of(cost, cost)
         self.assertEqual(sure, 1)
-        # with an error of 20 % in the ratio, nine of ten pairs are in order beyond 1.28 sigma
+        # if the ratio of two costs has a standard deviation of 20 %, nine of ten pairs are in the correct order if they
+        # differ by more than 1.28 times this deviation
         doubtful = prices.noise_of(cost, cost + dice.normal(0, 0.2, cost.size))
         self.assertAlmostEqual(math.log(doubtful), 1.28 * 0.2, delta=0.05)
 
@@ -231,8 +232,7 @@ class Parts(ProgramTest):
         self.assertEqual(dict(parts), {"strain": 60, "factorisation": 20, "set-up": 33, "rest": 12})
 
     def test_operations(self):
-        """Two addresses belong to the program. The library has instructions at one of these addresses, which are not
-        counted."""
+        """Two addresses belong to the program. Instructions of a library at one of these addresses must not be counted."""
         numbers = {0x200: 4, 0x204: 1, 0x104: 2, 0x3fc: 1}
         self.assertEqual(operations(self.path, "/there/build/beamwork", numbers),
                          4 * 50 + 16 + 2 * 7)

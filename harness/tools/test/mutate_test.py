@@ -37,7 +37,7 @@ double sum(const double A[9], int n)
     return total[0];
 }
 '''
-# Line and edit.
+# A line, and the line after the edit.
 EDITS = {
     (8, "- to none (1)"), (8, "0.5 to (2 * 0.5) (1)"), (8, "1e-3 to (2 * 1e-3) (1)"),
     (12, "2 to 1 (1)"),
@@ -120,8 +120,7 @@ class Sample(unittest.TestCase):
 class Touched(unittest.TestCase):
 
     def test_lines_of_commits(self):
-        """For a range of commits, only lines that these commits wrote and that have not changed since must be
-        edited."""
+        """For a range of commits, only lines written by these commits and unchanged since then may be edited."""
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             commits = []
@@ -147,7 +146,7 @@ class Touched(unittest.TestCase):
 class Equivalent(unittest.TestCase):
 
     def test_each_has_its_place_and_reason(self):
-        """If a line changes, the equivalent faults of the line must be removed from the table."""
+        """The table lists the lines with equivalent faults. If a line changes, its row must be removed."""
         made = {}
         for (file, function, line, edit), reason in mutate.equivalent().items():
             if file not in made:

@@ -1,4 +1,4 @@
-"""paces.py: every case with a motion is in its table, a row is run, and its reference is checked."""
+"""Tests of paces.py. Every case with a motion must be in its table. One row is run, and its reference is checked."""
 import csv
 import json
 import sys

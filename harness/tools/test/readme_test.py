@@ -10,7 +10,7 @@ from harness.tools import words
 from harness.tools.kit.program import ROOT
 
 
-# Names to be filled in, and a table inside results.h5.
+# names that the reader replaces, and a table inside results.h5
 PATTERNS = ("NAME", "my_beam", "*", "cases/elastica/quantities")
 PATH = re.compile(r"(?<![\w./-])(?:cases|docs|elements|harness|reference|reports)/[\w./*-]+\w")
 WALK = re.compile(r"^(\w+| \|) +((?:cases|elements|harness|reports)/\S+)", re.MULTILINE)
@@ -20,7 +20,7 @@ TREES = ("cases", "docs", "elements", "harness", "reference", "reports")
 
 
 def files(*endings):
-    """Returns the files of the repository, without build products and files of the user."""
+    """Returns the files of the repository with these endings, without build products and files of the user."""
     top = [path for path in ROOT.iterdir() if path.is_file()]
     below = [path for tree in TREES for path in (ROOT / tree).rglob("*")]
     return [path for path in top + below if path.suffix in endings]
@@ -34,7 +34,7 @@ class Readme(unittest.TestCase):
             if readme.match("docs/index.md"):  # generated pages, which Sphinx checks
                 continue
             text = readme.read_text(encoding="utf-8")
-            if readme.name == "CHANGELOG.md":  # releases name folders of their time
+            if readme.name == "CHANGELOG.md":  # entries on former releases refer to folders of that time
                 text = "## ".join(text.split("\n## ")[:2])
             for name in PATH.findall(text):
                 if any(part in name for part in PATTERNS):
@@ -45,7 +45,7 @@ class Readme(unittest.TestCase):
         self.assertGreater(found, 50)
 
     def test_walk_goes_down(self):
-        """No file may include a header of a folder that is listed after its own folder."""
+        """No file may include a header of a folder that the README lists after the folder of the file."""
         text = (ROOT / "docs" / "project" / "source.md").read_text(encoding="utf-8")
         walked = [name for _, name in WALK.findall(text)]
         self.assertGreater(len(walked), 8)
@@ -57,8 +57,7 @@ class Readme(unittest.TestCase):
                 self.assertFalse(below & set(included))
 
 
-# Files that may use the unions. Each file of `quantities` belongs to a single kind, and the builder checks the kind
-# first.
+# Files that may use the unions. Each file of `quantities` is for a single kind, which the builder checks before.
 THEIRS = (ROOT / "cases" / "scene", ROOT / "cases" / "quantities",
           ROOT / "cases" / "format" / "builder_members.c")
 
@@ -75,7 +74,7 @@ class Unions(unittest.TestCase):
                                             path.read_text(encoding="utf-8")))
 
 
-# The check of words must find a word to avoid in each kind of text, with its line, and ignore names.
+# The check of words must find a word to avoid in each kind of text, report its line, and ignore names.
 TEXTS = {
     "shown.c": ('#include "ledger of.h"\nint a;\nconst char *b = "it is "\n    "told here";\n', 4, "told"),
     "comment.c": ("int a; /* Sums.\n * A cell is told. */\n", 2, "told"),

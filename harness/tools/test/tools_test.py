@@ -45,7 +45,7 @@ class Loading(unittest.TestCase):
 
 
 class Dependencies(Folder):
-    """All programs that search for packages find none, and apt-get records the packages that it is requested to install."""
+    """Programs that search for packages find none, and apt-get records the packages whose installation is requested."""
 
     def setUp(self):
         super().setUp()
@@ -106,7 +106,7 @@ class Dependencies(Folder):
 
 
 def foreign_imports(path):
-    """Returns the top-level names of all modules that a file imports, without those of Python itself."""
+    """Returns the top-level names of the modules that a file imports, without those of Python's library."""
     import ast
     import sys
     names = set()
@@ -197,7 +197,7 @@ class Runner(Folder):
 
 
 class Circles(Folder):
-    """Circles among artificial objects that call each other."""
+    """Finds circular calls among artificial object files."""
 
     def objects(self, **sources):
         paths = []
@@ -259,7 +259,7 @@ class Circles(Folder):
 
 
 class Mutants(Folder):
-    """Physical faults without injection: DRY=1 only checks that the location of each fault still exists."""
+    """Tests of physical faults in the sources. With DRY=1, no fault is injected, and only its location is checked."""
 
     def dry(self, root, table=()):
         faults = self.folder / "faults.list"
@@ -293,8 +293,8 @@ class Mutants(Folder):
         self.assertIn("SURVIVED  nowhere", done.stdout)
 
     def test_faults_that_are_made(self):
-        """A fault is detected if any of several checks fails. Faults that do not compile or do not change the code are
-        reported."""
+        """A fault is detected if any of several checks fails. Faults that cannot be compiled or do not change the
+        object code must be reported."""
         root = self.folder / "clone"
         root.mkdir()
         texts = {
@@ -369,7 +369,7 @@ class Make(Folder):
                          ["quick", "slow"])
 
     def test_clean_before_all_else(self):
-        """`clean` runs before all other targets, which must still find all files that they need."""
+        """`clean` must run before all other targets, which must still find all files that they need."""
         told = self.make("-n", "V=1", "QUIET=", f"BUILD={self.folder}/b", "clean", "all")
         compiled = [line for line in told if line.endswith("-c harness/cli/main.c -o "
                                                            f"{self.folder}/b/harness/cli/main.o")]
@@ -393,7 +393,7 @@ class Make(Folder):
         self.assertIn("there is no nothing", said.exception.stderr)
 
     def chosen(self, words):
-        """Returns the tests that make test T=words runs."""
+        """Returns the tests that `make test T=words` runs."""
         told = self.make("-n", "test", f"T={words}", f"BUILD={self.folder}")
         runs = [line.split("/logs ")[1].split() for line in told if "run_tests.sh" in line]
         self.assertEqual(len(runs), 1)

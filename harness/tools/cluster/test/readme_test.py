@@ -1,4 +1,4 @@
-"""Runs the shell loop of the README as written: one run in shards, restarted, merged."""
+"""Runs the shell loop of the README as written: a run in shards is started, restarted and merged."""
 import os
 import pathlib
 import re
