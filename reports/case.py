@@ -147,8 +147,8 @@ NOTHING = {"elements": None, "time": None, "work": None, "further": None,
 
 
 def question_of(site, point, quantity, name):
-    """Returns the figures of one quantity, {figure: Image or None}. `left_out` contains the formulations that only the
-    figure `further` shows, or none."""
+    """Returns the figures of one quantity, {figure: Image or None}. `left_out` contains the formulations that are shown
+    only in the figure `further` or not at all."""
     shown, further = plots.leading(point, quantity)
 
     def draw(series, kind, *abscissae):

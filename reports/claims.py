@@ -316,7 +316,7 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_papers, site)]
 
 
-# The papers compared with the measured values, figure by figure (reference/papers.csv) and equation by equation
+# The papers compared with the computed values, figure by figure (reference/papers.csv) and equation by equation
 # (reference/equations.csv).
 
 TABLE = ROOT / "reference" / "papers.csv"

@@ -226,7 +226,8 @@ def compared_in(path):
 
 
 def read(path):
-    """Returns the Record of a results file and of paces.json next to the file, or None if there is none."""
+    """Returns the Record of a results file and of paces.json next to the file. Returns None if the file contains no
+    results of `beamwork motion`."""
     found = experiments.read(path, "motion")
     if found is None:
         return None

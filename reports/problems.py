@@ -216,7 +216,7 @@ def judged(cases):
 
 
 def speed(row, found, pairs):
-    """Adds the data on problems to a row. `pairs` is [(problem, cost relative to the best)]."""
+    """Sets the shares and the factor of a row. `pairs` is [(problem, cost relative to the best)]."""
     weight = {id(p): w for p, w in weights(found)}
     reached = [(f, weight[id(p)]) for p, f in pairs if math.isfinite(f)]
     row.offered = sum(weight[id(p)] for p in found if row.key in p.tries)

@@ -228,7 +228,7 @@ LEAST = 3  # smallest number of points of a bent member before the number of fra
 
 
 def packed(values):
-    """Returns numbers from -1 to 1 encoded as text."""
+    """Returns numbers from -1 to 1 as 16-bit integers encoded in base64. Numbers beyond this range are clipped."""
     whole = np.round(np.clip(values, -1, 1) * WHOLE).astype("<i2")
     return base64.b64encode(whole.tobytes()).decode()
 

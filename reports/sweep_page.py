@@ -61,9 +61,9 @@ def counted(state, look):
 
 
 class Validity:
-    """Maps of the smallest number of elements. `order` contains the formulations sorted by key. `axes` are the horizontal
-    axis, the vertical axis and the axis of maps side by side. `rows` is [(formulation or empty, [(Image, alt)])].
-    `used` are the states that are drawn."""
+    """Maps of the smallest number of elements. `order` contains the formulations in the order of the answers. `axes`
+    are the horizontal axis, the vertical axis and the axis of maps side by side. `rows` is [(formulation or empty,
+    [(Image, alt)])]. `used` are the states that are drawn."""
 
     def __init__(self, sweep, found, order, q=-1):
         self.sweep, self.found, self.q = sweep, found, q
@@ -274,7 +274,7 @@ def axis_of(part):
 
 
 def cells_of(sweep, found, order):
-    """Returns the data of the cells. `order` contains the formulations sorted by key."""
+    """Returns the data of the cells. `order` contains the formulations in the order of the answers."""
     elements = maps.Look(sweep.meshes)
     asked = range(len(sweep.quantities) + 1)
     keys, levels = range(len(sweep.keys)), levels_of(sweep.tolerance)

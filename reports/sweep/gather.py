@@ -162,7 +162,8 @@ def extents_of(sweep, columns):
 
 
 def lattice_of(sweep):
-    """Returns [Lattice], all axes first, then those with a ratio. The function makes two passes over the points."""
+    """Returns [Lattice]: that of all axes, then those with a ratio. The points are read once, or twice if there are
+    ratios."""
     columns = tuple((k,) for k in range(len(sweep.axes)))
     extents = extents_of(sweep, columns)
     most = most_parts(sweep)
@@ -359,7 +360,8 @@ def of_sweep(sweep):
 
 @dataclass
 class Outlier:
-    """A point in a box that is not within the tolerance. `error` is the error of the mesh to which the box belongs."""
+    """A point in a box that is not within the tolerance. `error` is the largest error of the mesh to which the box
+    belongs and of all finer meshes."""
 
     point: int
     at: np.ndarray

@@ -33,8 +33,8 @@ def scattered(count, *limits, seed=1):
 
 
 def series(key):
-    """Returns artificial errors of a formulation, which decrease with the square of the number of elements and grow along
-    each axis by a different factor."""
+    """Returns a function of points and elements that gives the artificial errors of a formulation. They decrease with the
+    square of the number of elements, grow along each axis, and are multiplied by a factor that depends on the name."""
     factor = 1 + sum(map(ord, key)) % 7
     return lambda at, n: 0.02 * factor * (0.1 + at.sum(axis=1)) / n**2
 
