@@ -20,7 +20,7 @@ STEP = 1e-30
 
 
 class Beam:
-    """Stiffnesses in SI. `shear` is the 3 x 3 compliance f of (y, z, w), or only fy and fz. EIw = 0 means uniform
+    """Stiffnesses in SI units. `shear` is the 3 x 3 compliance f of (y, z, w), or only fy and fz. EIw = 0 means uniform
     torsion."""
 
     def __init__(self,

@@ -18,7 +18,7 @@ from reference.derive.sheets import parameters, sheet
 # Uncertainty of a position, in lengths of a leaf. Eight networks (4 to 10 intervals, 12 to 20 nodes) give positions at
 # angle=0.01 that differ by 6e-18 m, half of this value.
 ROUND_OFF = 2.2e-16
-RELATIVE = 1e-9  # uncertainty due to the ratio of the axial stiffness of a leaf to the forces that bend it
+RELATIVE = 1e-9  # relative uncertainty; the high axial stiffness of a leaf magnifies the round-off
 DEFAULTS = defaults.values("cross_flexure")
 SIZES = ("length", "width", "thickness", "young", "poisson")
 TILTS_FREE = ("first", "last", "between")

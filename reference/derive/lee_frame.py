@@ -81,7 +81,8 @@ class Frame:
 
 
 def path(frame, least):
-    """Returns states along the path until the force increases again from below to `least` [N]."""
+    """Returns states along the path, at most 400. The path ends when the force, after it was negative, increases beyond
+    `least` [N]."""
     points = [frame, frame.advanced(STEP)]
     points[1].turned(frame)
     while len(points) < 400 and not (points[-1].force > points[-2].force > least and

@@ -175,8 +175,8 @@ class Network:
         return self.bodies[-1]
 
     def joint(self, body, position, conditions):
-        """Adds a massless body at a position [m] whose load is transmitted to another body. The last arguments of its
-        conditions are the position and rotation of that body."""
+        """Adds a massless body at a position [m] whose load is transmitted to another body. The last argument of its
+        conditions is the pair (position, rotation) of that body."""
         self.bodies.append(Body(np.array(position) / self.length, conditions, body))
         return self.bodies[-1]
 
@@ -367,7 +367,8 @@ class Network:
         return size
 
     def solve(self, path=(1.0, ), tolerance=1e-12):
-        """Solves for equilibrium at each level in succession, and at the last level to round-off."""
+        """Solves for equilibrium at each level in succession, to the tolerance on the relative change in a step of
+        Newton's method."""
         for level in path:
             for _ in range(30):
                 if self.iterate(level) <= tolerance:

@@ -14,7 +14,7 @@ from reference.derive.beam import Beam, Scaled, product, rotation
 # r' = R (e_x + gamma), kappa~ = R^T R', and a is the warping amplitude. h is the length, lambda = |e_x + gamma|, and
 # the chord is along n = (e_x + gamma)/lambda. Each function returns (eps, g_y, g_z, g_w, k_x, k_y, k_z) to leading
 # order in h. The corresponding stiffness tends to diag(EA, G D, GIt, EIy, EIz), and warping has the energy of EIw a'^2.
-# The shear strains g are those of the shear centre. reference/test/predicted_test.py contains proofs with short
+# The shear strains g are those of the shear centre. reference/test/measures_test.py contains proofs with short
 # elements.
 #
 # J Eq. 7, where e3, e4 = -+ h n_z + h^2 k_y/2, e5, e6 = +- h n_y + h^2 k_z/2, e2 = h^2 kappa_x:

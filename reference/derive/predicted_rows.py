@@ -66,7 +66,7 @@ def difference(row, known):
 
 
 def differences(derived, cases):
-    """Returns lines that describe the differences from the stored rows of the cases."""
+    """Yields lines that describe the differences from the stored rows of the cases."""
     stored = stored_rows(cases)
     for row in derived:
         line = difference(row, stored.pop(key_of(row), None))

@@ -115,7 +115,7 @@ def section(points, walls):
 
 
 def channel(height, width, flange, web):
-    """Returns a C-section given by centre-line dimensions, with its web on the +y side."""
+    """Returns the Section of a channel given by centre-line dimensions, with its web on the +y side."""
     h, b = mpf(height), mpf(width)
     points = [(0, -h / 2), (b, -h / 2), (b, h / 2), (0, h / 2)]
     return section(points, [(0, 1, flange), (1, 2, web), (2, 3, flange)])

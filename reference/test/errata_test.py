@@ -182,7 +182,7 @@ class Modified(unittest.TestCase):
         e = {2: 0.0, 3: 0.8, 4: -0.5, 7: 0.0, 8: 0.0}
         printed = (2 * e[3] ** 2 + e[3] * e[4] + 2 * e[4] ** 2) / 30
         self.assertAlmostEqual(self.elongation(e, 0.0, 0.0), printed, delta=1e-9)
-        for Phi in (1.0, 100.0):  # fine meshes, because Phi is proportional to 1/l0^2
+        for Phi in (1.0, 100.0):  # Phi is proportional to 1/l0^2, so these are values of fine meshes
             Vt = (e[3] - e[4]) / (2 * (1 + Phi))
             Vs = (e[3] + e[4]) / 2
             self.assertAlmostEqual(self.elongation(e, Phi, 0.0), (Vs ** 2 / 3 + Vt ** 2 / 5) / 2,

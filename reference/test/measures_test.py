@@ -170,7 +170,7 @@ class Measures(unittest.TestCase):
             self.assert_limit(modes, limit, (0, 0), 0.1, 1e-5)
 
     def test_energy_of_a_short_element(self):
-        """The energy e^T S e/(2 h) with the printed stiffness must be that of the measures."""
+        """The energy per length e^T S e/(2 h) with the printed stiffness must tend to that of the measures."""
         def energy(h):
             e, at_centre = eq66(jonker_modes(h), h), np.eye(8)
             at_centre[2:6, 1] = np.array([-YS, YS, -ZS, ZS]) / h

@@ -273,7 +273,8 @@ class Scenes(unittest.TestCase):
             self.close(found[name], scale * value)
 
     def test_frequencies(self):
-        """The closed forms are those of bending in both planes and twist, also with a point mass at the tip."""
+        """The frequencies of bending in both planes and of twist must agree with closed forms, and also that of bending
+        with a point mass at the tip."""
         asked = {f"f{i}": f"frequency: {{analysis: path, which: {i}}}, unit: Hz" for i in range(4)}
         text = bar("force: [0, 0, 1], on: tip", asked, path="modal: {}").replace(
             "shear_modulus: 1}", "shear_modulus: 1, density: 1e-8}").replace("It: 1", "It: 0.36")

@@ -1,5 +1,5 @@
-"""Derived limits of printed elements: the beam model compared with exact values, and closed forms compared with the beam
-model."""
+"""Predicted limits of printed elements: the beam model compared with exact values, and closed forms compared with the
+beam model."""
 import copy
 import pathlib
 import sys
