@@ -90,8 +90,8 @@ PLANTS = {
     "stub": ((("    (void)inner;\n", "    (void)inner;\n    return STATUS_OK;\n"),), "fail", 2),
     "refuses": ((("    (void)f;\n", "    strcpy(f->text, \"not yet\");\n    return STATUS_REFUSED;\n"),), "fail", 2),
 }
-# A force, a moment and a load along the beam have the deflection F l^3/(3EI) + M l^2/(2EI) + q l^4/(8EI) with EI = 1, l
-# = 1. The frequency is 1.8751^2/2pi sqrt(EI/(rho A l^4)).).
+# A force, a moment and a load along the beam have the deflection F l^3/(3EI) + M l^2/(2EI) + q l^4/(8EI) with EI = 1 and
+# l = 1. The frequency is 1.8751^2/(2pi) sqrt(EI/(rho A l^4)).
 LOADED = """beamwork: 1
 sections: {s: {rectangle: {width: 1, thickness: 0.01}, young: 12e6, shear_modulus: 5e6, density: 100}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}

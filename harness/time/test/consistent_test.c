@@ -331,11 +331,10 @@ static void drift_tests(void)
 
 /* In free flight under piecewise linear loads, every integrator must give the time integral of the
  * load as momentum, to round-off. Generalized-alpha averages accelerations over two steps.
- * Therefore, while a load rises, the momentum lags by a fraction of h^2, which vanishes when the
- * load has ended. Unsupported options of motion cases must be rejected. */
-    ted.* /
+ * Therefore, while a load rises, its momentum has an error proportional to h^2, which vanishes when
+ * the load has ended. Unsupported options of motion cases must be rejected. */
 
-    extern const element_type element_geometrically_exact;
+extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_free_flight_plane, case_release,
     case_leaf_guide, case_rigid_body, case_pendulum;
 
