@@ -18,8 +18,8 @@ ABSENT = ("not_offered", "no_scene", OTHER)  # outcomes of runs that were not re
 
 @dataclass(frozen=True)
 class Axis:
-    """A parameter that was varied. `log` is True if its range is divided by equal factors. `words` are its strings by
-    index, which is empty for an axis of numbers."""
+    """A parameter that was varied. `log` is True if its range is divided by equal factors. `words` are its strings in the
+    order of their indices. An axis of numbers has no words."""
 
     name: str
     unit: str
