@@ -2,11 +2,11 @@
 
 The arms are rigid in shear and have no rotary inertia. A rotation by one arm does not change the structure, so the
 amplitudes of the arms in a mode are proportional to e^{i m a}, where a is the angle of the arm. For m = 0, all arms
-bend in the same way, and the hub rotates without a resisting moment: the arms are pinned at both ends. For m = 1 and
-7, the hub moves without rotation, and the arms stretch. The force on the hub per displacement is that of four arms
-along the displacement and four arms across it. This force must vanish. Each of these modes occurs twice, once for each
-m. For the other five m, the hub is at rest, and the arms are clamped there. Each of these modes occurs five times.
-Modes in which arms only stretch start at c/(2 L) = 500 Hz.
+bend in the same way, and the hub rotates without a resisting moment, so each arm vibrates as if it were pinned at both
+ends. For m = 1 and 7, the hub moves without rotation, and the arms stretch. The force on the hub per displacement is
+that of four arms along the displacement and four arms across it. This force must vanish. Each of these modes occurs
+twice, once for each m. For the other five m, the hub is at rest, and the arms are clamped there. Each of these modes
+occurs five times. Modes in which arms only stretch start at c/(2 L) = 500 Hz.
 """
 from mpmath import cos, mp, mpf, pi, sin, sqrt
 

@@ -96,8 +96,8 @@ def reaction(scene, name, component, level):
 
 
 def compliance(scene, level, entry, name):
-    """Returns the compliance C [6, 6] in SI units for dead forces and moments on a node. Released components of the node
-    are free, and their present reactions remain as dead loads."""
+    """Returns the compliance C [6, 6] in SI units for dead forces on a node and for moments under the convention in
+    `entry`. Released components of the node are free, and their present reactions remain as dead loads."""
     net, place = scene.net, scene.places[entry["node"]]
     if place.support is None:
         raise Refused(

@@ -1,8 +1,8 @@
 """Computes the constants of an open thin-walled section from its mid-line, in extended precision.
 
 Straight walls (i, j, t) between points (y, z) form a tree. The resulting axes are centroidal and principal. The shear
-rigidities are computed from the shear flow: F_ij = 1/(I_i I_j) sum int S_i S_j/t ds with I = (Iz, Iy, Iw) (J Eq. 27),
-where S are the first moments of y, z, omega.
+flexibilities times G are computed from the shear flow: F_ij = 1/(I_i I_j) sum int S_i S_j/t ds with I = (Iz, Iy, Iw) (J
+Eq. 27), where S are the first moments of y, z, omega.
 """
 from mpmath import mp, mpf, matrix, atan2, cos, sin, sqrt
 
