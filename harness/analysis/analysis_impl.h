@@ -297,8 +297,8 @@ typedef struct rival {
 } rival;
 
 /* Stores the critical points between `here` and `next` as events (continuation_critical.c). goal:
- * goal with which the step was found. *jump: 1 if the step led to another branch. The inertia of
- * the tangent stiffness then changes without a critical point. */
+ * goal with which the step was found. *jump: 1 if the step led to another branch. The number of
+ * negative pivots then changes without a critical point. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
 /* If critical points are requested, sets *hidden to 1 if an indicator changes and changes back
  * within the step. A change that lasts for at least a fifth of the step is detected. */

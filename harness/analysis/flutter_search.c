@@ -116,8 +116,7 @@ static void keep(search *s, const station *at)
 }
 
 /* Returns the largest relative change of a square between two stations. The change is relative to
- * the square at station a or, if this is smaller than the lowest square at path 0, to `lowest`,
- * this lowest square. */
+ * the square at station a, but to `lowest` (the lowest square at path 0) if `lowest` is larger. */
 static double change(const station *a, const station *b, double lowest)
 {
     double largest = 0;

@@ -73,8 +73,8 @@ status linear_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
  * stresses due to the change of loads from path 0 to 1. G_0 follows from the stresses at path 0,
  * which are constant and include initial strains. */
 
-/* Quadratic forms of the loads that are scaled by the load factor (growing) and of the constant
- * loads (staying). */
+/* Quadratic forms for the stresses due to loads that are scaled by the load factor (growing), and
+ * for the stresses due to constant loads (staying). */
 typedef struct prestresses {
     quadratic_forms growing, staying;
     int stays;         /* 0: no constant stress */

@@ -54,9 +54,9 @@ status turns_build(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if the vector keeps its direction. Near a full revolution, the difference from the
- * previous vector is small. If the difference is parallel to the previous vector, its direction is
- * a rounding error. */
+/* Returns 1 if a rotation vector keeps the direction of `before`. more: the rotation beyond full
+ * revolutions. If `more` is small and, apart from rounding errors, parallel to `before`, it does
+ * not change the direction. */
 static int keeps_direction(const double more[3], const double before[3], double length)
 {
     const double near = 1e-3, round_off = 1e-8;

@@ -70,8 +70,8 @@ static status beside(peaks *s, const scene_quantity *q, const instant *from, dou
     return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
 }
 
-/* Returns the value at a given time of the cubic through the last ends of steps (Neville's
- * algorithm). */
+/* Returns the value of the cubic through the values at the last ends of steps, at a given time
+ * (Neville's algorithm). */
 static double cubic(const peaks *s, const peak *one, double time)
 {
     double p[PEAKS_ENDS];

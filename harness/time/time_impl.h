@@ -1125,7 +1125,7 @@ typedef struct spread_parts {
 } spread_parts;
 void spread_element(const model *, int element, const model_state *, const double v[],
                     const double a[], double damping, spread_parts *);
-/* Computes only the mass matrices, in the undeformed state. */
+/* Computes only the mass matrix, p->acceleration, and p->turn, in the given state. */
 void spread_masses(const model *, int element, const model_state *, spread_parts *);
 /* Motion of a body as a function of the coordinates: a factor for translations and warping, and a
  * matrix for rotations. For a released end: matrices for the spatial rotations of its body and of a
