@@ -13,10 +13,6 @@
 /* Functions of conserving.c. */
 /* Finds rotations without inertia. REFUSED: no rotation has inertia. */
 static status conserving_massless(conserving *, fault *);
-/* Returns the work [J] of the impulses on prescribed masses. The impulses change the velocities of
- * the masses from the rates during the step to the rates at its end. */
-static double conserving_impulses(const conserving *, const instant *from, double h,
-                                  const instant *to);
 /* Sets the rates at the end of a step. */
 static void conserving_rates(conserving *, const instant *from, double h, instant *to);
 
@@ -138,6 +134,7 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
     TRY(conserving_work(s, from, to, h, f));
     conserving_rates(s, from, h, to);
     drive_at(&s->of.c->eq, from->state, record->path, NULL, to->v, to->a);
+    conserving_free_rates(s, from, h, to);
     conserving_damped(s, from, h, to);
     to->time = record->path;
     to->work += conserving_impulses(s, from, h, to);
@@ -350,46 +347,6 @@ static status conserving_massless(conserving *s, fault *f)
                : fault_set(f, STATUS_REFUSED,
                            "no rotation has inertia, but the integrator conserving requires it; "
                            "use alpha or radau, or give the sections rotary inertia");
-}
-
-static double energy_of(const carried_mass *one, const carried_step *p, const double v[3],
-                        const double W[3])
-{
-    double sum = dense_quadratic(3, p->J, W) / 2;
-    for (int i = 0; i < 3; i++)
-        sum += (one->mass - one->less[i]) * v[i] * v[i] / 2;
-    return sum;
-}
-
-static int is_driven(const model *m, int vertex)
-{
-    for (int c = 0; c < 6; c++)
-        if (model_vertex(m, vertex)->coordinate[c] >= model_unknowns(m))
-            return 1;
-    return 0;
-}
-
-static double conserving_impulses(const conserving *s, const instant *from, double h,
-                                  const instant *to)
-{
-    const model *m = s->of.c->model;
-    double sum = 0;
-    for (int k = 0; k < s->of.masses->masses && s->all > s->free; k++) {
-        const carried_mass *one = &s->of.masses->mass[k];
-        carried_step p;
-        frame_rates r;
-        double v[3], W[3], turned[3];
-        if (!is_driven(m, one->frame))
-            continue;
-        carried_step_of(s, from, to->state, h, one, &p);
-        forms_rates(m, to->state, one->frame, to->v, NULL, &r);
-        vec3_cross(r.w, p.after, turned);
-        mat3_transpose_mul_vec(r.R, r.w, W);
-        for (int i = 0; i < 3; i++)
-            v[i] = r.v[i] + turned[i];
-        sum += energy_of(one, &p, v, W) - energy_of(one, &p, p.v1, p.W1);
-    }
-    return sum;
 }
 
 /* Computes the rates of a sequence of angles for which the angular velocity is closest to w. */

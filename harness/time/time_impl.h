@@ -464,6 +464,14 @@ status conserving_work(conserving *, const instant *from, instant *to, double h,
  * members. */
 void conserving_damped(const conserving *, const instant *from, double h, instant *to);
 
+/* At the end of a step, prescribed coordinates take their prescribed rates, which differ from the
+ * rates during the step. Impulses on the prescribed masses cause this change
+ * (conserving_driven.c). */
+/* Changes the rates of free coordinates such that these impulses do not change their momenta. */
+void conserving_free_rates(conserving *, const instant *from, double h, instant *to);
+/* Returns the work of the impulses. */
+double conserving_impulses(const conserving *, const instant *from, double h, const instant *to);
+
 /* A frame and its mass during a step. */
 
 typedef struct carried_step {

@@ -53,9 +53,10 @@ SIZE = {"shift": 0.3, "sway": 0.3, "turn": 0.5, "speed": 10, "spin": 10, "gain":
 STIFF = numpy.array([[0, 0], [2e4, 3e4], [1e4, 2e4], [5e3, 0]])
 
 
-def exact(time, stiff=1.0, gain=40):
+def exact(time, stiff=1.0, gain=40, driven=None):
     """Returns the displacement, velocity and acceleration of each node, and the energies. The three coordinates of the
-    floor are integrated by the method of Dormand and Prince of order 8."""
+    floor are integrated by the method of Dormand and Prince of order 8. The coordinate `driven` is 2 t^3, and the floor
+    is at rest at the start."""
     def rows(turn):
         across = numpy.array([[-math.sin(turn), -math.cos(turn)], [math.cos(turn), -math.sin(turn)]])
         return [(numpy.hstack([numpy.eye(2), (across @ a)[:, None]]), across @ numpy.array([-a[1], a[0]])) for a in ARM]
@@ -78,9 +79,12 @@ def exact(time, stiff=1.0, gain=40):
             if i == 3:
                 F = F + [300 * math.sin(7 * t), -200]
             f += B.T @ F
+        if driven is not None:
+            f -= 12 * t * M[:, driven]
+            M[driven], M[:, driven], M[driven, driven], f[driven] = 0, 0, 1, 12 * t
         return numpy.concatenate([v, numpy.linalg.solve(M, f)])
 
-    start = [0, 0, 0, 1 - 12 * MASTER[1], -2 + 12 * MASTER[0], 12]
+    start = [0] * 6 if driven is not None else [0, 0, 0, 1 - 12 * MASTER[1], -2 + 12 * MASTER[0], 12]
     y = solve_ivp(slope, [0, time], start, method="DOP853", rtol=1e-13, atol=1e-13).y[:, -1]
     q, v, a = y[:3], y[3:], slope(time, y)[3:]
     at, by = places(q), rows(q[2])
@@ -190,6 +194,20 @@ class DiaphragmsInTime(ConstraintsCase):
         self.assertAlmostEqual(found["swirl"], 12 * (23 + 100 * 0.13 + 70 * 4) - 2 * 170 - 20, delta=1e-9)
         self.assertAlmostEqual(found["up"]**2 * 40 + found["z"]**2 * 9e3, 360, delta=1e-9)
         self.assertLess(abs(found["D"]), 1e-12 * found["E"])
+
+    def test_conserving_driven(self):
+        for driven, name, unit in ((0, "ux", "m"), (2, "rz", "rad")):
+            text = re.sub(r"  (k|gain): .*\n", "", FLOOR).replace(", start: {velocity: [1, -2, 0], spin: [0, 0, 12]}", "")
+            text = text.replace("mass: 100", f"mass: 100, drive: {{{name}: go}}")
+            text = text.replace("loads:", f"motions: {{go: {{unit: {unit}, time: 2*t^3}}}}\nloads:")
+            wanted, errors = exact(1, gain=0, driven=driven), []
+            for step in (1e-3, 5e-4):
+                found = self.values(text.replace("HOW", f"conserving, step: {step}"), elements=1)
+                errors.append([found[name] - value for name, value in wanted.items() if name != "gain"])
+                self.assertLess(abs(found["D"]), 1e-12 * found["E"])
+            for first, second in zip(*errors):
+                if abs(second) > 1e-9:
+                    self.assertAlmostEqual(first / second, 4, delta=0.2)
 
     def test_turns(self):
         soft = FLOOR.replace("HOW", "radau, tolerance: 1e-10")
