@@ -107,8 +107,7 @@ static void tell_apart(const scene *s, const state_matrices *m)
                 s->quantity[m->model.farthest].name);
 }
 
-static void tell_reduced_transfer(const scene *s, const system_matrices *all,
-                                  const reduced_model *r)
+static void tell_reduced_transfer(const system_matrices *all, const reduced_model *r)
 {
     double apart = 0;
     int largest = 0, zeros = 0;
@@ -119,12 +118,13 @@ static void tell_reduced_transfer(const scene *s, const system_matrices *all,
         zeros += isnan(r->apart[k]);
         if (r->apart[k] > apart) {
             apart = r->apart[k];
-            largest = k / all->inputs;
+            largest = k;
         }
     }
     if (zeros < functions)
-        fprintf(stderr, "; transfer functions differ by at most %.1e of the largest (%s)", apart,
-                s->quantity[all->output[largest].quantity].name);
+        fprintf(stderr,
+                "; transfer functions differ by at most %.1e of the largest (output %d, input %d)",
+                apart, largest / all->inputs + 1, largest % all->inputs + 1);
     if (zeros > 0)
         fprintf(stderr, "; %d of %d transfer functions are zero and not counted", zeros, functions);
 }
@@ -153,7 +153,7 @@ static void tell_reduced(const scene *s, const system_matrices *all, const state
         fputs("natural frequencies were not compared, because there are no modes or the structure "
               "is free to move",
               stderr);
-    tell_reduced_transfer(s, all, r);
+    tell_reduced_transfer(all, r);
     fprintf(stderr, "\n");
 }
 
