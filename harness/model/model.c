@@ -136,8 +136,8 @@ static status note_asymmetry(model *m, int spring, const char *of, double asymme
                : STATUS_OK;
 }
 
-/* Notes the matrices that are replaced by their symmetric part, and the free rotations without
- * stiffness. */
+/* Notes the matrices that are replaced by their symmetric part, the free rotations without
+ * stiffness, and the dashpots that no analysis uses. */
 static status note_means(model *m, fault *f)
 {
     const scene *s = m->scene;

@@ -61,7 +61,8 @@ void release_add_local(const model *, const model_state *, int vertex, const dou
  * start at `own`. */
 void release_jacobian(const model *, const model_state *, int vertex, int count, int own,
                       double T[]);
-/* Sets the positions and orientations of released ends. Those of all nodes must be set. */
+/* Sets the positions and orientations of released ends. The positions and orientations of all nodes
+ * must already be set. */
 void release_follow(const model *, model_state *);
 
 /* Transforms force[6] from the frame of the end to the frame of its node. own[]: forces on the

@@ -133,9 +133,9 @@ typedef struct motion_estimate {
 status estimate_alloc(int n, motion_estimate *, fault *);
 void estimate_free(motion_estimate *);
 /* Estimates the error of pair i, x = re + i im. For an oscillation, *lambda is improved by solving
- * the quadratic forms k - omega^2 m + omega g = 0. The error of this solution is of the order of
- * the square of the error of x. grows 1: the mode is not an oscillation. *error: estimated error of
- * lambda relative to |lambda|. */
+ * k - omega^2 m + omega g = 0 with the quadratic forms of x. The error of this solution is of the
+ * order of the square of the error of x. grows 1: the mode is not an oscillation. *error: estimated
+ * error of lambda relative to |lambda|. */
 void estimate_pair(motion_estimate *, int i, const double re[], const double im[], int grows,
                    double complex *lambda, double *error);
 /* Computes y = K x, using K_product if it is available. */

@@ -1128,7 +1128,8 @@ typedef struct spread_parts {
         velocity[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES],
         acceleration[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     double turn[ELEMENT_MAX_NODES][9], rate[ELEMENT_MAX_NODES][9];
-    double force[ELEMENT_MAX_NODES][3]; /* inertia forces on the nodes; spread_element alone */
+    double force[ELEMENT_MAX_NODES]
+                [3]; /* inertia forces on the nodes; set only by spread_element */
     inertia_swing swing[ELEMENT_MAX_NODES];
 } spread_parts;
 void spread_element(const model *, int element, const model_state *, const double v[],
