@@ -164,8 +164,8 @@ static void one_sided_zed(void)
                  "Z, by hand");
 }
 
-/* Closed form for legs of length b and thickness t that meet at one end: 1/8 (int r^4 dA -
- * Ip^2/A). */
+/* Checks the closed form 1/8 (int r^4 dA - Ip^2/A) for legs of length b and thickness t that meet
+ * at one end. */
 static void cruciform(void)
 {
     const section_spec spec = spec_of(&shapes[0], 0, 1, 0);
