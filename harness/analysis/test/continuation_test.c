@@ -46,8 +46,7 @@ static void limit_points(void)
         for (int k = 0; k < 2 && k < r.solve.events; k++) {
             const path_event *e = &r.solve.event[k];
             gsl_test_int((int)e->kind, EVENT_LIMIT_POINT, "%s: a limit point", control[i]);
-            /* the tolerance allows for a correction that ends early because its tangent is singular
-             */
+            /* a correction may end early if its tangent is singular */
             gsl_test_rel(e->factor, k == 0 ? exact : -exact, 1e-11, "%s: its load", control[i]);
             gsl_test_int(e->negative_after - e->negative_before, k == 0 ? 1 : -1,
                          "%s: one pivot changes its sign", control[i]);
@@ -247,7 +246,7 @@ static void continuation_tests(void)
     refusals();
 }
 
-/* Frequencies and critical loads about a loaded state: limits known from linear theory, and
+/* Tests frequencies and critical loads about a loaded state: limits known from linear theory, and
  * rejected requests. */
 
 static double value_of(const char *case_name, const char *chosen, int n,

@@ -66,7 +66,7 @@ static void inverse(void)
     gsl_test(worst > 1e-12, "stiffness times compliance is the unit matrix: %.1e", worst);
 }
 
-/* Effect of the convention of moments in the cases of N section 4.1. */
+/* Checks the effect of the convention of moments in the cases of N section 4.1. */
 static void sheets(void)
 {
     const convention_matrices near =

@@ -38,8 +38,8 @@ static void half_and_half(scene *s, const double direction[3])
     bar_push(s, b, direction, 1);
 }
 
-/* A bar with the force on a rigid arm, as long as the bar, that points outwards or inwards from the
- * tip. */
+/* Builds a bar with the force on a rigid arm, which is as long as the bar and points outwards or
+ * inwards from the tip. */
 static void with_arm(scene *s, const double direction[3], double arm)
 {
     const int tip = bar_cantilever(s, direction);
@@ -168,7 +168,8 @@ static void bent_in_a_frame(scene *s, const double direction[3])
     bar_push(s, low, y_axis, 1e-3);
 }
 
-/* An equal-leg angle with warping neglected and the shear centre at its heel, on fork supports. */
+/* Builds an equal-leg angle section on fork supports. Warping is neglected, and the shear centre is
+ * at the heel. */
 static void angle(scene *s, int *foot, int *head)
 {
     section_spec spec = section_spec_constants(young, young / 2.6);

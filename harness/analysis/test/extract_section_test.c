@@ -11,8 +11,8 @@
 
 #define BARS "harness/analysis/test/bars.yaml"
 
-/* A bar under a tip force, a tip moment and a distributed load: N, Qy, Qz, Mx, My, Mz at 0.35 of
- * the length, and the extremes of Mz. */
+/* Checks a bar under a tip force, a tip moment and a distributed load: N, Qy, Qz, Mx, My, Mz at
+ * 0.35 of the length, and the extremes of Mz. */
 static void statics(const element_type *e, ask_tally *tally, int elements)
 {
     static answer a;
@@ -38,8 +38,7 @@ static void statics(const element_type *e, ask_tally *tally, int elements)
 
 static double slope(double u, void *top)
 {
-    /* Returns d s/d u at sin theta = top - u^2 for F/EI = 1: ds = d theta/sqrt(2 (top - sin theta))
-     */
+    /* d s/d u at sin theta = top - u^2 for F/EI = 1: ds = d theta/sqrt(2 (top - sin theta)) */
     const double sine = *(double *)top - u * u;
     return sqrt(2) / sqrt(1 - sine * sine);
 }
@@ -284,7 +283,7 @@ static void turning_axes(const element_type *e, ask_tally *tally, int elements)
     }
 }
 
-/* A section without symmetry under every kind of load, with all quantities. */
+/* Builds a member with an unsymmetric section under every kind of load, with all quantities. */
 static void everything(scene *s, int whole)
 {
     static const double y[3] = {0, 1, 0}, t[3] = {3e-3, 2e-3, 4e-3},

@@ -11,8 +11,7 @@
 
 enum { MODES = 10, ELEMENTS = 24, RIGID = 6 };
 
-/* A square bar along an oblique direction, so slender that shear and rotary inertia are negligible.
- */
+/* A square bar in an oblique direction, so slender that shear and rotary inertia are negligible. */
 static const double young = 2e11, density = 7800, side = 0.01, length = 1;
 static const double direction[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3}, y_axis[3] = {0.1, 1, 0.05};
 

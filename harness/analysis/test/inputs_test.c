@@ -295,8 +295,7 @@ static void law_of_modal_about(const scene_input *in, const element_type *e)
     }
 }
 
-/* The smallest frequency about the stresses of a linear analysis must vanish at the critical load.
- */
+/* The lowest frequency about the stresses of a linear analysis must vanish at the critical load. */
 static void law_of_buckling(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer near, nearer;

@@ -88,8 +88,7 @@ static int found(const invariants_subject *s, int n, int keep_all, scene_edit ed
 }
 
 /* Finds the coarsest mesh that can follow the path, and the answers on this mesh and on the next.
- * Two elements cannot follow every path, for example a circle. Returns 0 if no mesh has an answer.
- */
+ * Two elements cannot follow every path, such as a circle. Returns 0 if no mesh has an answer. */
 static int found_coarsest(invariants_subject *s, answer *out, answer *next)
 {
     for (s->coarse = 2; s->coarse <= 32; s->coarse *= 2) {

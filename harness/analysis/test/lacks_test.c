@@ -12,7 +12,7 @@
 
 static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10, share = 5.0 / 6;
 
-/* Builds a beam of one or more members whose tip can only move along `direction`, without rotation.
+/* Builds a beam of one or more members. Its tip can only move along `direction`, without rotating.
  */
 static void guided(scene *s, double across_y, double across_z, int direction, int members)
 {

@@ -139,7 +139,8 @@ static void four_bar(const char *chosen)
     cell_result_free(&r);
 }
 
-/* A linkage bent by a force, in the plane z = 0 and in a different plane. */
+/* Compares a linkage that is bent by a force in the plane z = 0 with the same linkage in another
+ * plane. */
 static void in_other_axes(const char *chosen)
 {
     static const double about[3] = {0.7, -1.1, 0.4};

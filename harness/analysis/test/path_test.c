@@ -398,8 +398,7 @@ static void slender_bars(const element_type *e, ask_tally *tally)
 }
 
 /* A model with so many elements that factors have only two correct digits. After refinement, the
- * compliances must equal those of a model with fewer elements, for which the refinement converges.
- */
+ * compliances must equal those with fewer elements, for which the refinement converges. */
 static void compliance_of_many(void)
 {
     static answer coarse, fine;

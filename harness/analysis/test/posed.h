@@ -23,7 +23,7 @@ static section_spec spec_of(double size)
     return spec;
 }
 
-/* A cantilever of two members under axial and transverse forces. */
+/* Builds a cantilever of two members under axial and transverse forces. */
 static void base(scene *s)
 {
     scene_init(s, "base");
@@ -37,7 +37,7 @@ static void base(scene *s)
     scene_add_load(s, SCENE_FORCE, TIP, -300, 90, 60);
 }
 
-/* Half of a shallow arch of the same members. It snaps through with any other input. */
+/* Builds half of a shallow arch of the same members. It snaps through with any other input. */
 static void arch(scene *s)
 {
     base(s);
@@ -95,7 +95,7 @@ static double length_of(const scene *s, int member)
                 (q[2] - p[2]) * (q[2] - p[2]));
 }
 
-/* Load cases 0 and 1, and the combination for an analysis. */
+/* Assigns loads to the cases 0 and 1, and adds their combination. */
 static void combine(scene *s)
 {
     const int all = scene_add_combination(s, "all");
@@ -571,7 +571,7 @@ static void structure(const posed *p, scene *s)
         follow(s, scene_add_load(s, SCENE_FORCE, TIP, -3000, 0, 0));
 }
 
-/* The remaining loads belong to the first case, and load analyses use the combination. */
+/* Assigns the remaining loads to the first case. Analyses with loads use the combination. */
 static void act(scene *s)
 {
     const unsigned unloaded = 1u << SCENE_MODAL | 1u << SCENE_COMPLIANCE | 1u << SCENE_HARMONIC;

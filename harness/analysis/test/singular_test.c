@@ -11,7 +11,8 @@
 #include "harness/model/model.h"
 #include "harness/tools/kit/cells.h"
 
-/* Two beams along x, next to each other and supported separately, with loads along z. */
+/* Builds two beams along x with loads along z. They are next to each other and supported
+ * separately. */
 static void two_beams(scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;

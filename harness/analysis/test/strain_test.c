@@ -132,8 +132,8 @@ static void portal(const element_type *e, ask_tally *tally)
                  "%s: a beam that is too short pulls its columns", e->name);
 }
 
-/* Frequencies f = f0 sqrt(1 - N/N_Euler) of a heated and a cooled member, and the deflection of its
- * middle due to a force. */
+/* Checks the frequencies f = f0 sqrt(1 - N/N_Euler) of a heated and a cooled member, and the
+ * deflection of its middle due to a force. */
 static void pinned(const element_type *e, ask_tally *tally)
 {
     static const double part[] = {0.5, -1.5}; /* relative to Euler's load, compression positive */
@@ -162,7 +162,7 @@ static void pinned(const element_type *e, ask_tally *tally)
     }
 }
 
-/* A hot column between walls, pushed at its middle. The load factor increases the axial forces P
+/* A hot column between walls is pushed at its middle. The load factor increases the axial forces P
  * and -P in the two halves, but not the thermal thrust. */
 static void column(const element_type *e, ask_tally *tally)
 {

@@ -307,7 +307,7 @@ class Measured(Tested):
         self.assertLess(abs(found["constant shear along z, short beam"]["error"][0]), 1e-9)
 
     def test_one_element(self):
-        """Without the correction for uniform curvature, one element bends too little."""
+        """Without the correction for uniform curvature, one element is too stiff in bending. This must be reported."""
         found = self.measured((" + l * l * l / (12 * c->young * c->Iz)",
                                " + 1e-3 * l * l * l / (12 * c->young * c->Iz)"))
         self.assertAlmostEqual(found["tip force along y"]["error"][0], -0.25, delta=1e-3)

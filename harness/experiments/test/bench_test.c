@@ -345,8 +345,8 @@ static void unobserved(void)
     }
 }
 
-/* Two outcomes, in one cell or, if one_cell is 0, in two cells, in either order. The outcome of a
- * cell is its worst outcome. */
+/* Counts two outcomes, in one cell or, if one_cell is 0, in two cells, in either order. The outcome
+ * of a cell is its worst outcome. */
 static void cells(void)
 {
     for (int good = 0; good < OUTCOME_KINDS; good++)

@@ -17,8 +17,8 @@ static const parameter_type table[] = {
 };
 static const case_type box = {.name = "box", .parameters = {table}};
 
-/* Ranges of a sweep with a grid of 3 x 2 points, one formulation, meshes with 4 and 8 elements, and
- * two quantities. */
+/* Makes the ranges of a sweep with a grid of 3 x 2 points, one formulation, meshes with 4 and 8
+ * elements, and two quantities. */
 static void make(parameter_ranges *r)
 {
     memset(r, 0, sizeof *r);

@@ -206,8 +206,8 @@ static void applied_tests(void)
 
 enum { ELEMENTS = 7, MEMBERS = 3, QUANTITIES = 6 };
 
-/* Three members in a line, the first and the last with the same section, bent by a force at the
- * end. */
+/* Builds three members in a line, bent by a force at the end. The first and the last have the same
+ * section. */
 static void set_up(scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;

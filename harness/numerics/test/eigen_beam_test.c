@@ -413,7 +413,7 @@ static void eigen_lost_tests(void)
     test_rounding(120);
 }
 
-/* Eigenpairs compared with closed forms and with LAPACK: both signs, repeated and almost equal
+/* Compares eigenpairs with closed forms and with LAPACK: both signs, repeated and almost equal
  * values, singular and indefinite matrices. */
 
 static void test_strings(int copies, int masses, double spread, int wanted, int iterate,

@@ -258,7 +258,7 @@ static void linear_tests(void)
     nothing_to_solve();
 }
 
-/* Singular matrices of every kind, and beams without supports. */
+/* Tests singular matrices of every kind, and beams without supports. */
 
 static status outcome_of(const sparse *s, fault *f)
 {

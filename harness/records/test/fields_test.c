@@ -426,8 +426,7 @@ static void not_every_quantity(void)
     finish(&b);
 }
 
-/* The model error of the formulations that pass must be on a separate line. An agreement of
- * formulations is not a different model. */
+/* The model error of the formulations that pass must be on a separate line. */
 static void other_models(void)
 {
     reach_line_bench b;

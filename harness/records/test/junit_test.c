@@ -143,7 +143,7 @@ static void bench_make(junit_bench *b)
     b->j.agreement = b->a;
 }
 
-/* Adds a verdict and counts it in the way of harness/study, whose sums the other reports show. */
+/* Adds a verdict and counts it as harness/study does. */
 static void add_verdict(junit_bench *b, verdict_kind kind, int matches)
 {
     verdict *v = &b->v[b->j.verdicts++];

@@ -57,7 +57,7 @@ def of_dtype(values):
 
 
 def put_experiment(path, name, record):
-    """Writes an artificial record {attribute or table: value or rows} in the way of an experiment."""
+    """Writes an artificial record {attribute or table: value or rows} as an experiment writes it."""
     with h5py.File(path, "a") as file:
         if "schema" not in file.attrs:
             file.attrs.update(schema=numpy.bytes_("beamwork-results"), schema_version=3)

@@ -304,7 +304,7 @@ static void judge_truths_tests(void)
     of_its_own_series();
 }
 
-/* Verdicts on artificial series: every kind of verdict, and its effect on the exit status. */
+/* Tests verdicts on artificial series: every kind of verdict, and its effect on the exit status. */
 
 static void limits(void)
 {

@@ -190,7 +190,7 @@ typedef enum omission_acting {
 } omission_acting;
 static const char *const names[LOADINGS] = {"no load", "bent", "twisted", "buckled", "vibrating"};
 
-/* A clamped leaf of the given thickness. */
+/* Builds a clamped leaf of the given thickness. */
 static void leaf(scene *s, double thickness, omission_acting how, int held)
 {
     const double y_axis[3] = {0, 1, 0}, end = 1;

@@ -180,7 +180,7 @@ enum {
     MOST = ELEMENT_MAX_STRAINS
 }; /* more elements than are evaluated in one call */
 
-/* A long thin leaf along x. */
+/* Makes a model of a long thin leaf along x. */
 static model *leaf(const element_type *type, scene *s)
 {
     static const double y[3] = {0, 1, 0};
@@ -349,7 +349,8 @@ static void complement_tests(void)
     leave(&element_collocation, "it has unknowns of its own");
 }
 
-/* Tests the work of forces on coordinates without inertia. Warping amplitudes have mass or not. */
+/* Tests the work of forces on coordinates without inertia. The warping amplitudes are with and
+ * without mass. */
 
 enum { MASSLESS_MOST = 80 };
 

@@ -57,8 +57,8 @@ class Feedback(ProgramTest):
         return found, [s["iterations"] for s in said["steps"]]
 
     def test_exponential(self):
-        """Proportional, derivative and integral gains, for forces on the cart or between the ends of the bar, must give
-        the exact motion, stable or unstable, in few iterations."""
+        """Proportional, derivative and integral gains must give the exact motion, stable or unstable, in few iterations. The
+        displacement is measured at the cart, on which the force acts, or at the tool."""
         for scheme, step, near in (("radau", 0.01, 1e-6), ("alpha", 1e-3, 2e-3),
                                    ("explicit", 0.02, 1e-9)):
             for kp, kd, ki, node in ((20, 3, 5, 2), (20, 0, 0, 2), (300, -4, 0, 2), (50, 8, 90, 1)):

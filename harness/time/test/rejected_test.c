@@ -18,7 +18,7 @@
 extern const element_type element_geometrically_exact, element_collocation;
 extern const case_type case_free_flight_space;
 
-/* A free rod in motion, bent by its load. */
+/* Builds a free rod in motion, which is bent by its load. */
 static void throw_rod(scene *s, scene_scheme by)
 {
     moving_case(&case_free_flight_space, "", s);
@@ -26,7 +26,8 @@ static void throw_rod(scene *s, scene_scheme by)
     motion_added(s, by, 0.05, 1);
 }
 
-/* Two rods with a joint between them and a spring across the joint, on a base that shakes. */
+/* Builds two rods on a base that shakes, with a joint between them and a spring across the joint.
+ */
 static void shake_rods(scene *s, scene_scheme by)
 {
     scenes_read(s, REJECTED_SWUNG, "base=shaken;second=%s;integrator=%s;step=0.02",
@@ -183,7 +184,7 @@ typedef struct blow {
     const char *then;
 } blow;
 
-/* A leaf of 0.5 m along x, with a mass at its tip. */
+/* Builds a leaf of 0.5 m along x with a mass at its tip. */
 static int leaf(scene *s, double damping, const blow *by, int *root)
 {
     section_spec spec = section_spec_rectangle(200e9, 77e9, 0.02, 0.001);
@@ -456,8 +457,8 @@ static void launched(int driven)
     scene_free(&s);
 }
 
-/* A node is fixed at a point of the axis of a rotating frame. The structure starts at rest in this
- * frame. */
+/* Starts a structure at rest in a rotating frame. It must be rejected if its fixed node is not on
+ * the axis. */
 static void turning(double beside)
 {
     scene_rotating_frame frame = {.omega = {0.8, -1.5, 1.1}, .centre = {0.3, 0.5, beside}};
