@@ -164,13 +164,16 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
                      v->about->time, growth);
         return STATUS_OK;
     }
+    if (v->rotates)
+        return fault_set(f, STATUS_REFUSED,
+                         "there are no steady vibrations, because a mode grows at %.4g 1/s; reduce "
+                         "the angular velocity, or the damping, which rotates with the structure "
+                         "and can make whirl grow",
+                         growth);
     return fault_set(f, STATUS_REFUSED,
                      "there are no steady vibrations, because a mode grows at %.4g 1/s (see modal: "
                      "{damped: yes}); add damping, or reduce %s",
-                     growth,
-                     v->loops > 0 ? "gains of feedback"
-                     : v->rotates ? "the angular velocity"
-                                  : "cross terms of springs");
+                     growth, v->loops > 0 ? "gains of feedback" : "cross terms of springs");
 }
 
 static int is_unsymmetric(const vibration *v)
