@@ -1,5 +1,6 @@
-/* Compares the section constants of two descriptions of the same shape: a rectangle and a wall of
- * the same thickness at any angle, and walls with thickness terms and their area. */
+/* Compares the section constants of two descriptions of the same shape. A rectangle is compared
+ * with a wall of the same thickness at any angle, and walls with thickness terms with integrals
+ * over their areas. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>

@@ -55,7 +55,7 @@ static void element_terms(const cantilever *c, int i, double K[NODAL * NODAL], d
     dense_add_congruence(N, NODAL, J, C, K, work);
 }
 
-/* Returns the row of coordinate a of element i, which is negative for coordinates of the root. */
+/* Returns the row of coordinate a of element i. It is negative for coordinates of the root. */
 static int row_of(const cantilever *c, int i, int a)
 {
     return NODE * (i - 1) + (c->reversed ? (a + NODE) % NODAL : a);
