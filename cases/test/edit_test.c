@@ -286,8 +286,8 @@ static void in_millimetres(void)
     scene_free(&s);
 }
 
-/* A position keeps its side of a discontinuity, which is the opposite side if the member is
- * reversed. If the member is split at the position, the side determines the half. */
+/* A position stays on its side of a discontinuity. In the reversed member, this is the opposite
+ * side. If the member is split at the position, the side determines the half. */
 static void sides(void)
 {
     static const struct {

@@ -208,7 +208,7 @@ quantities:
   moment: {internal: {analysis: travel, member: left.leaf, end: from, resultant: Mz}, unit: "N m"}
 """
 
-# Changes that make the guide invalid, and the message, which follows the position in the file.
+# Changes that make the guide invalid, and the message for each, without the position in the file before it.
 WRONG = [
     ("hold: all}\n      top: {at: [0, 0.08, 0]", "hold: all}\n      top: {at: [0, 0, 0]",
      "left.leaf: its ends coincide"),

@@ -491,8 +491,8 @@ static void fold_warping(void)
     gsl_test_rel(value[2], 9.92e5, 2e-3, "folds free to warp");
 }
 
-/* Builds a straight cantilever of length 1 with EIy = 4 EIz = 4 under P = path [N], whose critical
- * loads are (2k - 1)^2 pi^2 EI/4 in both planes. */
+/* Builds a straight cantilever of length 1 with EIy = 4 EIz = 4 under the loads P = path [N]. Its
+ * critical loads are (2k - 1)^2 pi^2 EI/4 in both planes. */
 static void straight_column(scene *s, int stations, const double path[])
 {
     const section_spec spec = sections_of(1e8, 4, 1, 10);

@@ -153,8 +153,8 @@ static double error_of_stress(element_subject *s)
     return worst / largest;
 }
 
-/* Returns the largest difference between the derivative of the tangent along the strain due to the
- * prestress and the geometric stiffness, relative to the latter. */
+/* Returns the largest difference between the geometric stiffness and the derivative of the tangent
+ * along the strain due to the prestress, relative to the geometric stiffness. */
 static double error_of_geometric(element_subject *s)
 {
     const int n = s->strains;

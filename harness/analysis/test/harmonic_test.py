@@ -160,8 +160,9 @@ class DampedModesTest(ProgramTest):
         return path
 
     def test_dashpot_at_the_tip(self):
-        """The determinant of the exact beam vanishes at the eigenvalue: 1/u(s) = 0 by the secant method. The cases are
-        no tension, a state in tension, and a load beyond the critical load, where a mode grows."""
+        """The determinant of the exact beam vanishes at an eigenvalue, which is found as the root of 1/u(s) by the
+        secant method. The cases are no tension, a state in tension, and a load beyond the critical load, where a mode
+        grows."""
         scene = BEAM.replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {damped: yes%s}}")
         stretched = 1 + 2000/(210e9*0.02*0.01)
         load = "loads: {pull: {force: [2000, 0, 0], on: tip}}"

@@ -222,8 +222,8 @@ static void law_of_compliance(const scene_input *in, scene_column column, const 
     }
 }
 
-/* Frequencies of the unloaded structure must be those at the start of any path, within the error of
- * two-node elements, whose internal motions are missing about a path. */
+/* Frequencies of the unloaded structure must be those at the start of any path. About a path,
+ * two-node elements lack their internal motions, so a small difference is allowed. */
 static void law_of_modal(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer about;

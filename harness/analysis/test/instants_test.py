@@ -105,8 +105,8 @@ class Instants(ProgramTest):
         self.assertLess(abs(value / right - 1), tolerance, (value, right))
 
     def test_pendulum(self):
-        """A pendulum obeys theta'' = -(g/l) cos(theta) dtheta for small deviations dtheta. The instants are the start,
-        a time between two steps, the end, and a position above the pin."""
+        """A pendulum obeys theta'' = -(g/l) cos(theta) dtheta for small deviations dtheta. The instants are at the
+        start, between two steps, at the end, and in a position above the pin."""
         for formulation in FORMULATIONS:
             for integrator in ("radau", "alpha"):
                 for time in (0, 0.31, 0.7):

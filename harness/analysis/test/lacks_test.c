@@ -1,6 +1,6 @@
 /* A formulation that supports shear must include it in both directions, or declare that one is
- * missing and be rejected where this direction matters. The test is a member of any thickness under
- * a transverse force whose ends do not rotate. Its deflection is F l^3 (1 + Phi)/(12 EI). */
+ * missing and be rejected where this direction matters. The test is a member of any thickness whose
+ * ends do not rotate, under a transverse force. Its deflection is F l^3 (1 + Phi)/(12 EI). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

@@ -341,7 +341,7 @@ static void supported(const char *chosen)
     cell_result_free(&r);
 }
 
-/* The zeros u of the next two functions are half of the wave number times the length. tan u = -2
+/* The zeros u of the next two functions are half of the wave number times the length: tan u = -2
  * u/kappa in buckling, tan u + tanh u = -4 u/kappa in vibration. */
 static double buckled(double u)
 {

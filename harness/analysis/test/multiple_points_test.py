@@ -176,8 +176,8 @@ class MultiplePoints(ProgramTest):
             self.assertEqual(found[len(exact):], [None] * (4 - len(exact)), (eta, step))
 
     def test_words_without_symmetry(self):
-        """For an unsymmetric tangent, no divergence may be reported up to the first point without mass. With mass, the
-        frequencies determine the stability."""
+        """The tangent is unsymmetric. Without mass, the stability up to the first point is "no divergence". With mass,
+        the frequencies determine the stability."""
         for density, said in ((0, ["no divergence"] * 3 + ["unstable (2)"] * 3),
                               (1e-9, ["stable"] * 3 + ["unstable: grows"] * 3)):
             path = self.folder / "scene.yaml"

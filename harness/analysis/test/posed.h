@@ -95,7 +95,7 @@ static double length_of(const scene *s, int member)
                 (q[2] - p[2]) * (q[2] - p[2]));
 }
 
-/* Assigns loads to the cases 0 and 1, and adds their combination. */
+/* Adds two load cases and a combination of both. */
 static void combine(scene *s)
 {
     const int all = scene_add_combination(s, "all");

@@ -426,8 +426,8 @@ typedef struct released_request {
     unsigned driven;      /* bits of the driven components of the tip */
 } released_request;
 
-/* Builds a cantilever with a driven tip, and requests all entries of the compliance for the driven
- * components as the released components. */
+/* Builds a cantilever with a driven tip, and requests all entries of its compliance with the driven
+ * components released. */
 static void make(scene *s, const released_request *what)
 {
     static const double to[6] = {-0.002, 0.06, -0.03, 0.04, 0.05, 0.1}, y[3] = {0, 1, 0.3},

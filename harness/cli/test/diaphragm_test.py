@@ -71,8 +71,8 @@ class Diaphragms(ConstraintsCase):
                 self.assertLess(abs(a[name] - value), 1e-10 * abs(a[name]), name)
 
     def test_braced_floor(self):
-        """The floor is the limit of stiff hinged bars in its plane. The bars are compliant, which causes the
-        difference. The nodes may rise and tilt."""
+        """A floor braced by stiff hinged bars must agree with a rigid diaphragm, up to a difference due to the
+        compliance of the bars. The nodes may rise and tilt."""
         loads, errors = "loads: {f: {force: [1e4, 2e4, -3e4], on: A}, g: {force: [0, 1e4, 5e3], on: C}}\n", []
         same = STOREY.replace("LOADS", loads).replace("HOLD", "").replace("RELEASE", "").replace(", hold: [uz, rx, ry], mass: 500", ", hold: [uz, rx, ry]")
         same = same[:same.index("analyses")] + "analyses: {L: {linear: {}}}\n" + """quantities:

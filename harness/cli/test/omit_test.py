@@ -140,8 +140,8 @@ quantities:
                 self.assertEqual(found, [told] if told else [], (section, analysis, more, verb))
 
     def test_what_is_not_modelled(self):
-        """A Z section with restrained warping twists more in one direction than in the other, which must be reported as
-        neglected. A channel, an unstressed Z and a Z without cubic torsion do not."""
+        """A Z section with restrained warping twists more in one direction than in the other. The program must report
+        that this is neglected. It must not do so for a channel, an unstressed Z or a Z without cubic torsion."""
         for flange, analysis, more, told in (
             (0.07, "static: {stations: [1]}", "", True), (-0.07, "static: {stations: [1]}", "", False),
             (0.07, "buckling: {}", "", True), (0.07, "linear: {}", "", False),

@@ -271,7 +271,8 @@ class Solved(ExportTest):
             self.assertAlmostEqual(found[name] / value, 1, delta=2e-3, msg=name)
 
     def test_channel(self):
-        """For a channel of 2 m with rigid ends, the compliances of the solid, including the twist due to a force on the centroid, must differ from those of the beam by PERCENT."""
+        """For a channel of 2 m with rigid ends, the compliances of the solid, including the twist due to a force on the
+        centroid, must differ from those of the beam by PERCENT."""
         head = cantilever(1.0).replace(RECTANGLE, CHANNEL).replace("at: [0.02, 0.1, 0]", TIP)
         text = head[:head.index("loads:")] + (
             "analyses:\n  run: {compliance: {node: tip}}\nquantities:\n" + "".join(

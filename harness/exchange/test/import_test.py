@@ -123,7 +123,7 @@ class Import(ProgramTest):
         self.assertEqual(found, {b"C_uy_Fy": (3, 1), b"C_uy_Fx": (-4, -1)})
 
     def test_mirrored_axes(self):
-        """If one axis is reversed, which is a reflection, rotations about the other axes change sign."""
+        """A reflection reverses one axis and the signs of rotations about the other axes."""
         self.read(HEAD + "# axes: x=x y=-y z=z\n# convention: spatial\n" + COLUMNS +
                   "C_ux_Mz, 1/N, 2,,,, 3,\nC_uy_Mz, 1/N, 2,,,, 4,\nC_thz_Mz, rad/(N m), 2,,,, 5,\n")
         self.assertEqual({row["quantity"]: row["value"]

@@ -143,7 +143,7 @@ class Stress(ProgramTest):
 # In extreme motions, each integrator must give a value with its error, or fail with a reason.
 STEEL = 200e9, 7800.0
 
-# A sheet with a length of a thousand times its thickness, which is held in a deflected position and released.
+# A sheet is a thousand times as long as it is thick. It is held in a deflected position and then released.
 SHEET = """beamwork: 1
 sections:
   sheet: {rectangle: {width: 0.05, thickness: 1e-4}, young: 200e9, shear_modulus: 77e9,

@@ -305,8 +305,8 @@ enum { PLACES = 8 };
 static const parameter_type map_table[] = {{"a", "m", 1, -100, 100, NULL, ""}, {0}};
 static const case_type map_box = {.name = "box", .parameters = {map_table}};
 
-/* Fields and their marks. `mixed`: some points of the sweep have reference values; `alike`: the
- * fields have the same kind of points. */
+/* Fields, and their marks if some (mixed) or all (alike) of the references in the sweep are stored
+ * or computed values. */
 static const struct {
     tally_place place;
     const char *mixed, *alike;

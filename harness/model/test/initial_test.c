@@ -228,8 +228,8 @@ static void centreline_tests(void)
 
 enum { WHOLE, LOADED, OWN };
 
-/* Builds three members in a row: without loads between its ends, with such loads, and with such
- * loads and a given number of elements. */
+/* Builds three members in a row. The first has no loads between its ends, the others have, and the
+ * third has a given number of elements. */
 static void row(scene *s)
 {
     const double y[3] = {0, 1, 0};

@@ -246,8 +246,8 @@ static void metric_tests(void)
 }
 
 /* Members whose section changes along their length. The tests check the number of kinds of
- * elements, their sections, and properties of the section between the ends that the ends do not
- * have. */
+ * elements, their sections, and properties that a section between the ends has but the sections at
+ * the ends do not. */
 
 enum { PROFILE_ELEMENTS = 5 };
 

@@ -17,7 +17,7 @@
 enum { MOST = 120 };
 static const double along[3] = {0.6, 0.8, 0}, across[3] = {-0.8, 0.6, 0};
 
-/* Adds an angle section with unequal legs, whose principal axes are oblique to the legs. */
+/* Adds an angle section with unequal legs. Its principal axes are oblique to the legs. */
 static int add_angle(scene *s)
 {
     static const double point[3][2] = {{0, 0}, {0.1, 0}, {0, 0.05}}, thickness[2] = {0.01, 0.01};

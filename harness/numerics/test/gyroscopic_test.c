@@ -343,9 +343,10 @@ static void oscillators_and_top(int masses, int behind, double slow, problem *p)
     p->G[(masses + 1) * p->n + masses] = g;
 }
 
-/* `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, and a top. Without gyroscopic terms, the top
- * is by far the stiffest part. With them, its precession is 0.5 rad/s above oscillator number
- * `behind`. Neither a start without these terms nor any residual reveals the precession. */
+/* Solves for `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, and a top. Without gyroscopic
+ * terms, the top is by far the stiffest part. With them, its precession is 0.5 rad/s above
+ * oscillator number `behind`. Neither a start without these terms nor any residual reveals the
+ * precession. */
 static void hidden_precession(int masses, int behind, int wanted_outcome)
 {
     const double slow = behind + 0.5;
@@ -371,8 +372,9 @@ static void hidden_precession(int masses, int behind, int wanted_outcome)
     free(p.K);
 }
 
-/* `masses` oscillators at 1, 2, 3 ... rad/s, one that diverges at 1.5/s, one that diverges at
- * `fast`, and the top of hidden_precession, whose slow precession is missed without a count. */
+/* Solves for `masses` oscillators at 1, 2, 3 ... rad/s, one that diverges at the rate 1.5/s, one
+ * that diverges at the rate `fast`, and the top of hidden_precession. Its slow precession is missed
+ * unless the frequencies are counted. */
 static void unstable_oscillators(int masses, double fast, int wanted_outcome, int unproven)
 {
     const double slow = 2.5;

@@ -117,9 +117,9 @@ static void near(int by, const char *what, double found, double expected)
              found, expected);
 }
 
-/* Each crossing must be counted once, regardless of rejected steps. Stations are those of the
- * accepted steps, which must agree within `close` [m] with the motion of the tip for short steps.
- */
+/* Each crossing must be counted once, regardless of rejected steps. Stations must have values of
+ * accepted steps only, which must agree within `close` [m] with the motion of the tip for short
+ * steps. */
 static void pass(int by, double step, double tolerance, double close, const cell_result *exact)
 {
     cell_result r;

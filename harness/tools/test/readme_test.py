@@ -57,7 +57,8 @@ class Readme(unittest.TestCase):
                 self.assertFalse(below & set(included))
 
 
-# Files that may use the unions of data of analyses and quantities. Each file of `quantities` is for a single kind, which the builder checks before.
+# Files that may use the unions of data of analyses and quantities. Each file of `quantities` is for a single kind,
+# which the builder checks before.
 THEIRS = (ROOT / "cases" / "scene", ROOT / "cases" / "quantities",
           ROOT / "cases" / "format" / "builder_members.c")
 

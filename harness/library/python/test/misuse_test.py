@@ -281,7 +281,7 @@ class Processes(ModuleTest):
         self.assertEqual(dict(again.values), dict(expected))
 
     def test_interrupt(self):
-        """Ctrl-C must end verify and converge with their processes, and solve."""
+        """Ctrl-C must end solve, and verify and converge with all their processes."""
         for call in ("bw.verify(refine=3)", "while True: s.solve('collocation', 16)",
                      "bw.Scene.case('hexapod').converge(meshes=[16, 32, 64])"):
             code = ("import beamwork as bw\ns = bw.Scene.case('sheet_cantilever')\n"
