@@ -352,7 +352,7 @@ class ExamplesTest(SceneCase):
 SCENES = sorted((ROOT / "cases" / "textbook").glob("*.yaml"))
 CLOSE = 2e-3
 
-# Scenes in which the elements of this formulation are too long for their axial force, for any number of elements. The
+# Scenes, each with a formulation whose elements are too long for their axial force, for any number of elements. The
 # formulation must be reported as failed, without a value.
 REFUSED = {"rotating_string": "geometrically_exact"}
 

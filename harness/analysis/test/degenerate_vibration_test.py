@@ -41,7 +41,7 @@ def cross(a, b):
 
 
 def turned(v):
-    """Rotates a vector by a fixed quaternion, so that it is along no axis."""
+    """Rotates a vector by a fixed quaternion about an oblique axis."""
     size = math.sqrt(0.7**2 + 0.4**2 + 0.3**2 + 0.5**2)
     w, *r = (q / size for q in (0.7, 0.4, -0.3, 0.5))
     half = [c + w * x for c, x in zip(cross(r, v), v)]

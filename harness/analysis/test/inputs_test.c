@@ -496,8 +496,8 @@ static void obey(const scene_input *in, scene_column column, const element_type 
     }
 }
 
-/* The table states whether an input has an effect in rotating axes or under loads without a
- * potential. In this case the input must change the answer of the analysis. */
+/* If the table states that an input has an effect in rotating axes or under loads without a
+ * potential, the input must change the answer of the analysis. */
 static void part_of_inertia(const scene_input *in, scene_column column, const element_type *e)
 {
     static answer with, without;

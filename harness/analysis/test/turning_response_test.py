@@ -84,8 +84,8 @@ class TurningResponses(ProgramTest):
             self.assertAlmostEqual(H[0, 0] / expected(hertz, "fx")[1] if hertz else 1, 1, 9)
 
     def test_motion(self):
-        """A flexible arm on a driven hub must have the same response about a rotation and about an instant of a motion
-        that starts from this rotation, along the axes of the hub."""
+        """A flexible arm on a driven hub must have the same response, in the axes of the hub, about a rotation and about an
+        instant of a motion that starts from this rotation."""
         text = """beamwork: 1
 sections: {s: {rectangle: {width: 0.01, thickness: 0.02}, young: 70e9, shear_modulus: 26e9, density: 2700}}
 nodes:

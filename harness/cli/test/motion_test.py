@@ -262,7 +262,7 @@ class MassTest(SceneCase):
         return [(n, tuple(w for one in ASKED.get(n, ()) for w in ("--set", one))) for n in having]
 
     def lumped_differs(self, case, point):
-        """Checks that the results are bitwise those of the same scene with `mass: lumped`, and are marked."""
+        """Checks that the results are bitwise those of the same scene with `mass: lumped`, and are marked as lumped."""
         usual, lumped = (self.record("solve", case, *WHERE, *point, *mass) for mass in ((), LUMPED))
         self.assertEqual(usual["parameters"]["mass"], "usual")
         self.assertEqual(lumped["parameters"]["mass"], "lumped")

@@ -158,8 +158,8 @@ class References(ProgramTest):
         self.assertIn("the limit of the same meshes", screen)
 
     def test_limits_that_disagree_are_no_reference(self):
-        """The limits of a formulation without shear along one axis and of one with it disagree, so they are no reference
-        value."""
+        """Two formulations, of which one has no shear along one axis, have different limits. These must not be used as a
+        reference value."""
         kind, _, error, screen = self.kinds(
             "--scene", LEAF, "--vary", "thickness=0.8e-3,1e-3", "-f", "sheet_second", "-f",
             "sheet_third", "-n", "8,16,32,64,128", "-k", "k_pushed", "--error", "0.1%")

@@ -9,7 +9,7 @@
 
 #define STATIONS_SWUNG "harness/time/test/swung.yaml"
 
-/* Positions of the stations: within steps, at ends of steps, or within steps for forces. */
+/* Choices of the positions of stations and of the quantities that are read (asked_for). */
 enum { ODD, ENDS, BOTH, ASKED_KINDS };
 
 static const char *const asked_for[ASKED_KINDS] = {

@@ -149,7 +149,7 @@ class Building(ModuleTest):
 
 
 def swing():
-    """Returns a tip mass on an arm that a driver rotates by 30 degrees."""
+    """Returns the scene of a tip mass on an arm that a driver rotates by 30 degrees."""
     scene = bw.Scene("swing")
     scene.sections["tube"] = {"tube": {"diameter": 20e-3, "thickness": 1e-3}, "young": 70e9,
                               "shear_modulus": 26e9, "density": 2700}
