@@ -204,7 +204,8 @@ int coordinates_held_turn(const model *m, int node)
 }
 
 /* Adds the coordinates of a released end after all others, rotations first. The position of a ball
- * joint depends on the rotation of its node only if the node is eccentric to its body. */
+ * joint depends on the rotation of its body only if the end is eccentric to the body, or if the
+ * body moves on an arm, which its first angle swings. */
 static void index_release(const model *m, int node, mesh_element *el)
 {
     const mesh_vertex *v = &m->mesh.vertex[el->vertex[node]];
@@ -213,8 +214,10 @@ static void index_release(const model *m, int node, mesh_element *el)
         el->index[el->columns++] = v->coordinate[SCENE_RX + k];
     for (int k = 0; k < r->slides; k++)
         el->index[el->columns++] = v->coordinate[k];
+    const int swings = m->mesh.vertex[v->body].led;
     for (int c = SCENE_RX; c <= SCENE_RZ && r->turns == 3 && vec3_norm(v->offset) == 0; c++)
-        el->index[NODE_COORDINATES * node + c] = NONE;
+        if (c > SCENE_RX || !swings)
+            el->index[NODE_COORDINATES * node + c] = NONE;
 }
 
 /* Lists the global coordinates of an element's coordinates, after the elimination of released ends,

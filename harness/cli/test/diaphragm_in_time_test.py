@@ -285,6 +285,37 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
             for name, value in b.items():
                 self.assertLess(abs(a[name] - value), close * abs(value) + 1e-14, f"{how} {tilts}: {name}")
 
+    def test_ball_joints(self):
+        """Columns without weight, with ball joints at the floor, are springs for its rotation about the normal. Universal
+        joints, with a hinge about the axis at the other end, give the same motion."""
+        k, spin, square = 3 * 2e6 / 27, 0.1, 8
+        text = """beamwork: 1
+sections: {c: {constants: {A: 1e-2, Iy: 1e-5, Iz: 1e-5, It: 1e-5}, young: 2e11, shear_modulus: 8e10}}
+nodes:
+""" + "".join(f"""  f{i}: {{at: [{x}, {y}, 0], hold: all}}
+  t{i}: {{at: [{x}, {y}, 3], hold: [rx, ry]}}
+""" for i, (x, y) in enumerate(((-2, -2), (2, -2), (2, 2), (-2, 2)))) + """  m: {at: [0, 0, 3], hold: [uz, rx, ry], mass: 10, inertia: [20, 20, 30, 0, 0, 0]}
+members:
+""" + "".join(f"  c{i}: {{from: f{i}, to: t{i}, section: c, y: [1, 0, 0], release: RELEASE}}\n" for i in range(4)) + """constraints: {floor: {diaphragm: [t0, t1, t2, t3], master: m, normal: z}}
+analyses: {T: {motion: {stations: [0.005], integrator: HOW, start: {spin: [0, 0, SPIN]}}}}
+quantities:
+  turn: {displacement: {analysis: T, node: m, component: rz}}
+  spin: {rate: {analysis: T, node: m, component: rz}}
+  way: {displacement: {analysis: T, node: t2, component: ux}}
+  E: {energy: {analysis: T, of: energy}}
+omit: [trapeze, wagner_moments, wagner_torque, shear]
+"""
+        omega = math.sqrt(4 * k * square / 30)
+        turn = spin / omega * math.sin(0.005 * omega)
+        wanted = {"turn": turn, "spin": spin * math.cos(0.005 * omega), "way": 2 * (math.cos(turn) - 1 - math.sin(turn)), "E": 15 * spin**2}
+        for how, close in (("radau, step: 1e-4", 1e-5), ("alpha, step: 2e-5, rho: 0.9", 3e-4), ("conserving, step: 5e-5", 3e-4)):
+            one = text.replace("HOW", how)
+            ball, universal = one.replace("RELEASE", "{to: [rx, ry, rz]}"), one.replace("RELEASE", "{from: [rx], to: [ry, rz]}")
+            found = self.values(ball.replace("SPIN", str(spin)))
+            for name, value in wanted.items():
+                self.assertLess(abs(found[name] / value - 1), close, f"{how}: {name}")
+            self.same(ball.replace("SPIN", "3"), universal.replace("SPIN", "3"), 1e-7)
+
     def test_two_floors(self):
         """Two floors above each other that rotate at the start move as two bodies."""
         text = COLUMNS.replace("MORE", "").replace("MOTIONS\n", "").replace("DAMPS", "").replace("HOW", "radau, step: 0.002").replace("UNTIL", "0.1")

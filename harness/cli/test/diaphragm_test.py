@@ -1,4 +1,6 @@
 """Floors that are rigid in their planes."""
+import math
+
 from harness.cli.test.constraints import ConstraintsCase
 from harness.tools.kit.program import ROOT
 
@@ -40,6 +42,19 @@ quantities:
   b: {critical_factor: {analysis: B}}
   h: {response: {analysis: H, node: B, component: uy, force: A, along: ux}}
 """
+# A floor on four columns without weight, and on springs. The columns are at a distance of sqrt(8) m from the middle.
+COLUMNS = """beamwork: 1
+sections: {c: {constants: {A: 1e-2, Iy: 1e-5, Iz: 1e-5, It: 1e-5}, young: 2e11, shear_modulus: 8e10}}
+nodes:
+""" + "".join(f"""  f{i}: {{at: [{x}, {y}, 0], hold: all}}
+  t{i}: {{at: [{x}, {y}, 3], hold: [rx, ry]}}
+""" for i, (x, y) in enumerate(((-2, -2), (2, -2), (2, 2), (-2, 2)))) + """  m: {at: [0, 0, 3], hold: [uz, rx, ry], mass: 10, inertia: [20, 20, 30, 0, 0, 0]}
+members:
+""" + "".join(f"  c{i}: {{from: f{i}, to: t{i}, section: c, y: [1, 0, 0], release: RELEASE}}\n" for i in range(4)) + """constraints: {floor: {diaphragm: [t0, t1, t2, t3], master: m, normal: z}}
+springs: {s: {to: m, stiffness: [1e4, 1e4, 0, 0, 0, 8e4]}}
+omit: [trapeze, wagner_moments, wagner_torque, shear]
+loads:
+"""
 
 
 class Diaphragms(ConstraintsCase):
@@ -69,6 +84,53 @@ class Diaphragms(ConstraintsCase):
             self.assertIn("diaphragm: [A, B, C]", again)
             for name, value in self.values(again).items():
                 self.assertLess(abs(a[name] - value), 1e-10 * abs(a[name]), name)
+
+    def test_ball_joints(self):
+        """Columns with ball joints at a floor resist its rotation about the normal by their shear forces."""
+        k, M = 3 * 2e6 / 27, 24
+        wanted = {"x": 12 / (1e4 + 4 * k), "r": -M / (8e4 + 32 * k), "s": -M / (8e4 + 32 * k), "c": 1 / (8e4 + 32 * k),
+                  "f": math.sqrt((8e4 + 32 * k) / 30) / 2 / math.pi}
+        text = COLUMNS + """  f: {force: [12, 0, 0], on: t2}
+analyses: {L: {linear: {}}, S: {static: {stations: [1]}}, C: {compliance: {node: m}}, F: {modal: {}}}
+quantities:
+  x: {displacement: {analysis: L, node: m, component: ux}}
+  r: {displacement: {analysis: L, node: m, component: rz}}
+  s: {displacement: {analysis: S, node: m, component: rz}}
+  c: {compliance: {analysis: C, row: rz, column: rz}}
+  f: {frequency: {analysis: F, which: 2}}
+"""
+        ball, universal = text.replace("RELEASE", "{to: [rx, ry, rz]}"), text.replace("RELEASE", "{from: [rx], to: [ry, rz]}")
+        for name in ("collocation", "beamw", "sheet_third"):
+            found = self.values(ball, name)
+            for q, value in wanted.items():
+                self.assertLess(abs(found[q] / value - 1), 1e-5 if q == "s" else 1e-7, f"{name} {q}")
+        ends = "".join(f"  e{i}: {{at: [{x}, {y}, 3], part_of: t{i}}}\n" for i, (x, y) in enumerate(((-1.9, -1.8), (2.1, -2), (2, 2), (-2, 2.2))))
+        beams = "".join(f"  b{i}: {{from: t{i}, to: t{(i + 1) % 4}, section: c, y: [0, 0, 1]}}\n" for i in range(4)) + "constraints:"
+        for changes, close in ({"y: [1, 0, 0]": "y: [1, 0, 0], offset: {to: [0.1, 0.2, -0.3]}"}, 1e-7), ({"to: t": "to: e", "  m: {at": ends + "  m: {at"}, 1e-7), \
+                ({", hold: [rx, ry]}": "}", "constraints:": beams}, 1e-7), ({"rz]},": "rz, uy]},", "rz]}}": "rz, uy]}}"}, 1e-5):
+            a, b = ball, universal
+            for of, to in changes.items():
+                a, b = a.replace(of, to), b.replace(of, to)
+            self.assertNotEqual(a, ball)
+            self.same(a, b, close)
+        one = ball.replace("to: t3, section: c, y: [1, 0, 0], release: {to: [rx, ry, rz]}", "to: t3, section: c, y: [1, 0, 0]")
+        self.same(one, one.replace("{to: [rx, ry, rz]}", "{from: [rx], to: [ry, rz]}"), 1e-7)
+
+    def test_pinned_columns(self):
+        """The axial forces P of columns that are pinned at both ends reduce the stiffness of the floor: by P/h for each
+        column in translation, and by P/h times the square of its distance in rotation."""
+        text = COLUMNS.replace("2e11", "2e14").replace("RELEASE", "{from: [ry, rz], to: [rx, ry, rz]}")
+        text += "".join(f"  p{i}: {{force: [0, 0, -3000], on: t{i}}}\n" for i in range(4)) + """analyses: {B: {buckling: {}}, S: {static: {stations: [1]}}, C: {compliance: {node: m, about: S}}, F: {modal: {about: S}}}
+quantities:
+  b: {critical_factor: {analysis: B, which: 0}}
+  t: {critical_factor: {analysis: B, which: 2}}
+  c: {compliance: {analysis: C, row: rz, column: rz}}
+  f: {frequency: {analysis: F, which: 2}}
+"""
+        found, P, h = self.values(text), 3000, 3
+        turned = 8e4 - 32 * P / h
+        for name, value in {"b": 1e4 * h / 4 / P, "t": 8e4 * h / 32 / P, "c": 1 / turned, "f": math.sqrt(turned / 30) / 2 / math.pi}.items():
+            self.assertLess(abs(found[name] / value - 1), 1e-6, name)
 
     def test_braced_floor(self):
         """A floor braced by stiff hinged bars must agree with a rigid diaphragm, up to a difference due to the
