@@ -193,6 +193,20 @@ static loose loose_at(const scene *s, int node, double axis[3])
     return vec3_norm(axis) > 0 ? LOOSE_AXIS : largest > 1e-9 ? LOOSE_PLANE : LOOSE_ALL;
 }
 
+/* Returns 1 if a load measures a rotation of the node that is undefined: one with a component along
+ * the axis, or any one if the axis is 0. */
+static int is_measured(const scene *s, int node, const double axis[3])
+{
+    int measured = 0;
+    for (int i = 0; i < s->loads; i++) {
+        const scene_feedback *by = &s->load[i].feedback;
+        if (by->node != SCENE_NONE && by->component >= SCENE_RX &&
+            (by->node == node || by->from == node))
+            measured |= vec3_norm(axis) == 0 || fabs(axis[by->component - SCENE_RX]) > 1e-9;
+    }
+    return measured;
+}
+
 /* Returns 1 if a load acts on the rotations of a node, or if a result depends on them. */
 static int turn_matters(const scene *s, int node)
 {
@@ -233,7 +247,8 @@ int scene_idle_turn(const scene *s, int node, double axis[3])
     const loose what = (n->rotation == SCENE_ROTATION_SPATIAL || single) && free_angles(n) != 0
                            ? loose_at(s, node, axis)
                            : LOOSE_NOTHING;
-    if (what == LOOSE_NOTHING || what == LOOSE_PLANE || turn_matters(s, node))
+    if (what == LOOSE_NOTHING || what == LOOSE_PLANE || turn_matters(s, node) ||
+        is_measured(s, node, axis))
         return 0;
     if (single)
         return what == LOOSE_AXIS && n->angle[0] == SCENE_FREE ? SCENE_IDLE_AXIS : 0;

@@ -137,6 +137,14 @@ class Feedback(ProgramTest):
                      "(conserving): load motor has feedback")
         self.refusal("node: tool, component: ux", motion, "", "the feedback has no gain")
         self.refusal(gains + ", from: tool", motion, "", "the component of node tool minus itself is always 0")
+        path, turn = self.folder / "scene.yaml", "node: tool, component: %s, proportional: 20"
+        for component, code in (("ry", 2), ("rx", 0)):  # the member releases ry
+            text = SCENE % {"gains": turn % component, "analyses": motion, "more": "time: 0.01,", "eta": 0}
+            path.write_text(text.replace("hold: [uy, uz, rx, ry, rz], mass: 0.5", "hold: [uy, uz], mass: 0.5").replace(
+                "warping: free", "release: {to: [ry]}, warping: free"), encoding="utf-8")
+            done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
+            self.assertEqual(done.returncode, code, done.stdout + done.stderr)
+            self.assertEqual("all members at this node release its rotation about (0, 1, 0)" in done.stderr, code == 2, done.stderr)
         self.refusal(gains, "  held: {static: {stations: [1]}}\n" + motion.replace(
             "radau", "radau, about: held"), "", "(static): load motor (feedback) acts only in motions, harmonic")
         self.refusal(gains + ", integral: 1", motion, "", "motor (feedback): --save-state does not store the integral of the error",
