@@ -357,7 +357,8 @@ quantities:
                 self.answered("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout)
 
     def test_closed_form(self):
-        """The extremes must not depend on the frequencies of the analysis, even if the half-power bandwidth is far below their spacing."""
+        """The extremes must not depend on the frequencies of the analysis, even if the half-power bandwidth is far
+        below their spacing."""
         hertz = 20/(2*math.pi)
         for ratio in (0.2, 0.01, 1e-5):
             for frequencies in ("1..10/8:log", "1..10/200:log", "[3, 4]"):

@@ -316,7 +316,8 @@ omit: [shear, rotary_inertia]
 
 
 def dynamic(s):
-    """Returns the entries a, b, c, d of the dynamic stiffness [[a, b], [c, d]] of the disc in uy and uz at the complex frequency s [1/s], with the bearings eliminated."""
+    """Returns the entries a, b, c, d of the dynamic stiffness [[a, b], [c, d]] of the disc in uy and uz at the complex
+    frequency s [1/s], with the bearings eliminated."""
     k = SHAFT_STIFFNESS
     a, b, c, d = (2*x + s*2*y for x, y in zip(BEARING, FILM))
     a, d = a + k, d + k

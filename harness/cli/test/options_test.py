@@ -390,7 +390,8 @@ class Answers(ProgramTest):
         self.assertIn("give `truths` in the scene", done.stderr)
 
     def derived(self, scene, *words):
-        """Returns {quantity: (value, uncertainty)} and the lines that are printed for the truths file, which contain them."""
+        """Returns {quantity: (value, uncertainty)} and the lines that are printed for the truths file, which contain
+        them."""
         done = self.answered("truth", "--scene", scene, *words)
         lines = done.stdout.partition("truths:\n")[2]
         found = re.findall(r"quantity: (\w+), value: (\S+), uncertainty: (\S+), kind: exact", lines)
