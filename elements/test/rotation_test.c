@@ -313,8 +313,8 @@ typedef void equations_function(int count, const element_data *const data[], con
 
 static const struct {
     const element_type *type;
-    equations_function *equations; /* function to be tested in addition to that which the type
-                                      selects for the processor */
+    equations_function *equations; /* function to be tested besides the one that the type selects
+                                      for the processor */
 } family[] = {{&element_sheet_second, sheet_lanes_second_equations_plain},
               {&element_sheet_second_consistent, sheet_lanes_second_equations_plain},
               {&element_sheet_third, sheet_lanes_third_equations_plain},
