@@ -128,8 +128,8 @@ quantities:
                     self.assertIn("; if pretension or temperatures make it stiff, use a static path", got[name]["reason"])
 
     def ties(self, pretension, heat):
-        """Returns the displacement, the forces and the lowest frequency of a mass between two hinged bars, in closed
-        form."""
+        """Returns the displacement of a mass between two hinged bars, the forces in the bars, and the lowest frequency,
+        from the equilibrium of the mass."""
         def forces(u):
             a, b = math.hypot(0.4 + u[0], u[1]), math.hypot(0.6 - u[0], u[1])
             return pretension + E * A * (a / 0.4 - 1), E * A * (b / 0.6 - 1 - ALPHA * heat), a, b

@@ -266,7 +266,7 @@ quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}
         self.assertIn("meshes: [6, 12, 24, 48]", written)
 
     def test_on_a_foundation(self):
-        """The springs of a foundation must have the weights of the straight member, for any direction of the bow. A
+        """The springs of a foundation must represent the lengths of the straight elements, for any direction of the bow. A
         zero bow must change nothing, and round-off in the element lengths must not matter."""
         def founded(bow, tip=(LENGTH, 0, 0), y=(0, 1, 0)):
             return f"""beamwork: 1
