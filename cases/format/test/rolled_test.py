@@ -309,7 +309,7 @@ class ProfilesTest(SceneCase):
 
     def test_refused(self):
         for text, part in (
-                ("profile: IPE210", "unknown profile 'IPE210'; sizes of IPE are 80, 100, 120"),
+                ("profile: IPE210", "unknown profile 'IPE210'; the sizes of IPE are 80, 100, 120"),
                 ("profile: UPN70", "sizes of UPN are 80, 100"),
                 ("profile: W8x15", "unknown profile 'W8x15'; write IPE200"),
                 ("profile: SHS100x60", "unknown profile 'SHS100x60'"),

@@ -116,7 +116,7 @@ quantities:
                 (", damping: {ratio: 0.1}", 6, "force: m, along: ux", "remove the damping ratios"),
                 (", damping: {mass: 1}", 6, "force: m, along: ux", "damping in proportion to the mass acts in fixed axes"),
                 ("", 6, "unbalance: m, about: rz", "an unbalance rotates with the frequency in fixed axes"),
-                ("", 40, "force: m, along: ux", "add damping, or make the angular velocity smaller")):
+                ("", 40, "force: m, along: ux", "reduce the angular velocity, or the damping, which rotates with the structure")):
             text = SPRUNG.replace("ABOUT", PATH.replace("6", str(omega))).replace("KEYS", keys).replace("LOADS\n", "")
             path.write_text(text + f"  x: {{response: {{analysis: A, node: m, component: ux, {quantity}, at: 4}}}}\n", encoding="utf-8")
             done = run("solve", "--scene", path, "-f", "collocation", "-n", 1)
