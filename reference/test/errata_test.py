@@ -38,7 +38,7 @@ def shapes(Phi):
 
 
 class Modes(unittest.TestCase):
-    """J Eqs. 7, 13 and 60."""
+    """J Eqs. 7 and 13, and J Eq. 60."""
     l0 = 1.3
 
     def modes(self, r, Rp, Rq):
