@@ -196,7 +196,7 @@ static const verb_group shared[] = {
 const verb verb_verify = {
     "verify",
     "",
-    "runs every formulation on every case, with verdicts according to stored reference values",
+    "runs every formulation on every case; verdicts from stored reference values",
     "Computes every formulation on every case and parameter point that has a reference value, and "
     "assigns verdicts. A formulation that is named with -f or loaded with --element affects the "
     "exit status: its own known deviations apply (--deviations; none by default), and the "

@@ -173,8 +173,7 @@ void junit_write(FILE *to, const sweep *s, const judgement *j)
     write_ledger(to, "truths", j->unmet, "reference values refer to unknown names");
     write_ledger(to, "cells", j->flaws, "inconsistent run records");
     if (judgement_exit(j) == JUDGED_NOTHING)
-        write_ledger(to, "run", 1,
-                     "the run assigned no verdict, because there is no reference value");
+        write_ledger(to, "run", 1, "run assigned no verdict, because there is no reference value");
     if (s->unfinished > 0)
         write_ledger(to, "run", s->unfinished,
                      s->partial ? "cells were not computed, because batches are missing"

@@ -21,7 +21,7 @@ FAULTS = {
         ("    if (out->energy != NULL)\n",
          "    if (out->C != NULL)\n        out->C[1] = d->stiffness[0];\n"
          "    if (out->energy != NULL)\n"),
-        "C: entry 2, 1 is 0 and entry 1, 2", "symmetric"),
+        "C: entry 2, 1 is 0, but entry 1, 2", "symmetric"),
     "objectivity": (
         ("transposed(x[0].R, chord, p);", "memcpy(p, chord, sizeof p);"),
         "strain: if the element is rotated by", "axes that rotate with the element"),
@@ -132,7 +132,7 @@ FORCE_FAULTS = {
         ("        add(3, N, 3, 0, B, W, K + b * N);", "        (void)W;"),
         "K: the derivative of the force in coordinate", "differences of F give"),
     "material stiffness": (
-        ("    add(N, N, 6, 1, D, kD, K); /* material */\n", ""),
+        ("    add(N, N, 6, 1, D, kD, K); /* material stiffness */\n", ""),
         "K: the derivative of the force in coordinate", "differences of F give"),
     "objectivity": (
         ("add(3, 3, 3, 0, E, x[k].R, S[k]);", "memcpy(S[k], x[k].R, sizeof S[k]);"),
@@ -231,7 +231,7 @@ class Planted(Tested):
         out = " ".join(self.answered("element-test", "-q", "--element", self.folder / "mine.so", code=1).stdout.split())
         self.assertIn("VIOLATED", out)
         self.assertIn("measured: 1 state with a wrong limit", out)
-        self.assertIn("stretch: exact with one element", out)
+        self.assertIn("stretch: the result is exact with one element", out)
 
 
     def test_linear(self):

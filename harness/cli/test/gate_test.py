@@ -240,7 +240,7 @@ class Gate(ProgramTest):
         done, files = self.verified("right", what=NOWHERE)
         document, failures = self.check_doors(done, files, "nothing was judged", 3)
         self.assertEqual(document["judged"], 0)
-        self.assertIn("judged nothing", failures[0].get("message"))
+        self.assertIn("1 run assigned no verdict", failures[0].get("message"))
 
     def test_exit_zero(self):
         for name, what in (("stiffness", RUN), ("stub", RUN), ("right", NOWHERE)):
