@@ -34,7 +34,7 @@ class OmitTest(SceneCase):
                 self.assertIn("omitted: " + left_out[1], text)
                 changed += 1
             else:
-                self.assertIn("omitted: nothing; without omit=none it is the same", said)
+                self.assertIn("omitted: nothing; omit=none has no effect and can be removed", said)
         self.assertEqual(changed, 3)
 
     def test_as_the_scene(self):

@@ -30,7 +30,7 @@ WORK = {
 LIMIT = 60  # [s]
 TRIES = 12
 # HDF5 1.10 crashes, calls exit() or prints its own errors if memory runs out while it starts.
-CRASHED = "beamwork: crashed; "
+CRASHED = "beamwork: the program crashed; "
 TIMES = re.compile(r"[0-9.e+-]+ m?s\b|\"(seconds\w*|time|load\w*)\": [^,\n]*")
 
 

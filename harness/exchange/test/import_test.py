@@ -85,7 +85,7 @@ class Import(ProgramTest):
             "C_xx, m/Nm, 2,,,, 1,": "unit 'm/Nm' is unknown",
             "C_xx, N, 2,,,, 1,": "unit 'N' cannot be converted to 'm/N'",
             "C_xx_curve, m/N, 2,,,, 1,": "is a curve; give x",
-            "C_zz, m/N, 2,,, 3, 1,": "is not a curve: leave x empty",
+            "C_zz, m/N, 2,,, 3, 1,": "is not a curve; leave x empty",
             "C_zz, m/N, 0,,,, 1,": "give a whole number", "C_zz, m/N, 2,,,, nan,": "is not a number",
             "C_zz, m/N, 3,,,,,": "value is missing",
             "C_thz_Mz, rad/(N m), 2,,,, 1,": "the convention for moments",
