@@ -197,7 +197,7 @@ def read_extreme_findings(path):
         where = f"{path.name}:{number}"
         row["from"], row["to"] = finite(row["from"], f"{where}: from"), finite(row["to"], f"{where}: to")
         if row["from"] > row["to"]:
-            raise Refused(f"{where}: from {row['from']:g} to {row['to']:g} holds nothing")
+            raise Refused(f"{where}: from {row['from']:g} to {row['to']:g} is an empty range")
         if row["outcome"] not in OUTCOMES:
             raise Refused(f"{where}: unknown outcome '{row['outcome']}'")
         if not row["proof"]:

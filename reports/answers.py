@@ -144,7 +144,7 @@ def words_of(v):
     """Describes a verdict other than pass."""
     if v.verdict in words.OWN_LIMITS:
         return "with a different limit"
-    return {"low order": "of low order", "undecided": "with a limit that is not known"}.get(
+    return {"low order": "of low order", "undecided": "with an undecided limit"}.get(
         v.verdict, v.verdict)
 
 

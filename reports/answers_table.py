@@ -97,7 +97,7 @@ def sentence(answer):
     for words, ways in by_words.items():
         out += f"; also within {100 * answer.level:g} %, {words}: {told(ways)}"
     if answer.faster:
-        out += f"; more expensive by its counts, measured faster in every round: {told(answer.faster)}"
+        out += f"; higher counted cost, but faster in every round: {told(answer.faster)}"
     return out
 
 

@@ -29,7 +29,7 @@ def limit(v):
     if not math.isfinite(v.limit):
         return "–"
     if not math.isfinite(v.limit_uncertainty):
-        return f"{v.limit:.7g}, not known how well"
+        return f"{v.limit:.7g}, uncertainty unknown"
     known = math.log10(abs(v.limit) /
                        v.limit_uncertainty) if v.limit and v.limit_uncertainty > 0 else 10
     return f"{v.limit:.{max(2, min(12, math.ceil(known) + 2))}g} ± {v.limit_uncertainty:.1g}"

@@ -253,7 +253,7 @@ def looks_of_errors(tolerance):
         words = f"{x:g} %" if np.isfinite(x) else f"more than {levels[-1]:g} %"
         out[k] = look(fill, sign, ("up to " if np.isfinite(x) else "") + words)
     out[len(levels) + 1] = look("#45342c", "!", "no solution")
-    out[maps.UNKNOWN] = look("none", "?", "nothing to measure by")
+    out[maps.UNKNOWN] = look("none", "?", "no reference for the error")
     return out
 
 

@@ -17,7 +17,7 @@ class Kind:
 KINDS = (
     Kind("pass", "✓", "pass", "the limit agrees with the reference value within the uncertainties"),
     Kind("low order", "↓", "other", "the limit is the reference value, approached more slowly than expected"),
-    Kind("undecided", "~", "other", "the limit is not known well enough to say more"),
+    Kind("undecided", "~", "other", "the uncertainty of the limit is too large for a verdict"),
     Kind("biased", "≈", "other", "within the tolerance, but significantly different from the reference value"),
     Kind(
         "biased, as predicted",
@@ -29,9 +29,9 @@ KINDS = (
         "wrong limit, as predicted",
         "≡",
         "known",
-        "a different limit beyond the tolerance, derived for the form as printed: the program does what is printed",
+        "a different limit outside the tolerance, derived for the form as printed: the program does what is printed",
     ),
-    Kind("wrong limit", "≠", "wrong", "a limit that is significantly beyond the tolerance"),
+    Kind("wrong limit", "≠", "wrong", "a limit that is significantly outside the tolerance"),
     Kind("refused", "R", "other", "the finest mesh was rejected, with a reason"),
     Kind("diverged", "✗", "wrong", "the finest mesh has no value"),
     Kind("skip", "·", "skip", "requires physics that the formulation does not support"),
@@ -88,7 +88,7 @@ def remarks(v, distance=True):
     if v.below_digits:
         words.append("error below the reference value's digits")
     if math.isfinite(v.contradicted):
-        words.append(f"the published {v.contradicted:.8g} cannot be")
+        words.append(f"the published value {v.contradicted:.8g} is impossible")
     return words
 
 

@@ -362,7 +362,7 @@ static const verb_group shared[] = {SHARED(scene, of),
 const verb verb_list = {
     "list",
     "[cases|formulations|CASE|FORMULATION]",
-    "lists cases and formulations, with parameters, quantities, orders and known deviations",
+    "lists cases and formulations, with parameters, quantities, orders and deviations",
     "Lists all cases and formulations. For a case it lists the parameters, the quantities and the "
     "formulations that support the case; for a formulation the theory, orders, options, features, "
     "limitations, known deviations and the supported cases.",

@@ -221,11 +221,11 @@ def fault_of(formulation, constant, found):
     best = min(by_verdicts, default=None)
     size, reason = digits(best and best.size), ""
     if not found:
-        reason = "no value that it is asked for depends on it"
+        reason = "no requested value depends on the constant"
     elif passes(size):
-        reason = "no verdict of it depends on it more closely"
+        reason = "no verdict depends on the constant more closely"
     if reason and ":" in formulation:
-        reason = "judged only where its option matters: see the formulation without it"
+        reason = "judged only where its option matters; see the formulation without the option"
     v = best.verdict if best else {"case": "", "parameters": "", "quantity": ""}
     return {
         "formulation": formulation, "constant": constant, "noticed": size, "case": v["case"],

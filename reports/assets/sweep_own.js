@@ -7,7 +7,7 @@ const EMPTY = -2, UNKNOWN = -1, FARTHEST = 3;
 let data = null;
 const waiting = [];
 
-// Letters of cells, each with how often it follows itself, as numbers: "a" is 0; "_" no point, "?" nothing to measure by.
+// Letters of cells, each with how often it follows itself, as numbers: "a" is 0; "_" no point, "?" no reference for the error.
 const spread = text => {
   const out = [];
   for (const [, letter, times] of text.matchAll(/([^\d])(\d*)/g)) {

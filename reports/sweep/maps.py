@@ -48,7 +48,7 @@ class Look:
             self.none: "×", self.some: "~", self.failed: "!", UNKNOWN: "?"}
         self.words = {i: f"{n} element{'s' if n != 1 else ''}" for i, n in enumerate(meshes)} | {
             self.none: f"not with {meshes[-1]}", self.some: "at some of its points only",
-            self.failed: f"no solution with {meshes[-1]}", UNKNOWN: "nothing to measure by"}
+            self.failed: f"no solution with {meshes[-1]}", UNKNOWN: "no reference for the error"}
 
     def legend(self, used):
         """Returns [(fill, ink, sign, label)] of the states that are drawn."""

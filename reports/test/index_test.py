@@ -95,7 +95,7 @@ class Small(ProgramTest):
         run("verify", "--scene", scene, "-f", "collocation", "-f", "beamw", "-o", results)
         done = report(results, site)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.assertIn("not known how well", (site / "mine.html").read_text(encoding="utf-8"))
+        self.assertIn("uncertainty unknown", (site / "mine.html").read_text(encoding="utf-8"))
 
     def test_of_one_solution(self):
         results, site = self.folder / "one.h5", self.folder / "site"
@@ -295,8 +295,8 @@ class Pages(ProgramTest):
 
     def test_what_is_measured_of_the_choice(self):
         self.assertRegex(self.pages["beamw_first"],
-                         r'however many elements[^\n]*>c_column</a> \(buckling_load, \+32 %\)')
-        self.assertNotIn("however many elements, at the", self.pages["collocation"])
+                         r'with any number of elements[^\n]*>c_column</a> \(buckling_load, \+32 %\)')
+        self.assertNotIn("with any number of elements at the", self.pages["collocation"])
         for key, page in self.pages.items():
             cheapest = [c for (c, level), answer in self.known.ways.items()
                         if level == 0.01 and any(w.key == key for w in answer.best)]

@@ -124,7 +124,7 @@ class Pages(ProgramTest):
     def test_nothing_to_measure_by(self):
         for axes in ((WIDTH,), (WIDTH, ANGLE), (WIDTH, ANGLE, SHAPE)):
             said = text_of(self.page(axes, kind=lambda at: np.full(len(at), 4)))
-            self.assertIn("within 1 % in no range large enough to report: nothing to measure it by", said)
+            self.assertIn("within 1 % in no range large enough to report: no reference for its error", said)
             self.assertIn("No point has a reference value or a limit", said)
             self.assertNotIn("Lowest cost</h2>", said)
 

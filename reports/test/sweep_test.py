@@ -322,7 +322,7 @@ class Fields(unittest.TestCase):
                               ((3, 3), "not with 4"), ((0, 3), "at some of its points only"),
                               ((0, 0, 4), "no solution with 4"), ((), "no point")):
             self.assertEqual(self.state(*reached), said)
-        self.assertEqual(self.state(points=3), "nothing to measure by")
+        self.assertEqual(self.state(points=3), "no reference for the error")
 
     def test_runs(self):
         row = np.array([1, 1, maps.EMPTY, 2, 2, 2, 1])

@@ -140,11 +140,11 @@ static void sentences(void)
     r.j.flaws = 1;
     r.j.unobserved = 2;
     r.j.unmet = 1;
-    says(&r,
-         "FAIL: 1 verdict differs from the expected one, 2 values differ from their stored "
-         "ones, 1 inconsistent run record, 2 known deviations were not observed, 1 reference value "
-         "refers to "
-         "an unknown name.");
+    says(&r, "FAIL: 1 verdict differs from the expected one, 2 values differ from their stored "
+             "values, 1 inconsistent run record, 2 known deviations were not observed, 1 reference "
+             "value "
+             "refers to "
+             "an unknown name.");
     r.j.judged = 0;
     says(&r, "");
 }

@@ -342,8 +342,7 @@ static void stability_tests(void)
     is("ssus", SCENE_STATIC, "analysis 1: stable up to 1, unstable at 1.5, stable from 2 (path)\n");
     is("suuso", SCENE_CONTINUATION,
        "analysis 1: stable up to 0.5, unstable 1 to 1.5, stable at 2, not determined by pivots "
-       "from "
-       "2.5 (load\n  factor)\n");
+       "from 2.5\n  (load factor)\n");
     is("hg", SCENE_STATIC,
        "analysis 1: stable without damping up to 0.5, unstable from 1 (path)\n");
     is("sususus", SCENE_STATIC,

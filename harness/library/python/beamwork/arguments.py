@@ -20,7 +20,7 @@ def utf8(value: Any, what: str) -> bytes | None:
         raise TypeError(f"{what}: a text is expected, not {type(value).__name__}")
     if not value or "\0" in value:
         raise Refused(f"{what}: {'an empty text' if not value else 'a text with a zero'} "
-                      "means nothing here")
+                      "is not allowed")
     return value.encode("utf-8", "surrogateescape")
 
 

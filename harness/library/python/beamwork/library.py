@@ -94,8 +94,8 @@ def _declare(library: ctypes.CDLL, path: pathlib.Path) -> dict[str, Any]:
         try:
             function = getattr(library, f"bw_{name}")
         except AttributeError:
-            raise ImportError(f"beamwork: {path} has no bw_{name}: it has another version than "
-                              "this module") from None
+            raise ImportError(f"beamwork: {path} has no bw_{name}: its version differs from "
+                              "the version of this module") from None
         function.restype, function.argtypes = returns, arguments
         declared[name] = function
     return declared

@@ -240,8 +240,8 @@ class Result:
         self.close()
 
     def __reduce__(self) -> tuple[Any, ...]:
-        raise TypeError("a Result is memory of the library and is not pickled: pickle "
-                        "result.document, or dict(result.values)")
+        raise TypeError("a Result refers to memory of the library and cannot be pickled; "
+                        "pickle result.document or dict(result.values)")
 
     def __str__(self) -> str:
         d = self.document

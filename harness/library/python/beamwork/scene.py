@@ -107,7 +107,7 @@ class Scene:
 
     def __getattr__(self, key: str) -> Any:
         if key not in ENTRIES:
-            raise AttributeError(f"a scene has no {key!r}: {', '.join(ENTRIES)}")
+            raise AttributeError(f"a scene has no {key!r}; it has: {', '.join(ENTRIES)}")
         if self._make is not None:
             raise AttributeError(f"{key}: the entries of {self._name} are in its text, "
                                  "scene.write(); a scene of dicts begins with Scene()")
@@ -122,7 +122,7 @@ class Scene:
         elif key in type(self).__slots__:
             super().__setattr__(key, value)
         else:
-            raise AttributeError(f"a scene has no {key!r}: {', '.join(ENTRIES)}")
+            raise AttributeError(f"a scene has no {key!r}; it has: {', '.join(ENTRIES)}")
 
     def _ready(self) -> Owned:
         """Returns the library's scene with its present entries and with all values that were set."""
@@ -261,7 +261,8 @@ class Scene:
         return made
 
     def __reduce__(self) -> tuple[Any, ...]:
-        raise TypeError("a Scene is memory of the library and is not pickled: pickle scene.write()")
+        raise TypeError("a Scene refers to memory of the library and cannot be pickled; "
+                        "pickle scene.write()")
 
     def __repr__(self) -> str:
         kind = "built" if self._make is None else "read"
