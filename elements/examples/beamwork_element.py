@@ -12,7 +12,7 @@ argument of each function is the kind of all N elements:
                           strain and stress; K or F and K may be None for "force" and "energy"
   mass(kind, r, u, R, a) -> M[N, 7 n, 7 n], optional: x' M x'/2 is the kinetic energy; x': velocity,
                           angular velocity (both in fixed axes) and rate of warping of each node.
-                          Everything else follows from it: rotating frames, motions in time
+                          Everything else follows from it: rotating frames, motions
                           (not with inertia="vibration"). Default: the mass that all formulations share
   begin(kind, r, u, R, a) -> h[N, q], with history=q: the values of the undeformed elements. strain then has one more
                           argument, h of the last accepted state, the end of a load step or time step
