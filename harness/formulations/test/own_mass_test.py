@@ -73,7 +73,7 @@ class OwnMass(Speaker):
     def test_vibration_alone(self):
         changed = ("mass=mass,", 'mass=mass, inertia="vibration",')
         cell, here = self.solved(self.python(*changed), "own_mass_py", self.swing(HOW[1]), 1)
-        self.assertIn("mass and weight of analysis run: at nodes", cell["lumped"])
+        self.assertIn("mass and weight of analysis run: at the nodes", cell["lumped"])
         beam = self.solved(self.python(*changed), "own_mass_py", "deep_beam", 4)[1]
         whole, lumped = (self.solved(self.python(), "own_mass_py", self.swing(HOW[1], more), 1)[1]
                          for more in ("", "mass: lumped\n"))
