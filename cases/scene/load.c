@@ -105,7 +105,7 @@ status scene_member_elongation(const scene *s, int member, double length, double
                          "length%s, %g m, to which strains refer; give a length within 1 %% of it, "
                          "or draw the member unstressed and move its end",
                          scene_called(s, SCENE_MEMBERS, member).text, m->unstressed_length,
-                         s->imperfections > 0 ? " and shifted" : "", length);
+                         s->imperfections > 0 ? " with imperfections" : "", length);
     if (m->pretension == 0)
         return STATUS_OK;
     const double EA = axial_stiffness(s, m);

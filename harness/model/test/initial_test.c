@@ -298,7 +298,7 @@ static void words(const scene *s)
                     "pieces, because loads begin, end or act at 0.5 of the length") != 0,
              "words: %s", text);
     division_words(s, 0, text, 60);
-    gsl_test(strncmp(text, "member_1 has n elements in each of 3 pieces: its loads", 54) != 0,
+    gsl_test(strncmp(text, "member_1 has n elements in each of 3 pieces, because ", 53) != 0,
              "words of any mesh: %s", text);
     division_words(s, 2, text, 40);
     gsl_test_int((int)strlen(text), 39, "words in little room");
