@@ -364,7 +364,7 @@ class StateSpace(Matrices):
         self.assertIn("without mass and damping eliminated: ", text)
         (self.folder/"scene.yaml").write_text(scene % (*holds, responses(
             "node: mid, component: uz, of: velocity, force: mid, along: uz")), encoding="utf-8")
-        self.refused(1, ["quantity real_0", "no mass separates it from an input"], "solve", "--scene", self.folder/"scene.yaml",
+        self.refused(1, ["quantity real_0", "no mass separates the quantity from an input"], "solve", "--scene", self.folder/"scene.yaml",
                      "-f", "beamw", "-n", 2, "--matrices", self.folder/"none", "--state-space", silent=False)
 
     def test_turning(self):

@@ -255,7 +255,7 @@ class Part(ProgramTest):
             run_of = altered(self.whole, self.folder / "n.h5",
                              lambda file, new=new: is_new(file, "beamw", new))
             done = self.answered("compare", old, run_of, code=0 if new else 1)
-            self.assertEqual("do not affect the exit status, is in" in done.stdout, new, done.stdout)
+            self.assertEqual("do not affect the exit status, is only in" in done.stdout, new, done.stdout)
             self.assertEqual(f"new      {CASE}/default/beamw" in done.stdout, not new)
 
     def test_a_selection_that_cannot_be(self):
