@@ -145,7 +145,7 @@ class Findings(Own):
                 (("2:10", "no proof"), good.replace("proof", "")),
                 (("2:1", "one word"), good.replace("a,", "a b,", 1)),
                 (("2:1", "the list of known deviations"), good.replace("a,", "J66-shear,", 1)),
-                (("2:1", "fields"), good + ",more"), (("2:1", "quotes"), good + '"')):
+                (("2:1", "fields"), good + ",more"), (("2:1", "a quote is not closed"), good + '"')):
             with self.subTest(line=line):
                 self.refused(2, ("f.csv:", *words), "verify", "--element", self.element["right"],
                              "--deviations", self.write("f.csv", RULES, line))
