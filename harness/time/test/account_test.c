@@ -87,7 +87,7 @@ static const struct {
     {0.11, 0, 100, 0.9, 1e-4, SCENE_ALPHA, NULL},
     {NAN, 0, 100, 0.9, 1e-4, SCENE_ALPHA, "nan"},
     {-0.9, 0, 0, 0.9, 1e-4, SCENE_ALPHA, NULL},
-    {-1.1, 0, 0, 0.9, 1e-4, SCENE_ALPHA, "has lost 1.1 J of energy, 11 % of 10 J"},
+    {-1.1, 0, 0, 0.9, 1e-4, SCENE_ALPHA, "has lost 1.1 J of energy, which is 11 % of 10 J"},
     {-1.1, 0, 0, 0.9, 1e-4, SCENE_RADAU, "has lost"},
     {-1.1, 0, 0, 0.8, 1e-4, SCENE_RADAU, "has lost"},
     {-1.1, 0, 0, 0.8, 1e-4, SCENE_ALPHA, NULL},
