@@ -45,7 +45,7 @@ class BlindSpots(unittest.TestCase):
                 self.assertIn((name, constant), keys)
         for fault in self.faults:
             if blind_spots.passes(fault["noticed"]) and ":" not in fault["formulation"]:
-                self.assertIn("depends on it", fault["reason"])
+                self.assertIn("depends on the constant", fault["reason"])
                 self.assertEqual(fault["noticed"], "", fault)
 
     def seen(self, row, constant, size, *options):
