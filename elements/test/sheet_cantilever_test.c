@@ -434,7 +434,8 @@ static void refusals(const element_type *type)
          .features = FEATURE_WAGNER_TORQUE | FEATURE_CURVATURE,
          .curvature = {0.1, 0, 0}},
     };
-    static const char *const culprit[] = {"length is 0 m", "length is nan m", "overflows", "torsion"};
+    static const char *const culprit[] = {"length is 0 m", "length is nan m", "overflows",
+                                          "torsion"};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         element_data *d = calloc(1, type->data_size(&bad[i]));
         fault f = {""};
