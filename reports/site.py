@@ -61,8 +61,6 @@ class Site:
     (None: no benchmark). `paper` writes figures for papers. `kinds` are the numbers of reference values by kind.
     `sweeps` are stored.Sweep records. If `results` is a sweep, there are no cases."""
 
-    paper = paper.Paper("", ())  # by default, no figures for papers
-
     def __init__(self, results, truths, folder, bench=None, others=(), sweeps=(), figures=None):
         self.alone = stored.is_alone(results)
         own = [results] if stored.is_there(results) else []

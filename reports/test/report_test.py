@@ -9,7 +9,7 @@ import xml.etree.ElementTree
 
 from harness.tools.kit.program import ProgramTest, TRUTHS, drawn, report, run
 from harness.tools.kit.scenes import LEAF
-from reports import case, data, film, plots, shapes
+from reports import case, data, film, paper, plots, shapes
 from reports.plots import MOST_CURVES, OPEN
 from reports.style import Styles
 from reports.test import results
@@ -258,7 +258,7 @@ class Site:
     """The parts of a site that a chart uses."""
 
     def __init__(self):
-        self.said, self.styles = [], Styles([])
+        self.said, self.styles, self.paper = [], Styles([]), paper.Paper("", ())
 
     def points(self, key, columns, rows, title):
         self.said.append({"f": key, "t": title, "c": columns, "r": rows})
