@@ -168,7 +168,7 @@ static void unknown_words(void)
     const struct {
         const char *expression, *says;
     } refused[] = {{"c_colunm", "did you mean 'c_column'?"},
-                   {"(beamw or sheet_thrid)", "'sheet_thrid', did you mean 'sheet_third'?"},
+                   {"(beamw or sheet_thrid)", "'sheet_thrid' is unknown, did you mean 'sheet_third'?"},
                    {"beamw and not c_column/defalut", "'c_column/defalut'"},
                    {"elastica or hexapd/default", "did you mean 'hexapod'?"},
                    {"load=4", "'load=4'"},
