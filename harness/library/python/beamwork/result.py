@@ -44,6 +44,13 @@ MOTION = ("time", "step", "iterations", "rejected", "error", "kinetic", "strain"
           "dissipated", "drift", "px", "py", "pz", "lx", "ly", "lz")
 
 
+class _Errors(dict[str, float]):
+    """Relative errors of quantities. A missing one raises KeyError with the reason."""
+
+    def __missing__(self, name: object) -> float:
+        raise KeyError(f"no error of {name!r}: this run has no reference value of it; 'beamwork truth CASE' lists those of a case")
+
+
 class _Memory:
     """Memory of a result for numpy. An array that uses it keeps the result alive."""
 
@@ -70,7 +77,7 @@ class Result:
     def __init__(self, handle: Owned) -> None:
         self._handle: Owned | None = handle
         values: dict[str, float] = {}
-        errors: dict[str, float] = {}
+        errors = _Errors()
         units: dict[str, str] = {}
         at: dict[str, float] = {}
         curves = []

@@ -12,7 +12,8 @@ from harness.tools.kit.program import environment, read_json
 
 NOTEBOOK = FOLDER / "sheet_flexures.ipynb"
 # part of the output of each notebook as a script
-SAID = {NOTEBOOK: "for 1 % in every quantity", FOLDER / "own_mechanism.ipynb": "resonance 11.2"}
+SAID = {NOTEBOOK: "for 1 % in every quantity", FOLDER / "own_mechanism.ipynb": "resonance 11.2",
+        FOLDER / "thin_walled_tables.ipynb": "beamw_consistent with 64 elements: +0.00 %"}
 NEEDS = [name for name in ("nbclient", "nbformat", "ipykernel", "matplotlib")
          if importlib.util.find_spec(name) is None]
 
@@ -32,7 +33,7 @@ class Notebook(ModuleTest):
         self.assertEqual(set(FOLDER.glob("*.ipynb")), set(SAID))
         for path in SAID:
             code = [cell for cell in read_json(path)["cells"] if cell["cell_type"] == "code"]
-            self.assertGreater(len(code), 5)
+            self.assertGreaterEqual(len(code), 5)
             self.assertEqual([cell["outputs"] for cell in code], [[]] * len(code))
 
     @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
@@ -49,9 +50,9 @@ class Notebook(ModuleTest):
         self.assertEqual(len(images), 3)
         told = [words_of(cell) for cell in code]
         claims = next(text for text in told if "N says" in text)
-        self.assertEqual((claims.count("<td>reproduced</td>"), claims.count("<td>not so</td>")),
+        self.assertEqual((claims.count("<td>reproduced</td>"), claims.count("<td>not reproduced</td>")),
                          (7, 1))
-        limits = next(text for text in told if "derived for it" in text)
+        limits = next(text for text in told if "derived from the equations" in text)
         for word in ("+0.25812 %", "+0.12193 %", "-0.03620 %"):
             self.assertIn(word, limits)
         self.assertTrue(any("for 1 % in every quantity" in text and "sheet_third n = 1 (" in text
