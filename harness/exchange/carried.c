@@ -91,8 +91,8 @@ static int held_rotations(const scene_node *n)
 }
 
 /* Checks the rotations of a node. REFUSED: a deck cannot express them. In CalculiX, a rotation node
- * has a rotation vector. Increments about fixed axes are the same only if no rotation, all
- * rotations, or all but one are fixed. */
+ * has a rotation vector. Rotations about fixed axes are equivalent to this vector only if no
+ * rotation, all rotations, or all but one are fixed. */
 static status check_node(const scene *s, int node, fault *f)
 {
     const scene_node *n = &s->node[node];

@@ -166,7 +166,8 @@ static void write_structure_loads(const answers_writer *w, int acting, double pa
         }
 }
 
-/* Writes a state. increments: size of the first increment of the step; 0: linear step. */
+/* Writes a state. increments: number of increments with which a nonlinear step starts; 0: the step
+ * is linear. */
 static void write_state(answers_writer *w, int acting, double path, int increments)
 {
     if (increments > 0)

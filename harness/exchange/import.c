@@ -301,7 +301,7 @@ status import_block_close(import_block *b, fault *f)
     return outcome;
 }
 
-/* Returns "no order", because the order of another program is unknown. */
+/* Returns the wide range of orders 1 to 8, because the order of another program is unknown. */
 static element_order any_order(element_analysis analysis, const double options[])
 {
     (void)analysis;

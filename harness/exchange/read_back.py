@@ -69,7 +69,7 @@ def said(lines, card):
 
 
 def head_of(lines):
-    """Returns the header for the import of a deck."""
+    """Returns the header for the import of the values of a deck."""
     head = HEAD.format(PROGRAM, said(lines, "**CASE "))
     if any(line.startswith("**CONVENTION ") for line in lines):
         head += f"# convention: {said(lines, '**CONVENTION ')}\n"
@@ -77,7 +77,7 @@ def head_of(lines):
 
 
 def rows(deck):
-    """Returns the header for the import, and the rows, of one deck."""
+    """Returns the header and the rows for the import of the values of one deck."""
     lines = deck.read_text(encoding="utf-8").splitlines()
     head = head_of(lines)
     elements, count = said(lines, "**ELEMENTS "), unknowns(lines)

@@ -22,7 +22,7 @@ static inline const element_data *adapted_own(const element_data *d)
 }
 
 /* Copies the pointers to the original data of the elements for one call of the type. Returns their
- * number, at most this limit. */
+ * number, at most ADAPTED_TOGETHER. */
 enum { ADAPTED_TOGETHER = 1024 };
 static inline int adapted_owns(int count, const element_data *const data[],
                                const element_data *own[ADAPTED_TOGETHER])
@@ -53,8 +53,8 @@ void relative_stress_many(int count, const element_data *const data[], const dou
                           const double *const inner[], stress_output out[], status outcome[]);
 status relative_stress(const element_data *d, const double e[], const double inner[],
                        stress_output *out);
-/* Computes the derivative of C in the direction of the strains that belong to this prestress, in
- * the undeformed state, by finite differences. */
+/* Computes the derivative of C in the undeformed state, in the direction of the strains that belong
+ * to the prestress sigma, by finite differences. */
 void relative_geometric(const element_data *d, const double sigma[], double G[]);
 
 #endif

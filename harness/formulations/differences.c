@@ -270,7 +270,8 @@ static int forces_at(const void *context, int i, double si, int j, double sj, do
     return 0;
 }
 
-/* Returns the factor from differences per unit to derivatives. */
+/* Returns the factor that converts a derivative per unit step of coordinate c (chart_unit) to a
+ * derivative with respect to c. */
 static double per_unit(const element_data *d, int c)
 {
     return 1 / chart_unit(c, d->length);
@@ -339,7 +340,7 @@ static int leaves_h(const element_data *d)
     return (d->given->leaves & (LEAVES_J | LEAVES_H)) != 0;
 }
 
-/* Returns the derivatives that the type computes. */
+/* Returns the outputs that the type itself computes. The others are NULL. */
 static strain_output given_part(const element_data *d, const strain_output *out)
 {
     strain_output asked = *out;

@@ -13,7 +13,7 @@
 /* Completes the interface of a formulation: derivatives by finite differences, strains and
  * stresses from a force or an energy. */
 
-/* Sets *out to the complete interface of the same beam, or to `given` if nothing is missing.
+/* Sets *out to the complete interface of the same element, or to `given` if nothing is missing.
  * REFUSED: the type is inconsistent. */
 status adapters_complete(const element_type *given, const double options[], element_type *out,
                          fault *f);

@@ -120,10 +120,10 @@ typedef struct gather {
     int nodes;       /* number of nodes of a state */
     size_t size;     /* number of doubles in an answer */
     const element_data **data; /* [count] data of the type that is completed */
-    const double **history;    /* [count] of the elements */
+    const double **history;    /* [count] histories of the elements */
     node_state *x;             /* [count x nodes] */
     double *answer;            /* [count x size] */
-    /* number of states for which there is memory; 1 after an allocation failure */
+    /* room: number of states for which there is memory; failed: 1 after an allocation failure */
     int room, failed;
 } gather;
 
@@ -172,7 +172,8 @@ void places_strain(const element_data *d, const node_state x[], strain_output *o
  * */
 void places_nodes(const element_data *d, const double e[], node_state x[]);
 
-/* Computes B [7n x strains], the derivative of the node positions with respect to the strains. */
+/* Computes B [7n x strains], the derivatives of the nodes' positions, rotations and warping
+ * amplitudes with respect to the strains. */
 void places_motion(const element_data *d, const double e[], double B[]);
 
 #endif

@@ -55,7 +55,7 @@ static status refuse(const handshake_reading *r, const char *key, const char *wh
                      what);
 }
 
-/* Copies a string, because the JSON is freed earlier. */
+/* Copies a string, because the JSON is freed before the type. */
 static status text_of(const handshake_reading *r, const char *key, const char **out)
 {
     const char *text = json_string_value(json_object_get(r->said, key));

@@ -67,8 +67,8 @@ static void strains_of(const element_data *d, const node_state x[], double e[])
         e[first_warping(d) + k] = l * l * x[k].a;
 }
 
-/* Computes the rows Q: the derivatives of the strains of a node with respect to the chord to the
- * node. */
+/* Computes Q[3 x 3]: the derivatives of the three strains of a node's position with respect to the
+ * chord to the node. */
 static void direction_rows(double l, const double to[3], double Q[9])
 {
     const double size = vec3_norm(to);

@@ -135,7 +135,9 @@ static int child_end(child *c, int now)
     return -1;
 }
 
-/* Waits for either channel. Returns 0 after the time limit. */
+/* Waits until the child has written or, if `to` is POLLOUT, until it accepts input. end: time of
+ * clock_wall_seconds at which the time limit expires; 0: no limit. Returns 0 after the time limit.
+ */
 static int await(const child *c, short to, double end)
 {
     struct pollfd at[2] = {{.fd = to ? c->to : -1, .events = to},

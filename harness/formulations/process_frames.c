@@ -29,8 +29,8 @@ static status known(const frame_question *q, fault *f)
     return many ? channel_break(c, "more than 65536 kinds of elements at once", f) : STATUS_OK;
 }
 
-/* frame_put appends `bytes` to a request. The second function reads `count` doubles of an answer.
- * Both functions advance the pointer. */
+/* frame_put appends `bytes` to a request. frame_take reads `count` doubles of an answer. Both
+ * functions advance the pointer. */
 static void frame_put(char **to, const void *from, size_t bytes)
 {
     memcpy(*to, from, bytes);

@@ -31,10 +31,9 @@ void frames_serve_inertia(process *p);
 /* Sets the functions of the history of the type if it has one (process_frames.c). */
 void frames_serve_history(process *p);
 
-/* A request about many elements. Contains the numbers of values per element in the request and in
- * the answer. */
+/* Requests to the process of a formulation. */
 
-/* A request about elements. */
+/* A request about `count` elements. */
 typedef struct frame_question {
     enum channel_request what;
     int mask, count;

@@ -112,7 +112,7 @@ static int add_columns(const element_data *d, stencil_function *f, const relativ
     return outcome;
 }
 
-/* Computes B^T K B plus the change of B^T F due to B. */
+/* Computes C = B^T K B + d(B^T F)/de, where F is constant in the second term. */
 static status given_tangent(const relative_place *here, double C[])
 {
     const element_data *d = here->data;

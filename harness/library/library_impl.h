@@ -44,9 +44,9 @@ status known_read(const case_type *type, truths *out, fault *f);
 /* Reads the reference values of all cases. */
 status known_read_all(truths *out, fault *f);
 
-/* Locks HDF5 only. The reading of shared reference values is enclosed by known_hold and
- * known_let_go. If two threads need the same reference values, only one thread reads them, and no
- * process is forked during this time. */
+/* Locks HDF5 without changing its error handling. known_hold and known_let_go enclose the reading
+ * of shared reference values. If two threads need the same values, only one of them reads them, and
+ * no process is forked during this time. */
 void known_hold(void);
 void known_let_go(void);
 /* Locks HDF5 for all other calls. known_unlock restores the error handling of the host. */

@@ -9,7 +9,7 @@
 #include "elements/section/section.h"
 #include "elements/shared/masses.h"
 
-/* Multiplies a factor by the factor of the load case. */
+/* Returns `factor` times the factor of the load's case. A load without a case keeps `factor`. */
 static double combined(const equations *eq, const scene_load *load, double factor)
 {
     return load->load_case == SCENE_NONE
@@ -58,8 +58,9 @@ void applied_member_axes(const double triad[9], const section *of, double R[9])
     }
 }
 
-/* Returns a load on one vertex. axes: axes of the components of the load; NULL: global axes.
- * beside: vector from the vertex to the point of application, in global axes. */
+/* Returns the force and moment of a load on one vertex, multiplied by `scale`. axes: axes of the
+ * components of the load; NULL: global axes. beside: vector from the vertex to the point of
+ * application, in global axes. */
 static applied of_vertex(const model_state *s, int vertex, const scene_load *load, double scale,
                          const double axes[9], const double beside[3])
 {
@@ -104,7 +105,9 @@ static double density_of(const model *m, const scene_load *load, const mesh_elem
     return load->kind == SCENE_GRAVITY ? c->density * c->A : 1;
 }
 
-/* Computes the point of application of gravity: the centre of mass of the undeformed section. */
+/* Computes the vector, in global axes, from a node of the undeformed element to the point of
+ * application of the load. It is zero except for gravity on a section given by matrices, which acts
+ * at its centre of mass. */
 static void weight_centre(const model *m, const scene_load *load, const mesh_element *el, int node,
                           double centre[3])
 {
@@ -117,7 +120,8 @@ static void weight_centre(const model *m, const scene_load *load, const mesh_ele
     mat3_mul_vec(el->triad[node], at, centre);
 }
 
-/* A shorter part of an element carries no load, because its length is due to rounding. */
+/* Length of a part of an element, relative to the element. A shorter part carries no load, because
+ * its length is due to rounding. */
 static const double least_part = 1e-12;
 
 int applied_inside(double x)
@@ -165,8 +169,8 @@ static double share_of(const model *m, int k, double x)
     return three[k];
 }
 
-/* Computes the points of a load on a part of an element, and their weights. The sum is exact for a
- * linear load times a shape function. */
+/* Computes quadrature points x and weights for a load on a part of an element, and returns their
+ * number. Quadrature is exact for a linear load times a shape function. */
 static int points_of(const scene_load *load, const double part[2], double x[2], double weight[2])
 {
     const double half = (part[1] - part[0]) / 2, middle = (part[0] + part[1]) / 2;
@@ -232,8 +236,8 @@ void applied_element(const model *m, const model_state *s, const scene_load *loa
     }
 }
 
-/* Returns the distance between the nodes of a tension load. e: direction from the first node to the
- * second. */
+/* Returns the distance between the nodes of a tension load. e: unit vector from the first node to
+ * the second. */
 static double line_of(const model *m, const model_state *s, const scene_load *load, double e[3])
 {
     double from[3], to[3];
@@ -282,9 +286,9 @@ typedef struct entries {
     void *to;
 } entries;
 
-/* Adds the derivative of the generalised load of a follower force F and a follower moment F + 3 at
- * rho with respect to a rotation about b. The derivatives of force and moment are b x F and b x
- * F[3..5]. */
+/* Adds the derivative of the generalised load with respect to a rotation of the body about b =
+ * b[column]. The load is a follower force F[0..2] at rho and a follower moment M = F[3..5]. Their
+ * derivatives are b x F and b x M. */
 static void add_following(const entries *all, const mesh_vertex *body, const double F[6],
                           const double rho[3], double b[3][3], const double moved[3], int column)
 {
@@ -307,16 +311,15 @@ static void add_following(const entries *all, const mesh_vertex *body, const dou
 typedef struct load_motion {
     int coordinate;
     int own; /* 1: coordinate of the end; 0: coordinate of its body */
-    /* 1: rotation about a fixed axis, which does not depend on the order of the other two rotations
-     * */
+    /* 1: one of three rotations about fixed axes, whose order does not matter */
     int chart;
     double axis[3]; /* axis of a rotation */
     double turn[3]; /* rotation of the frame of the load */
     double shift[3];
 } load_motion;
 
-/* Computes the motions in the order of the frame: position and rotations of the body, rotations of
- * the end, and shifts of the end. Returns their number. */
+/* Computes the motions in the order in which they act on the frame of the load: position and
+ * rotations of the body, rotations of the end, and shifts of the end. Returns their number. */
 static int motions_at_release(const entries *all, const applied *what,
                               load_motion out[KINEMATICS_MOST])
 {
@@ -344,7 +347,8 @@ static int motions_at_release(const entries *all, const applied *what,
     return count;
 }
 
-/* Returns 1 if rotation e precedes l and therefore rotates the axis of l; 0 if it follows l; 1/2 if
+/* Returns the part of rotation e that rotates the axis of l: 1 if e precedes l; 0 if it follows l,
+ * or if the end rotates independently of its body and only one of both belongs to the end; 1/2 if
  * the two have no order. */
 static double carries(const mesh_release *r, const load_motion *e, const load_motion *l)
 {
@@ -386,8 +390,9 @@ static void add_stiffness_at_release(const entries *all, const applied *what)
                 release_entry(release_of(all->m, what->vertex), what, &motion[i], &motion[j]));
 }
 
-/* Adds the derivative of the generalised load of a force F at offset rho, and of a spatial
- * moment, with respect to rotations of one body. */
+/* Adds the stiffness of a load on a vertex: the derivative of the generalised load with respect to
+ * the rotations of the vertex's body. The load is a force F[0..2] at offset rho, and a spatial
+ * moment F[3..5]. */
 static void add_stiffness(void *context, const applied *what)
 {
     const entries *all = context;

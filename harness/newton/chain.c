@@ -60,8 +60,8 @@ static int small_product(int n, const double F[], const double W[])
     return 1;
 }
 
-/* Returns the number of eigenvalues that become negative if the stiffness B is added at the end of
- * the chain. */
+/* Returns by how much the number of negative eigenvalues of F^-1, the stiffness of the end of the
+ * chain, increases if the stiffness B is added. */
 static int more_negative(int n, const double F[], const double B[], const double W[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT];
@@ -231,7 +231,8 @@ INLINED void add_load_before(int c, int y, const double r[], int link, double w[
             w[i] += r[(size_t)link * (size_t)y - (size_t)(c - i)];
 }
 
-/* Computes a for every joint, starting with a of the first joint. */
+/* Computes a, the displacements without the forces of later links, for every joint. first: a of the
+ * first joint. */
 INLINED void forward(chain *s, int c, int y, const double r[], const double first[])
 {
     const int in = y - c;
@@ -307,7 +308,8 @@ INLINED void deform(const chain *s, int c, int y, const double r[], const double
     }
 }
 
-/* Computes the forces on the last joint that move it from its position without forces to x. */
+/* Computes the forces g on the last joint that move it from `from`, its position without forces, to
+ * x. */
 static void force_to(const chain *s, const double x[], const double from[], double g[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT], moved[CHAIN_JOINT];

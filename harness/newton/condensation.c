@@ -11,8 +11,9 @@ static int condensation_number(condensation *s, int count, const int released[])
 /* Builds the patterns of both matrices. */
 static status condensation_patterns(condensation *s, int ends, fault *f);
 
-/* Returns 1 if all loads with a stiffness act at the ends of members, and all nodes between the
- * ends are free. */
+/* Returns 1 if members can be condensed, and one has at least `from` elements. Conditions: all
+ * loads with a stiffness act at the ends of members, no member lies on an elastic foundation, the
+ * axes do not rotate, the scene is spatial and the model does not keep all coordinates. */
 static int applies(const equations *eq, int from)
 {
     const model *m = eq->m;
@@ -333,8 +334,8 @@ static void couple(const condensation *s, const mesh_element *el, int ends, char
                 coupled[s->number[el->index[k]] * ends + s->number[el->index[i]]] = 1;
 }
 
-/* Builds the pattern of the coordinates list[count]. The rows are numbered as in all coordinates,
- * or as in the list. */
+/* Builds the pattern of the coordinates list[count]. own 1: rows are numbered as in the list; 0: as
+ * all coordinates. */
 static status pattern_of(const condensation *s, int count, const int list[], int ends,
                          const char coupled[], int own, sparse *out, fault *f)
 {

@@ -187,7 +187,7 @@ static void extrapolate_rotation(const model *m, int vertex, int count, const do
     rotation_normalise(&out->q[4 * vertex]);
 }
 
-/* Returns 1 if the vertex has an orientation that is not given by angles. */
+/* Returns 1 if the vertex has its own orientation, and angles do not describe this orientation. */
 static int turns_by_itself(const model *m, int vertex)
 {
     const mesh_release *r = release_of(m, vertex);
@@ -196,7 +196,8 @@ static int turns_by_itself(const model *m, int vertex)
                : model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
 }
 
-/* Computes the weights for each number of states from `least` to `most`. */
+/* Computes the weights of extrapolations from `least` to `most` states. Also decides which of them
+ * are possible. */
 static void weigh(const equations *eq, int least, int most, const model_state *const at[],
                   double path, guesses *g)
 {

@@ -27,7 +27,8 @@ static int are_same(const double a[AMOUNTS], const double b[AMOUNTS])
     return a[ELONGATION] == b[ELONGATION] && a[ABOUT_Y] == b[ABOUT_Y] && a[ABOUT_Z] == b[ABOUT_Z];
 }
 
-/* Adds the strain due to a temperature load on its part of the element. */
+/* Adds the amounts due to a temperature load, averaged over the element: the load may act on a part
+ * of it only. */
 static void add_amounts(const model *m, int element, const scene_load *load, double scale,
                         double out[AMOUNTS])
 {
@@ -71,7 +72,7 @@ static void amounts_at(const equations *eq, int element, double path, double out
         out[i] += own[i];
 }
 
-/* Computes the derivative with respect to the path parameter or time. */
+/* Computes the derivative of the result of heat_at with respect to the path parameter or time. */
 static void rates_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const scene *s = model_scene(eq->m);
@@ -119,7 +120,8 @@ static void place(const model *m, int element, const double amounts[AMOUNTS], fr
     }
 }
 
-/* Computes the motion of the node at x due to the amounts. */
+/* Computes the linearised motion of the point at x due to a change of the amounts by `amounts`:
+ * out[translation, rotation]. */
 static void moved(const free_element *of, const double amounts[AMOUNTS], double x, double out[6])
 {
     const double turn[3] = {0, amounts[ABOUT_Y] * of->length, amounts[ABOUT_Z] * of->length},

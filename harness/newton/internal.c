@@ -45,9 +45,9 @@ static void note_taken(const model *m, const double force[], double sign, double
             taken[end][i] += sign * force[NODE_COORDINATES * (end ? model_nodes(m) - 1 : 0) + i];
 }
 
-/* Records the parts of weight or centrifugal force that were subtracted at the ends of a two-node
- * element. The distributed load also has a couple, like the distributed inertia
- * (harness/time/deformable.c). */
+/* Subtracts the couples of the distributed weight or centrifugal force on a two-node element from
+ * ends[]. Distributed inertia has such couples as well (harness/time/deformable.c). taken[]: forces
+ * that were subtracted at the ends; overwritten. */
 static void take_couple(const mesh_element *el, const node_state x[], double taken[2][3],
                         double ends[2][7])
 {

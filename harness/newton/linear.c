@@ -1,5 +1,5 @@
-/* Linear analyses about the undeformed state. Quadratic forms are computed from the strains, which
- * do not lose digits on fine meshes. */
+/* Linear analyses about the undeformed state. Quadratic forms are computed from the strains,
+ * because products with assembled matrices lose digits on fine meshes. */
 #include "harness/newton/newton_impl.h"
 
 #include <float.h>
@@ -71,7 +71,7 @@ double linear_initial(const model *m)
     return largest;
 }
 
-/* Adds to sigma the stresses due to the temperatures at `path` in elements with fixed nodes,
+/* Adds to sigma the stresses that the temperatures at `path` cause in elements with fixed nodes,
  * multiplied by `times`. */
 static status add_free(const equations *eq, double path, double times, double sigma[], fault *f)
 {
@@ -133,8 +133,7 @@ void linear_forces(const equations *eq, const double sigma[], double f[])
     linear_springs_forces(m, sigma + model_elements(m) * model_strains(m), f);
 }
 
-/* Computes sum sigma_i H_i and G(sigma) of an element in element coordinates, and force = J^T
- * sigma. */
+/* Computes H = sum sigma_i H_i, G(sigma) and J of an undeformed element in element coordinates. */
 static void geometric_of(const equations *eq, int i, const double sigma[], double H[], double G[],
                          double J[])
 {

@@ -250,7 +250,8 @@ static void add_discrete(const equations *eq, const model_state *s, model_linear
     }
 }
 
-/* Adds the contents of a slot. Returns 0 if an element cannot be evaluated. */
+/* Adds the parts of the elements of a piece, which are stored in a slot. Returns 0 if an element
+ * could not be evaluated. */
 static int take_piece(void *context, int piece, int slot)
 {
     shared_loop *loop = context;

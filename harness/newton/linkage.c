@@ -7,8 +7,8 @@
 #include "elements/element.h"
 #include "elements/math/dense.h"
 
-/* With fewer elements, the work is finished before a second thread has started (measured for
- * spherical_joint and hexapod). */
+/* With fewer elements per thread, the work is finished before a second thread has started (measured
+ * for spherical_joint and hexapod). */
 enum { ELEMENTS_OF_A_THREAD = 32 };
 
 status linear_memory_alloc(const model *m, linear_memory *out, fault *f)
@@ -195,7 +195,8 @@ static void add_block(linkage *l, int a, int b, double sign, const double C[N * 
                 sign * block[N * i + j];
 }
 
-/* Removes the components along orthogonal unit vectors from the rows of one kind of motion. */
+/* Removes the components along orthogonal unit vectors from the three rows of a translation or of a
+ * rotation. */
 static void leave_out(int count, const double along[3][3], double rows[3 * N])
 {
     for (int k = 0; k < count; k++)
@@ -309,7 +310,7 @@ static double motion_of(const linkage *l, int part, const double position[3], do
     return vec3_norm(motion) + model_length(l->m) * vec3_norm(motion + 3);
 }
 
-/* Names the node with the largest motion, or a member if all nodes are at rest. */
+/* Finds the node with the largest motion. If all nodes are at rest, finds a member that moves. */
 static void name_what_moves(const linkage *l, int *node, int *member, double motion[N])
 {
     const model *m = l->m;

@@ -89,8 +89,8 @@ void newton_free(newton_run *n)
     kinematics_state_free(n->backup);
 }
 
-/* Returns 1 if the effect of a driver on its coordinate exceeds the rounding error of all its
- * effects. */
+/* Returns 1 if an unknown driver moves a coordinate that has a condition, by more than the rounding
+ * error of its effects on all free coordinates. */
 static int drives(const newton_run *n, int count, const model_condition condition[],
                   const double column[])
 {

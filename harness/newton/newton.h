@@ -539,7 +539,7 @@ typedef struct system_input {
 } system_input;
 
 typedef struct system_output {
-    int quantity; /* first quantity that uses this input */
+    int quantity; /* index of the first quantity with this output */
     scene_response as;
 } system_output;
 
@@ -706,8 +706,8 @@ typedef struct path_event {
         /* number of negative pivots of the tangent stiffness after the event; -1: the tangent is
          * not symmetric */
         negative_after;
-    /* load factor and control value [m] at the point; for a branch jump: where both branches have
-     * this control value */
+    /* load factor and control value [m] at the point; for a branch jump: at a control value that
+     * both branches have */
     double factor, control;
     double other_factor; /* load factor on the rejected branch for a branch jump; otherwise NAN */
     /* critical point: |phi . f|/(|phi| |f|) with null vector phi and load f; branch jump: distance
@@ -900,8 +900,9 @@ typedef struct element_part {
 loading loading_of(const model *, int analysis);
 /* Returns the value [m or rad] of a driver with a known motion. */
 double loads_driver_value(const equations *, const scene_driver *d, double path);
-/* Computes the value and its first two derivatives during a motion. At the end of a piece, they are
- * those of the next piece. A driver without a function of time keeps its last value. */
+/* Computes the value of a driver and its first two time derivatives during a motion. At the end of
+ * a piece of its function, they are those of the next piece. A driver without a function of time
+ * keeps its last value. */
 void loads_driver_rates(const equations *, const scene_driver *d, double path, double out[3]);
 /* Adds to out[free + driven] the forces of the load in a state, multiplied by `scale`. */
 void loads_add_one(const equations *, const model_state *, const scene_load *, double scale,
@@ -1118,7 +1119,7 @@ typedef struct internal_place {
  * out[SPAN_VALUES]. NOT_CONVERGED: as for span_recover. In a motion, the mass is distributed evenly
  * along an element, and accelerations are interpolated between its nodes. If the acceleration is
  * linear, the forces are in equilibrium with the rest of the structure, so values are continuous
- * between elements (order 2). Warping inertia acts at nodes. */
+ * between elements. Warping inertia acts at nodes. */
 status internal_at(const equations *, const internal_state *, const internal_place *, double out[],
                    fault *);
 
@@ -1402,8 +1403,8 @@ void singular_explain(analysis_context *c, fault *f);
 /* Products of K of the last linearisation with x, in two parts; x, y: [free + driven]. The stiff
  * part is computed from the element strains, y += sum J^T P'' (J x), because an assembled matrix
  * would lose all digits of soft motions. The other part is a matrix on the pattern of G: sum
- * sigma_i H_i with the second derivatives of offsets and sequences, minus the stiffness of loads
- * and rotation. */
+ * sigma_i H_i with the second derivatives of offsets and of sequences of angles, minus the
+ * stiffness of loads and of rotating axes. */
 void stiffness_parts_material_product(const model *, const linear_memory *, const model_state *,
                                       const double x[], double y[]);
 /* Returns a bound of the rounding error of x^T K x for the stiff part. */

@@ -16,7 +16,7 @@ static inline const spring_rates *damping_of_springs(const run_damping *d)
     return d != NULL ? &d->springs : NULL;
 }
 
-/* Returns the rotation of the frame at a path parameter. */
+/* Returns the rotating frame at a path parameter: its centre and its angular velocity. */
 element_rotating_frame loading_frame(const loading *, double path);
 
 /* Forces of a load on the vertices of a mesh in a given state. */
@@ -133,8 +133,9 @@ void distributed_add_taken(const model *, const along_output *out, const double 
 
 /* Adds to forces[7 nodes] the forces of a load along a member on one of its elements, multiplied by
  * `scale`. Subtracts their derivative from K[7 nodes x 7 nodes], which may be NULL. Returns 0 if
- * the load exerts no force on the element. If the element includes the load in its equilibrium, the
- * added forces are their derivative with respect to the load, and K does not change. */
+ * the load exerts no force on the element. If the element includes the load in its equilibrium,
+ * adds the derivative of the forces with respect to the magnitude of the load, multiplied by
+ * `scale`. K does not change in this case. */
 int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
 /* Like distributed_add_one, for all loads at `path`. For loads that the element includes in its

@@ -351,9 +351,10 @@ typedef struct watch {
     int growing;                 /* number of successive growing corrections */
 } watch;
 
-/* Sizes of corrections, in radians or lengths, from which an iteration does not converge. The limit
- * is larger for the first corrections of a step. An iteration with repeatedly growing corrections
- * does not converge either. */
+/* Limits of the size of a correction (rotations in rad, translations relative to the size of the
+ * scene). An iteration with a larger correction does not converge. The limit is larger for the
+ * first corrections of a step. An iteration with repeatedly growing corrections does not converge
+ * either. */
 static const double wild = 4, wild_at_first = 16;
 enum { AT_FIRST = 3, GROWING = 4, MOST_IN_TIME = 20 };
 

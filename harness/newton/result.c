@@ -66,7 +66,7 @@ void quantity_no_value(quantity_result *r, status s, const char *reason)
 
 int quantity_governs(scene_envelope how, double value, double best)
 {
-    const double ties = 1e-9; /* if two values are opposite, the first governs */
+    const double ties = 1e-9; /* of two values with equal magnitudes, the first governs */
     return how == SCENE_ENVELOPE_MIN       ? value < best
            : how == SCENE_ENVELOPE_LARGEST ? fabs(value) > (1 + ties) * fabs(best)
                                            : value > best;
@@ -145,7 +145,7 @@ static int invert(int n, double A[], double B[])
     return failed;
 }
 
-/* Subtracts m~/2 of the moment `of`, multiplied by `times`, from the rotations of K. */
+/* Subtracts m~/2 of the moment `of`, multiplied by `times`, from the rotational block of K. */
 static void subtract_half_skew(const movable *v, double times, const double of[3], double K[])
 {
     const double m[3] = {times * of[0], times * of[1], times * of[2]},

@@ -83,8 +83,8 @@ status rotating_frame_inertia(const equations *eq, const model_state *state, dou
     return STATUS_OK;
 }
 
-/* Transforms a vector from global axes to the axes of an element, the mean of the axes at its ends.
- */
+/* Transforms a vector from global axes to the axes of an element, which are the mean of the axes at
+ * its ends. */
 static void in_axes(const mesh_element *el, const double v[3], double out[3])
 {
     for (int k = 0; k < 3; k++) {

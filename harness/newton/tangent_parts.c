@@ -117,8 +117,8 @@ factor_counts condensation_count(const condensation *s)
     return counts;
 }
 
-/* Products with the tangent of the last linearisation as the sum of a stiff and a soft part, which
- * give accurate residuals. */
+/* Products with the tangent of the last linearisation. They are computed as sums of a stiff and a
+ * soft part, so that residuals are accurate. */
 
 void stiffness_parts_material_product(const model *m, const linear_memory *memory,
                                       const model_state *s, const double x[], double y[])

@@ -7,14 +7,14 @@
 #include "elements/math/rotation.h"
 #include "elements/shared/beam_constants.h"
 
-/* Solves R' = R kappa~, r' = R (e_x + gamma) over [0, 1], where the unit is the length.
- * kappa[points x 3] and gamma[points x 3] are in section axes. Uses a Magnus series of order six
- * between the points. The curve ends at both frames: the gap at the end, which is a discretisation
- * error, is distributed in proportion to x. */
+/* Solves R' = R kappa~, r' = R (e_x + gamma) over [0, 1]. All lengths are relative to the length of
+ * the element. kappa[points x 3] and gamma[points x 3] are in section axes. Uses a Magnus series of
+ * order six between the points. The curve ends at both frames: the gap at the end, which is a
+ * discretisation error, is distributed in proportion to x. */
 static void span_curve_between(const span_grid *g, const span_frame *p, const span_frame *q,
                                const double kappa[], const double gamma[], span_curve *out);
-/* Solves the torsion equations over [0, 1], where the unit is the length. Returns 0, or 1 if the
- * equations are singular. */
+/* Solves the torsion equations over [0, 1]. All lengths are relative to the length of the element.
+ * Returns 0, or 1 if the equations are singular. */
 static int span_twist_solve(const span_grid *g, const span_torsion *t, span_twist *out);
 
 enum { N = SPAN_GRID_POINTS, KAPPA = 0, GAMMA = 3 * N, UNKNOWNS = 6 * N };
@@ -51,7 +51,8 @@ static void begin(span_work *w)
     }
 }
 
-/* Computes integrals of the loads at the points: [points][force, moment about p]. */
+/* Computes the distributed loads at the points: [points][force, moment about p], in the units of
+ * span_work. */
 static void loads_of(span_work *w, double out[N][6])
 {
     memset(out, 0, N * sizeof *out);

@@ -46,7 +46,8 @@ static void make_integral(span_grid *g)
     }
 }
 
-/* Makes the sum of each row zero, because the derivative of a constant is zero. */
+/* Computes the matrix of derivatives at the points. The sum of each row is zero, because
+ * the derivative of a constant is zero. */
 static void make_derivative(span_grid *g)
 {
     for (int i = 0; i < GRID_N; i++) {

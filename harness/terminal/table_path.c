@@ -20,7 +20,8 @@ static void corrections(FILE *to, int column, const solve_result *r, const step_
     paragraph_end(&words, column, column);
 }
 
-/* Returns the number of steps to report. Steps of motions are reported in a short form. */
+/* Returns the number of load steps. Steps of motions do not count, because their summary is printed
+ * separately. */
 static int steps_told(const solve_result *r)
 {
     int steps = r->steps;
@@ -192,7 +193,8 @@ static void energy_line(FILE *to, const motion_extent *e)
     paragraph_end(&words, at, MOTION_INDENT);
 }
 
-/* Prints the largest energy that the integrator dissipates, relative to the largest energy. */
+/* Prints the largest energy that the integrator has dissipated, if it is significant relative to
+ * the energy of the motion. */
 static void damping_line(FILE *to, const motion_extent *e)
 {
     account so_far = {.largest = 0};
@@ -242,8 +244,8 @@ static void momentum_line(FILE *to, const motion_extent *e)
         change_of(e, SCENE_LX), e->record[e->first].at.time);
 }
 
-/* Reports a load whose factor at the end of the preceding path differs from its factor at the start
- * of the motion. */
+/* Reports each load whose factor at the end of the preceding path differs from its factor at the
+ * start of the motion. */
 static void jump_lines(FILE *to, const scene *s, int analysis, double path)
 {
     for (int i = 0; i < s->loads && isfinite(path); i++) {

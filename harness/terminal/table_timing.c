@@ -230,8 +230,8 @@ static void way(FILE *to, const sweep *s, const reached *r)
         fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
 
-/* Prints formulations that were faster in every round than the formulations that pass, below the
- * latter. */
+/* Prints the formulations that pass and have a higher counted cost than the first, but were faster
+ * in every round. */
 static void faster_ones(FILE *to, const sweep *s, const reached list[], int count, int ties)
 {
     int told = 0;
@@ -243,8 +243,7 @@ static void faster_ones(FILE *to, const sweep *s, const reached list[], int coun
         }
 }
 
-/* Prints the formulations within the error in groups with the same defect, for the case that no
- * formulation passes. */
+/* Prints the formulations that reach the error but do not pass, in groups with the same defect. */
 static void defective_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
     for (int i = 0; i < count; i++) {
@@ -263,8 +262,8 @@ static void defective_ones(FILE *to, const sweep *s, const reached list[], int c
     }
 }
 
-/* Prints the formulations that are not ranked, below the ranked formulations: first those that
- * pass, then the others. Returns the number of those that pass. */
+/* Prints the formulations that pass, but whose cost is unknown. Returns the number of all
+ * formulations that pass. */
 static int unranked_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
     int i = 0, told = 0;

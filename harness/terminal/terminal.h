@@ -12,9 +12,9 @@ enum { PARAGRAPH_WIDTH = 100 /* columns */ };
 
 /* Returns the number of columns of a text. */
 int paragraph_columns(const char *text);
-/* Writes the text with line breaks at the last column, indents continuation lines, and ends the
- * last line. A word that is longer than a line is not divided. at: number of columns already used
- * in the first line. */
+/* Writes the text in lines of at most PARAGRAPH_WIDTH columns, indents continuation lines, and ends
+ * the last line. A word that is longer than a line is not divided. at: number of columns already
+ * used in the first line. */
 void paragraph_write(FILE *to, int at, int indent, const char *text);
 /* Like paragraph_write, with the format and arguments of printf. */
 void paragraph_say(FILE *to, int at, int indent, const char *format, ...)
@@ -52,8 +52,8 @@ void screen_put(FILE *to, screen, screen_ink, const char *text);
 /* Prints a value with the conversion 'g', 'e' or 'f' of printf in a field of `width` columns; a
  * dash if the value is not finite. */
 void table_value(FILE *to, int width, int digits, char conversion, double value);
-/* table_omitted prints a line on members that loads divide and a line on omitted physics. The
- * second function prints the shear theory of the formulation if shear and stability occur together.
+/* table_omitted prints a line on members that loads divide and a line on omitted physics.
+ * table_theory prints the shear theory of the formulation if shear and stability occur together.
  * Lines that do not apply are omitted. */
 void table_omitted(FILE *to, const sweep_point *p);
 void table_theory(FILE *to, const scene *s, const element_type *type);

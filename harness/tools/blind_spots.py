@@ -162,8 +162,8 @@ def notices(v, slopes, rules):
 
 
 def weakest(found, formulations):
-    """Returns the formulation whose smallest detected fault is largest, and its best quantity, or None if no fault is
-    detected."""
+    """Returns the largest of the smallest faults that are detected for each formulation, as a Notice. Returns None if
+    no fault is detected for a formulation."""
     best = {key: None for key in formulations}
     for one in found:
         key = one.verdict["formulation"]

@@ -3,12 +3,12 @@
 
 usage: bounds.py VERIFY_JSON FINDINGS_CSV [--loose]
 
-The largest_error of an entry is the smallest of 1, 2 and 5 times a power of ten that no limit of its verdicts exceeds.
+The largest_error of an entry is the smallest of 1, 2 and 5 times a power of ten that no error of its verdicts exceeds.
 Errors are distances from the derived limit if there is one, otherwise from the reference value, relative to the
-reference value. largest_error is empty if no verdict has an error. If a verdict has no derived limit, largest_error is the smallest of 1,
-1.5, 2, 3, 4, 5 and 7 times a power of ten.  The exit status is 1 if the list of known deviations contains another value. A
-bound is loose if it is more than ten times the errors with a derived limit, or more than 1.5 times those without one;
---loose prints only this.  The digits are those of the limit that is
+reference value. largest_error is empty if no verdict has an error. If a verdict has no derived limit, largest_error is
+the smallest of 1, 1.5, 2, 3, 4, 5 and 7 times a power of ten.  The exit status is 1 if the list of known deviations
+contains another value. A bound is loose if it is more than ten times the errors with a derived limit, or more than 1.5
+times those without one; --loose prints only this.  The digits are those of the limit that is
 farthest from its prediction, on the meshes of the verdict.
 """
 import argparse

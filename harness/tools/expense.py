@@ -1,4 +1,4 @@
-"""Fits a prediction of the cost of a run, made before it is solved, to the counted work of solved runs (`make lab
+"""Fits a formula, which predicts the cost of a run before it is solved, to the counted work of solved runs (`make lab
 L=expense`; the file of the last `make verify`).
 
 Cost [s] = sum over the kinds of work of an analysis of times * (once * o + element * e * elements), where elements are
@@ -22,8 +22,8 @@ WORK = ("cell", "linear", "buckling", "loaded_buckling", "modal", "load_step", "
         "radau_step", "explicit_step")
 FOLDS = 5
 ROUNDS = 15
-DEAR = 0.75  # relative errors are weighted by cost^0.25, so expensive runs have more weight, but cheap runs also contribute
-             # matter
+# Relative errors are weighted by cost^0.25. Expensive runs have more weight, but cheap runs also contribute.
+DEAR = 0.75
 LARGE = 0.3  # error of the logarithm above which errors have less weight
 
 

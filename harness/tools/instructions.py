@@ -8,9 +8,9 @@ usage: instructions.py PROGRAM [-o FILE] [--only WORD]     a table; FILE: the sa
 A part consists of the functions of the harness with these names, and all that they call. The smallest number consists
 of operations on doubles (+ - * / sqrt) without loads, stores and loops. For strains, stresses and updates these are the
 operations of their equations as written, counted in the program. For J^T C J with a symmetric result it is
-m n (2 m + n + 1) (m strains, n coordinates). For factors it is the counted operations, for two sweeps over their
-entries 4 per entry, and for elimination and assembly one per entry of a symmetric matrix. With four numbers in a
-register, a quarter of it would be enough.
+m n (2 m + n + 1) (m strains, n coordinates). For a factorisation it is the counted number of operations. For a
+solution, which sweeps twice over the factors, it is 4 per entry. For elimination and assembly it is one per entry of a
+symmetric matrix. With four numbers in a register, a quarter of these instructions would be enough.
 """
 import argparse
 import collections
@@ -203,7 +203,8 @@ def as_they_stand(program, cell, profile, numbers):
 
 
 def least(counts, form):
-    """Returns {part: operations} that all formulations have in common, for the whole run."""
+    """Returns {part: smallest number of operations in the whole run} of the parts that all formulations have in
+    common."""
     m, n = form["strains"], 7 * form["nodes"]
     triangle = n * (n + 1) // 2
     return {"J^T C J": counts["strain_evaluations"] * m * n * (2 * m + n + 1),

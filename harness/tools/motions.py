@@ -1,5 +1,5 @@
-"""Compares all stored values of motions with limits of meshes: each stored value, the value on the finest mesh,
-its limit and the uncertainty.
+"""Compares all stored values of motions with the limits of mesh refinement: each stored value, the value on the finest
+mesh, its limit and the uncertainty.
 
 usage: motions.py PROGRAM [CASE...] [--fine] [-o FILE.csv]     The exit status is 1 if the distance of a limit from its
 reference value exceeds both uncertainties. It also counts the limits whose uncertainty exceeds a hundredth of the

@@ -48,8 +48,8 @@ static void scale_shear(section *c, int at, double by)
     scale(c->F, 3, at, 1 / by);
 }
 
-/* stiff returns the section with a changed stiffness. The second function returns the section with
- * a changed mass. Neither change affects the other property. */
+/* stiff returns the section with a changed stiffness, and heavy returns the section with a changed
+ * mass. Neither change affects the other property. */
 static section stiff(const section *given)
 {
     /* names in the order of the rows of a section given by matrices: N, Qy, Qz, Mx, My, Mz */
@@ -89,8 +89,8 @@ static section heavy(const section *given)
     return c;
 }
 
-/* Size of the data of an element. They are followed by the data of the same element with the fault
- * in its mass. */
+/* Memory for the data of an element. The data of the same element with the fault in its mass
+ * follow. */
 enum { ROOM = 1 << 16 };
 
 typedef struct second {

@@ -1,5 +1,5 @@
 /* Uses the input as strings for a library call: the number of the call, then one or two strings
- * separated by a line. A rejection must have a one-line reason or a list of errors in JSON. A
+ * separated by a newline. A rejection must have a one-line reason or a list of errors in JSON. A
  * result must be JSON, or a scene that can be read again. Both must be UTF-8. */
 #include <jansson.h>
 

@@ -24,8 +24,9 @@ BEAMWORK_LIBRARY is the path of the library libbeamwork.so.0. If it is not set, 
 folder of this module, in `lib` of the prefix or `build` of the clone that contains this module, in the folder of the
 program, and in the search path of the system. beamwork.path is the path that was found.
 
-Other threads run while the library computes. A scene performs one computation at a time. Ctrl-C ends the processes of
-converge and verify, or a solution after its present iteration or step, and raises KeyboardInterrupt.
+Other threads run while the library computes. A scene performs one computation at a time. Ctrl-C raises
+KeyboardInterrupt. It ends the processes of converge and verify immediately, and a solution after its current iteration
+or time step.
 """
 from __future__ import annotations as _annotations
 

@@ -71,7 +71,8 @@ def folded(title: str, content: str) -> str:
 
 
 def scene(about: dict[str, Any], text: str) -> str:
-    """Returns the HTML of a scene: summary and parameters, and the quantities and the file, which can be unfolded."""
+    """Returns the HTML of a scene. Its summary and parameters are visible; its quantities and its file can be
+    unfolded."""
     parameters = [(p["name"], plain(p["value"]), of_unit(p["unit"]), p["summary"])
                   for p in about["parameters"]]
     quantities = [(q["name"], of_unit(q["unit"]), q["meaning"]) for q in about["quantities"]]

@@ -41,11 +41,11 @@ class Refused(Error, ValueError):
 
 
 class NotConverged(Error):
-    """Newton's method found no equilibrium state."""
+    """An iteration did not converge, or the values still change on the finest mesh."""
 
 
 class Singular(Error):
-    """The structure is insufficiently supported or has lost its stiffness."""
+    """A matrix is singular, for example because the structure is insufficiently supported or has lost its stiffness."""
 
 
 class Fault(Error):
@@ -53,7 +53,7 @@ class Fault(Error):
 
 
 class TimeLimit(Error):
-    """The work was stopped by a time limit."""
+    """The work was stopped by a time limit, or because the descriptor `stop` became readable."""
 
 
 class NoValue(Error):

@@ -205,8 +205,8 @@ class Scene:
         the previous mesh. Raises NotConverged if the values still change on the finest mesh tried.
         options: error, all_dofs, steps, shapes, threads, stop, ... (see beamwork.h).
 
-        Raises Refused, NotConverged, Singular or Fault; error.result is the partial result, or None. Ctrl-C ends
-        the solution after its present iteration or step of a motion, and raises KeyboardInterrupt."""
+        Raises Refused, NotConverged, Singular or Fault; error.result is the partial result, or None. After Ctrl-C,
+        raises KeyboardInterrupt when the current iteration or, in a motion, the current step is complete."""
         name = utf8(formulation, "formulation")
         count = 0 if elements is None else arguments.whole(elements, "elements")
         arguments.options(options)  # checks them here
