@@ -17,7 +17,7 @@ const parameter_type case_omit[] = {
 const parameter_type case_mass_omit[] = {
     {"mass", "", SCENE_MASS_USUAL, 0, 0, "usual|" SCENE_MASS_CHOICES,
      "mass of members. usual: consistent if the formulation and the integrator support it, "
-     "otherwise lumped; lumped: half at each node; consistent: rejected if not supported"},
+     "otherwise lumped; lumped: at the nodes; consistent: rejected if not supported"},
     {"omit", "", 0, 0, 0, "source|none", omitted},
     {0},
 };
