@@ -66,7 +66,7 @@ static void add_frequencies(scene *s, int rotation, double omega, int curves, in
         }
 }
 
-/* Only the products matter, so E = G = 1 Pa. */
+/* Results depend only on the products EA, EIy, EIz, GIt and rho A, so E = G = 1 Pa. */
 static void add_beam(scene *s, double area, double stiffness_ratio, int *root, int *tip)
 {
     const double y_axis[3] = {0, 1, 0};

@@ -196,8 +196,7 @@ const extreme extremes[] = {
      {{"axial", 0, 12, 2}},
      {{"tip", 0}}, "length/thickness", "1", EXTREME_PARAMETERS,
      8, 3, {10, 1e2, 1e3}, EXTREME_EXACT, 0, 5e-3},
-    /* The period is pi/8000 s, because the mass is lumped at nodes at distances of an eighth of the
-     * length. */
+    /* The period of the fastest mode is pi/8000 s, because the mass is lumped at nodes at distances of an eighth of the length. */
     {"long_steps_alpha", "long steps", "step size of alpha relative to the period of the fastest mode, an axial mode",
      "release", "integrator=alpha;tolerance=0",
      {{"step", 0, 0.000392699081698724, 1}},

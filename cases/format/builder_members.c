@@ -92,7 +92,8 @@ static void read_sections(const fields *f, scene_member *m)
     check_taper(f, n, (const int[]){m->section, m->section_q});
 }
 
-/* Reads a word, or a list of words in order. */
+/* Reads the released components of an end of a member: a word, or a list of words. Their order is
+ * the order of the releases. */
 static void read_released(const fields *f, const char *key, int member, int end)
 {
     const document_node *n = document_find(f->map, key);

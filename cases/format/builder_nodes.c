@@ -119,8 +119,8 @@ static void read_member_axes(const fields *axes, int node, scene_node *n)
     }
 }
 
-/* Reads rotations. A single prescribed rotation is a sequence of one angle. Several rotations about
- * the axes of the node are rejected, because their order would be undefined. */
+/* Converts the rotations of a node with its own axes. A single prescribed rotation becomes a
+ * sequence of one angle. Several rotations are rejected, because their order would be undefined. */
 static void turn_about_axes(const fields *f, scene_node *n)
 {
     double R[9];

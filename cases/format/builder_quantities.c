@@ -231,7 +231,7 @@ static int asked_of(const scene *s, int analysis)
 }
 
 /* Sets the number of eigenvalues to the number that the quantities request. Reports an error if
- * `wanted` contradicts this number. */
+ * `wanted` is smaller than this number. */
 static void check_wanted(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {
@@ -329,8 +329,8 @@ static int is_asked(const scene *s, int node)
     return 0;
 }
 
-/* Returns the largest extent of the positions [m]. Displacements that are far smaller are treated
- * as zero. */
+/* Returns the diagonal [m] of the smallest box that contains all nodes. Displacements that are far
+ * smaller are treated as zero. */
 static double size_of(const scene *s)
 {
     double least[3] = {INFINITY, INFINITY, INFINITY}, most[3] = {-INFINITY, -INFINITY, -INFINITY};

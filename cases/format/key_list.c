@@ -187,7 +187,7 @@ static json_t *value_of(const entry_field *k)
     return json_object();
 }
 
-/* Returns the schema of a number, a list of numbers, or a word. */
+/* Returns the default of a key as JSON: a number, a list of numbers, or a word. */
 static json_t *usual_of(const entry_field *k)
 {
     json_t *value = json_loads(k->usual, JSON_DECODE_ANY, NULL);

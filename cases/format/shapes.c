@@ -1,5 +1,5 @@
-/* Sections given by dimensions and rolled sections given by name, represented by thin walls. All
- * dimensions refer to the centre lines of the walls. */
+/* Sections given by dimensions and rolled sections given by name, represented by thin walls. The
+ * dimensions of the former refer to the centre lines of the walls. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -268,8 +268,8 @@ static void give(double *to, double value)
         *to = value;
 }
 
-/* Adds constants with fillets, which are exact except It (El Darwish and Johnston, J. Struct. Div.
- * ASCE 91, 1965, as in tables of manufacturers). */
+/* Adds constants that include fillets. All are exact except It (El Darwish and Johnston, J. Struct.
+ * Div. ASCE 91, 1965, as in tables of manufacturers). */
 static void add_rolled_i(section_spec *spec, const rolled *p, double mm)
 {
     const double h = p->h * mm, b = p->b * mm, tw = p->tw * mm, tf = p->tf * mm, r = p->r * mm,

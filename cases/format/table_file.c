@@ -14,8 +14,9 @@ typedef struct table_file {
     const document_node *place; /* name of the CSV file in the scene file */
     arena *arena;
     mistakes *mistakes;
-    const char *name;              /* path as written in the scene file */
-    const document_node *of[2];    /* how the scene file describes the columns */
+    const char *name; /* path as written in the scene file */
+    const document_node
+        *of[2]; /* columns of the abscissa and of the values in the scene file: names or numbers */
     int column[2], columns, begun; /* columns to be read (from 0), number of columns in the first
                                       row, and 1 if the columns are known */
     double last;                   /* last value in the first of the columns to be read */

@@ -276,7 +276,7 @@ static void write_stations(writer *w, int count, const double path[], const char
     write_values_numbers(w, count, value);
 }
 
-/* Writes the keys that identify a motion. */
+/* Writes the values of a known motion: along a path, or as a function of time. */
 static void write_known(writer *w, const void *entry)
 {
     const scene_driver *d = entry;

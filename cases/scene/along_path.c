@@ -149,7 +149,8 @@ static int called(const scene *s, scene_list list, int i, char *who, int size)
     return 1;
 }
 
-/* Returns the first load that acts in the analysis and for which `is` is true. */
+/* Returns 1 if `is` is true for a load that acts in the analysis, and writes the name of the first
+ * such load to `who` (may be NULL). */
 static int load_that(const scene *s, int analysis, int (*is)(const scene_load *), char *who,
                      int size)
 {

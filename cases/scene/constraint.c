@@ -271,8 +271,7 @@ static status check_across(const scene *s, int i, int node, fault *f)
     return STATUS_OK;
 }
 
-/* Relates the translations in the plane of all nodes, and their first angles, to those of the
- * master. */
+/* Relates the in-plane translations and the first angles of all nodes to those of the master. */
 static status join_across(const scene *s, int i, scene_tie tie[], fault *f)
 {
     const scene_constraint *c = &s->constraint[i];

@@ -27,8 +27,10 @@ typedef enum scene_analysis_kind {
     SCENE_BUCKLING, /* linear buckling about the undeformed state or about the last state of a path.
                        About the undeformed state, the prestress is linear: loads at path parameter
                        0 are constant, and their increase up to 1 is multiplied by the factor */
-    SCENE_MODAL,    /* natural frequencies about the present state */
-    SCENE_COMPLIANCE,   /* tangent compliance at every station of the preceding static path */
+    SCENE_MODAL, /* natural frequencies about the undeformed state or the state of another analysis
+                  */
+    SCENE_COMPLIANCE, /* tangent compliance of the undeformed structure, or at every station of the
+                         static path that the analysis follows */
     SCENE_CONTINUATION, /* path of a load factor, with arc-length control or control of one
                            coordinate */
     SCENE_ROTATION,     /* stationary rotation: equilibrium and frequencies in the rotating frame */

@@ -409,8 +409,9 @@ static int runs_on(const scene *s, member_end first, member_end second)
            is_symmetric(s, profile[0], sign);
 }
 
-/* Data of a node: number of element ends, sum of their indices, and 1 if the node belongs to a
- * body, possibly with members or springs at other nodes. */
+/* Data of a node. ends: number of member ends at the node; sum: sum of their indices (number_of);
+ * tied: 1 if the node belongs to a body to which members or springs may be joined at other nodes.
+ */
 typedef struct warping_place {
     int ends, tied;
     long sum;

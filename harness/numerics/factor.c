@@ -2,8 +2,8 @@
  * rounding error. With x = A^-1 e_i and y = A^-T e_k, the number x_k = y^T A x is a sum of terms
  * y_i a_ij x_j. Rounding of A changes x_k by about eps times the square root of the sum of the
  * squares of these terms. If this change is as large as x_k, A is singular to working precision.
- * For example, the last pivot of a free beam with n elements is eps n^2 times its diagonal entry,
- * and not eps times this entry. */
+ * The size of a pivot alone does not show this: for the matrix of a free beam with 80 elements,
+ * rounding leaves a last pivot of about 1e4 eps times its diagonal entry (measured). */
 #include "harness/numerics/numerics_impl.h"
 
 #include <float.h>

@@ -330,8 +330,9 @@ double account_size(const account *a)
 }
 
 /* Returns 1 if the request explains a loss of energy: fixed steps, or generalized-alpha with more
- * damping than rho_inf = 0.9. For all parameters of generalized-alpha, alpha_f - alpha_m = (1 -
- * rho)/(1 + rho), where rho is the spectral radius at infinite frequency. */
+ * damping than rho_inf = 0.9. If 3 alpha_f - alpha_m <= 1, as for all parameters that `rho` gives,
+ * alpha_f - alpha_m = (1 - rho)/(1 + rho), where rho is the spectral radius at infinite frequency.
+ */
 static int account_loses(const scene_motion *how)
 {
     const double usual = 0.9, most = (1 - usual) / (1 + usual) * (1 + 1e-9);
