@@ -1,5 +1,6 @@
 /* The second-order element of N section 2 with the shear terms included in the generalized strains.
- * The order is four, and the limit is exact for small shear strains and elongations. */
+ * The error converges with order four in the element length, and the limit is exact for small shear
+ * strains and elongations. */
 #include "elements/sheet/sheet.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)

@@ -35,7 +35,7 @@ static inline const real *beamw_internal_inside(const beamw_internal *s, int r)
     return s->D + BEAMW_INTERNAL_Y * r + BEAMW_INTERNAL_Z;
 }
 
-/* Computes D dz in the columns of z. */
+/* Adds the product of the columns of D that belong to z with dz to out[rows]. */
 static inline void beamw_internal_along(const beamw_internal *s, const real dz[3],
                                         real out[BEAMW_CONDENSED_ROWS])
 {

@@ -145,7 +145,8 @@ static void set_point(const moving_line *c, int g, double mass, const double a[3
                       line_point *p)
 {
     const double *acceleration = place ? c->out->acceleration : NULL;
-    p->mass = 2 * c->d->weight[g] * mass; /* `mass` belongs to half of the element */
+    /* `mass` belongs to half of the element, hence the factor 2 */
+    p->mass = 2 * c->d->weight[g] * mass;
     p->part[0] = 1 - c->d->at[g];
     p->part[1] = c->d->at[g];
     p->shift = place;
@@ -234,7 +235,8 @@ static void narrow(const row A[N], double *out)
             out[N * i + j] += A[i].of[j];
 }
 
-/* Adds dy/dx and dy''/dx'. */
+/* With T = dy/dx, adds mass T^T T to M, mass T^T dy''/dx' to C, and mass T^T times the part of
+ * dy''/dx due to vectors fixed to the nodes to K. */
 static void add_gradients(moving_line *c, const line_point *p)
 {
     const inertia_output *out = c->out;

@@ -94,8 +94,8 @@ static void beamw_inertia_gradient(const beamw_inertia_state *c, const beamw_ine
     }
 }
 
-/* Computes y relative to the frame, and the vectors that are fixed to each node, multiplied by
- * their weights. */
+/* Computes r = y, for a position relative to the centre of the rotating frame, and fixed[node], the
+ * part of y that rotates with each node. */
 static void beamw_inertia_place(const beamw_inertia_state *c, const beamw_inertia_values *at,
                                 const beamw_inertia_vector *y, double r[3], double fixed[2][3])
 {

@@ -59,8 +59,8 @@ struct element_data {
 /* Adds c (a b^T + b a^T), which represents the quadratic term c (a . e)(b . e), to Q. */
 void beamw_variants_add_product(double Q[8 * 8], double c, const double a[8], const double b[8]);
 
-/* Impose uniform torsion without warping, for which e7 and e8 equal e2. The first function replaces
- * A[n x n] by T^T A T; the second function transforms all data of a variant. */
+/* Impose uniform torsion without warping. beamw_variants_merge_torsion replaces A[n x n] by T^T A
+ * T, where T sets e7 and e8 to e2. beamw_variants_drop_warping transforms all data of a variant. */
 void beamw_variants_merge_torsion(int n, double A[]);
 void beamw_variants_drop_warping(element_data *d);
 /* Lists the nonzero terms of S and Q, which must have been computed completely. */

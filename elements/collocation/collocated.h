@@ -184,7 +184,7 @@ static inline void exact_collocated_write(int stages, const exact_stages *s, exa
         }
 }
 
-/* Evaluates an element type with `stages` points. */
+/* Evaluates the stresses of `run` elements with `stages` points. */
 static inline __attribute__((always_inline)) void
 exact_collocated_run(int stages, const exact_stages *s, int run, const double *const e[],
                      const double *const inner[], stress_output out[], status outcome[])
@@ -262,7 +262,7 @@ static inline void exact_loaded_write(int stages, const exact_stages *s, const e
     exact_along_finish(s, a, at, moved, out);
 }
 
-/* Evaluates an element type with `stages` points. */
+/* Evaluates the stresses of `run` elements with `stages` points, under loads along them. */
 static inline __attribute__((always_inline)) void
 exact_loaded_run(int stages, const exact_stages *s, const exact_along *a, int run,
                  const node_state x[], along_output out[], status outcome[])

@@ -56,15 +56,15 @@ status exact_stages_prepare(const element_request *request, int count, exact_sta
  *   g(x) = l0 (int_x^1 q - 1/2 int_0^1 q).
  * F + g replaces F in N above, and half of int q acts on each node. Together, both terms represent
  * the load potential - int q . r. F and xi = G^T g are given in the mean axes G of the ends. A
- * rotation psi of G, in the axes of G, changes xi by xi x psi. The potential depends on G only
- * through xi. */
+ * small rotation psi of G, in the axes of G, changes xi by xi x psi. The potential depends on G
+ * only through xi. */
 
 /* Data of a kind of element. q is given at the points of element.h. */
 typedef struct exact_along {
     double at[EXACT_STAGES_MAX][ELEMENT_ALONG_POINTS]; /* g at the stages [m] */
     double missed[ELEMENT_ALONG_POINTS]
-                 [3]; /* correction of the work on the undeformed line that the quadrature at the
-                         stages does not include [m^2]; the correction rotates with G */
+                 [3]; /* part of the work on the undeformed line that the quadrature at the stages
+                         omits [m^2]; it rotates with G */
     double half[ELEMENT_ALONG_POINTS]; /* weights of half of int q [m] */
 } exact_along;
 

@@ -89,7 +89,7 @@ static inline void exact_point_at(int nodes, real q[][4], const double N[], cons
     mat3_transpose_mul_vec(p->R, y, p->v);
 }
 
-/* Adds factor b x a to `out` for each column a of a [3 x 3]. The second function sets `out`. */
+/* Adds factor b x a to `out` for each column a of a [3 x 3]. */
 static inline void exact_point_add_cross(const real b[3], const real a[9], real factor, real out[9])
 {
     for (int j = 0; j < 3; j++) {

@@ -25,8 +25,8 @@ typedef enum exact_measure_kind {
  * second derivatives of m with respect to t = y^2. */
 void exact_measure_angle(double t, double m[3]);
 
-/* Computes the factor m and its derivatives for the requested kind. x is a measure of the first
- * kind. */
+/* Computes the factor m and its derivatives for the requested kind. x is the measure
+ * EXACT_MEASURE_QUARTER of the rotation. */
 static inline void exact_measure_ratio(exact_measure_kind kind, const real x[3], real m[3])
 {
     const real t = vec3_dot(x, x) * (1.0 / 16);

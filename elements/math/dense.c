@@ -41,7 +41,7 @@ static inline __attribute__((always_inline)) int width_of(int left)
     return 1;
 }
 
-/* Adds the sum of add_block to whole rows. */
+/* Like add_block for a whole row of n columns, in blocks of compiled widths. */
 static inline __attribute__((always_inline)) void add_rows(int count, int n, double times, int skip,
                                                            const double *c, int stride,
                                                            const double *rows, double *out)
@@ -96,7 +96,7 @@ double dense_quadratic(int n, const double A[], const double x[])
     return sum;
 }
 
-/* Multiplies rows whose length is a compile-time constant. */
+/* Computes y(m) = A(m x n) x. It is faster if the caller passes a compile-time constant as n. */
 static inline __attribute__((always_inline)) void mul_rows(int m, int n, const double *A,
                                                            const double *x, double *y)
 {

@@ -26,8 +26,8 @@ double dense_symmetrise(int n, double *A);
 int dense_cholesky(int n, double *A);
 /* Solves L L^T X = B(n x m) in place. */
 void dense_cholesky_solve(int n, int m, const double *L, double *B);
-/* Computes the LU factorisation with partial pivoting in place and the rows pivot[n]. Returns 0, or
- * 1 + the index of the zero pivot. */
+/* Computes the LU factorisation with partial pivoting in place. pivot[n]: rows that were exchanged.
+ * Returns 0, or 1 + the index of the zero pivot. */
 int dense_lu(int n, double *A, int pivot[]);
 /* Computes the factorisation of dense_lu, but treats a pivot as zero if it is only a rounding error
  * of the terms from which it was computed. */
