@@ -367,7 +367,7 @@ static void read_rest(const fields *f, section_spec *spec)
         spec->zeros |= SECTION_ZERO_SHEAR;
 }
 
-/* Reads 36 numbers, or the six diagonal entries. */
+/* Reads a matrix of a section: 36 numbers, or the six diagonal entries. */
 static void read_matrix(const fields *f, const char *key, double out[36])
 {
     double *given;

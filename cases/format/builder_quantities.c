@@ -360,9 +360,9 @@ static void add_displacements(builder *b, int analysis, int node, int prefixed)
     }
 }
 
-/* Adds translations of the nodes that are loaded or driven or, if there are none, of all free
- * nodes. For a linear analysis that solves all load cases and combinations, the quantities are the
- * values of the largest magnitude. */
+/* Adds displacements of the nodes that have a load or a prescribed translation. If there are none,
+ * adds those of all nodes that are not attached to another node. For a linear analysis that solves
+ * all load cases and combinations, the quantities are the values of the largest magnitude. */
 static void add_states(builder *b, int analysis, int prefixed)
 {
     const scene *s = b->scene;

@@ -160,8 +160,8 @@ status scene_file_read_form(const char *path, scene_file **out, mistakes *m, fau
 /* Checks the scene at these parameter values. Returns REFUSED with all errors in m and the first
  * error in f. */
 status scene_file_check(const scene_file *, const double value[], mistakes *m, fault *f);
-/* Reads a scene file from memory, as scene_file_read does from a file (for the fuzzer). `path` is
- * used in messages. */
+/* Reads a scene file from memory, as scene_file_read does from a file. `path` is used in messages.
+ */
 status scene_file_read_bytes(const char *bytes, size_t size, const char *path, scene_file **out,
                              mistakes *m, fault *f);
 void scene_file_free(scene_file *);

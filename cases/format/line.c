@@ -153,7 +153,7 @@ int line_number(const char *text, double *value)
     return *end == '\0' && isfinite(*value);
 }
 
-/* Writes the description without the name of its analysis. */
+/* Writes the description of a quantity without the name of its analysis. */
 static void put_sentence(const scene *s, const scene_quantity *q, char *text, size_t size)
 {
     FILE *to = fmemopen(text, size, "w");
@@ -174,7 +174,7 @@ static void put_sentence(const scene *s, const scene_quantity *q, char *text, si
     text[size - 1] = '\0';
 }
 
-/* Returns 1 if another analysis of the same kind would have the same description. */
+/* Returns 1 if a quantity of another analysis has the same description. */
 static int has_twin(const scene *s, const scene_quantity *q, const char *text)
 {
     char other[MEANING_ROOM];

@@ -67,8 +67,8 @@ static void read_choice(parameter_type *p, const document_node *value, mistakes 
                          p->choices);
 }
 
-/* Reads a parameter that is a number. If any_unit is 1, parameters may use the units of the
- * scene. */
+/* Reads a parameter that is a number. any_unit 1: the scene has its own units, so the unit of the
+ * parameter is not checked. */
 static void read_number(parameter_type *p, const document_node *entry, int any_unit, mistakes *m)
 {
     const document_node *unit = document_find(entry, "unit"), *at = document_find(entry, "value");
@@ -219,8 +219,8 @@ static void read_needs(const fields *f)
                                                   : SCENE_SHEAR_OWN;
 }
 
-/* Returns 1 if a word of 'omit' applies: its value is yes, or contains the present values of
- * names. */
+/* Returns 1 if a word of 'omit' applies: its value is yes, or a condition {NAME: VALUE} that is
+ * satisfied. */
 static int is_omitted(const fields *f, const document_node *n)
 {
     if (n->kind == DOCUMENT_MAP)

@@ -62,7 +62,7 @@ static void reverse_load(scene_load *load)
 {
     const double begin = load->range[0];
     for (int k = 0; k < 2 && load->axes == SCENE_AXES_MEMBER;
-         k++) { /* changes the directions of x and y */
+         k++) { /* the axes x and y of the member change direction */
         load->vector[k] = -load->vector[k];
         load->last[k] = -load->last[k];
         load->at[k] = -load->at[k];

@@ -23,7 +23,7 @@ static void scale_vector(double v[3], double factor)
         v[i] *= factor;
 }
 
-/* Scales constants of a section that are not in a file. */
+/* Scales the constants of a section that the key table does not describe. */
 static void scale_constants(section *c, double x)
 {
     const scaled list[] = {{&c->young, -2},     {&c->shear_modulus, -2}, {&c->density, -4},

@@ -58,7 +58,8 @@ static inline void beamw_internal_add_half(const beamw_condensed *d,
     s->h[2] += d->share * (quadratic[1] / 2);
 }
 
-/* Adds the terms that are quadratic in z to D, which is linear in z. */
+/* Adds to D the derivatives of the terms that are quadratic in z. These derivatives are linear in
+ * z. */
 static inline void beamw_internal_add_own(const beamw_condensed *d, const real z[BEAMW_INTERNAL_Y],
                                           beamw_internal *s)
 {

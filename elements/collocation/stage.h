@@ -136,7 +136,8 @@ typedef struct exact_stage_terms {
     real xx[9], xs[9], ss[9], xF[9], sF[9], FF[9]; /* s: x' */
 } exact_stage_terms;
 
-/* Fills the terms of x, x' and F. */
+/* Computes the orientation of a point, its curvature kappa relative to rest_kappa, and N = R^T
+ * force, from x and x' in p. */
 static inline void exact_stage_of(const real force[3], const double rest_kappa[3], exact_stage *p)
 {
     exact_milenkovic_forms(vec3_dot(p->x, p->x), &p->orientation, &p->curvature);
@@ -153,8 +154,8 @@ static inline real exact_stage_twist(const beam_constants *c, const exact_stage 
     return p->kappa[0] - c->F[6] * p->N[1] - c->F[7] * p->N[2];
 }
 
-/* Minimises or maximises the energy minus N . (e_x + gamma) over gamma, for sections given by
- * matrices. */
+/* Computes the stationary value over gamma of the energy minus N . (e_x + gamma), and its
+ * derivatives, for sections given by matrices. */
 static inline void exact_stage_coupled(const beam_constants *c, const real kappa[3],
                                        const real N[3], exact_stage_material *m)
 {

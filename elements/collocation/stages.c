@@ -9,7 +9,8 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-/* Computes the weights of the variables from the Lagrange polynomials of the nodes. */
+/* Computes the weights N and dN of the variables in the values of x and x' at a point, from the
+ * Lagrange polynomials of the nodes. */
 static void weights(int count, const double at[], double x, double N[], double dN[])
 {
     double node[EXACT_STAGES_NODES], slope[EXACT_STAGES_NODES];

@@ -1,5 +1,5 @@
 /* Symmetric matrices in blocks of 3 x 3, in lanes (real.h). Only blocks on and above the diagonal
- * are stored. The first rows K are eliminated by K = L D L^T without exchange of rows. The
+ * are stored. The leading block K is eliminated by K = L D L^T without exchange of rows. The
  * elimination is accurate for any condition number if K is positive definite except for its last
  * block, which must be negative definite. exact_blocks_definite checks this condition. */
 #ifndef BEAMWORK_COLLOCATION_SUMS_H

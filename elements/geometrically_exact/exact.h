@@ -101,17 +101,16 @@ void exact_strain_prepare(int nodes, int points, double l0, const double curvatu
  *
  * Fields that do not depend on the nodes are eliminated in advance:
  *   - Bubble functions of the warping amplitude, one per point: a = sum L_k a_k + sum c_j beta_j.
- *     The twist
- *     rate is the interpolation of the point values plus the part of a that they do not represent,
- *     kappa_x(s) = P kappa + a - P a, where P is the interpolation through the points. Without
- *     warping shear kappa_x = a everywhere, without a penalty.
+ *     The twist rate is the interpolation of the point values plus the part of a that they do not
+ *     represent, kappa_x(s) = P kappa + a - P a, where P is the interpolation through the points.
+ *     Without warping shear, kappa_x = a everywhere, without a penalty.
  *   - The part of the bending moment that the polynomial through the points does not represent.
- *     With two nodes this
- *     is its linear part (MacNeal's residual bending flexibility): the linear element is exact for
- *     end loads, also when it is rigid in shear. With three nodes it is the quadratic part (derived
- *     here), only for sections that are rigid in shear, which would otherwise have no shear
- *     flexibility. Q is compared with the slope of M in section axes. The two differ by kappa x M,
- * so that the order is four in a plane and two in space. */
+ *     With two nodes it is the linear part (MacNeal's residual bending flexibility). The element is
+ *     then exact for end loads in linear problems, even if it is rigid in shear. With three nodes
+ *     it is the quadratic part (derived here), only for sections that are rigid in shear, which
+ *     would otherwise have no shear flexibility. This part is computed from the difference between
+ *     Q and the slope of M in section axes. These also differ by kappa x M. Therefore the order is
+ *     four in a plane and two in space. */
 
 enum {
     EXACT_STIFFNESS_MAX_STRAINS = 6 * EXACT_STRAIN_MAX_POINTS + ELEMENT_MAX_NODES,

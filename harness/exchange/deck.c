@@ -332,7 +332,7 @@ static void body_write(const body_numbers *b, const scene *s, const brick bricks
                 fprintf(to, "%d,\n", body_node(b, i, k));
 }
 
-/* Returns SCENE_FREE, SCENE_HELD or a driver. */
+/* Returns the motion of a component of a node: SCENE_FREE, SCENE_HELD or a driver. */
 static int mover(const scene_node *n, int component)
 {
     const int axis = rigid_single_axis(n), turn = component - BODY_TRANSLATIONS;

@@ -134,7 +134,8 @@ static void take_row(map_reader *r, wanted *w, const double number[], int count,
         import_block_add(&r->block, &w->row);
 }
 
-/* Reads the numbers of a line. Returns 0 for a line that does not consist of numbers. */
+/* Reads the numbers of a line. Returns their number, or 0 for a line that does not consist of at
+ * most WORDS numbers. */
 static int numbers_of(char *line, double number[WORDS])
 {
     char *word[WORDS];

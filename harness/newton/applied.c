@@ -278,7 +278,8 @@ void applied_each(const model *m, const model_state *s, const scene_load *load, 
         applied_element(m, s, load, scale, i, take, context);
 }
 
-/* Function that receives the entries of the stiffness. */
+/* State for which the stiffness of a load is computed, and the function that receives its entries.
+ */
 typedef struct entries {
     const model *m;
     const model_state *s;
@@ -314,7 +315,7 @@ typedef struct load_motion {
     /* 1: one of three rotations about fixed axes, whose order does not matter */
     int chart;
     double axis[3]; /* axis of a rotation */
-    double turn[3]; /* rotation of the frame of the load */
+    double turn[3]; /* rotation of the load's frame per unit of the coordinate */
     double shift[3];
 } load_motion;
 
@@ -432,8 +433,8 @@ static void add_stiffness(void *context, const applied *what)
             mat3_mul_vec(D, b[j], Db);
             vec3_cross(b[j], b[i], cross);
             double value = vec3_dot(b[i], Db);
-            if (body->angles > 0) /* symmetric for the conservative part; the work of a spatial
-                                     moment depends only on earlier axes */
+            if (body->angles > 0) /* the conservative part is symmetric; the axis about which a
+                                     spatial moment does work depends only on the earlier angles */
                 value += (i > j ? 1 : -1) * vec3_dot(moment, cross) / 2 +
                          (j < i ? vec3_dot(F + 3, cross) : 0);
             else

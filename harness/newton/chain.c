@@ -308,8 +308,8 @@ INLINED void deform(const chain *s, int c, int y, const double r[], const double
     }
 }
 
-/* Computes the forces g on the last joint that move it from `from`, its position without forces, to
- * x. */
+/* Computes the forces g on the last joint that change its displacement from `from`, the
+ * displacement without forces, to x. */
 static void force_to(const chain *s, const double x[], const double from[], double g[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT], moved[CHAIN_JOINT];
@@ -321,7 +321,7 @@ static void force_to(const chain *s, const double x[], const double from[], doub
 
 static const double still[CHAIN_JOINT] = {0};
 
-/* Returns the position of the last joint for the case that no force acts on it. */
+/* Returns the displacement of the last joint if no force acts on it. */
 static const double *last_of(const chain *s)
 {
     return s->a + (size_t)s->links * (size_t)s->c;

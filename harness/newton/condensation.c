@@ -75,8 +75,8 @@ static status member_of(const model *m, int index, condensed_member *out, fault 
     return chain_alloc(out->links, out->joint, out->y, &out->chain, f);
 }
 
-/* Sets the members and their loads. The arrays belong to this condensation or, if given, to `of`.
- * */
+/* Finds the members, and allocates their chains and the work space r. If `of` is given, uses its
+ * members, chains and r instead. */
 static status find_members(condensation *s, const condensation *of, fault *f)
 {
     const model *m = s->m;

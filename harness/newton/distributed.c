@@ -79,7 +79,8 @@ static void load_at(const distributed_loads *of, const scene_load *load, double 
 
 enum { MOST = FIELD_MOST_POINTS };
 
-/* Returns 1 if a load along an element is constant. one: value of the load at a point. */
+/* Returns 1 if a load has the same force at all points of an element, and no arm. one: value of the
+ * load at a point. */
 static int same(const distributed_loads *of, const scene_load *load, const field_load *one)
 {
     return !load->varies && !load->follower && vec3_norm(one->arm) == 0 &&
@@ -87,7 +88,8 @@ static int same(const distributed_loads *of, const scene_load *load, const field
             vec3_norm(model_kind_of(of->m, of->element)->curvature) == 0);
 }
 
-/* Computes the values of one load at the points of an element. Returns the number of points. */
+/* Computes the values acting[] of one load at points of an element, multiplied by the weights of
+ * the points, and the rows[] of the displacement field. Returns the number of points. */
 static int points_of(const distributed_loads *of, const scene_load *load, double scale,
                      const double part[2], field_rows rows[MOST], field_load acting[MOST])
 {
@@ -136,7 +138,7 @@ int distributed_takes(const equations *eq, int element, const scene_load *load)
     return applied_part(m, element, load, part) && taken(eq, element, load, part);
 }
 
-/* Adds a load times `scale` to force[]. */
+/* Adds a load times `scale` to its values force[3 points] at the points of element_type.along. */
 static void gather(const equations *eq, int element, const scene_load *load, double scale,
                    double force[3 * ELEMENT_ALONG_POINTS])
 {
@@ -258,7 +260,8 @@ int distributed_stress(const equations *eq, const model_state *s, const node_sta
     return 1;
 }
 
-/* Adds the derivative of the forces with respect to the magnitude of one load. */
+/* Adds the derivative of the forces with respect to the magnitude of one load, multiplied by
+ * `scale`. */
 static void add_rate(const equations *eq, const model_state *s, const node_state x[], int element,
                      const scene_load *load, double scale, double forces[])
 {
@@ -341,7 +344,8 @@ int distributed_add(const equations *eq, const model_state *s, const node_state 
     return distributed_add_own(eq, s, x, element, path, forces, K) || acting;
 }
 
-/* Adds the force and moment of a load, in global axes, on the section with triad R. */
+/* Adds the force and moment of a load per length at x, in global axes, on the section with triad R.
+ */
 static void add_load(const distributed_loads *of, const scene_load *load, double x,
                      const double before[9], const double R[9], span_load *out)
 {

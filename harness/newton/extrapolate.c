@@ -211,7 +211,7 @@ static void weigh(const equations *eq, int least, int most, const model_state *c
     keep_smooth(eq, at, path, g);
 }
 
-/* Adds weight x of one state to the sums of several coordinates. */
+/* Adds weight times x[size] to sum[size]. */
 static void add_weighted(double weight, size_t size, const double x[], double sum[])
 {
     for (size_t k = 0; k < size; k++)

@@ -298,8 +298,8 @@ int free_strain_by_load(const equations *eq, const model_state *s, int element,
     return 1;
 }
 
-/* Returns the energy of an element in a state with other amounts. The type modifies its data for
- * free strains. */
+/* Returns the energy of an element for the given amounts, and for its strains and inner unknowns in
+ * the state. The type must have `unstressed`. room: memory for the data. */
 static double energy_with(const equations *eq, const model_state *s, int element,
                           const double amounts[AMOUNTS], element_data *room)
 {
@@ -310,7 +310,7 @@ static double energy_with(const equations *eq, const model_state *s, int element
     model_type(m)->unstressed(model_kind_of(m, element)->data, amounts, of.x, room);
     (void)model_type(m)->stress(room, &s->e[(size_t)element * (size_t)model_strains(m)],
                                 &s->inner[(size_t)element * (size_t)model_inner(m)],
-                                &(stress_output){.energy = &energy}); /* with its present amounts */
+                                &(stress_output){.energy = &energy}); /* energy for these amounts */
     return energy;
 }
 

@@ -37,7 +37,7 @@ static int lies_along(const model *m, int element, const scene_load *load)
            (!scene_load_within(load) || applied_inside(part[0]));
 }
 
-/* Adds the forces on the ends times `sign` to taken[]. */
+/* Adds `sign` times the forces on the first and on the last node to taken[]. */
 static void note_taken(const model *m, const double force[], double sign, double taken[2][3])
 {
     for (int end = 0; end < 2; end++)

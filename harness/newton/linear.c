@@ -396,7 +396,7 @@ static double part_of(const analysis_context *c, const system_workspace *w, cons
     return refinement_part(model_sizes(c->model).free, w->weight, change, x, w->strained);
 }
 
-/* Computes x += K^-1 (load - K x) and returns the size of the correction relative to x. */
+/* Computes x += K^-1 (load - K x). *correction: size of the correction relative to x. */
 static status correct(analysis_context *c, linear_system *s, system_workspace *w, double x[],
                       double *correction, fault *f)
 {

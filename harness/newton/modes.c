@@ -95,7 +95,7 @@ static void turns(const double R[9], double radius, const double u[7], double ou
     out[TWIST] = radius * radius * u[6];
 }
 
-/* Counts the half-waves. value[MEASURES i]: value at vertex i. */
+/* Returns the number of half-waves. value[MEASURES i]: value at vertex i. */
 static int count_half_waves(int vertices, const double *value)
 {
     double largest = 0, last = 0;
@@ -342,7 +342,7 @@ static status separate_cluster(const model *m, const scene *s, int count, size_t
     return STATUS_OK;
 }
 
-/* Returns the index after the last value that equals the first value. */
+/* Returns the index after the last of the consecutive values that equal value[first]. */
 static int cluster_end(int first, int count, const double value[])
 {
     const double equal = 1e-8; /* relative difference of equal values */

@@ -16,7 +16,7 @@ static void context_leave_factor(analysis_context *, matrix_factor *);
 
 enum { MAX_ITERATIONS = 30 };
 
-/* Allocates the solver, and its matrix if members are not condensed. */
+/* Allocates the factor, and K if members are not condensed. */
 static status allocate_tangent(newton_run *n, int condense, fault *f)
 {
     const sparse *pattern;

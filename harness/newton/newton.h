@@ -470,7 +470,8 @@ typedef struct shapes {
 
 enum { SHAPES_ALL = 1 << 30, SHAPES_MODES = 6, SHAPES_FRAMES = 60, SHAPES_FEW = 5 };
 
-/* Allocates empty arrays with the sizes given in the structure. FAULT: out of memory. */
+/* Allocates the arrays, filled with zeros, for the numbers given in the structure. FAULT: out of
+ * memory. */
 status shapes_alloc(shapes *, fault *);
 void shapes_free(shapes *);
 const char *shapes_kind_name(shape_kind);

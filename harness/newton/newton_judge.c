@@ -55,7 +55,8 @@ static void arrival_take(double correction, const advance_stress *stress, int fi
     a->remaining = a->contraction * correction * correction;
 }
 
-/* Returns 1 if a further correction would not change the result. */
+/* Returns 1 if the last correction meets the requested limit or, if none was requested, if a
+ * further correction would not change the result. */
 static int arrival_reached(const arrival *a)
 {
     if (a->criterion > 0)
@@ -274,8 +275,8 @@ status newton_judge_rest(const model *m, fault *f)
         model_type(m)->name, most, floor(count * sqrt(rise / most)) + 1);
 }
 
-/* Returns 1 if a moment acts normal to the axis of a rotation near a full revolution, where its
- * effect is unbounded. */
+/* Returns 1 if the rotation of a spring is near a full revolution, and its moment has a component
+ * normal to the rotation axis. The effect of such a component is unbounded there. */
 static int across(const mesh_discrete *d, const double turn[3])
 {
     const double near = 1e-3, size = vec3_norm(turn);

@@ -179,7 +179,8 @@ int convention_changes(scene_moments of_tangent, scene_moments convention, const
            (convention != of_tangent && vec3_norm(m) > 0);
 }
 
-/* Returns the number of times that m~/2 is subtracted. */
+/* Returns how many times m~/2 must be subtracted to convert a stiffness from the convention of the
+ * tangent; -1: m~/2 must be added. */
 static int times_of(scene_moments of_tangent, scene_moments convention)
 {
     return (convention != SCENE_MOMENTS_SEMITANGENTIAL) - (of_tangent == SCENE_MOMENTS_SPATIAL);

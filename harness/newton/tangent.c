@@ -9,7 +9,7 @@
 
 #include "elements/math/dense.h"
 
-/* Returns the index of a released coordinate; -1: none. */
+/* Returns the index of a coordinate in the border; -1: the coordinate is not released. */
 static int border_place(const border *, int coordinate);
 /* Sets the values of the border from K of all coordinates. */
 static void border_fill(border *, int free_count, const sparse *K);

@@ -43,7 +43,7 @@ static int piece_of(const char *name)
     return fits > 0 ? fits : COLUMN - 1;
 }
 
-/* Writes a line of the names. Returns 0 if the names are complete. */
+/* Writes one line of the column names. Returns 0 if the names are complete. */
 static int write_names(FILE *to, block *b, const char *head)
 {
     int left = 0, last = -1;

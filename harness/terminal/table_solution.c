@@ -58,7 +58,7 @@ static double uncertainty_of(const scene *s, int index, const solve_result *r)
     return isfinite(of_mesh) ? fmax(of_rounding, of_mesh) : of_rounding;
 }
 
-/* Prints a value with the digits that this bound allows. */
+/* Prints a value with the digits that its uncertainty (uncertainty_of) allows. */
 static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
 {
     const series *one = &s->series[0];

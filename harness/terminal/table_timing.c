@@ -61,7 +61,7 @@ static void row(FILE *to, const sweep *s, const series *one, const verdict *v, i
 }
 
 /* Returns the number of meshes of a series that were run; 0: the series does not belong to point
- * `at`. */
+ * `at`, or its formulation does not support the scene. */
 static int meshes_run(const series *one, int at)
 {
     return one->point == at && one->missing[0] == '\0' ? one->meshes : 0;
@@ -84,8 +84,7 @@ static void mark_shown(const sweep *s, const judgement *j, int at, int quantity,
         done[i] |= s->series[i].point == at && judged_on(j, i, quantity) != NULL;
 }
 
-/* Prints the errors in other quantities for formulations that have no reference value of the first
- * quantity. */
+/* Prints the errors in a quantity of all formulations that have a reference value of it. */
 static void errors_of(FILE *to, const sweep *s, const judgement *j, int at, int quantity)
 {
     fprintf(to, "  %-*s%5s %11s   of %s\n", NAME, "formulation", "n", "error",
@@ -314,7 +313,7 @@ static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
 
 /* The formulation with the lowest cost for a quantity, for every level. */
 typedef struct cheapest_answer {
-    int quantity, told; /* 1: has been printed */
+    int quantity, told; /* quantity; 1 if the answer has been printed */
     char *text[REACH_LEVELS];
 } cheapest_answer;
 

@@ -22,7 +22,7 @@ static void print_settings(FILE *to, const char *parameters)
             fputc(*parameters, to);
 }
 
-/* Prints the source of the formulation if it is not built in. */
+/* Prints the option --element of a formulation that is not built in. */
 static void print_element(FILE *to, const element_type *type)
 {
     const char *element = type != NULL ? formulations_element(type) : NULL;

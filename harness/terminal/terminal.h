@@ -108,10 +108,10 @@ void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh);
 
 /* Unexpected results of a run in full, with commands that show them again. */
 
-/* Prints unexpected results, or nothing if all results are as expected. */
 /* Prints the formulations that violate the requirements of the interface. They precede all other
  * results. */
 void table_breaches(FILE *to, screen, const judgement *j);
+/* Prints unexpected results, or nothing if all results are as expected. */
 void table_unexpected(FILE *to, screen, const sweep *s, const judgement *j, const truths *t);
 
 /* Prints the verdicts of a run as text, with a block for each point. */

@@ -113,8 +113,8 @@ def part_of(function):
 
 
 def frames(profile):
-    """Returns the functions that are reached without passing through a part. Only the functions that they call are
-    counted, so no instruction is counted twice."""
+    """Returns the functions that are reached without passing through a part. Only calls of parts from these functions
+    are counted, so no instruction is counted twice."""
     callees = collections.defaultdict(set)
     for caller, callee in profile.calls:
         callees[caller].add(callee)

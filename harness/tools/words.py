@@ -122,8 +122,8 @@ def python_texts(text):
 
 
 def hash_texts(kind):
-    """Returns a reader for lines of scripts that yields only comments. For the Makefile and for scene files, `kind` is
-    "shown"."""
+    """Returns a reader for lines of scripts. By default it yields only comments. If `kind` is "shown", as for scene
+    files, it also yields the rest of each line."""
     def texts(text):
         for number, line in enumerate(text.split("\n"), 1):
             found = re.search(r"(^|\s)#+\s?(.*)", line)
