@@ -304,7 +304,8 @@ static void check_value(const document_node *n, const entry_field *k, const docu
     }
 }
 
-/* Returns the key for a word that other programs use and that no key resembles. */
+/* Returns advice on a word that is not a key but that users of other programs may expect to be one,
+ * or on a key in the wrong place. NULL: none. */
 static const char *elsewhere(const entry_field *table, const char *name)
 {
     static const char *const poisson[] = {"poisson", "poissons_ratio", "poisson_ratio", "nu"};

@@ -174,7 +174,7 @@ static void put_sentence(const scene *s, const scene_quantity *q, char *text, si
     text[size - 1] = '\0';
 }
 
-/* Returns 1 if a quantity of another analysis has the same description. */
+/* Returns 1 if a quantity of the same kind in another analysis has the same description. */
 static int has_twin(const scene *s, const scene_quantity *q, const char *text)
 {
     char other[MEANING_ROOM];

@@ -119,7 +119,7 @@ static int by_end(const void *a, const void *b)
     return ((*x)->until > (*y)->until) - ((*x)->until < (*y)->until);
 }
 
-/* Stores the pieces of a function that have an end in the list. Returns their number. */
+/* Lists all pieces of a function except the last, which has no end. Returns their number. */
 static int list_ends(const scene_function *f, scene_piece *list[])
 {
     for (int i = 0; i < f->pieces - 1; i++)

@@ -1672,7 +1672,7 @@ void scene_change_force(scene *s, double y);
  * Otherwise returns 0. Scenes without dimensions are not checked. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT]);
 
-/* Warping at an end of a member that the scene does not specify. */
+/* Warping of an end of a member for which the scene specifies none. */
 enum { SCENE_WARP_BY_SUPPORT = -3 };
 
 /* Sets the warping of every end that is SCENE_WARP_BY_SUPPORT.

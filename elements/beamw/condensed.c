@@ -84,7 +84,8 @@ static void fields_at(const section *c, double l, double x, const beamw_twist *t
     const beamw_twist_shapes shape = beamw_twist_at(t, x);
     const double mean[3][N] = {{0, 1 / l}, {0, 0, 1 / l, 1 / l}, {0, 0, 0, 0, 1 / l, 1 / l}};
     for (int k = 0; k < N; k++) {
-        const int own = k >= Z; /* for z: bending parts (y, z) and warping part of h */
+        const int own =
+            k >= Z; /* 1 for the entries of z: the bending parts (y, z) and the warping part of h */
         const double bend[3] = {0, k == Z + 1 ? -6 : 0, k == Z ? 6 : 0},
                      tw = k == Z + 2 ? l * l : 0;
         const double A = own ? 0 : s->A[k],

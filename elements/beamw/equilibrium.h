@@ -132,7 +132,7 @@ static inline void beamw_internal_move(const beamw_condensed *d, const real dz[3
     beamw_internal_add_half(d, quadratic, s);
 }
 
-/* Adds the effect of z to the columns of e, after z has been computed. */
+/* Adds the effect of z to the columns of D that belong to e, after z has been computed. */
 static inline void beamw_internal_finish(const beamw_condensed *d, beamw_internal *s)
 {
     for (int t = d->mixed; t < d->own; t++)

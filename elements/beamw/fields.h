@@ -82,7 +82,8 @@ typedef struct beamw_spread {
     lumped_mass lumped;                          /* inertia of one half of the element */
     int points;                                  /* number of points of the consistent mass */
     double at[BEAMW_GAUSS], weight[BEAMW_GAUSS]; /* on [0, 1] */
-    double field[BEAMW_GAUSS][BEAMW_FIELDS][BEAMW_FIELD_MODES]; /* functionals of e: inertia.c */
+    double field[BEAMW_GAUSS][BEAMW_FIELDS]
+                [BEAMW_FIELD_MODES]; /* functionals of e at the points, see inertia.c */
     double share; /* fraction of consistent mass: 0 for lumped mass, 1 for consistent mass, 1/2 for
                      the average */
 } beamw_spread;

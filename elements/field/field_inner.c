@@ -16,7 +16,7 @@ enum { N = FIELD_INNER };
 enum { NX, QY, QZ, MX, MY, MZ, W, MW, RESULTANTS };
 /* Degree of the polynomials of the resultants without load. */
 enum { DEGREE = 6, ENDS = 6, MOST = ENDS + DEGREE + 1 + 2 };
-enum { POINTS = 8 }; /* number of points if no resultant is hyperbolic */
+enum { POINTS = 8 }; /* number of Gauss points if no resultant is hyperbolic */
 enum { LOADS = 7 };  /* q, mu, b */
 
 typedef struct inside {

@@ -13,7 +13,7 @@
 typedef struct relative_place {
     const element_data *data;
     const double *e;
-    const double *F;  /* forces of the nodes, which are kept while the strains change */
+    const double *F;  /* nodal forces, which are constant while the strains change */
     gather *together; /* gathers forces of all perturbed states; NULL: each state is evaluated when
                          it is needed */
 } relative_place;

@@ -27,8 +27,8 @@ static int are_same(const double a[AMOUNTS], const double b[AMOUNTS])
     return a[ELONGATION] == b[ELONGATION] && a[ABOUT_Y] == b[ABOUT_Y] && a[ABOUT_Z] == b[ABOUT_Z];
 }
 
-/* Adds the amounts due to a temperature load, averaged over the element: the load may act on a part
- * of it only. */
+/* Adds the amounts due to a temperature load, averaged over the element. The load may act on only a
+ * part of the element. */
 static void add_amounts(const model *m, int element, const scene_load *load, double scale,
                         double out[AMOUNTS])
 {

@@ -297,7 +297,7 @@ static void add_holds(linkage *l, int node)
 }
 
 /* Computes the motion [6: m, rad] of a point of a part in the eigenvector of the smallest
- * eigenvalue. Returns the magnitude of the motion [m]. */
+ * eigenvalue. Returns |translation| + |rotation| times the length of the model [m]. */
 static double motion_of(const linkage *l, int part, const double position[3], double motion[N])
 {
     double at[3], G[N * N], of_part[N];

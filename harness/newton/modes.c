@@ -116,7 +116,7 @@ static int count_half_waves(int vertices, const double *value)
 typedef struct motion {
     int points, first_member; /* number of points of all members, and of the first member */
     double *part;             /* [points x MEASURES] */
-    double *turn;             /* rotations and warping amplitudes */
+    double *turn;             /* [points x MEASURES] the measures of turns() */
 } motion;
 
 static int points_of(const model *m, const scene *s)
@@ -345,7 +345,7 @@ static status separate_cluster(const model *m, const scene *s, int count, size_t
 /* Returns the index after the last of the consecutive values that equal value[first]. */
 static int cluster_end(int first, int count, const double value[])
 {
-    const double equal = 1e-8; /* relative difference of equal values */
+    const double equal = 1e-8; /* largest relative difference between values that count as equal */
     int end = first + 1;
     while (end < count && fabs(value[end] - value[first]) <= equal * fabs(value[first]))
         end++;

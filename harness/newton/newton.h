@@ -60,7 +60,7 @@ typedef struct loading {
     int in_time;
     double held_path; /* path parameter of loads and drivers that are not functions of time */
     int unloaded;     /* 1: there are no loads, and all drivers are zero */
-    int acting;       /* number of the load case or combination (scene_acting_number) */
+    int acting;       /* active loads, numbered as by scene_acting_of */
     int lumps;        /* LUMPS_* bits */
     /* rotating axes; for a path of rotation, the angular velocity is multiplied by the path
      * parameter */

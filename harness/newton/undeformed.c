@@ -20,11 +20,11 @@ static status begin(const equations *eq, fault *f)
     const model *m = eq->m;
     run_undeformed *u = &eq->run->undeformed;
     if (u->of != NULL)
-        return STATUS_OK;
+        return STATUS_OK; /* an earlier call has allocated the memory */
     u->room = model_elements(m) < LARGE ? model_elements(m) : FIRST_ROOM;
     u->of = malloc(((size_t)model_elements(m) + 1) * sizeof *u->of);
     u->value = malloc((size_t)u->room * size_of(m) * sizeof *u->value + 1);
-    if (u->of == NULL || u->value == NULL) { /* another analysis may have allocated the memory */
+    if (u->of == NULL || u->value == NULL) {
         free(u->of);
         free(u->value);
         u->of = NULL;

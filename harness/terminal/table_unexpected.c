@@ -69,7 +69,7 @@ static void print_heading(FILE *to, int number, const char *format, ...)
     va_end(arguments);
 }
 
-/* Prints "case (parameters), formulation" and further properties. */
+/* Prints the numbered heading "case (parameters), formulation, more". */
 static void print_subject(FILE *to, int number, const sweep_point *p, const series *one,
                           const char *more)
 {

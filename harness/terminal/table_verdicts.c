@@ -168,7 +168,7 @@ static void print_skipped(verdicts_block *b)
     }
 }
 
-/* Prints the physics that series omit, in groups. */
+/* Prints the physics that series omit, in groups of series that omit the same physics. */
 static void print_omissions(const verdicts_block *b)
 {
     const sweep *s = b->s;

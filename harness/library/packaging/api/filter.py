@@ -38,7 +38,8 @@ def comments(source):
 
 
 def features(source):
-    """Returns the bits of physics, each with its row of the table."""
+    """Returns the source, in which a comment with the name and the summary of the physics follows each FEATURE_*
+    bit."""
     for bit, name, summary in FEATURE.findall(source):
         source = re.sub(rf"^( +{bit} = [^,\n]+,)$", lambda line, text=f"{name}: {summary}":
                         f"{line[1]} /* {text} */", source, count=1, flags=re.MULTILINE)
