@@ -22,10 +22,10 @@ typedef struct case_type {
     const char *file; /* path of the scene file, or NULL for a built-in case */
 } case_type;
 
-/* Last table of the parameters of every built-in case. `omit` selects whether the scene omits the
- * physics that the source omits, or no physics. case_mass_omit also selects the mass of members,
- * for cases whose quantities depend on the mass. Names of points contain these parameters only if
- * their values differ from the defaults. */
+/* One of these is the last table of the parameters of every built-in case. `omit` selects whether
+ * the scene omits the physics that the source omits, or no physics. case_mass_omit also selects the
+ * mass of members, for cases whose quantities depend on the mass. Names of points contain these
+ * parameters only if their values differ from the defaults. */
 extern const parameter_type case_omit[], case_mass_omit[];
 int case_is_omit(const parameter_type *);
 int case_is_mass(const parameter_type *);

@@ -251,7 +251,6 @@ const entry_field entry_load[] = {
 #include "cases/scene/keys_load.h"
     {.name = NULL}};
 
-/* Keys that belong to any load case. */
 const entry_field entry_constraint[] = {
     {"equal", ENTRY_FORMS, .summary = "[NODE, NODE, ...]: nodes with equal components",
      .left_out = "components of two nodes have a ratio"},

@@ -67,7 +67,7 @@ void function_at(const scene_function *f, double t, double out[3])
         out[k] *= f->scale;
 }
 
-/* Number of intervals between the times at which a piece is checked, including both ends. */
+/* A piece is checked at the ends of this number of equal intervals. */
 enum { LOOKS = 64 };
 
 static int is_finite(const double at[3], int derivatives)

@@ -622,7 +622,8 @@ int scene_unbalance_along(const scene_response *r, int k);
  * side of q. */
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant);
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant);
-/* Extracts the maximum over the cross-sections of a member, or the minimum for SCENE_NORMAL_MIN. */
+/* Extracts the largest value of a stress measure over the cross-sections of a member, or the
+ * smallest value of SCENE_NORMAL_MIN. */
 scene_extract scene_stress_along(int member, scene_stress_measure measure);
 scene_extract scene_stress_at(int member, double place, scene_stress_measure measure);
 /* Returns `what`, a resultant or a stress at a position, on one side of a discontinuity: that of p

@@ -237,7 +237,7 @@ static void without_warping(beamw_condensed *out, parts *of)
     memset(out->hg + 2 * E, 0, E * sizeof(double));
 }
 
-/* Lists the terms that contain `inside` variables of z. */
+/* Lists the terms of which exactly `inside` factors (0, 1 or 2) are variables of z. */
 static void list_terms(const parts *of, int inside, beamw_condensed *out)
 {
     static const short from[BEAMW_CONDENSED_ROWS] = {0, 1, 2, 3, EVEN, EVEN + 1};

@@ -33,7 +33,7 @@ typedef struct beamw_inertia_values {
 
 enum { POSITION = -1, NOTHING = -2, TERMS = 2 };
 
-/* A vector y = lin(v) + sum of sign m_k field, where v is a vector of the nodes. */
+/* A vector y = lin(v) + sum of sign m_k (field . e), where v is a vector of the nodes. */
 typedef struct beamw_inertia_vector {
     int director; /* index of a unit vector, or one of the constants above */
     int terms;

@@ -133,7 +133,8 @@ status section_compute(const section_spec *spec, section *out, fault *f);
  * With E = G = 1 Pa, they are A = C_11, Iy = C_55, Iz = C_66 and It = C_44, with shear rigidities
  * C_22 and C_33. There is no warping, and the centroid is on the line. */
 
-/* Largest asymmetry of measured or printed matrices, relative to the diagonal. */
+/* Largest accepted asymmetry of a matrix, which may have been measured or printed, relative to its
+ * diagonal. */
 #define SECTION_MATRICES_SYMMETRIC 1e-6
 
 /* Fills a zeroed section. Returns REFUSED if C is not symmetric or not positive definite, or if M

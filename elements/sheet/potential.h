@@ -28,8 +28,8 @@ typedef struct sheet_potential {
     sheet_potential_term A[SHEET_TERMS_A], b[SHEET_TERMS_B], P0[SHEET_TERMS_P0];
 } sheet_potential;
 
-/* Computes the coefficients. If `printed` is 1, u_y in M_x has the sign of N Eq. 49 as printed.
- * Rejects a section without torsional stiffness. */
+/* Computes the terms of A, b and P0. If `printed` is 1, u_y in M_x has the sign of N Eq. 49 as
+ * printed. Rejects a section without torsional stiffness. */
 status sheet_coefficients_prepare(const element_request *request, int printed, sheet_potential *out,
                                   fault *f);
 

@@ -10,7 +10,7 @@
 
 /* Reports every key that is not in the NULL-terminated list. */
 static void map_keys_check(const document_node *map, const char *const known[], mistakes *m);
-/* Reads a nonnegative integer. */
+/* Returns the whole number of an entry, at least 0, or `otherwise` if the entry is missing. */
 static int map_keys_count(mistakes *m, const document_node *map, const char *key, int otherwise);
 
 enum { WORDS = 128, LAST = -1, ALL = 0 };

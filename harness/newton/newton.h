@@ -1237,7 +1237,7 @@ typedef struct newton_run {
 /* Allocates the data of Newton's method. condense 1: members with many elements are condensed. */
 status newton_alloc(analysis_context *, int condense, newton_run *, fault *);
 void newton_free(newton_run *);
-/* Adds the prescribed coordinates to K. */
+/* Allocates `whole`, so that K is also assembled for the prescribed coordinates. */
 status newton_keep_driven(newton_run *, fault *);
 
 /* One correction of a Newton iteration. */

@@ -10,7 +10,7 @@
 
 enum { LUMPS_NOTHING, LUMPS_WEIGHTS, LUMPS_LOADS };
 
-/* Returns the strain rates of springs; NULL: the structure is at rest, or has no dashpot. */
+/* Returns the strain rates of springs; NULL: the structure is at rest or undamped. */
 static inline const spring_rates *damping_of_springs(const run_damping *d)
 {
     return d != NULL ? &d->springs : NULL;

@@ -353,9 +353,8 @@ typedef struct watch {
 } watch;
 
 /* Limits of the size of a correction (rotations in rad, translations relative to the size of the
- * scene). An iteration with a larger correction does not converge. The limit is larger for the
- * first corrections of a step. An iteration with repeatedly growing corrections does not converge
- * either. */
+ * scene). A larger correction ends the step as NOT_CONVERGED. The limit is larger for the first
+ * corrections of a step. GROWING successive growing corrections also end the step. */
 static const double wild = 4, wild_at_first = 16;
 enum { AT_FIRST = 3, GROWING = 4, MOST_IN_TIME = 20 };
 

@@ -14,7 +14,7 @@ def main():
 
 
 def report():
-    """Draws the report of a results file, with this Python (extra `report`)."""
+    """Draws the report of a results file. The packages of the extra `report` must be installed in this Python."""
     data = FOLDER / "share" / "beamwork"
     if len(sys.argv) < 2 or sys.argv[1] in ("-h", "--help"):
         print("usage: beamwork-report RESULTS.h5 -o FOLDER [--bench BENCH.h5] [--imported THEIRS.h5] "
