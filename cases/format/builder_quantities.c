@@ -6,7 +6,7 @@
 
 #include "cases/scene/scene.h"
 
-/* Returns the default unit of a value. */
+/* Returns the default unit of the reported value of a quantity. */
 static const char *usual_unit(const scene *s, const scene_quantity *q)
 {
     if (q->reduction == SCENE_PER_SECOND)
@@ -377,7 +377,7 @@ static void add_states(builder *b, int analysis, int prefixed)
         s->quantity[i].envelope = SCENE_ENVELOPE_LARGEST;
 }
 
-/* Adds the energies of a motion. */
+/* Adds a quantity for the energy of a motion, the sum of kinetic and strain energy. */
 static void add_energy(builder *b, int analysis, int prefixed)
 {
     char name[SCENE_NAME + 8];

@@ -53,7 +53,8 @@ static void tell_syntax(document_reader *r)
                      context, context[0] != '\0' ? ": " : "", problem);
 }
 
-/* Returns 1 if there is another event, which the caller must delete. */
+/* Returns 1 with the next event, which the caller must delete. Reports a syntax error and returns
+ * 0. */
 static int next(document_reader *r, yaml_event_t *event)
 {
     if (yaml_parser_parse(&r->parser, event))
@@ -308,7 +309,7 @@ void document_mistake(mistakes *m, const document_node *n, int offset, const cha
 }
 
 enum { BLOCK = 1 << 10, ALIGNMENT = 16 };
-/* Maximum number of bytes, sufficient for the largest allowed file. */
+/* Maximum number of bytes of an arena, sufficient for the largest allowed file. */
 static const size_t most = (size_t)1 << 28;
 
 typedef struct arena_block {

@@ -356,8 +356,8 @@ static void scene_file_truths_check(const scene_file *file, const scene *s, cons
     arena_free(&a);
 }
 
-/* Passes the reference values at a point. The caller, scene_file_truths, frees the workspace, even
- * after a failure. */
+/* Passes the reference values at a point to `take`. The caller, scene_file_truths, frees the
+ * workspace, even after a failure. */
 static status give_at(const scene_file *file, const double point[], scene *s, arena *a,
                       scene_truth_taker *take, void *to, fault *f)
 {
@@ -390,8 +390,8 @@ status scene_file_truths(const scene_file *file, const double value[], scene_tru
     return outcome;
 }
 
-/* Passes the reference values at the defaults and at every other point for which a reference value
- * is given. */
+/* Passes to `take` the reference values at the defaults and at every other point for which a
+ * reference value is given. */
 static status give_everywhere(const scene_file *file, arena *a, scene_truth_taker *take, void *to,
                               fault *f)
 {

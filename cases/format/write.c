@@ -301,7 +301,8 @@ static void write_on(writer *w, const void *entry)
     write_values_name(w, scene_load_along(load) ? SCENE_MEMBERS : SCENE_NODES, load->where);
 }
 
-/* Writes a temperature, including zero if there is a gradient. */
+/* Writes the temperature of a temperature load, even if it is zero, unless the load gives an
+ * elongation. */
 static void write_temperature(writer *w, const void *entry)
 {
     const scene_load *load = entry;

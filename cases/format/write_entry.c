@@ -338,7 +338,8 @@ void write_analyses(writer *w)
     }
 }
 
-/* Writes the position of a resultant, unless it refers to the whole member. */
+/* Writes the position of a resultant or of a deflection. A resultant that refers to the whole
+ * member has no position. */
 static void write_end(writer *w, const void *entry)
 {
     const scene_quantity *q = entry;

@@ -68,7 +68,7 @@ static status check_resumed(const scene *s, const scene_analysis *a, int i, faul
     return STATUS_OK;
 }
 
-/* Returns REFUSED if no moving part has inertia in a transient analysis. */
+/* Returns REFUSED if the structure of a transient analysis has no mass. */
 static status scene_validate_mass(const scene *s, int i, fault *f)
 {
     if (scene_has_mass(s))
@@ -656,8 +656,8 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
     return check_begin(s, q, f);
 }
 
-/* Returns the path whose stations are the points of the curve. Sets *points to 1 if the curve has
- * further points between the stations. */
+/* Returns the analysis whose stations are the points of the curve. Sets *points to 1 if the curve
+ * has further points between the stations. */
 static int path_of_curve(const scene *s, const scene_quantity *q, int *points)
 {
     const scene_analysis *a = &s->analysis[q->analysis];

@@ -74,9 +74,9 @@ typedef struct point_fields {
     double rotation[3][N], rate[3][N], shear_y[N], shear_z[N], extension[N];
 } point_fields;
 
-/* Computes the fields. The rotation is the mean rotation rate times x - 1/2, plus the contributions
- * of antisymmetric bending and nonuniform twist. The shear strain at the shear centre is
- * constant. */
+/* Computes the fields at x. The rotation is the mean rotation rate times x - 1/2, plus the
+ * contributions of antisymmetric bending and nonuniform twist. The shear strain at the shear centre
+ * is constant. */
 static void fields_at(const section *c, double l, double x, const beamw_twist *t,
                       const beamw_stiffness_fields *s, point_fields *out)
 {

@@ -226,8 +226,8 @@ static double measured(const stress *s, stress_measure what)
     return -s->along;
 }
 
-/* Returns the additional elongation of a fibre due to its rotation, beyond the strains due to N, My
- * and Mz. */
+/* Returns the additional normal stress [Pa] of a fibre due to its rotation, beyond the stresses due
+ * to N, My and Mz. */
 static double turned(const section *c, double y, double z, double twist)
 {
     const double u = y - c->ys, v = z - c->zs, mean = c->Ip / c->A + c->ys * c->ys + c->zs * c->zs,
@@ -251,7 +251,7 @@ static double of_point(const section *c, const stress_point *p, const stress_res
     return measured(&s, what);
 }
 
-/* Evaluates the outermost fibres of a tube in the plane of bending. */
+/* Returns the larger measure of the two outermost fibres of a tube in the plane of bending. */
 static double of_tube(const section *c, double R, const stress_resultants *r, stress_measure what)
 {
     double largest = -INFINITY;

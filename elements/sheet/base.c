@@ -18,8 +18,8 @@ double sheet_elastic_phi_z(const section *c, double l0)
     return 12 * c->young * c->Iy * c->F[4] / (c->shear_modulus * l0 * l0);
 }
 
-/* N Eqs. 35, 36, where (4 + Phi)/(1 + Phi) = 1 + 3/(1 + Phi) and (-2 + Phi)/(1 + Phi) = 1 - 3/(1 +
- * Phi). */
+/* Sets the bending stiffness of N Eqs. 35, 36, where (4 + Phi)/(1 + Phi) = 1 + 3/(1 + Phi) and (-2
+ * + Phi)/(1 + Phi) = 1 - 3/(1 + Phi). */
 static void bending_stiffness(double EI, double l0, double Phi, int at, double S[N * N])
 {
     const double k = EI / (l0 * l0 * l0), antisymmetric = 3 / (1 + Phi);

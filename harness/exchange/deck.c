@@ -166,8 +166,8 @@ static void write_structure_loads(const answers_writer *w, int acting, double pa
         }
 }
 
-/* Writes a state. increments: number of increments with which a nonlinear step starts; 0: the step
- * is linear. */
+/* Writes the step to the state at `path`. increments: number of increments with which a nonlinear
+ * step starts; 0: the step is linear. */
 static void write_state(answers_writer *w, int acting, double path, int increments)
 {
     if (increments > 0)

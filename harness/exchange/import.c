@@ -85,7 +85,8 @@ static int point_of(import_block *b, const case_type *type, const double value[]
     return -1;
 }
 
-/* Finds the point given by "case; NAME=VALUE; NAME=VALUE". */
+/* Finds or creates the point given by "case; NAME=VALUE; NAME=VALUE". Returns its index; -1: an
+ * error. */
 static int find_point(import_block *b, const char *of, int line)
 {
     char name[IMPORT_TEXT], parameters[IMPORT_TEXT];

@@ -410,8 +410,8 @@ static void give_parts(int count, const many *all)
     }
 }
 
-/* Sets the results to NaN if an element with a history is evaluated without its history. No
- * analysis uses these results. */
+/* Returns 1. If an element with a history is evaluated without its history, sets its results to NaN
+ * and returns 0. No analysis uses these results. */
 static int has_history(int count, const element_data *const data[], strain_output out[])
 {
     int missing = 0;

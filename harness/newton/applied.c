@@ -349,8 +349,8 @@ static int motions_at_release(const entries *all, const applied *what,
 }
 
 /* Returns the part of rotation e that rotates the axis of l: 1 if e precedes l; 0 if it follows l,
- * or if the end rotates independently of its body and only one of both belongs to the end; 1/2 if
- * the two have no order. */
+ * or if the end rotates independently of its body and only one of the two belongs to the end; 1/2
+ * if the two have no order. */
 static double carries(const mesh_release *r, const load_motion *e, const load_motion *l)
 {
     if (r->turns == 3 && e->own != l->own)

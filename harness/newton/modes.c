@@ -384,8 +384,8 @@ static void add_number(identity *out, long number)
     identity_add(out, &number, sizeof number);
 }
 
-/* Adds a type, except for its descriptive strings and for functions that are used only during
- * preparation. */
+/* Adds a type to the hash, except for its descriptive strings and for functions that are used only
+ * during preparation. */
 static void add_type(identity *out, const element_type *type)
 {
     element_type t;

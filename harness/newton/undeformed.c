@@ -60,8 +60,8 @@ static int is_strained(const model *m, int i)
     return vec3_norm(model_kind_of(m, i)->strain) + vec3_norm(model_kind_of(m, i)->free) > 0;
 }
 
-/* Computes C at zero strain. The effect of initial stresses is included in geometric stiffnesses.
- * */
+/* Computes C at zero strain, and the initial stresses. Their effect on the stiffness is included in
+ * geometric stiffnesses. */
 static status evaluate_strained(const model *m, int i, const double e[], const double inner[],
                                 double C[], double initial[])
 {
@@ -96,7 +96,7 @@ static status evaluate(const equations *eq, int i, double J[], double C[], doubl
     return ahead_stress(eq, i, model_kind_of(m, i)->data, e, inner, &(stress_output){.C = C});
 }
 
-/* Allocates memory for one more element. */
+/* Makes room for one more element. */
 static status grow(const equations *eq, fault *f)
 {
     run_undeformed *u = &eq->run->undeformed;

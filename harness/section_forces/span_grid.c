@@ -96,7 +96,8 @@ typedef struct history {
     double move[MEMORY][FIXED_POINT_MAX], given[MEMORY][FIXED_POINT_MAX];
 } history;
 
-/* Adds a pair of differences. A full history is cleared first. */
+/* Adds a pair of differences: of the steps G(x) - x (`move`), made orthogonal to the previous ones,
+ * and of the values G(x) of the map (`given`). A full history is cleared first. */
 static void remember(history *h, int n, double move[], double given[])
 {
     if (h->count == MEMORY)

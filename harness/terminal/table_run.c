@@ -331,8 +331,8 @@ static int width_of_names(const overview *o)
     return width;
 }
 
-/* Lists the cases without a row. Cases in which values were evaluated and cases in which no value
- * was evaluated are listed separately. */
+/* Lists the cases without a row that have an evaluated run (`judged` 1) or have none (0). what:
+ * words after their number. */
 static void print_unshown(FILE *to, const overview *o, int judged, const char *what)
 {
     paragraph words;
@@ -349,7 +349,7 @@ static void print_unshown(FILE *to, const overview *o, int judged, const char *w
     paragraph_end(&words, 0, 0);
 }
 
-/* Lists the cases without a row whose verdicts are all pass. */
+/* Lists the cases without a row: those that pass in all verdicts, and those without a verdict. */
 static void print_passing(FILE *to, const overview *o)
 {
     print_unshown(to, o, 1, "more pass in all verdicts");
