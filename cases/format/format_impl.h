@@ -233,8 +233,8 @@ int choose_holds(const document_node *conditions, const scope *names, mistakes *
  * another form is returned unchanged. Returns NULL after an error. */
 const document_node *choose_value(const document_node *n, const scope *names, mistakes *m);
 
-/* Finds the names of a scope in expressions (cases/scene/expression.c). `names` is a
- * name_context. */
+/* Context of names_number, the function that finds the names of a scope in expressions
+ * (cases/scene/expression.c). */
 typedef struct name_context {
     const scope *names;
     int in_time; /* 1 if the expression is a function of time */

@@ -92,7 +92,8 @@ static void tee(const fields *f, section_spec *spec)
 static void add_box(section_spec *spec, flanged s)
 {
     add_line(spec, &s, s.flange / 2, s.flange / 2);
-    for (int k = 0; k < spec->points; k++) /* the web is one of the two webs of a box */
+    for (int k = 0; k < spec->points;
+         k++) /* moves the web from the middle of the flanges to one side of the box */
         spec->point[k][0] += k == 1 || k == 2 ? -s.flange / 2 : 0;
     add_wall(spec, 3, 0, s.web_thickness);
     spec->cells = 1;

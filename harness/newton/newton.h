@@ -836,8 +836,8 @@ typedef struct node_tangent {
      * stiffness_parts_geometric) */
     sparse geometric;
     int refined; /* 1: the condition number requires refinement of solutions */
-    /* last estimate of the condition of `inside` (0: none), and the ratio of the pivots at that
-     * time */
+    /* last estimate of the condition of `inside` (0: none), and the ratio of the largest to the
+     * smallest pivot at that time */
     double condition, apart;
     matrix_factor *own;    /* factor that this structure owns; NULL: not needed yet */
     matrix_factor *factor; /* factor of `inside`: `own`, or the factor of the Newton iteration */
