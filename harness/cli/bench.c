@@ -51,7 +51,7 @@ static int answer(const command_line *l, void *request)
         return message_fail(STATUS_REFUSED,
                             "--format json requires --against; without it, give text or csv");
     if (!is_named(r) && (r->of.set.count > 0 || r->meshes.count > 0))
-        return message_fail(STATUS_REFUSED, "--set and -n require a case; name it");
+        return message_fail(STATUS_REFUSED, "--set and -n require a case; name the case");
     const status outcome = measure(r, &b, &f);
     bench_free(&b);
     return message_exit(outcome, &f);
@@ -93,11 +93,12 @@ const verb verb_bench = {
     "Times every formulation and mesh of the named cases; without a case, of all cases at all "
     "parameter points that have a reference value (select with -k). Each time is the minimum of "
     "many repetitions in five alternating rounds on one processor, separately for set-up and "
-    "solution, and is shown with the error. Times whose rounds overlap are undecided. With "
-    "--against FORMULATION, both formulations run alternately at equal error until noise permits a "
-    "result. Each uses the smallest number of elements from which the errors of all quantities (or "
-    "those selected with -k) are within the tolerance, or the meshes given by -n. With --against "
-    "PROGRAM, the same cell of another build is timed.",
+    "solution, and is shown with the error. If the rounds of two times overlap, the comparison is "
+    "undecided. With --against FORMULATION, both formulations run alternately at equal error until "
+    "the comparison is decided or undecidable. Each formulation uses the smallest number of "
+    "elements from which the errors of all quantities (or those selected with -k) are within the "
+    "tolerance, or the meshes given by -n. With --against PROGRAM, the same cell of another build "
+    "is timed.",
     "beamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
     "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"
     "beamwork bench --scene leaf.yaml --against ../before/beamwork",

@@ -66,8 +66,7 @@ static void print_left(const command_line *l, const stored_results *run[2], cons
 static void print_partial(const comparison *c)
 {
     if (c->partial > 0)
-        printf("%d series %s compared only by their limits, because some quantities were not "
-               "computed\n",
+        printf("%d series %s compared only by limits, because some quantities were not computed\n",
                c->partial, c->partial == 1 ? "is" : "are");
 }
 
@@ -179,9 +178,9 @@ static int answer(const command_line *l, void *request)
 #define IN(at) .member = offsetof(compare_request, at)
 static const verb_option own[] = {
     {"threshold", 0, "NAME=R[,NAME=R]",
-     "changes that are reported (default error=0.01,floor=1e-8,work=0.02): of an error, relative "
-     "to the error; of a value, relative to its reference value; of a work count, relative to the "
-     "count",
+     "smallest changes that are reported (default error=0.01,floor=1e-8,work=0.02): of an error, "
+     "relative to the error; of a value, relative to its reference value; of a work count, "
+     "relative to the count",
      IN(threshold)},
     {"experiment", 0, "NAME",
      "experiment to compare if a file contains several: verify, bench or sweep (default: the first "
@@ -200,13 +199,13 @@ const verb verb_compare = {
     "one of them is a short table, by mesh series, with the limits at the default parameters. A "
     "previous run is not a reference value. Two runs of 'sweep -o' are compared point by point, by "
     "the values of their parameters: errors, values, references (a line '.../reference'), statuses "
-    "and costs (threshold work=); points, formulations and meshes that only one run has are named. "
-    "Results that only one run requested (verify -k, -f, --scene) and formulations that are new in "
-    "one run are counted, but are not reported as changes. If only OLD is given, -o writes its "
-    "short table. --hash prints the SHA-256 of all values, without times, machines and versions, "
-    "and the number of values; two runs with equal hashes have equal results. Exit status: 0 the "
-    "same within the thresholds, 1 a result is worse, better, changed, missing or new, 2 trouble "
-    "(file, usage, nothing in common).",
+    "and costs (threshold work=); points, formulations and meshes that exist in only one run are "
+    "listed. Results that only one run requested (verify -k, -f, --scene) and formulations that "
+    "are new in one run are counted, but are not reported as changes. If only OLD is given, -o "
+    "writes its short table. --hash prints the SHA-256 of all values, without times, machines and "
+    "versions, and the number of values; two runs with equal hashes have equal results. Exit "
+    "status: 0 the same within the thresholds, 1 a result is worse, better, changed, missing or "
+    "new, 2 trouble (file, usage, nothing in common).",
     "beamwork compare old.h5 new.h5\n"
     "beamwork compare old_sweep.h5 new_sweep.h5\n"
     "beamwork compare harness/baseline.csv build/results.h5 --threshold error=0.1",

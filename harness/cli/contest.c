@@ -191,13 +191,14 @@ static status check(const duel *d, const bench_options *r, fault *f)
                 d->s.series[i].formulation.key, d->s.series[i].missing, d->s.point[0].type->name);
     if (d->s.seriess != 2)
         return fault_set(f, STATUS_REFUSED,
-                         "-k '%.100s' selects only one formulation; use it to select quantities",
+                         "-k '%.100s' selects only one formulation; use -k to select quantities",
                          r->select);
     return meeting_asked(&d->s, &d->t) > 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "errors cannot be computed, because no quantity has a reference value "
-                           "or an agreement for both formulations; give -n to compare two meshes");
+                           "errors cannot be computed, because no quantity has a reference value, "
+                           "or a limit on which formulations agree, for both formulations; give -n "
+                           "to compare two meshes");
 }
 
 static status compare(duel *d, const bench_options *r, fault *f)
@@ -347,8 +348,8 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
                          "another program is compared at equal n; remove --error and -k");
     if (is_program && (r->slowdown > 0 || r->meshes.count > 1))
         return fault_set(f, STATUS_REFUSED,
-                         "--inject-slowdown and a second mesh require another formulation "
-                         "in the same program");
+                         "--inject-slowdown and a second mesh require --against FORMULATION "
+                         "instead of --against PROGRAM");
     if (r->meshes.count == 0 && !is_program)
         return against_error(r, type, f);
     if (r->error != NULL || r->select != NULL)

@@ -69,7 +69,7 @@ static status read_lap(contestant *c, FILE *from, double *seconds, fault *f)
     return *seconds > 0 ? STATUS_OK
                         : fault_set(f, STATUS_FAULT,
                                     "%s: the output of 'solve --format json' contains no times; "
-                                    "use a newer program",
+                                    "use a newer version of the program",
                                     c->program);
 }
 
@@ -96,7 +96,10 @@ static status lap_elsewhere(contestant *c, double *seconds, fault *f)
     waitpid(child, &how, 0);
     if (WIFEXITED(how) && WEXITSTATUS(how) == EXIT_AS_EXPECTED)
         return outcome;
-    return fault_set(f, STATUS_FAULT, "%s does not solve this cell", c->program);
+    return fault_set(f, STATUS_FAULT,
+                     "%s does not solve this cell; use a version that supports the case, the "
+                     "formulation and the options",
+                     c->program);
 }
 
 static status lap(void *what, double *seconds, fault *f)

@@ -293,10 +293,9 @@ static int refuse_word(const dictionary *d, const char *word)
     find_related(&d->words, word, related, sizeof related);
     if (near != NULL)
         related[0] = '\0';
-    snprintf(text, sizeof text,
-             "unknown term '%.100s'%s%s%s%s%s; 'beamwork explain' lists all terms", word,
-             near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
-             near != NULL ? "'?" : "", related[0] != '\0' ? "; related: " : "", related);
+    snprintf(text, sizeof text, "unknown term '%.100s'%s%s%s%s%s'beamwork explain' lists all terms",
+             word, near != NULL ? "; did you mean '" : "", near != NULL ? near : "",
+             related[0] != '\0' ? "; related: " : "", related, near != NULL ? "'? " : "; ");
     free(all.name);
     return message_fail(STATUS_REFUSED, text);
 }

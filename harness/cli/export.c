@@ -41,7 +41,9 @@ static status export(const export_request *r, const case_type *type, scene *s, f
 {
     char of[PARAMETERS_TEXT + PATH_MAX];
     if (r->to == NULL || strcmp(r->to, "calculix") != 0)
-        return fault_set(f, STATUS_REFUSED, "the target program is missing; add --to calculix");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--to must name the program that will read the input deck; give --to calculix");
     if (r->meshes.count > 1)
         return fault_set(f, STATUS_REFUSED,
                          "an input deck contains only one mesh; give a single number with -n");

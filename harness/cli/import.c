@@ -124,7 +124,8 @@ const verb verb_import = {
     "Reads results of other programs for a case or scene: CSV with a header "
     "(harness/exchange/import.md). Names, units and parameters are checked, and values are "
     "converted. The file given by -o has the schema of the results of verify; 'verify --imported' "
-    "compares it as another program. --format json prints the errors of each file, for editors.",
+    "shows these values as the results of another program. --format json prints the errors of each "
+    "file, for editors.",
     "beamwork import theirs.csv -o theirs.h5",
     shared,
     own,

@@ -60,7 +60,7 @@ static void show_numbers(const formulation *chosen)
     const long nodes = declared(chosen, "nodes", &v), strains = declared(chosen, "strains", &v),
                inner = declared(chosen, "inner", &v);
     printf("  element: %ld nodes, %ld generalized strains", nodes, strains);
-    printf(inner > 0 ? ", %ld unknowns inside\n" : "\n", inner);
+    printf(inner > 0 ? ", %ld internal unknowns\n" : "\n", inner);
     for (int i = 0; i < 4; i++) {
         const long least = declared(chosen, order[i][0], &v);
         used += snprintf(orders + used, sizeof orders - (size_t)used, "%s%ld to %ld in %s",

@@ -97,12 +97,13 @@ static void again_free(again *out)
 
 static int ask(again *a, const verb *const *verbs)
 {
-    char text[120];
+    char text[180];
     const verb *v = verb_find(verbs, a->argument[1]);
     if (v != NULL)
         return command_run(v, verbs, a->count - 1, a->argument + 1);
     snprintf(text, sizeof text,
-             "the batches of '%.40s' were computed by another version of the program",
+             "the batches of '%.40s' were computed by another version of the program; merge them "
+             "with that version",
              a->argument[1]);
     return message_fail(STATUS_REFUSED, text);
 }

@@ -253,10 +253,9 @@ static status refuse_word(const verb *v, const verb *const *verbs, const char *t
         return fault_set(f, STATUS_REFUSED, "%s has no %s; 'beamwork %s -h' lists its options",
                          v->name, word, v->name);
     const char *near = choice_nearest(word + 2, name_of, v);
-    return fault_set(f, STATUS_REFUSED,
-                     "unknown option %s%s%s%s; 'beamwork %s -h' lists the options", word,
-                     near != NULL ? ", did you mean --" : "", near != NULL ? near : "",
-                     near != NULL ? "?" : "", v->name);
+    return fault_set(f, STATUS_REFUSED, "unknown option %s%s%s%s'beamwork %s -h' lists the options",
+                     word, near != NULL ? "; did you mean --" : "", near != NULL ? near : "",
+                     near != NULL ? "? " : "; ", v->name);
 }
 
 static void report_former(const verb_option *o, const char *word)
@@ -286,7 +285,8 @@ static status check_word(const verb *v, const verb *const *verbs, const char *wo
     if (o == NULL)
         return refuse_word(v, verbs, word, begun, f);
     if (value != NULL && o->argument == NULL)
-        return fault_set(f, STATUS_REFUSED, "--%s has no value; remove it", o->name);
+        return fault_set(f, STATUS_REFUSED, "--%s does not accept a value; remove the value",
+                         o->name);
     report_former(o, word);
     *more = value == NULL && o->argument != NULL && !verb_optional(o);
     return *more && last

@@ -328,7 +328,7 @@ static const verb_option table[] = {{"format", 0, "text|csv", "format of the out
                                     {0}};
 static const verb_option selection[] = {
     {"select", 'k', "EXPRESSION",
-     "words joined by and, or, not and brackets; each word is matched against "
+     "words joined by and, or, not and parentheses; each word is matched against "
      "case/parameters/formulation/quantity and may be a part of a name; =NAME matches only the "
      "whole name",
      .traits = 0},
@@ -358,8 +358,8 @@ static const verb_option solver[] = {
      "keep all degrees of freedom, which gives the same results with more work",
      .member = offsetof(solver_options, keep_all)},
     {"threads", 0, "N",
-     "number of threads that share the loop over elements (default 1); the results do not depend "
-     "on it",
+     "number of threads that share the loop over elements (default 1); it does not affect the "
+     "results",
      .member = offsetof(solver_options, threads), .least = 1, .most = TEAM_MOST},
     {0}};
 

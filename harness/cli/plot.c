@@ -191,8 +191,10 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
     const status solved = solution_run(&what, why, s, f);
     const cell_result *cell = &s->series[0].cell[0];
     if (solved == STATUS_FAULT || cell_values(cell) == 0)
-        return solved != STATUS_OK ? solved
-                                   : fault_set(f, STATUS_REFUSED, "no quantity has a value");
+        return solved != STATUS_OK
+                   ? solved
+                   : fault_set(f, STATUS_REFUSED,
+                               "no quantity has a value; 'beamwork solve' prints the reasons");
     if (solved != STATUS_OK)
         message_fail(solved, f->text); /* the solution is drawn up to this point */
     fputs(ftell(to) > 0 ? "," : "[", to);
@@ -344,9 +346,9 @@ const verb verb_plot = {
     "CASE",
     "draws curves of quantities: histories, paths, responses",
     "Solves one case, or your own scene (CASE is then the path of the file), and draws its "
-    "quantities as curves: over time, over a path, over frequency (Bode diagrams: amplitudes by "
-    "decades, with phases), or over the quantity that the key 'x' names. A quantity that is a "
-    "single value of a motion, a path or a harmonic analysis is also drawn as a curve (except "
+    "quantities as curves: over time, over a path, over frequency (Bode diagrams: amplitudes on a "
+    "logarithmic scale, and phases), or over the quantity that the key 'x' names. A quantity that "
+    "is a single value of a motion, a path or a harmonic analysis is also drawn as a curve (except "
     "times and periods). Motions without spectra are sampled at 300 times, static paths with one "
     "station at 20 states. Each -f adds a line; -k selects quantities. Figures require "
     "python3-matplotlib.",

@@ -147,7 +147,8 @@ static void tell_reduced(const scene *s, const system_matrices *all, const state
                 "%d modes instead of %d, so that modes with the same frequency stay together; ",
                 r->taken, r->requested);
     if (r->modes > 0)
-        fprintf(stderr, "the first %d natural frequencies have relative errors of at most %.1e",
+        fprintf(stderr,
+                "the natural frequencies of modes 1 to %d have relative errors of at most %.1e",
                 r->modes, frequency);
     else
         fputs("natural frequencies were not compared, because there are no modes or the structure "
@@ -463,11 +464,11 @@ const verb verb_solve = {
     "2 s of counted work. If values still change after that, the status is not_converged. Values "
     "are printed to the second digit of their last change between meshes, which is not a bound of "
     "their error. Without -f, up to five formulations are tried that support the physics of the "
-    "case and have no known defect there, in the order of the cost of their next mesh. The first "
-    "formulation that converges is used, or, if -n is given, the formulation of the highest order. "
-    "The output states the choice and the reason. An analysis that no quantity uses is not run, "
-    "unless the scene has no quantities or the states of the analysis are drawn or written. -k "
-    "selects quantities.",
+    "case and have no known deviation there, in the order of the cost of their next mesh. The "
+    "first formulation that converges is used, or, if -n is given, the formulation of the highest "
+    "order. The output states the choice and the reason. An analysis that no quantity uses is not "
+    "run, unless the scene has no quantities or the states of the analysis are drawn or written. "
+    "-k selects quantities.",
     "beamwork solve elastica\n"
     "beamwork solve c_column -f beamw -n 8 --set section_data=printed\n"
     "beamwork solve c_column -k buckling_load\n"

@@ -194,7 +194,7 @@ static status show_scene_of(json_t *list, const case_type *type, const double pa
     TRY(outcome);
     TRY(derive_scene(script, text, &value, &count, f));
     if (list == NULL)
-        printf("derived values, in the form of lines for the scene file\ntruths:\n");
+        printf("derived values, as lines for the scene file\ntruths:\n");
     for (int i = 0; i < count; i++) {
         const shown_value v = derived_as(&value[i]);
         if (list != NULL)
@@ -212,7 +212,7 @@ static status show_scene(json_t *list, const case_type *type, const double param
 {
     FILE *text = tmpfile();
     if (text == NULL)
-        return fault_set(f, STATUS_FAULT, "no temporary file for the scene");
+        return fault_set(f, STATUS_FAULT, "a temporary file for the scene cannot be created");
     const status outcome = show_scene_of(list, type, parameter, text, f);
     fclose(text);
     if (outcome != STATUS_REFUSED)
@@ -265,7 +265,7 @@ static int answer(const command_line *l, void *request)
     if (type == NULL)
         return r->of.refusal;
     if (r->format[0] == 'c')
-        return message_fail(STATUS_REFUSED, "truth is written as text or json");
+        return message_fail(STATUS_REFUSED, "truth supports --format text and json");
     status outcome = case_input_truths(&r->of, &r->truths, &t, &f);
     if (outcome != STATUS_OK)
         return message_fail(outcome, f.text);

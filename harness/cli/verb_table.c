@@ -72,9 +72,9 @@ static int refuse(const char *name)
 {
     char text[200];
     const char *near = choice_nearest(name, name_at, NULL);
-    snprintf(text, sizeof text, "unknown verb '%.60s'%s%s%s; 'beamwork -h' shows all verbs", name,
-             near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
-             near != NULL ? "'?" : "");
+    snprintf(text, sizeof text, "unknown verb '%.60s'%s%s%s'beamwork -h' shows all verbs", name,
+             near != NULL ? "; did you mean '" : "", near != NULL ? near : "",
+             near != NULL ? "'? " : "; ");
     return message_fail(STATUS_REFUSED, text);
 }
 

@@ -203,8 +203,9 @@ static status refuse(const char *name, fault *f)
     const char *near = choice_nearest(name, name_at, NULL);
     return fault_set(
         f, STATUS_REFUSED,
-        "'%.60s' is neither a case nor a formulation%s%s%s; 'beamwork list' shows them all", name,
-        near != NULL ? ", did you mean '" : "", near != NULL ? near : "", near != NULL ? "'?" : "");
+        "'%.60s' is neither a case nor a formulation%s%s%s'beamwork list' shows them all", name,
+        near != NULL ? "; did you mean '" : "", near != NULL ? near : "",
+        near != NULL ? "'? " : "; ");
 }
 
 status list_subject_find(const char *name, list_subject *out, fault *f)

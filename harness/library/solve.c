@@ -490,9 +490,9 @@ static status unknown(const char *key, const call_option table[], fault *f)
 {
     const char *near = choice_nearest(key, name_at, table);
     return fault_set(f, STATUS_REFUSED,
-                     "unknown option '%.60s'%s%s%s; beamwork.h lists the options of each function",
-                     key, near != NULL ? ", did you mean '" : "", near != NULL ? near : "",
-                     near != NULL ? "'?" : "");
+                     "unknown option '%.60s'%s%s%s%s lists the options of each function", key,
+                     near != NULL ? "; did you mean '" : "", near != NULL ? near : "",
+                     near != NULL ? "'? " : "; ", "beamwork.h");
 }
 
 static int is_within(const call_option *o, json_int_t value)

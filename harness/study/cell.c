@@ -343,7 +343,8 @@ static void estimate(const scene *s, const element_type *type, omission *out)
         }
         if (isfinite(last) && isfinite(change))
             snprintf(out->why, sizeof out->why,
-                     "the meshes disagree: %.2g and %.2g with %d elements", last, change, n);
+                     "it changes with the mesh, from %.2g to %.2g with %d elements", last, change,
+                     n);
         last = change;
     }
     if (out->why[0] == '\0')
@@ -402,7 +403,6 @@ void omission_words(const omission *o, char text[OMISSION_TEXT])
                  o->words, o->why);
     else
         snprintf(text, OMISSION_TEXT,
-                 "another model: %s not modelled (changes %s from zero, or its "
-                 "path)",
+                 "another model: %s not modelled (makes a zero %s nonzero, or changes its path)",
                  o->words, o->quantity);
 }

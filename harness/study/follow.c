@@ -85,8 +85,8 @@ static status step_to(follow_walk *w, double to, fault *f)
         target = least >= follow_sure ? to : at + (target - at) / 2;
         if (fabs(target - at) < least_step && at != to)
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "a mode is lost beyond %.6g, where the modes represent only %.2f of "
-                             "its shape; start elsewhere, or request more frequencies",
+                             "a mode is lost beyond %.6g, where the computed modes represent only "
+                             "%.2f of its shape; start elsewhere, or request more frequencies",
                              at, least);
     }
     return STATUS_OK;

@@ -46,8 +46,9 @@ static void expect(const sweep *s, truths *t, verdict *v)
             continue;
         if (v->rule != NULL) {
             snprintf(v->reason, sizeof v->reason,
-                     "two known deviations apply to this quantity: %.60s and %.60s", v->rule->name,
-                     r->name);
+                     "two known deviations apply to this quantity: %.60s and %.60s; restrict one "
+                     "of them",
+                     v->rule->name, r->name);
             v->expected = VERDICT_PASS;
             return;
         }

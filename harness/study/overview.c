@@ -36,7 +36,8 @@ static const struct {
     [OVERVIEW_BIASED] = {"~", "≈", "biased limit, within the tolerance"},
     [OVERVIEW_WRONG] = {"#", "≠", "limit outside the tolerance"},
     [OVERVIEW_NO_VALUE] = {"x", "×", "no value on the finest mesh"},
-    [OVERVIEW_FLAW] = {"c", "c", "differs from its stored value, or is inconsistent"},
+    [OVERVIEW_FLAW] = {"c", "c",
+                       "differs from the stored value, or has an inconsistent run record"},
 };
 
 const char *overview_words(overview_mark mark)

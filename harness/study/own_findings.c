@@ -188,7 +188,8 @@ static void check(findings_reader *r, double *largest)
     const char *text = r->row->field[LARGEST_ERROR];
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (r->row->field[needed[i]][0] == '\0')
-            WRONG(r, needed[i], "a known deviation requires %s", names[i]);
+            WRONG(r, needed[i], "column %s is empty; a known deviation requires an entry",
+                  names[i]);
     check_grounds(r);
     if (!r->good)
         return;
@@ -201,7 +202,8 @@ static void check(findings_reader *r, double *largest)
     check_verdicts(r);
     check_list(r, PREDICTED, check_prediction);
     if (text[0] != '\0' && (!line_number(text, largest) || *largest < 0))
-        WRONG(r, LARGEST_ERROR, "largest_error '%.40s' is not a number of at least zero", text);
+        WRONG(r, LARGEST_ERROR, "largest_error '%.40s' is not valid; give a number of at least 0",
+              text);
 }
 
 /* Returns the cases of the run and the built-in cases, NULL-terminated. The caller frees the
@@ -223,9 +225,10 @@ static int check_condition(findings_reader *r, const rule *one)
     const case_type **all = all_cases(r->run);
     const int bad = all == NULL || rules_bad_condition(one, all, word);
     if (bad)
-        WRONG(r, CONDITION,
-              "condition '%.60s' is neither a feature nor a comparison of a parameter of its cases",
-              word);
+        WRONG(
+            r, CONDITION,
+            "condition '%.60s' is neither a feature nor a comparison with a parameter of the cases",
+            word);
     free(all);
     return !bad;
 }

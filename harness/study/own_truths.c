@@ -61,8 +61,8 @@ static void take_elements(truths_reader *r, int *out)
         return;
     if (*end != '\0' || count < 1 || count > INT_MAX)
         WRONG(r, ELEMENTS,
-              "elements '%.40s' is not a positive number; leave the field empty for a value of the "
-              "continuum",
+              "elements '%.40s' is not a positive whole number; leave the field empty for a value "
+              "of the continuum",
               text);
     else
         *out = (int)count;

@@ -168,7 +168,7 @@ static status find(const scene *s, const rule_subject *where, const rule *rules,
                    : "another model, with the fewest omissions",
              rules == NULL                ? ""
              : against[AGAINST_HERE] == 0 ? ", no known deviation here"
-                                          : ", but has a known defect here",
+                                          : ", but has a known deviation here",
              against[AGAINST_THEORY] ? ", not the requested shear theory" : "");
     return STATUS_OK;
 }

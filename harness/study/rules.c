@@ -189,8 +189,8 @@ static status check_rule(const table_columns *c, const rule *r)
         return STATUS_OK;
     return fault_set(
         c->f, STATUS_FAULT,
-        "%.200s: finding '%.60s': condition '%.60s' is neither a feature nor a comparison of a "
-        "parameter of its cases; correct reference/findings.csv and build again",
+        "%.200s: known deviation '%.60s': condition '%.60s' is neither a feature nor a comparison "
+        "with a parameter of the cases; correct reference/findings.csv and build again",
         c->path, r->name, word);
 }
 

@@ -117,7 +117,7 @@ static status run_parallel(const sweep_request *request, workload *w, cell_crew 
 static status check_all_done(const workload *w, fault *f)
 {
     if (w->out_of_memory)
-        return fault_set(f, STATUS_FAULT, "out of memory for noise");
+        return fault_set(f, STATUS_FAULT, "out of memory for measuring rounding scatter");
     if (w->finished < w->due)
         return fault_set(f, STATUS_FAULT,
                          "the worker processes ended before all cells were run (%d of %d)",

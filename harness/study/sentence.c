@@ -11,14 +11,15 @@ static void passed(const verdict *v, char *text, size_t size)
         v->below_digits ? "; the difference is below the last digit of the reference value" : "";
     if (v->fit.kind == LIMIT_NOISE_DOMINATED)
         snprintf(text, size,
-                 "has converged to the reference value: the last meshes differ only by rounding%s",
+                 "has converged to the reference value: the values on the last meshes differ only "
+                 "by rounding%s",
                  digits);
     else if (isfinite(v->fit.order))
         snprintf(text, size, "converges to the reference value, order %.2g%s", v->fit.order,
                  digits);
     else
         snprintf(text, size,
-                 "agrees with the reference value within the tolerance, but without an order%s",
+                 "agrees with the reference value within the tolerance; the order is not known%s",
                  digits);
 }
 
@@ -69,7 +70,8 @@ static void unjudged(const verdict *v, char *text, size_t size)
 {
     if (v->theory_truth != NULL && v->theory_truth->theory[0] != '\0')
         snprintf(text, size,
-                 "no reference value for its shear theory; its limit is %+.3g %% from that of %s",
+                 "no reference value for its shear theory; its limit is %+.3g %% from the "
+                 "reference value for %s",
                  100 * (v->fit.limit / v->theory_truth->value - 1), v->theory_truth->theory);
     else if (v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0)
         snprintf(text, size,
@@ -221,8 +223,7 @@ static void new_ones(const judgement *j, char *text, size_t size)
     else
         snprintf(text, size,
                  "without effect on the exit status: %d of %d %s %s not a pass and would need a "
-                 "known deviation (--propose-deviations FILE "
-                 "writes %s down)",
+                 "known deviation (--propose-deviations FILE lists %s)",
                  j->proposed, j->is_new,
                  j->is_new == 1 ? "verdict of a new formulation" : "verdicts of new formulations",
                  j->proposed == 1 ? "is" : "are", j->proposed == 1 ? "it" : "them");
@@ -236,11 +237,12 @@ static void expected_findings(const judgement *j, char *text, size_t size)
     char part[400];
     int parts = 0;
     if (derived > 0) {
-        snprintf(part, sizeof part,
-                 "%d of them %s off the reference value (%d within the tolerance, %d outside it), "
-                 "as derived for %s (beamwork explain \"wrong limit, as predicted\")",
-                 derived, derived == 1 ? "is a limit" : "are limits", k.derived[0], k.derived[1],
-                 derived == 1 ? "its formulation" : "these formulations");
+        snprintf(
+            part, sizeof part,
+            "%d of them %s from the reference value (%d within the tolerance, %d outside it), as "
+            "derived for %s (beamwork explain \"wrong limit, as predicted\")",
+            derived, derived == 1 ? "concerns a limit that differs" : "concern limits that differ",
+            k.derived[0], k.derived[1], derived == 1 ? "its formulation" : "these formulations");
         add_part(text, size, &parts, ", ", part);
     }
     if (k.by_rule > 0) {

@@ -157,9 +157,10 @@ static status add_mesh(series *s, const char *name, int n, fault *f)
     if (at < s->meshes && s->mesh[at] == n)
         return STATUS_OK;
     if (s->meshes == SERIES_MAX_MESHES)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: more than %d meshes in a series; give fewer meshes or doublings",
-                         name, SERIES_MAX_MESHES);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: more than %d meshes in a series; give fewer with -n, or a smaller --refine", name,
+            SERIES_MAX_MESHES);
     for (int i = s->meshes++; i > at; i--)
         s->mesh[i] = s->mesh[i - 1];
     s->mesh[at] = n;
@@ -172,8 +173,8 @@ static status double_meshes(series *s, const char *name, int doublings, fault *f
         const int finest = s->mesh[s->meshes - 1];
         if (finest > INT_MAX / 2)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: %d elements cannot be doubled again; give fewer doublings", name,
-                             finest);
+                             "%s: %d elements cannot be doubled again; give a smaller --refine",
+                             name, finest);
         TRY(add_mesh(s, name, 2 * finest, f));
     }
     return STATUS_OK;

@@ -306,7 +306,7 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
     if (v->kind == VERDICT_PASS || v->kind == VERDICT_LOW_ORDER)
         v->contradicted = contradiction(s, t, v);
     if (v->predicted != NULL && v->kind == VERDICT_WRONG_LIMIT)
-        snprintf(v->reason, sizeof v->reason, "its limit is not the predicted %.10g",
+        snprintf(v->reason, sizeof v->reason, "its limit differs from the derived limit %.10g",
                  v->predicted->value);
 }
 

@@ -158,7 +158,7 @@ status worker_start(const workload *w, int self, worker *out, fault *f)
     int ends[2];
     const pid_t parent = getpid();
     if (pipe2(ends, O_CLOEXEC) != 0)
-        return fault_set(f, STATUS_FAULT, "cannot start a worker: no pipe");
+        return fault_set(f, STATUS_FAULT, "cannot start a worker process: no pipe can be created");
     w->board->at[self] = -1;
     *out = (worker){.from = -1};
     out->process = fork();

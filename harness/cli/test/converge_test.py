@@ -212,7 +212,7 @@ class Beside(ProgramTest):
         text = self.agree("c_column", "-k", "buckling_load", "-n", "2,4,8,16")
         said = " ".join(text.split())
         self.assertRegex(said, r"collocation: no reference value for its shear theory; its limit is -4\.[34]\d* % from "
-                               "that of engesser")
+                               "the reference value for engesser")
         self.agree("--scene", BESIDE_LEAF, "-n", "1,2,4", "--set", "stroke=0.009")
 
     def test_selection(self):

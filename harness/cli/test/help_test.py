@@ -63,7 +63,7 @@ class Misspelt(ProgramTest):
         self.refused(2, "is an abbreviation of several", "solve", "elastica", "--s", "3")
         self.refused(2, "--elements requires a value", "solve", "elastica", "-n")
         self.refused(2, "--elements requires a value", "solve", "elastica", "--elements")
-        self.refused(2, "--all-dofs has no value; remove it", "solve", "elastica", "--all-dofs=1")
+        self.refused(2, "--all-dofs does not accept a value; remove the value", "solve", "elastica", "--all-dofs=1")
 
     def test_values_are_no_options(self):
         self.refused(2, "'-1'", "solve", "elastica", "-f", "beamw", "-n", "-1")

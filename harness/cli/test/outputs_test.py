@@ -366,8 +366,8 @@ class Screen(ProgramTest):
     def test_verdict_sentence(self):
         for quiet in ((), ("-q",)):
             text = self.answered(*SMALL, *quiet).stdout
-            self.assertRegex(" ".join(text.split()), r"PASS: every verdict is as expected; 6 of them are "
-                             r"limits off the reference value \(4 within the tolerance, 2 outside it\), as "
+            self.assertRegex(" ".join(text.split()), r"PASS: every verdict is as expected; 6 of them concern "
+                             r"limits that differ from the reference value \(4 within the tolerance, 2 outside it\), as "
                              r'derived for these formulations \(beamwork explain "wrong limit, as '
                              r'predicted"\)\.')
         self.assertEqual(text.count("PASS"), 1)

@@ -51,8 +51,8 @@ static void theories(void)
     b.row[0].theory = words[ENGESSER];
     bench_expect(&b, VERDICT_NO_TRUTH, 3, "a reference value of another theory does not judge");
     gsl_test_rel(b.j.verdict[0].model_error, 1e-3, 1e-6, "the models differ");
-    bench_says(
-        &b, "no reference value for its shear theory; its limit is +0.1 % from that of engesser");
+    bench_says(&b, "no reference value for its shear theory; its limit is +0.1 % from the "
+                   "reference value for engesser");
     bench_add_row(&b, 3.003)->theory = words[HARINGX];
     bench_expect(&b, VERDICT_PASS, 0, "one of its own does");
     haringx.shear_theories = SHEAR_ENGESSER | SHEAR_HARINGX;
@@ -368,7 +368,8 @@ static void orders(void)
     bench_expect(&b, VERDICT_PASS, 0, "an order within what finite meshes show");
     bench_fill(&b, 3, 1e-14, 1);
     bench_expect(&b, VERDICT_PASS, 0, "at the round-off floor no order is asked for");
-    bench_says(&b, "has converged to the reference value: the last meshes differ only by rounding");
+    bench_says(&b, "has converged to the reference value: the values on the last meshes differ "
+                   "only by rounding");
     bench_free(&b);
 }
 
@@ -390,7 +391,7 @@ static void doubts(void)
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 1e-6 : -1e-6);
     bench_expect(&b, VERDICT_PASS, 0, "alternating values that surely stay inside the tolerance");
-    bench_says(&b, "agrees with the reference value within the tolerance, but without an order");
+    bench_says(&b, "agrees with the reference value within the tolerance; the order is not known");
     bench_fill(&b, 4, 0.01, 2);
     b.one.meshes = 3;
     bench_expect(&b, VERDICT_UNDECIDED, 1, "three meshes never say that a limit is wrong");

@@ -125,11 +125,13 @@ static void sentences(void)
     add(&r, 0, VERDICT_UNDECIDED, 1, 4);
     for (int i = 3; i < r.j.verdicts; i++)
         r.verdict[i].rule = &known;
-    says(&r, "PASS: every verdict is as expected; 3 of them are limits off the reference value (1 "
+    says(&r, "PASS: every verdict is as expected; 3 of them concern limits that differ from the "
+             "reference value (1 "
              "within the tolerance, 2 outside it), as derived for these formulations (beamwork "
              "explain \"wrong limit, as predicted\"), 4 more are explained by a known deviation.");
     r.s.unfinished = 7;
-    says(&r, "INTERRUPTED: until then every verdict is as expected; 3 of them are limits off the "
+    says(&r, "INTERRUPTED: until then every verdict is as expected; 3 of them concern limits that "
+             "differ from the "
              "reference value (1 within the tolerance, 2 outside it), as derived for these "
              "formulations (beamwork explain \"wrong limit, as predicted\"), 4 more are explained "
              "by a known deviation.");
@@ -158,7 +160,8 @@ static void single_ones(void)
     add(&r, 0, VERDICT_UNDECIDED, 1, 1);
     for (int i = 0; i < r.j.verdicts; i++)
         r.verdict[i].rule = &known;
-    says(&r, "PASS: every verdict is as expected; 1 of them is a limit off the reference value (0 "
+    says(&r, "PASS: every verdict is as expected; 1 of them concerns a limit that differs from the "
+             "reference value (0 "
              "within the tolerance, 1 outside it), as derived for its formulation (beamwork "
              "explain \"wrong limit, as predicted\"), 1 more is explained by a known deviation.");
     make(&r);
@@ -172,24 +175,21 @@ static void single_ones(void)
              "1 of 2 verdicts "
              "of new formulations is not a pass and would need a known deviation "
              "(--propose-deviations FILE "
-             "writes it "
-             "down).");
+             "lists it).");
     r.j.proposed = 2;
     says(&r, "PASS: everything that affects the exit status is as expected; without "
              "effect on the exit status: "
              "2 of 2 verdicts "
              "of new formulations are not a pass and would need a known deviation "
              "(--propose-deviations FILE "
-             "writes them "
-             "down).");
+             "lists them).");
     r.j.is_new = r.j.proposed = 1;
     says(&r, "PASS: everything that affects the exit status is as expected; without "
              "effect on the exit status: "
              "1 of 1 verdict of "
              "a new formulation is not a pass and would need a known deviation "
              "(--propose-deviations FILE "
-             "writes it "
-             "down).");
+             "lists it).");
     r.j.proposed = 0;
     says(&r, "PASS: every verdict is as expected; 1 belongs to a new formulation and does not "
              "affect the exit status; none requires a known deviation.");

@@ -154,7 +154,7 @@ static void too_many(void)
     refuses(0, 0, NULL);
     refuses(0, 1, "many: more than 24 meshes in a series; give fewer");
     refuses(1e7, 7, NULL);
-    refuses(1e7, 8, "many: 1280000000 elements cannot be doubled again; give fewer doublings");
+    refuses(1e7, 8, "many: 1280000000 elements cannot be doubled again; give a smaller --refine");
 }
 
 static void plan_tests(void)

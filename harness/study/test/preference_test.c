@@ -66,7 +66,7 @@ static void of_case(const case_type *type)
              type->name);
     gsl_test(choose(&s, type, value, &open, 1).one.type != t, "%s: a doubt is no defect",
              type->name);
-    gsl_test(strstr(choose(&s, type, value, &all, 1).why, "but has a known defect here") == NULL,
+    gsl_test(strstr(choose(&s, type, value, &all, 1).why, "but has a known deviation here") == NULL,
              "%s: where all have one, it is said", type->name);
     const preference_chosen other = choose(&s, type, value, &there, 1);
     gsl_test(other.one.type == t && strstr(other.why, "no known deviation here") == NULL,
