@@ -33,10 +33,10 @@ extern "C" {
 
 enum { ELEMENT_ABI = 4 };
 enum {
-    ELEMENT_MAX_NODES = 3,
+    ELEMENT_MAX_NODES = 8,
     NODE_COORDINATES = 7,
-    ELEMENT_MAX_COORDINATES = 21,
-    ELEMENT_MAX_STRAINS = 24,
+    ELEMENT_MAX_COORDINATES = 56,
+    ELEMENT_MAX_STRAINS = 56,
     ELEMENT_MAX_OPTIONS = 6,
     ELEMENT_MAX_HISTORY = 256
 };
@@ -152,6 +152,7 @@ typedef struct element_constants {
     element_order order[ELEMENT_ANALYSES]; /* orders of convergence; if the highest order is 0, the
                                               lowest order is 2 and the highest order 4 */
     int history;                           /* number of values of the history */
+    double place[ELEMENT_MAX_NODES];       /* positions of the nodes; all 0: equally spaced */
 } element_constants;
 
 /* An element type. Optional members may be NULL or 0. Each of their comments ends with the
@@ -224,7 +225,7 @@ typedef struct element_type {
     void (*geometric)(const element_data *, const double sigma[], double G[]);
     /* Computes inertia. The frame does not rotate if its pointer is NULL. By default (NULL), the
      * mass is that of the displacement field that is exact without loads (field/field.h). Elements
-     * with three nodes have lumped mass by default. */
+     * with more than two nodes have lumped mass by default. */
     status (*inertia)(const element_data *, const node_state x[], const element_rotating_frame *,
                       inertia_output *);
 
@@ -243,8 +244,8 @@ typedef struct element_type {
     void (*force_many)(int count, const element_data *const data[], const node_state x[],
                        force_output out[], status outcome[]);
 
-    /* Optional: constant values that replace `nodes`, `strains`, `order` and `history` if they do
-     * not depend on options. */
+    /* Optional: constant values that replace `nodes`, `strains`, `order`, `history` and `places` if
+     * they do not depend on options. */
     const element_constants *constants;
     /* Optional: returns one line that explains why results since the last call are invalid, or NULL
      * if the results are valid. */
@@ -300,6 +301,11 @@ typedef struct element_type {
      * was reached from the previous values. The strains of x must not change, and a second call at
      * x must change nothing, both to round-off. */
     void (*commit)(const element_data *, const node_state x[], double history[]);
+    /* Optional: computes the positions of the nodes in the undeformed element, divided by its
+     * length: 0 for the first node, 1 for the last node, in ascending order. Masses and loads are
+     * lumped with the weights that integrate the polynomial through the nodes, which must be
+     * positive. Default: equally spaced. */
+    void (*places)(const double options[], double place[]);
 } element_type;
 
 /* Makes a symbol visible outside a shared object, even with -fvisibility=hidden. */
@@ -341,6 +347,16 @@ static inline int element_nodes(const element_type *t, const double options[])
     if (t->nodes)
         return t->nodes(options);
     return t->constants && t->constants->nodes > 0 ? t->constants->nodes : 2;
+}
+/* Computes the positions of the nodes along the element, from 0 to 1. */
+static inline void element_places(const element_type *t, const double options[], double place[])
+{
+    const int last = element_nodes(t, options) - 1,
+              given = t->constants != NULL && t->constants->place[last] > 0;
+    for (int k = 0; k <= last; k++)
+        place[k] = given ? t->constants->place[k] : (double)k / last;
+    if (t->places)
+        t->places(options, place);
 }
 /* Returns 1 if transient analyses can use the consistent mass of the type. */
 static inline int element_spreads(const element_type *t, const double options[])

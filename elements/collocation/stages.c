@@ -14,7 +14,7 @@
 static void weights(int count, const double at[], double x, double N[], double dN[])
 {
     double node[EXACT_STAGES_NODES], slope[EXACT_STAGES_NODES];
-    exact_line_lagrange(count + 1, at, x, node, slope);
+    lagrange_at(count + 1, at, x, node, slope);
     for (int k = 0; k < count - 1; k++) {
         N[k] = node[k + 1];
         dN[k] = slope[k + 1];

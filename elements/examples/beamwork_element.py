@@ -37,7 +37,7 @@ FEATURES = ("warping", "shear", "eccentric shear centre", "trapeze", "wagner mom
 SECTION = ("young shear_modulus density A Iy Iz It Iw ys zs Ip wagner_y wagner_z wagner_torque D:9 "
            "F:9 axes_angle centroid:2 matrices stiffness:36 mass:36 rectangle width height")
 FUNCTIONS = ("prepare", "strain", "stress", "force", "mass", "begin", "commit")
-KEYS = ("name summary source family offers gives strains nodes order limits shear_theories "
+KEYS = ("name summary source family offers gives strains nodes places order limits shear_theories "
         "inertia options history").split()
 TINY, STEP = 1e-20, 2e-3  # sizes of complex steps and of the finite differences that check complex steps
 
@@ -348,6 +348,8 @@ def taken(functions, words):
             sys.exit(f"serve(): {word}={value!r} is no {'function' if word in FUNCTIONS else 'key'}"
                      + (f", did you mean {near[0]}?" if near else f"; keys: {', '.join(KEYS)}"))
     functions = {name: f for name, f in functions.items() if f is not None}
+    if "places" in said:
+        said["places"] = [float(v) for v in said["places"]]
     if "mass" in functions:
         said = {"inertia": "motion" if said.get("nodes", 2) == 2 else "vibration", **said}
     return functions, {"beamwork": 1, "gives": "tangent" if "force" in functions else "e,J,H",

@@ -92,7 +92,8 @@ module beamwork
     type(c_ptr) :: misprint = c_null_ptr
     type(c_funptr) :: along = c_null_funptr, mass_of_field = c_null_funptr, &
                       unstressed = c_null_funptr, history = c_null_funptr, &
-                      begin = c_null_funptr, commit = c_null_funptr
+                      begin = c_null_funptr, commit = c_null_funptr, &
+                      places = c_null_funptr
   end type
 end module
 

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "elements/math/scalar.h"
+#include "elements/shared/masses.h"
 
 section field_section(const element_request *request)
 {
@@ -11,6 +12,16 @@ section field_section(const element_request *request)
         for (int i = 0; i < 3; i++)
             c.F[i] = c.F[3 * i] = 0;
     return c;
+}
+
+/* Computes the positions of the nodes; without a type, the nodes are equally spaced. */
+static void places_of(const element_request *request, int nodes, double place[])
+{
+    if (request->type != NULL && nodes > 2)
+        element_places(request->type, request->options, place);
+    else
+        for (int k = 0; k < nodes; k++)
+            place[k] = (double)k / (nodes - 1);
 }
 
 static void integrate_whole(displacement_field *f)
@@ -31,6 +42,7 @@ void field_prepare(const element_request *request, int nodes, displacement_field
     double S[FIELD_MODES * FIELD_MODES];
     memset(out, 0, sizeof *out);
     out->nodes = nodes;
+    places_of(request, nodes, out->place);
     out->l0 = request->length;
     out->ys = c.ys;
     out->zs = c.zs;
@@ -83,11 +95,12 @@ void field_at(const displacement_field *f, double x, field_rows *out)
         functionals_at(f, x, out->functional);
         return;
     }
-    const double b = x * (1 - x), lean = f->l0 / 3 * b * (1 - 2 * x);
-    const double part[] = {(1 - x) * (1 - 2 * x), 4 * b, -x * (1 - 2 * x)};
-    memcpy(out->part, part, sizeof part);
-    out->lean[0] = out->lean[2] = lean;
-    out->lean[1] = -2 * lean;
+    lagrange_at(f->nodes, f->place, x, out->part, NULL);
+    for (int k = 0; k < f->nodes; k++) {
+        out->lean[k] = f->l0 / f->nodes * (x - f->place[k]);
+        for (int j = 0; j < f->nodes; j++)
+            out->lean[k] *= j == k ? 1 : (x - f->place[j]) / (f->place[k] - f->place[j]);
+    }
 }
 
 /* the amplitude is a = kx - (f (Q, Mw))_w, where Mw is computed from the twist (beamw/fields.h) */
@@ -115,7 +128,14 @@ void field_gather(double size, const field_rows *at, field_rows *out)
 int field_points(const displacement_field *f, double from, double to, double x[FIELD_MOST_POINTS],
                  double weight[FIELD_MOST_POINTS])
 {
-    return beamw_twist_points(&f->twist, from, to, x, weight);
+    if (f->nodes == 2)
+        return beamw_twist_points(&f->twist, from, to, x, weight);
+    quadrature_points(f->nodes + 1, x, weight);
+    for (int k = 0; k < f->nodes + 1; k++) {
+        x[k] = from + (to - from) * x[k];
+        weight[k] *= to - from;
+    }
+    return f->nodes + 1;
 }
 
 /* Index of the warping amplitude, which comes after the other functionals. */
@@ -147,14 +167,17 @@ void field_mass_prepare(const element_request *request, int nodes, field_mass *o
     out->nodes = nodes;
     if (nodes == 2)
         prepare_two(request, &out->spread);
-    else
+    else {
+        double place[ELEMENT_MAX_NODES];
         out->lumped = lumped_of(request->section, request->features, request->length);
+        places_of(request, nodes, place);
+        lumped_shares(nodes, place, out->share);
+    }
 }
 
 status field_mass_inertia(const field_mass *m, const node_state x[],
                           const element_rotating_frame *frame, inertia_output *out)
 {
-    return m->nodes == 2
-               ? beamw_spread_inertia(&m->spread, x, frame, out)
-               : lumped_element(&m->lumped, m->nodes, lumped_shares(m->nodes), x, frame, out);
+    return m->nodes == 2 ? beamw_spread_inertia(&m->spread, x, frame, out)
+                         : lumped_element(&m->lumped, m->nodes, m->share, x, frame, out);
 }

@@ -10,9 +10,9 @@
  * e refers to the straight element. The initial value of e describes the shape of a curved element.
  * The functionals are those of J section 3.2 with the exact twist (beamw/fields.h). The field
  * contains every solution without loads. Therefore any load does the correct work on the nodes of
- * an element that is exact without loads. With three nodes, r and n_k are Lagrange polynomials, and
- * r has an additional term for the nonlinear part of the rotations:
- *   (l/3) x (1-x)(1-2x) (n_x^1 - 2 n_x^2 + n_x^3). */
+ * an element that is exact without loads. With more nodes, r and n_k are the polynomials through
+ * the n nodes at x_k, and r has an additional term, whose derivative is the part of l n_x of the
+ * highest degree: (l/n) prod (x - x_j) sum_k n_x^k/prod_(j != k) (x_k - x_j). */
 #ifndef BEAMWORK_FIELD_FIELD_H
 #define BEAMWORK_FIELD_FIELD_H
 
@@ -25,15 +25,16 @@ enum { FIELD_MODES = 8 };
 /* Weights and functionals at a point x in [0, 1], or the integrals of both. */
 typedef struct field_rows {
     double part[ELEMENT_MAX_NODES]; /* weights of the vectors r and n_k of each node */
-    double lean[ELEMENT_MAX_NODES]; /* three nodes: weights of n_x in r [m] */
+    double lean[ELEMENT_MAX_NODES]; /* more than two nodes: weights of n_x in r [m] */
     double functional[FIELD_FUNCTIONALS][FIELD_MODES];
 } field_rows;
 
 /* Data of a kind of element. */
 typedef struct displacement_field {
     int nodes;
-    double l0, ys, zs; /* [m] */
-    int warps;         /* 0 for uniform torsion, where e7 and e8 equal e2 */
+    double place[ELEMENT_MAX_NODES]; /* positions of the nodes, from 0 to 1 */
+    double l0, ys, zs;               /* [m] */
+    int warps;                       /* 0 for uniform torsion, where e7 and e8 equal e2 */
     beamw_stiffness_fields linear;
     beamw_twist twist;
     field_rows whole; /* rows integrated over [0, 1] */
@@ -76,12 +77,14 @@ void field_add_loads(const displacement_field *, const node_state x[], int count
 /* Mass of an element that moves with the displacement field. Two-node elements have the consistent
  * mass of the field. Their frequencies converge with order 4 in slender bending. With the
  * correction for the motion inside the element (below), all frequencies of a straight member
- * converge with order 4. Three-node elements have mass lumped by Simpson's rule, with order 4. */
+ * converge with order 4. Elements with more nodes have lumped mass (lumped_shares), with order 4 or
+ * more. */
 
 typedef struct field_mass {
     int nodes;
     beamw_spread spread; /* two nodes */
-    lumped_mass lumped;  /* three nodes: lumped mass of the whole element */
+    lumped_mass lumped;  /* more nodes: lumped mass of the whole element */
+    double share[ELEMENT_MAX_NODES];
 } field_mass;
 
 /* Orders of convergence of frequencies without prestress, for two-node elements whose stiffness is

@@ -192,12 +192,12 @@ static inline real exact_point_curved(const exact_point *p, const real n[3], con
 
 /* The strains of exact.h with their derivatives, in lanes (real.h). */
 
-enum { EXACT_DEFORMED_PAIRS = ELEMENT_MAX_NODES * (ELEMENT_MAX_NODES + 1) / 2 };
+enum { EXACT_DEFORMED_PAIRS = EXACT_MAX_NODES * (EXACT_MAX_NODES + 1) / 2 };
 
 /* Values computed from the states of the nodes once per evaluation. */
 typedef struct exact_deformed_nodes {
-    real q[ELEMENT_MAX_NODES][4];
-    real r[ELEMENT_MAX_NODES][3], u[ELEMENT_MAX_NODES][3]; /* divided by l0 */
+    real q[EXACT_MAX_NODES][4];
+    real r[EXACT_MAX_NODES][3], u[EXACT_MAX_NODES][3]; /* divided by l0 */
 } exact_deformed_nodes;
 
 /* Values of all points. */
@@ -205,10 +205,10 @@ typedef struct exact_deformed {
     real e[EXACT_STRAIN_MAX_POINTS][6];
     /* blocks of J: derivatives of v with respect to r, and l0 times the derivatives of v and of the
      * measured kappa with respect to theta */
-    real axes[EXACT_STRAIN_MAX_POINTS][9], v[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES][9],
-        kappa[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES][9];
+    real axes[EXACT_STRAIN_MAX_POINTS][9], v[EXACT_STRAIN_MAX_POINTS][EXACT_MAX_NODES][9],
+        kappa[EXACT_STRAIN_MAX_POINTS][EXACT_MAX_NODES][9];
     /* blocks of H: for theta of nodes k <= l, and for theta and r */
-    real turns[EXACT_DEFORMED_PAIRS][9], moves[ELEMENT_MAX_NODES][ELEMENT_MAX_NODES][9];
+    real turns[EXACT_DEFORMED_PAIRS][9], moves[EXACT_MAX_NODES][EXACT_MAX_NODES][9];
 } exact_deformed;
 
 /* Computes y = r' and dy = u' at point g. */
@@ -251,7 +251,7 @@ static inline void exact_deformed_second(int nodes, const exact_strain_line *lin
 {
     const double *N = line->N[g], *dN = line->dN[g];
     const int measured = line->rotation != EXACT_MEASURE_QUARTER;
-    real n[3], inner[9], bent[ELEMENT_MAX_NODES][9];
+    real n[3], inner[9], bent[EXACT_MAX_NODES][9];
     for (int i = 0; i < 3; i++)
         n[i] = moment[i];
     if (measured) { /* T^T n replaces n, and the second derivative of the measure is multiplied by
@@ -298,7 +298,7 @@ exact_deformed_evaluate(int nodes, const exact_strain_line *line, exact_deformed
     }
     for (int g = 0; g < nodes - 1; g++) {
         exact_point p;
-        exact_point_turn t[ELEMENT_MAX_NODES];
+        exact_point_turn t[EXACT_MAX_NODES];
         real y[3], dy[3], psi[3], m[3], T[9];
         exact_deformed_observe(nodes, line, state, g, &p, y, dy);
         exact_deformed_stretch(p.v, line->rest[g], y, dy, out->e[g]);
@@ -342,7 +342,7 @@ exact_deformed_evaluate(int nodes, const exact_strain_line *line, exact_deformed
 static inline void exact_deformed_read(int nodes, const exact_strain_line *line,
                                        const node_state x[], int lane, exact_deformed_nodes *s)
 {
-    double q[ELEMENT_MAX_NODES][4];
+    double q[EXACT_MAX_NODES][4];
     for (int k = 0; k < nodes; k++) {
         rotation_from_matrix(x[k].R, q[k]);
         double side = 0;

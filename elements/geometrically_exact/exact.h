@@ -7,10 +7,6 @@
 #include "elements/math/vec3.h"
 #include "elements/shared/beam_constants.h"
 
-/* Computes the Lagrange polynomials L[n] on the points p[n] and their derivatives dL[n] at x. All
- * values are dimensionless. dL may be NULL. */
-void exact_line_lagrange(int n, const double p[], double x, double L[], double dL[]);
-
 /* Measure of the rotation between two nodes, in lanes (real.h): a vector along the rotation axis,
  * whose length is a function of the angle. */
 
@@ -75,14 +71,14 @@ static inline void exact_measure_second(const real m[3], const real x[3], const 
  * strains are in [m] and are relative to their values in the undeformed state, which may be
  * curved. */
 
-enum { EXACT_STRAIN_MAX_POINTS = 2 };
+enum { EXACT_MAX_NODES = 3, EXACT_STRAIN_MAX_POINTS = 2 };
 
 typedef struct exact_strain_line {
     int nodes, points;
     double l0; /* [m] */
     exact_measure_kind rotation;
-    double N[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES],
-        dN[EXACT_STRAIN_MAX_POINTS][ELEMENT_MAX_NODES]; /* dN is divided by l0 */
+    double N[EXACT_STRAIN_MAX_POINTS][EXACT_MAX_NODES],
+        dN[EXACT_STRAIN_MAX_POINTS][EXACT_MAX_NODES]; /* dN is divided by l0 */
     double initial[EXACT_STRAIN_MAX_POINTS]
                   [3]; /* R^T r' minus `rest`, in the stress-free element */
     double rest[EXACT_STRAIN_MAX_POINTS]
@@ -113,7 +109,7 @@ void exact_strain_prepare(int nodes, int points, double l0, const double curvatu
  *     four in a plane and two in space. */
 
 enum {
-    EXACT_STIFFNESS_MAX_STRAINS = 6 * EXACT_STRAIN_MAX_POINTS + ELEMENT_MAX_NODES,
+    EXACT_STIFFNESS_MAX_STRAINS = 6 * EXACT_STRAIN_MAX_POINTS + EXACT_MAX_NODES,
     EXACT_STIFFNESS_MAX_FIELD = 4 * EXACT_STRAIN_MAX_POINTS + 1
 };
 

@@ -27,7 +27,7 @@ status exact_coupled_stiffness(const beam_constants *c, int points, int strains,
                                double S[], fault *f)
 {
     const double unit = c->energy / (length * length);
-    double x[ELEMENT_MAX_NODES], w[ELEMENT_MAX_NODES], C[36], F[36];
+    double x[EXACT_MAX_NODES], w[EXACT_MAX_NODES], C[36], F[36];
     quadrature_points(points, x, w);
     memcpy(C, c->C, sizeof C);
     if (points == 1) {
@@ -62,8 +62,7 @@ static void add_product(exact_fields *f, double k, int i, int j)
 static void amplitude(const exact_fields *f, double x, double a[EXACT_FIELDS_MAX_FREE],
                       double da[EXACT_FIELDS_MAX_FREE])
 {
-    double at[ELEMENT_MAX_NODES], L[ELEMENT_MAX_NODES], dL[ELEMENT_MAX_NODES], bubble = 1,
-                                                                               slope = 0;
+    double at[EXACT_MAX_NODES], L[EXACT_MAX_NODES], dL[EXACT_MAX_NODES], bubble = 1, slope = 0;
     memset(a, 0, EXACT_FIELDS_MAX_FREE * sizeof *a);
     memset(da, 0, EXACT_FIELDS_MAX_FREE * sizeof *da);
     for (int k = 0; k < f->nodes; k++) {
@@ -71,7 +70,7 @@ static void amplitude(const exact_fields *f, double x, double a[EXACT_FIELDS_MAX
         slope = slope * 4 * (x - at[k]) + bubble * 4;
         bubble *= 4 * (x - at[k]);
     }
-    exact_line_lagrange(f->nodes, at, x, L, dL);
+    lagrange_at(f->nodes, at, x, L, dL);
     for (int k = 0; k < f->nodes; k++) {
         a[6 * f->points + k] = L[k];
         da[6 * f->points + k] = dL[k];
@@ -88,7 +87,7 @@ static void twist_fields(exact_fields *f)
 {
     double a[EXACT_STIFFNESS_MAX_FIELD][EXACT_FIELDS_MAX_FREE];
     for (int i = 0; i < f->field; i++) {
-        exact_line_lagrange(f->points, f->x, f->at[i], f->through[i], NULL);
+        lagrange_at(f->points, f->x, f->at[i], f->through[i], NULL);
         for (int g = 0; g < f->points; g++)
             f->twist[i][6 * g + 3] = f->through[i][g];
         if (f->warping_bubbles == 0)

@@ -6,22 +6,6 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-void exact_line_lagrange(int n, const double p[], double x, double L[], double dL[])
-{
-    for (int k = 0; k < n; k++) {
-        double value = 1, slope = 0;
-        for (int j = 0; j < n; j++) {
-            if (j == k)
-                continue;
-            slope = (slope * (x - p[j]) + value) / (p[k] - p[j]);
-            value *= (x - p[j]) / (p[k] - p[j]);
-        }
-        L[k] = value;
-        if (dL != 0)
-            dL[k] = slope;
-    }
-}
-
 void exact_measure_angle(double t, double m[3])
 {
     if (t < 0.01) { /* series atan(y)/y = sum (-t)^k/(2 k + 1) */
@@ -70,7 +54,7 @@ void exact_strain_prepare(int nodes_count, int points, double l0, const double c
                  along[3] = {1, 0, 0};
     const double strained[3] = {1 + strain[0], strain[1], strain[2]};
     double x[EXACT_STRAIN_MAX_POINTS], w[EXACT_STRAIN_MAX_POINTS],
-        at[ELEMENT_MAX_NODES] = {0}, without[EXACT_STRAIN_MAX_POINTS][6];
+        at[EXACT_MAX_NODES] = {0}, without[EXACT_STRAIN_MAX_POINTS][6];
     memset(line, 0, sizeof *line);
     line->nodes = nodes_count;
     line->points = points;
@@ -80,7 +64,7 @@ void exact_strain_prepare(int nodes_count, int points, double l0, const double c
     for (int k = 0; k < nodes_count; k++)
         at[k] = (double)k / (nodes_count - 1);
     for (int g = 0; g < points; g++)
-        exact_line_lagrange(nodes_count, at, x[g], line->N[g], line->dN[g]);
+        lagrange_at(nodes_count, at, x[g], line->N[g], line->dN[g]);
     observe_rest(line, rotation_vector, along, at, line->rest);
     observe_rest(line, rotation_vector, strained, at, without);
     for (int g = 0; g < points; g++)

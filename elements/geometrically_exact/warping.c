@@ -88,7 +88,7 @@ static void integrate(const beam_constants *c, const basis *b, int stages, const
     graded_points(fmax(b->lambda, 1), at, rest, weight);
     for (int k = 0; k < POINTS; k++) {
         functions_at(b, at[k], rest[k], value[k], slope[k]);
-        exact_line_lagrange(stages, x, at[k], L[k], NULL);
+        lagrange_at(stages, x, at[k], L[k], NULL);
         for (int i = 0; i < stages; i++)
             for (int j = 0; j < n; j++)
                 mean[i * n + j] += weight[k] * L[k][i] / w[i] * value[k][j];

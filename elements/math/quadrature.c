@@ -32,3 +32,19 @@ void quadrature_points(int n, double x[], double w[])
         else /* out of memory: returns NaN instead of a wrong number */
             x[i] = w[i] = NAN;
 }
+
+void lagrange_at(int n, const double p[], double x, double L[], double dL[])
+{
+    for (int k = 0; k < n; k++) {
+        double value = 1, slope = 0;
+        for (int j = 0; j < n; j++) {
+            if (j == k)
+                continue;
+            slope = (slope * (x - p[j]) + value) / (p[k] - p[j]);
+            value *= (x - p[j]) / (p[k] - p[j]);
+        }
+        L[k] = value;
+        if (dL != NULL)
+            dL[k] = slope;
+    }
+}

@@ -1,4 +1,4 @@
-/* Pi, the larger of two numbers, and Gauss-Legendre quadrature. */
+/* Pi, the larger of two numbers, Gauss-Legendre quadrature and Lagrange polynomials. */
 #ifndef BEAMWORK_MATH_SCALAR_H
 #define BEAMWORK_MATH_SCALAR_H
 
@@ -23,5 +23,9 @@ int quadrature_is_tabulated(int n);
 /* Computes n points x[n] in ascending order and weights w[n] on [0, 1]. The quadrature is exact for
  * polynomials of degree 2n - 1. */
 void quadrature_points(int n, double x[], double w[]);
+
+/* Computes the Lagrange polynomials L[n] on the points p[n] and their derivatives dL[n] at x. All
+ * values are dimensionless. dL may be NULL. */
+void lagrange_at(int n, const double p[], double x, double L[], double dL[]);
 
 #endif

@@ -34,8 +34,15 @@ typedef struct stress_real {
     real *energy, *sigma, *C, *residual, *memory;
 } stress_real;
 
-/* Largest number of inner unknowns and size of memory of a type with lanes. */
-enum { LANES_INNER = 24, LANES_MEMORY = 600 };
+/* Largest numbers of nodes, strains and inner unknowns, and size of memory, of a type with lanes.
+ */
+enum {
+    LANES_NODES = 3,
+    LANES_COORDINATES = NODE_COORDINATES * LANES_NODES,
+    LANES_STRAINS = 24,
+    LANES_INNER = 24,
+    LANES_MEMORY = 600
+};
 
 /* Sizes of a family. */
 typedef struct lanes_sizes {
@@ -114,10 +121,10 @@ static inline __attribute__((always_inline)) void
 lanes_strain_run(lanes_sizes n, lanes_strain *strain, int run, const element_data *data,
                  const node_state x[], strain_output out[])
 {
-    enum { S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES };
+    enum { S = LANES_STRAINS, X = LANES_COORDINATES };
     const int columns = NODE_COORDINATES * n.nodes;
     double unused[X * X];
-    node_real at[ELEMENT_MAX_NODES];
+    node_real at[LANES_NODES];
     real e[S], J[S * X], s[S], H[X * X];
     lanes_gather_nodes(n.nodes, run, x, at);
     if (out->s != NULL) {
@@ -152,7 +159,7 @@ lanes_stress_run(lanes_sizes n, lanes_stress *stress, status failure, int run,
                  const element_data *data, const double *const e[], const double *const inner[],
                  stress_output out[], status outcome[])
 {
-    enum { S = ELEMENT_MAX_STRAINS };
+    enum { S = LANES_STRAINS };
     double unused[LANES_MEMORY];
     real at[S], inside[LANES_INNER], energy, sigma[S], C[S * S], residual, memory[LANES_MEMORY];
     lanes_gather_arrays(n.strains, run, e, at);
@@ -219,13 +226,10 @@ lanes_stress_many(lanes_sizes n, lanes_stress *stress, status failure, int count
  * lanes. Sums have the same order as in harness/newton. */
 
 typedef struct lanes_equations {
-    real J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
-        SJ[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES],
-        C[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS],
-        K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
-    real e[ELEMENT_MAX_STRAINS], s[ELEMENT_MAX_STRAINS], sigma[ELEMENT_MAX_STRAINS],
-        incompatibility[ELEMENT_MAX_STRAINS];
-    real force[ELEMENT_MAX_COORDINATES], present[ELEMENT_MAX_COORDINATES];
+    real J[LANES_STRAINS * LANES_COORDINATES], SJ[LANES_STRAINS * LANES_COORDINATES],
+        C[LANES_STRAINS * LANES_STRAINS], K[LANES_COORDINATES * LANES_COORDINATES];
+    real e[LANES_STRAINS], s[LANES_STRAINS], sigma[LANES_STRAINS], incompatibility[LANES_STRAINS];
+    real force[LANES_COORDINATES], present[LANES_COORDINATES];
     real inner[LANES_INNER], memory[LANES_MEMORY];
 } lanes_equations;
 
@@ -289,7 +293,7 @@ lanes_equations_run(lanes_sizes n, lanes_strain *strain, lanes_stress *stress, s
 {
     const int columns = NODE_COORDINATES * n.nodes;
     double unused[LANES_MEMORY];
-    node_real at[ELEMENT_MAX_NODES];
+    node_real at[LANES_NODES];
     lanes_equations q;
     const int tangent = out->K != NULL;
     lanes_gather_nodes(n.nodes, run, x, at);

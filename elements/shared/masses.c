@@ -4,6 +4,7 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/scalar.h"
 #include "elements/section/section.h"
 
 enum { MOST = 14 };
@@ -301,11 +302,21 @@ void lumped_add(const lumped_mass *l, double share, const node_state *x,
         add_twist(share * l->rotary[0], x, at, n, out);
 }
 
-const double *lumped_shares(int nodes)
+void lumped_shares(int nodes, const double place[], double share[])
 {
     static const double two[] = {0.5, 0.5}, three[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
-    assert(nodes == 2 || nodes == 3);
-    return nodes == 2 ? two : three;
+    double x[ELEMENT_MAX_NODES], weight[ELEMENT_MAX_NODES], L[ELEMENT_MAX_NODES];
+    if (nodes == 2 || (nodes == 3 && place[1] == 0.5)) {
+        memcpy(share, nodes == 2 ? two : three, (size_t)nodes * sizeof *share);
+        return;
+    }
+    memset(share, 0, (size_t)nodes * sizeof *share);
+    quadrature_points(nodes, x, weight);
+    for (int g = 0; g < nodes; g++) {
+        lagrange_at(nodes, place, x[g], L, NULL);
+        for (int k = 0; k < nodes; k++)
+            share[k] += weight[g] * L[k];
+    }
 }
 
 status lumped_element(const lumped_mass *whole, int nodes, const double share[],

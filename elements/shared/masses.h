@@ -71,9 +71,9 @@ lumped_mass lumped_of(const section *c, unsigned features, double length);
 void lumped_add(const lumped_mass *l, double share, const node_state *x,
                 const element_rotating_frame *frame, int at, int n, inertia_output *out);
 
-/* Returns the shares of the nodes of an element: one half each for two nodes, or the weights of
- * Simpson's rule for three nodes. */
-const double *lumped_shares(int nodes);
+/* Computes the shares of the nodes at place[nodes] of an element, which integrate the polynomial
+ * through the nodes exactly: one half each for two nodes, Simpson's rule for three. */
+void lumped_shares(int nodes, const double place[], double share[]);
 
 /* Computes the inertia of an element whose mass is lumped at its nodes with the given shares. */
 status lumped_element(const lumped_mass *whole, int nodes, const double share[],

@@ -377,10 +377,10 @@ static void layer_means(const amplitude *a, const double x[], const double w[], 
         for (size_t g = 0; g < 12; g++) {
             double at, weight, L[WARPING_MOST];
             gsl_integration_glfixed_point(from, to, g, &at, &weight, t);
-            exact_line_lagrange(a->stages, x, at, L, NULL);
+            lagrange_at(a->stages, x, at, L, NULL);
             for (int i = 0; i < a->stages; i++)
                 mean[i] += weight * L[i] / w[i] * layers(a, at, 1 - at);
-            exact_line_lagrange(a->stages, x, 1 - at, L, NULL);
+            lagrange_at(a->stages, x, 1 - at, L, NULL);
             for (int i = 0; i < a->stages; i++)
                 mean[i] += weight * L[i] / w[i] * layers(a, 1 - at, at);
         }

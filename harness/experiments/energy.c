@@ -354,7 +354,7 @@ static double twisted_energy(const specimen *s, double angle)
     double d[N] = {0}, V = NAN;
     node_state straight[ELEMENT_MAX_NODES], x[ELEMENT_MAX_NODES];
     for (int k = 0; k < s->nodes; k++) {
-        const double turn = angle * k / (s->nodes - 1);
+        const double turn = angle * s->place[k];
         double *node = d + NODE_COORDINATES * k;
         /* rotation about the shear centre, so there is no shear */
         node[1] = ys * (1 - cos(turn)) + zs * sin(turn);

@@ -288,7 +288,8 @@ typedef struct specimen {
     double *history; /* [values] of the undeformed state; NULL: none */
     int values;
     int nodes, strains, coordinates, inner, memory;
-    char words[SPECIMEN_WORDS]; /* text for messages: "" or ", with option=value, section" */
+    double place[ELEMENT_MAX_NODES]; /* positions of the nodes, from 0 to 1 */
+    char words[SPECIMEN_WORDS];      /* text for messages: "" or ", with option=value, section" */
 } specimen;
 
 /* Returns the status of the type's functions, for example STATUS_REFUSED. Call specimen_free in any

@@ -25,7 +25,7 @@ static void at_rest(const specimen *s, node_state x[])
         turn[i] = s->request.curvature[i] * length;
     for (int k = 0; k < s->nodes; k++) {
         memset(&x[k], 0, sizeof x[k]);
-        arc_at(turn, ahead, (double)k / (s->nodes - 1), x[k].r, q);
+        arc_at(turn, ahead, s->place[k], x[k].r, q);
         rotation_matrix(q, x[k].R);
         for (int i = 0; i < 3; i++)
             x[k].r[i] *= length;
@@ -64,6 +64,7 @@ status specimen_make(const specimen_request *what, specimen *out, fault *f)
                           .type = what->given};
     memcpy(out->request.curvature, what->curvature, sizeof out->request.curvature);
     out->nodes = element_nodes(&out->type, out->options);
+    element_places(&out->type, out->options, out->place);
     out->strains = element_strains(&out->type, out->options);
     out->inner = element_inner(&out->type, out->options);
     out->memory = element_memory(&out->type, out->options);

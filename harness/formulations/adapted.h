@@ -10,10 +10,11 @@
 
 struct element_data {
     const element_type *given;
-    int nodes, strains, history; /* numbers of nodes and strains of the completed type */
-    double length;               /* [m] */
-    field_mass mass;             /* used if the type has no `inertia` */
-    max_align_t own[];           /* element_data of the type */
+    int nodes, strains, history;     /* numbers of nodes and strains of the completed type */
+    double length;                   /* [m] */
+    double place[ELEMENT_MAX_NODES]; /* positions of the nodes, from 0 to 1 */
+    field_mass mass;                 /* used if the type has no `inertia` */
+    max_align_t own[];               /* element_data of the type */
 };
 
 static inline const element_data *adapted_own(const element_data *d)

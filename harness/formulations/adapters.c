@@ -2,6 +2,7 @@
 
 #include <string.h>
 
+#include "elements/shared/masses.h"
 #include "harness/formulations/adapted.h"
 
 static size_t data_size(const element_request *request)
@@ -16,8 +17,8 @@ static status prepare(const element_request *request, element_data *out, fault *
     out->given = given;
     out->nodes = element_nodes(given, request->options);
     out->strains = given->force == NULL ? element_strains(given, request->options)
-                   : out->nodes == 2    ? places_strains_two(request->options)
-                                        : places_strains_three(request->options);
+                                        : places_strains(out->nodes)(request->options);
+    element_places(given, request->options, out->place);
     out->history = element_history(given, request->options);
     out->length = request->length;
     field_mass_prepare(request, out->nodes, &out->mass);
@@ -141,7 +142,7 @@ static void wrap(const element_type *given, element_type *out)
 static void make_relative(const element_type *given, int nodes, element_type *out)
 {
     out->offers &= ~(unsigned)FEATURE_CURVATURE;
-    out->strains = nodes == 2 ? places_strains_two : places_strains_three;
+    out->strains = places_strains(nodes);
     out->inner = NULL;
     out->memory = NULL;
     out->strain = places_strain;
@@ -181,6 +182,28 @@ static status check_history(const element_type *given, const double options[], f
     return STATUS_OK;
 }
 
+/* Checks that the nodes are in ascending order and have positive shares of the mass. */
+static status check_places(const element_type *given, const double options[], fault *f)
+{
+    const int nodes = element_nodes(given, options);
+    double place[ELEMENT_MAX_NODES], share[ELEMENT_MAX_NODES];
+    element_places(given, options, place);
+    int good = place[0] == 0 && place[nodes - 1] == 1;
+    for (int k = 1; k < nodes; k++)
+        good = good && place[k] > place[k - 1];
+    if (!good)
+        return refuse(given, "'places' must increase from 0 at the first node to 1 at the last", f);
+    lumped_shares(nodes, place, share);
+    for (int k = 0; k < nodes; k++)
+        if (!(share[k] > 0))
+            return fault_set(f, STATUS_REFUSED,
+                             "formulation %s: the polynomial through the nodes gives node %d the "
+                             "share %.3g of the mass, which must be positive; choose other "
+                             "'places', for example Gauss-Lobatto points",
+                             given->name, k + 1, share[k]);
+    return STATUS_OK;
+}
+
 static status check(const element_type *given, const double options[], fault *f)
 {
     const int nodes = element_nodes(given, options);
@@ -194,10 +217,13 @@ static status check(const element_type *given, const double options[], fault *f)
     if (given->force != NULL && (given->along != NULL || given->tension != NULL))
         return refuse(given, "'along' and 'tension' require 'strain' and 'stress'", f);
     if (nodes < 2 || nodes > ELEMENT_MAX_NODES)
-        return refuse(given, "an element must have two or three nodes", f);
+        return fault_set(f, STATUS_REFUSED, "formulation %s: an element must have 2 to %d nodes",
+                         given->name, ELEMENT_MAX_NODES);
+    TRY(check_places(given, options, f));
     if (given->force == NULL && (element_strains(given, options) < 1 ||
                                  element_strains(given, options) > ELEMENT_MAX_STRAINS))
-        return refuse(given, "an element must have 1 to 24 strains", f);
+        return fault_set(f, STATUS_REFUSED, "formulation %s: an element must have 1 to %d strains",
+                         given->name, ELEMENT_MAX_STRAINS);
     return check_history(given, options, f);
 }
 

@@ -253,7 +253,8 @@ status select_all_met(const char *expression, const select_words *, fault *);
 /* Central finite differences of sixth order, for functions whose arguments are of the order of one.
  * */
 
-enum { STENCIL_MOST = 576 }; /* largest number of values of a function */
+/* largest number of values of a function */
+enum { STENCIL_MOST = ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES };
 
 /* Step size h in units of the argument. The truncation error is h^6/140 times the seventh
  * derivative for the first derivative, and h^6/560 times the eighth derivative for the second

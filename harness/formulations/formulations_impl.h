@@ -163,8 +163,8 @@ void forces_evaluate(const element_type *given, gather *, int first, int count);
 
 enum { PLACES_MOST = 6 * (ELEMENT_MAX_NODES - 1) + ELEMENT_MAX_NODES };
 
-int places_strains_two(const double options[]);   /* strains of an element with two nodes */
-int places_strains_three(const double options[]); /* strains of an element with three nodes */
+/* Returns the function that gives the number of strains of an element with these nodes. */
+int (*places_strains(int nodes))(const double options[]);
 
 void places_strain(const element_data *d, const node_state x[], strain_output *out);
 

@@ -39,9 +39,9 @@ static const struct gives {
              {"force", 1, LEAVES_TANGENT},
              {"tangent", 1, 0}};
 
-static const char *const keys[] = {"beamwork", "name",           "summary", "source",  "family",
-                                   "offers",   "gives",          "strains", "nodes",   "order",
-                                   "limits",   "shear_theories", "options", "inertia", "history"};
+static const char *const keys[] = {
+    "beamwork", "name",  "summary", "source",         "family",  "offers",  "gives",   "strains",
+    "nodes",    "order", "limits",  "shear_theories", "options", "inertia", "history", "places"};
 
 typedef struct handshake_reading {
     const char *who;
@@ -132,6 +132,25 @@ static status number_of(const handshake_reading *r, const char *key, int least, 
         (value != NULL && (!json_is_integer(value) || number < least || number > most)))
         return refuse(r, key, what);
     *out = value != NULL ? (int)number : absent;
+    return STATUS_OK;
+}
+
+/* Reads the positions of the nodes; the adapters check them. */
+static status places_of(const handshake_reading *r, int nodes, double place[])
+{
+    const json_t *list = json_object_get(r->said, "places");
+    if (list == NULL)
+        return STATUS_OK;
+    if ((int)json_array_size(list) != nodes)
+        return refuse(r, "places", "give one number for each node, such as [0, 0.5, 1]");
+    for (int k = 0; k < nodes; k++) {
+        const json_t *number = json_array_get(list, (size_t)k);
+        if (!json_is_number(number))
+            return refuse(r, "places", "give one number for each node, such as [0, 0.5, 1]");
+        place[k] = json_number_value(number);
+    }
+    if (!(place[nodes - 1] > 0))
+        return refuse(r, "places", "the numbers must increase from 0 to 1");
     return STATUS_OK;
 }
 
@@ -233,6 +252,7 @@ static status read_all(const handshake_reading *r, handshake *out)
     t->offers |= t->shear_theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0;
     t->offers |= t->shear_theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0;
     TRY(number_of(r, "nodes", 2, ELEMENT_MAX_NODES, 2, &out->constants.nodes));
+    TRY(places_of(r, out->constants.nodes, out->constants.place));
     if (!out->whole)
         TRY(number_of(r, "strains", 1, ELEMENT_MAX_STRAINS, -1, &out->constants.strains));
     else if (json_object_get(r->said, "strains") != NULL)

@@ -6,22 +6,33 @@
 #include "elements/math/rotation.h"
 #include "harness/formulations/adapted.h"
 
-int places_strains_two(const double options[])
-{
-    (void)options;
-    return 8;
-}
+/* Returns the number of strains of an element with these nodes. */
+#define STRAINS(nodes) (6 * ((nodes) - 1) + (nodes))
+#define STRAINS_OF(nodes)                                                                          \
+    static int strains_##nodes(const double options[])                                             \
+    {                                                                                              \
+        (void)options;                                                                             \
+        return STRAINS(nodes);                                                                     \
+    }
+STRAINS_OF(2)
+STRAINS_OF(3)
+STRAINS_OF(4)
+STRAINS_OF(5)
+STRAINS_OF(6)
+STRAINS_OF(7)
+STRAINS_OF(8)
 
-int places_strains_three(const double options[])
+int (*places_strains(int nodes))(const double[])
 {
-    (void)options;
-    return PLACES_MOST;
+    static int (*const strains[ELEMENT_MAX_NODES + 1])(const double[]) = {
+        NULL, NULL, strains_2, strains_3, strains_4, strains_5, strains_6, strains_7, strains_8};
+    return strains[nodes];
 }
 
 /* Returns the undeformed distance [m] of node k from the first node. */
 static double distance(const element_data *d, int k)
 {
-    return d->length * k / (d->nodes - 1);
+    return d->length * d->place[k];
 }
 
 /* Returns the row of the first warping strain. */

@@ -74,7 +74,7 @@ static status found_member(model *m, int member, scene_spring *spring, int *used
     for (int i = first; i < m->mesh.first_element[member + 1]; i++) {
         const mesh_element *el = &m->mesh.element[i];
         for (int k = 0; k <= last; k++) {
-            const double place = division_place(&m->division, member, i - first, (double)k / last);
+            const double place = division_place(&m->division, member, i - first, m->mesh.place[k]);
             double position[3], R[9];
             member_arc_at(&arc, place * arc.length, position, R);
             if (k > 0 || i == first) {
@@ -417,9 +417,10 @@ void dashpots_matrix(const model *m, const model_state *s, double more, sparse *
 {
     for (int i = 0; i < m->mesh.springs; i++) {
         const mesh_discrete *d = numbered(m, i);
-        double K[X * X] = {0}, work[SPRING_STRAINS * X], c[SPRING_STRAINS * SPRING_STRAINS],
-                     sigma[SPRING_STRAINS], S[SPRING_STRAINS * SPRING_STRAINS];
+        double K[X * X], work[SPRING_STRAINS * X], c[SPRING_STRAINS * SPRING_STRAINS],
+            sigma[SPRING_STRAINS], S[SPRING_STRAINS * SPRING_STRAINS];
         spring_state p;
+        memset(K, 0, (size_t)(d->el.columns * d->el.columns) * sizeof *K);
         spring_at(m, s, d, NULL, &p);
         spring_law(d->spring, p.e, sigma, S);
         for (int k = 0; k < SPRING_STRAINS * SPRING_STRAINS; k++)

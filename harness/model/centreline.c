@@ -44,7 +44,8 @@ int centreline_points(const model *m, int first[])
 /* An element, with the frames of its nodes and the external forces on the nodes. */
 typedef struct span {
     int nodes;
-    double gap; /* [m] undeformed distance between two nodes */
+    const double *place; /* positions of the nodes */
+    double length;       /* [m] */
     node_state x[ELEMENT_MAX_NODES];
     double q[ELEMENT_MAX_NODES][4];
     double force[ELEMENT_MAX_COORDINATES];
@@ -58,7 +59,8 @@ static void span_of(const model *m, const model_state *s, int element, span *out
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     memset(out, 0, sizeof *out);
     out->nodes = m->mesh.nodes;
-    out->gap = m->mesh.kind[el->kind].length / (m->mesh.nodes - 1);
+    out->place = m->mesh.place;
+    out->length = m->mesh.kind[el->kind].length;
     kinematics_gather(m, s, el, out->x);
     for (int k = 0; k < m->mesh.nodes; k++)
         rotation_from_matrix(out->x[k].R, out->q[k]);
@@ -71,9 +73,10 @@ static void span_of(const model *m, const model_state *s, int element, span *out
  * .. 1. */
 static void cubic(const span *e, int k, double t, double r[3], double direction[3])
 {
-    const double *p = e->x[k].r, *q = e->x[k + 1].r, u = 1 - t;
+    const double *p = e->x[k].r, *q = e->x[k + 1].r, u = 1 - t,
+                 gap = e->length * (e->place[k + 1] - e->place[k]);
     for (int i = 0; i < 3; i++) {
-        const double a = e->gap * e->x[k].R[3 * i], b = e->gap * e->x[k + 1].R[3 * i];
+        const double a = gap * e->x[k].R[3 * i], b = gap * e->x[k + 1].R[3 * i];
         r[i] = p[i] + t * t * (3 - 2 * t) * (q[i] - p[i]) + t * u * (u * a - t * b);
         direction[i] = 6 * t * u * (q[i] - p[i]) + u * (1 - 3 * t) * a + t * (3 * t - 2) * b;
     }
@@ -103,7 +106,7 @@ static void orientation(const span *e, int k, double t, const double direction[3
 static void resultants(const span *e, int k, double t, centreline_point *p)
 {
     double force[3] = {0}, moment[3] = {0}, R[9];
-    const double along = (k + t) / (e->nodes - 1);
+    const double along = e->place[k] + t * (e->place[k + 1] - e->place[k]);
     for (int beyond = k + 1; beyond < e->nodes; beyond++) {
         const double *f = &e->force[NODE_COORDINATES * beyond];
         double arm[3], more[3];

@@ -73,7 +73,7 @@ static void fill_member(const model *m, int member, const double increment[], in
         const int at = p->first[member] + j;
         p->place[at] = j == count - 1 ? 1
                                       : division_place(&m->division, member, j / last,
-                                                       j % last / (double)last);
+                                                       m->mesh.place[j % last]);
         memcpy(p->shift[at], increment + 6 * vertex[j], sizeof p->shift[at]);
         memcpy(p->turn[at], increment + 6 * vertex[j] + 3, sizeof p->turn[at]);
     }

@@ -291,8 +291,8 @@ static status add_element(model *m, const member_arc *along, int member, int num
         mesh_vertex *v = &m->mesh.vertex[el->vertex[k]];
         double position[3], between[3];
         at[k] = a->length * ends[0] +
-                a->length * (ends[1] - ends[0]) * (in_piece * last + k) / (each * last);
-        place[k] = ends[0] + (ends[1] - ends[0]) * (in_piece * last + k) / (each * last);
+                a->length * (ends[1] - ends[0]) * (in_piece + m->mesh.place[k]) / each;
+        place[k] = ends[0] + (ends[1] - ends[0]) * (in_piece + m->mesh.place[k]) / each;
         member_arc_at(a, at[k], position, triad[k]);
         imperfect_move(m, member, place[k], position, triad[k]);
         if (!at_start && !at_end) {
@@ -344,7 +344,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
             }
             for (int j = 0; j <= last; j++) {
                 double inside[3];
-                member_arc_at(&arc, arc.length * j / last, inside, triad[j]);
+                member_arc_at(&arc, arc.length * m->mesh.place[j], inside, triad[j]);
                 if (j > 0 && j < last)
                     memcpy(m->mesh.vertex[el->vertex[j]].position, inside, sizeof inside);
             }
@@ -463,8 +463,7 @@ static void share_mass(model *m)
             set_shares(el, next - i);
         else
             for (int k = i; k < next; k++)
-                memcpy(m->mesh.element[k].share, lumped_shares(m->mesh.nodes),
-                       (size_t)m->mesh.nodes * sizeof(double));
+                memcpy(m->mesh.element[k].share, m->mesh.share, sizeof m->mesh.share);
     }
 }
 
@@ -502,7 +501,7 @@ static status allocate(model *m, fault *f)
     m->mesh.element = calloc((size_t)total, sizeof *m->mesh.element);
     m->triad = malloc((size_t)total * (size_t)m->mesh.nodes * sizeof *m->triad);
     m->mesh.kind = calloc((size_t)total, sizeof *m->mesh.kind);
-    m->mesh.warp = calloc((size_t)total * ELEMENT_MAX_NODES, sizeof *m->mesh.warp);
+    m->mesh.warp = calloc((size_t)total * (size_t)m->mesh.nodes, sizeof *m->mesh.warp);
     m->mesh.first_element = calloc((size_t)s->members + 1, sizeof *m->mesh.first_element);
     if (m->mesh.release == NULL || m->mesh.vertex == NULL || m->mesh.element == NULL ||
         m->triad == NULL || m->mesh.kind == NULL || m->mesh.warp == NULL ||

@@ -344,11 +344,13 @@ void on_nodes(const scene *s, const element_type *type, const double options[], 
     put_loads(&w, s);
     if (w.used > 0)
         model_words_put(&w, ": half of an element's load at each of its nodes; order 2 in the "
-                            "length of the element (three nodes: 1/6, 4/6, 1/6; order 4)");
+                            "length of the element (more than two nodes: weights that integrate "
+                            "the polynomial through them; order 4 or more)");
     if (is_heavy(s) && put_masses(&w, s, type, options) > 0)
         model_words_put(&w, ": at the nodes, weighted along each member; order 4 in slender "
                             "bending for 6 or more elements, order 2 with shear, stretch and twist "
-                            "(three nodes: 1/6, 4/6, 1/6; order 4)");
+                            "(more than two nodes: weights that integrate the polynomial through "
+                            "them; order 4 or more)");
     put_foundations(&w, s);
 }
 

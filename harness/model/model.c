@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cases/scene/scene.h"
+#include "elements/shared/masses.h"
 #include "harness/formulations/formulations.h"
 
 /* Returns 1 if the type computes the nodal forces of loads along members. If the scene has a
@@ -31,6 +32,8 @@ static status choose_options(model *m, const double options[], fault *f)
     TRY(adapters_complete(t, m->options, &m->completed, f));
     m->mesh.type = &m->completed;
     m->mesh.nodes = element_nodes(t, m->options);
+    element_places(t, m->options, m->mesh.place);
+    lumped_shares(m->mesh.nodes, m->mesh.place, m->mesh.share);
     m->mesh.coordinates = NODE_COORDINATES * m->mesh.nodes;
     m->mesh.strains = element_strains(m->mesh.type, m->options);
     m->mesh.inner = element_inner(m->mesh.type, m->options);

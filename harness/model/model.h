@@ -305,6 +305,8 @@ typedef struct mesh_kind {
 typedef struct model_mesh {
     const element_type *type;                                /* completed by adapters_complete */
     int nodes, coordinates, strains, inner, memory, history; /* numbers per element */
+    /* positions of the nodes of an element, from 0 to 1, and their shares of a uniform load */
+    double place[ELEMENT_MAX_NODES], share[ELEMENT_MAX_NODES];
     int vertices, elements, kinds, warps;
     /* index of the first vertex of released ends, which are the last vertices, and number of
      * released ends */
@@ -343,6 +345,15 @@ static inline const element_type *model_type(const model *m)
 static inline int model_nodes(const model *m)
 {
     return model_mesh_of(m)->nodes;
+}
+/* Return the positions of the nodes along an element, and their shares of a uniform load. */
+static inline const double *model_places(const model *m)
+{
+    return model_mesh_of(m)->place;
+}
+static inline const double *model_shares(const model *m)
+{
+    return model_mesh_of(m)->share;
 }
 static inline int model_own_coordinates(const model *m)
 {

@@ -6,6 +6,7 @@
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 #include "elements/section/section.h"
 #include "elements/shared/masses.h"
 
@@ -163,27 +164,28 @@ void applied_vector(const model *m, int element, const scene_load *load, double 
 /* Returns the shape function of node k at x. */
 static double share_of(const model *m, int k, double x)
 {
-    const double three[] = {(1 - x) * (1 - 2 * x), 4 * x * (1 - x), -x * (1 - 2 * x)};
-    if (model_nodes(m) == 2)
-        return k == 0 ? 1 - x : x;
-    return three[k];
+    double part[ELEMENT_MAX_NODES];
+    lagrange_at(model_nodes(m), model_places(m), x, part, NULL);
+    return part[k];
 }
 
 /* Computes quadrature points x and weights for a load on a part of an element, and returns their
  * number. Quadrature is exact for a linear load times a shape function. */
-static int points_of(const scene_load *load, const double part[2], double x[2], double weight[2])
+static int points_of(const model *m, const scene_load *load, const double part[2], double x[],
+                     double weight[])
 {
-    const double half = (part[1] - part[0]) / 2, middle = (part[0] + part[1]) / 2;
+    const int count = model_nodes(m) / 2 + 1;
     if (scene_load_within(load)) {
         x[0] = part[0];
         weight[0] = 1;
         return 1;
     }
-    for (int i = 0; i < 2; i++) {
-        x[i] = middle + (i ? half : -half) / sqrt(3);
-        weight[i] = half;
+    quadrature_points(count, x, weight);
+    for (int i = 0; i < count; i++) {
+        x[i] = part[0] + (part[1] - part[0]) * x[i];
+        weight[i] *= part[1] - part[0];
     }
-    return 2;
+    return count;
 }
 
 int applied_with_mass(const scene_load *load)
@@ -197,16 +199,16 @@ static void share_at(const model *m, const scene_load *load, int element, const 
                      int k, double vector[3])
 {
     const double length = scene_load_within(load) ? 1 : model_kind_of(m, element)->length;
-    double x[2], weight[2];
+    double x[ELEMENT_MAX_NODES], weight[ELEMENT_MAX_NODES];
     memset(vector, 0, 3 * sizeof *vector);
     if (!load->varies && !scene_load_within(load) && part[0] == 0 && part[1] == 1) {
-        const double *share = applied_with_mass(load) ? model_element(m, element)->share
-                                                      : lumped_shares(model_nodes(m));
+        const double *share =
+            applied_with_mass(load) ? model_element(m, element)->share : model_shares(m);
         for (int i = 0; i < 3; i++)
             vector[i] = share[k] * length * load->vector[i];
         return;
     }
-    const int count = points_of(load, part, x, weight);
+    const int count = points_of(m, load, part, x, weight);
     for (int g = 0; g < count; g++) {
         double here[3];
         applied_vector(m, element, load, x[g], here);

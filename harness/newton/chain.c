@@ -261,7 +261,8 @@ INLINED void forward(chain *s, int c, int y, const double r[], const double firs
 INLINED void backward(chain *s, int c, int y, const double r[], const double last[], double begin[])
 {
     const int in = y - c;
-    double g[CHAIN_LINK] = {0};
+    double g[CHAIN_LINK];
+    memset(g, 0, (size_t)in * sizeof *g);
     memcpy(g + in, last, (size_t)c * sizeof *g);
     for (int e = s->links; e-- > 0;) {
         const kept_link k = chain_kept(s, e, c, y);
@@ -293,10 +294,11 @@ INLINED void deform(const chain *s, int c, int y, const double r[], const double
     memcpy(p, first, (size_t)c * sizeof *p);
     for (int e = 0; e < s->links; e++) {
         const kept_link k = chain_kept(s, e, c, y);
-        double g[CHAIN_LINK] = {0}, here[CHAIN_LINK], more[CHAIN_LINK],
-               *to = x + (size_t)e * (size_t)y;
+        double g[CHAIN_LINK], here[CHAIN_LINK], more[CHAIN_LINK], *to = x + (size_t)e * (size_t)y;
         if (r != NULL)
             memcpy(g, r + (size_t)e * (size_t)y, (size_t)in * sizeof *g);
+        else
+            memset(g, 0, (size_t)in * sizeof *g);
         memcpy(g + in, s->a + (size_t)(e + 1) * (size_t)c, (size_t)c * sizeof *g);
         mul(y, c, k.A, p, here);
         mul_packed(y, k.own, g, more);
@@ -412,11 +414,13 @@ int symmetric_inverse(int n, const double A[], double inverse[])
     if (negative < 0)
         return negative;
     for (int c = 0; c < n; c++) {
-        double x[SYMMETRIC_MOST] = {0};
+        double x[SYMMETRIC_MOST];
         x[c] = 1;
-        for (int i = c + 1; i < n; i++)
+        for (int i = c + 1; i < n; i++) {
+            x[i] = 0;
             for (int j = c; j < i; j++)
                 x[i] -= L[i * n + j] * x[j];
+        }
         for (int i = c; i < n; i++)
             x[i] /= L[i * n + i];
         for (int i = n; i-- > c;) {

@@ -5,6 +5,7 @@
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
+#include "elements/math/scalar.h"
 #include "elements/section/section.h"
 
 /* A vertex, and the force on it from which the lumped loads are subtracted. */
@@ -197,16 +198,6 @@ typedef struct internal_between {
     double density[ELEMENT_MAX_NODES][6];
 } internal_between;
 
-/* Computes the shape functions of the nodes at x in [0, 1]. */
-static void interpolate(int nodes, double x, double part[ELEMENT_MAX_NODES])
-{
-    for (int k = 0; k < nodes; k++) {
-        part[k] = 1;
-        for (int j = 0; j < nodes; j++)
-            part[k] *= j == k ? 1 : (x * (nodes - 1) - j) / (k - j);
-    }
-}
-
 static void between_at(void *context, double x, const span_frame *at, span_load *out)
 {
     internal_between *of = context;
@@ -214,7 +205,8 @@ static void between_at(void *context, double x, const span_frame *at, span_load 
     memset(out, 0, sizeof *out);
     if (of->acts)
         distributed_at(&of->loads, x, at, out);
-    interpolate(of->nodes, x, part);
+    if (of->nodes > 0)
+        lagrange_at(of->nodes, model_places(of->loads.m), x, part, NULL);
     for (int k = 0; k < of->nodes; k++)
         for (int i = 0; i < 3; i++) {
             out->force[i] -= part[k] * of->density[k][i];

@@ -231,8 +231,10 @@ void loads_subtract_stiffness(const equations *eq, const model_state *s, double 
     loads_subtract_at_vertices(eq, s, path, K);
     for (int i = 0; i < model_elements(m); i++) {
         node_state x[ELEMENT_MAX_NODES];
+        const size_t n = (size_t)model_own_coordinates(m);
         double forces[ELEMENT_MAX_COORDINATES] = {0},
-               part[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+               part[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
+        memset(part, 0, n * n * sizeof *part);
         kinematics_gather(m, s, model_element(m, i), x);
         if (!distributed_add(eq, s, x, i, path, forces, part))
             continue;

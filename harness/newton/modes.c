@@ -42,8 +42,7 @@ static void put_element(const model *m, const mesh_element *el, row_label out[])
     const int number = (int)(el - model_element(m, model_first_element(m, el->member)));
     for (int k = 0; k < el->nodes; k++) {
         const int vertex = el->vertex[k], is_node = vertex < model_scene(m)->nodes;
-        const double at =
-            division_place(model_division(m), el->member, number, (double)k / (el->nodes - 1));
+        const double at = division_place(model_division(m), el->member, number, model_places(m)[k]);
         row_label label = {
             .node = is_node ? vertex : SCENE_NONE, .member = el->member, .along = at};
         memcpy(label.position, model_vertex(m, vertex)->position, sizeof label.position);

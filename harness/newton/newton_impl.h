@@ -375,7 +375,7 @@ void bordered_free(bordered *s);
  * A_q^T. Flexibilities add without cancellation. Therefore rounding errors grow roughly in
  * proportion to the number of links, and not to its fourth power as for assembled stiffnesses. */
 
-enum { CHAIN_JOINT = 7, CHAIN_LINK = 2 * CHAIN_JOINT };
+enum { CHAIN_JOINT = NODE_COORDINATES, CHAIN_LINK = (ELEMENT_MAX_NODES - 1) * CHAIN_JOINT };
 
 /* Data of an element that is added to a chain. */
 typedef struct chain_link {
@@ -528,7 +528,7 @@ int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
 
 /* Small symmetric matrices whose rows may have different units. */
 
-enum { SYMMETRIC_MOST = 14 };
+enum { SYMMETRIC_MOST = CHAIN_LINK };
 
 /* Computes inverse[n x n]. Returns the number of negative eigenvalues, or -1 if A is singular. */
 int symmetric_inverse(int n, const double A[], double inverse[]);

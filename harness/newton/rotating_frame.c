@@ -139,9 +139,10 @@ int rotating_frame_inner_matrix(const equations *eq, sparse *out)
     sparse_zero(out);
     for (int e = 0; e < model_elements(m); e++) {
         const double *B = model_kind_of(m, e)->inner;
-        double E[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+        double E[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
         if (B == NULL)
             continue;
+        memset(E, 0, FIELD_INNER * FIELD_INNER * sizeof *E);
         turn_inner(model_element(m, e), B, E);
         eliminate_matrix(m, kinematics_rest(m), model_element(m, e), NULL, E);
         assemble_matrix(p, e, E, out);

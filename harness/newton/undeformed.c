@@ -182,7 +182,8 @@ void linear_springs_stiffness(const model *m, sparse *K)
 {
     for (int i = 0; i < model_springs(m); i++) {
         const mesh_discrete *d = spring_of(m, i);
-        double J[SIX * X], k[X * X] = {0}, work[SIX * X], S[SIX * SIX];
+        double J[SIX * X], k[X * X], work[SIX * X], S[SIX * SIX];
+        memset(k, 0, (size_t)(d->el.columns * d->el.columns) * sizeof *k);
         springs_evaluate(m, d, NULL, J, NULL);
         spring_at_rest(d->spring, S);
         dense_add_congruence(SIX, NODE_COORDINATES * d->el.nodes, J, S, k, work);

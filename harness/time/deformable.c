@@ -246,7 +246,7 @@ void shares_along(const model *m, const model_state *s, const shares_motion *mot
                   double density[ELEMENT_MAX_NODES][6])
 {
     const mesh_element *el = model_element(m, element);
-    const double *part = motion->spread ? lumped_shares(el->nodes) : el->share;
+    const double *part = motion->spread ? model_shares(m) : el->share;
     for (int k = 0; k < el->nodes; k++) {
         carried_mass share;
         double F[7];

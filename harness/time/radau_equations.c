@@ -363,7 +363,8 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, double eta,
         dense_mul(model_strains(m), model_strains(m), n, S, all[k].J, SJ);
         for (int i = 0; i < STAGES; i++) {
             const double part = eta * r->B[STAGES * i + k] / h;
-            double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+            double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
+            memset(K, 0, (size_t)(n * n) * sizeof *K);
             dense_add_transpose_mul(n, model_strains(m), n, all[i].J, SJ, K);
             for (int row = 0; row < n; row++)
                 for (int column = 0; column < n; column++)
@@ -397,9 +398,12 @@ static void damp_spring(radau *r, int fresh, const instant *from, double h, int 
             if (el->index[c] != NONE && el->index[c] < r->free)
                 r->residual[(size_t)i * (size_t)r->free + (size_t)el->index[c]] -= force[c];
         for (int k = 0; fresh && k < STAGES; k++) {
-            double block[X * X] = {0};
+            const size_t size = (size_t)(el->columns * el->columns) * sizeof *K;
+            double block[X * X];
             if (i == k)
-                memcpy(block, K, (size_t)(el->columns * el->columns) * sizeof *K);
+                memcpy(block, K, size);
+            else
+                memset(block, 0, size);
             dense_mul(SIX, SIX, el->columns, C, J[k], CJ);
             for (int x = 0; x < SIX * el->columns; x++)
                 CJ[x] *= r->B[STAGES * i + k] / h;

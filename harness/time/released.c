@@ -270,9 +270,10 @@ status damping_matrix(const equations *eq, const model_state *s, double more, sp
         const double eta = model_scene(m)->member[el->member].damping + more;
         const size_t n = (size_t)model_strains(m);
         node_state x[ELEMENT_MAX_NODES];
-        double J[E * ELEMENT_MAX_COORDINATES], S[E * E], A[X * X] = {0}, work[E * X];
+        double J[E * ELEMENT_MAX_COORDINATES], S[E * E], A[X * X], work[E * X];
         if (eta == 0)
             continue;
+        memset(A, 0, (size_t)(el->columns * el->columns) * sizeof *A);
         kinematics_gather(m, s, el, x);
         model_type(m)->strain(model_kind(m, el->kind)->data, x,
                               &(strain_output){.J = J, .history = model_history_of(m, s, i)});

@@ -228,7 +228,7 @@ static void wide_motion(const model *m, const spread_parts *p, const spread_moti
                         double T[MOST * MODEL_MAX_COORDINATES])
 {
     const mesh_element *el = p->el;
-    memset(T, 0, MOST * MODEL_MAX_COORDINATES * sizeof *T);
+    memset(T, 0, (size_t)(NODE_COORDINATES * el->nodes * p->columns) * sizeof *T);
     for (int k = 0; k < el->nodes; k++) {
         const int at = NODE_COORDINATES * k;
         const double plain = moves != NULL ? moves[k].plain : 1,
@@ -387,7 +387,8 @@ void spread_add_tangent(const equations *eq, const model_state *s, const double 
         const mesh_element *el = model_element(m, i);
         spread_parts p;
         spread_motion place[ELEMENT_MAX_NODES], rates[ELEMENT_MAX_NODES];
-        double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+        double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
+        memset(K, 0, (size_t)(el->columns * el->columns) * sizeof *K);
         spread_element(m, i, s, v, a, damping, &p);
         spread_swing(m, &p, with->g, 1, K);
         const int all = model_own_coordinates(m) * model_own_coordinates(m);
@@ -468,7 +469,8 @@ void spread_add_omitted(const equations *eq, const model_state *s, const double 
         moving_element e;
         spread_parts p;
         spread_motion place[ELEMENT_MAX_NODES];
-        double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0};
+        double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
+        memset(K, 0, (size_t)(el->columns * el->columns) * sizeof *K);
         gather(m, el, s, v, a, damping, &e);
         begin_parts(m, el, s, &p);
         omitted(m, i, &e, p.place);

@@ -222,7 +222,7 @@ static double add_element(const model *m, int element, int body, const model_sta
 {
     const mesh_element *el = model_element(m, element);
     spread_motion by[ELEMENT_MAX_NODES];
-    double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES] = {0}, largest = 0;
+    double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES], largest = 0;
     spread_parts p;
     int beside = 0;
     for (int k = 0; k < el->nodes; k++)
@@ -231,6 +231,7 @@ static double add_element(const model *m, int element, int body, const model_sta
         return 0;
     spread_masses(m, element, s, &p);
     spread_place(m, &p, by);
+    memset(K, 0, (size_t)(p.columns * p.columns) * sizeof *K);
     spread_times(m, &p, p.acceleration, by, K);
     spread_rows(&p, K);
     for (int i = 0; i < p.columns; i++)

@@ -170,7 +170,9 @@ enum { MOST = SPECIMEN_COORDINATES };
 static void at_nodes(const specimen *s, const node_state x[], double M[])
 {
     const lumped_mass whole = lumped_of(&s->section, s->request.features, s->request.length);
-    lumped_element(&whole, s->nodes, lumped_shares(s->nodes), x, NULL, &(inertia_output){.M = M});
+    double share[ELEMENT_MAX_NODES];
+    lumped_shares(s->nodes, s->place, share);
+    lumped_element(&whole, s->nodes, share, x, NULL, &(inertia_output){.M = M});
 }
 
 static void make(const char *name, const specimen_request *what, specimen *out)

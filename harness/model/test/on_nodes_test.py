@@ -13,10 +13,10 @@ loads: {%s}
 analyses: {%s}
 quantities: {u: {displacement: {analysis: run, node: b, component: uy}}}
 """
-SHARES = (": half of an element's load at each of its nodes; order 2 in the length of the element (three nodes: 1/6, 4/6, "
-          "1/6; order 4)")
+MORE = "(more than two nodes: weights that integrate the polynomial through them; order 4 or more)"
+SHARES = f": half of an element's load at each of its nodes; order 2 in the length of the element {MORE}"
 MASSES = (": at the nodes, weighted along each member; order 4 in slender bending for 6 or more elements, order 2 "
-          "with shear, stretch and twist (three nodes: 1/6, 4/6, 1/6; order 4)")
+          f"with shear, stretch and twist {MORE}")
 HEAVY = ", density: 7800"
 LOADS = "d: {distributed: [0, 20, 0], on: beam%s}, w: {gravity: [0, -9.81, 0], on: beam}"
 MOTION = ("run: {motion: {stations: [0.001], integrator: %s, step: 1e-3%s}}")
