@@ -203,7 +203,7 @@ static int mass_of_field(const double value[])
 const element_type element_collocation = {
     .name = "collocation",
     .summary =
-        "geometrically exact beam with warping solved inside the element by Gauss collocation",
+        "geometrically exact beam with warping, solved inside the element by Gauss collocation",
     .source =
         "beamwork; theory: Reissner, J. Appl. Math. Phys. 32 (1981); Simo, Comput. Methods Appl. "
         "Mech. Eng. 49 (1985)",

@@ -79,7 +79,7 @@ static void check_weight(const fields *f, const scene_load *what)
     if (what->where >= 0 && scene_node_at(f->b->scene, what->where)->body.mass == 0)
         mistake_at(
             f, "on",
-            "the node on which gravity acts has no mass; give it mass: [kg], or name a member");
+            "the node on which gravity acts has no mass; give the node a mass, or name a member");
 }
 
 /* Returns the index of the entry whose gravity acts on all members and bodies, or -1. */

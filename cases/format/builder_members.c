@@ -241,7 +241,7 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
         }
     document_mistake(
         what->b->mistakes, document_find(what->map, "analysis"), 0,
-        "'%s' is %s and has no %s; name an analysis that has one: %s%s", a->name,
+        "'%s' is of kind %s and has no %s; name an analysis of a kind that has one: %s%s", a->name,
         scene_analysis_name(a->kind), key, who,
         a->kind == SCENE_HARMONIC && scene_reads_forces(q)
             ? "; or replace the node with two nodes joined by a stiff spring, and multiply the "

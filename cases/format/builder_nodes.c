@@ -323,7 +323,7 @@ static void read_walls(const fields *f, section_spec *spec)
     spec->walls = count;
     if (spec->points > SECTION_MAX_POINTS || count > SECTION_MAX_WALLS || count == 0) {
         document_mistake(f->b->mistakes, f->place, 0,
-                         "the section has %d points and %d walls; give 1 to %d points and walls",
+                         "the section has %d points and %d walls; give 1 to %d of each",
                          spec->points, count, SECTION_MAX_WALLS);
         spec->points = spec->walls = 0;
         return;

@@ -54,9 +54,9 @@ static void read_unit(const fields *f, scene_quantity *q)
         if (strcmp(unit->text, own) != 0 && !kept && (f->b->units.given || !factor))
             document_mistake(
                 f->b->mistakes, unit, 0,
-                "unit '%.40s': %sthe value is in %s; write this unit, remove 'unit', or %s%s%s",
+                "unit '%.40s': %sthe value is in %s; correct or remove 'unit', or %s%s%s",
                 unit->text, f->b->units.given ? "with the units of this scene " : "", own,
-                factor ? "'unit: " : "give a factor", factor ? unit->text : "",
+                factor ? "write 'unit: " : "give a factor", factor ? unit->text : "",
                 factor ? ", factor: 1' if the load has the value 1 in this unit" : "");
     }
     if (unit != NULL && strlen(unit->text) >= sizeof q->unit)

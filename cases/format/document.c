@@ -424,7 +424,7 @@ void mistakes_print(const mistakes *m, FILE *to)
     for (int i = 0; i < m->count; i++)
         fprintf(to, "%s:%d:%d: %s\n", m->file, m->list[i].line, m->list[i].column, m->list[i].text);
     if (m->more > 0)
-        fprintf(to, "%s: and %d more; correct these first\n", m->file, m->more);
+        fprintf(to, "%s: more errors: %d; correct those above first\n", m->file, m->more);
     if (m->out_of_memory)
         fprintf(to, "%s: out of memory\n", m->file);
 }

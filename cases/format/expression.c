@@ -151,8 +151,8 @@ static int divide(const document_node *n, double from, double to, int at, const 
         return -1;
     if (by_ratio && !(from > 0 && to > 0) && !(from < 0 && to < 0)) {
         document_mistake(m, n, 0,
-                         "equal ratios from %g to %g do not exist; give ends with the "
-                         "same sign, or remove ':log'",
+                         "no equal ratios lead from %g to %g; give nonzero ends of the same sign, "
+                         "or remove ':log'",
                          from, to);
         return -1;
     }

@@ -208,7 +208,7 @@ int fields_entry_of(const fields *f, const document_node *n, scene_list list)
         document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
                          mistakes_remedy(choice_nearest(text, entry_at, &those),
                                          list == SCENE_CASES
-                                             ? "; no load belongs to it; give a load case: NAME"
+                                             ? "; no load belongs to it; add case: NAME to a load"
                                              : "; add it, or correct the name",
                                          remedy));
     return SCENE_NONE;

@@ -15,8 +15,8 @@ static void check_version(const scene_file *file, mistakes *m)
 {
     const document_node *n = document_find(file->root, "beamwork");
     if (strcmp(n->text, "1") != 0)
-        document_mistake(m, n, 0, "format version '%.20s'; this program reads version %d", n->text,
-                         VERSION);
+        document_mistake(m, n, 0, "unknown format version '%.20s'; this program reads version %d",
+                         n->text, VERSION);
     else if (strcmp(file->root->key[0]->text, "beamwork") != 0)
         document_mistake(m, file->root, 0,
                          "'beamwork: 1' must be the first key; move it to the top");

@@ -79,8 +79,9 @@ static void read_number(parameter_type *p, const document_node *entry, int any_u
     p->max = number_of(entry, "max", DBL_MAX, m);
     const int read = expression_number(at, NULL, m, &p->value);
     if (p->min > p->max)
-        document_mistake(m, document_find(entry, "max"), 0, "%s: max = %g is below min = %g",
-                         p->name, p->max, p->min);
+        document_mistake(m, document_find(entry, "max"), 0,
+                         "%s: max = %g is below min = %g; correct one of them", p->name, p->max,
+                         p->min);
     else if (read && !(p->value >= p->min && p->value <= p->max))
         document_mistake(m, at, 0, "%s = %g %s is outside its range %g .. %g", p->name, p->value,
                          p->unit, p->min, p->max);

@@ -156,7 +156,7 @@ static int read_rows(table_file *t, FILE *from)
         t->line++;
         if (strlen(t->text) + 1 == sizeof t->text)
             return wrong(t, "a line has more than 8000 characters", "",
-                         "; keep the columns that are needed");
+                         "; remove the columns that are not used");
         char *line = line_trim(t->text);
         if (!line_is_text(line))
             return wrong(t, "no readable text", "", "; save the file as CSV in UTF-8");
@@ -244,7 +244,7 @@ static int read_shifts_from(shift_file *s, FILE *from)
         t->line++;
         if (strlen(t->text) + 1 == sizeof t->text)
             return wrong(t, "a line has more than 8000 characters", "",
-                         "; keep the columns that are needed");
+                         "; remove the columns that are not used");
         char *line = line_trim(t->text);
         if (!line_is_text(line))
             return wrong(t, "no readable text", "", "; save the file as CSV in UTF-8");

@@ -102,7 +102,7 @@ int unroll_entries(const document_node *collection, const scope *names, arena *a
         u.failed = 0;
         const document_node *loops = document_find(u.value, "for");
         if (loops != NULL && loops->kind != DOCUMENT_MAP)
-            document_mistake(m, loops, 0, "'for' is a map: for: {i: 0..5}");
+            document_mistake(m, loops, 0, "'for' must be a map, such as for: {i: 0..5}");
         else
             unroll_loops(&u, loops, 0, names);
     }
@@ -127,7 +127,7 @@ static const scope *add_let(const document_node *key, const document_node *said,
 const scope *unroll_let(const document_node *let, const scope *names, arena *a, mistakes *m)
 {
     if (let != NULL && let->kind != DOCUMENT_MAP)
-        document_mistake(m, let, 0, "'let' is a map: let: {name: expression}");
+        document_mistake(m, let, 0, "'let' must be a map, such as let: {name: expression}");
     if (let == NULL || let->kind != DOCUMENT_MAP)
         return names;
     for (int i = 0; i < let->count; i++) {
@@ -177,7 +177,8 @@ static int has_one_of(const scope *known, const document_node *n, const scope *n
 int choose_holds(const document_node *conditions, const scope *names, mistakes *m)
 {
     if (conditions != NULL && conditions->kind != DOCUMENT_MAP)
-        document_mistake(m, conditions, 0, "'if' is a map: if: {NAME: VALUE, NAME: [VALUE, ...]}");
+        document_mistake(m, conditions, 0,
+                         "'if' must be a map: if: {NAME: VALUE, NAME: [VALUE, ...]}");
     int holds = conditions == NULL || conditions->kind == DOCUMENT_MAP;
     for (int i = 0; holds && conditions != NULL && i < conditions->count; i++) {
         const scope *known = find(conditions->key[i], names, m);
@@ -305,8 +306,8 @@ static void check_ports(const document_node *part, const unrolled *instance, con
         document_mistake(m, places, 0, "places: a list of names is expected");
     else if (p->connect != NULL && p->connect->count > connected)
         document_mistake(m, p->connect, 0,
-                         "the part has %d ports ('places'), but %d ports are connected; connect "
-                         "only the ports of the part",
+                         "'connect' names a port that the part does not have (ports in 'places': "
+                         "%d, connected: %d); connect only the ports of the part",
                          ports, p->connect->count);
 }
 

@@ -50,10 +50,11 @@ status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
         fprintf(to, "plane: %s\n", scene_plane_name(s));
     write_physics(&w);
     write_meshes(&w);
-    return w.unwritable
-               ? fault_set(f, STATUS_REFUSED,
-                           "%s: a number is infinite, which scene files cannot express", head->name)
-               : STATUS_OK;
+    return w.unwritable ? fault_set(f, STATUS_REFUSED,
+                                    "%s: a number is infinite, which scene files cannot express; "
+                                    "give finite values",
+                                    head->name)
+                        : STATUS_OK;
 }
 
 char *write_scene_text(const scene *s, const write_head *head)

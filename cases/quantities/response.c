@@ -7,7 +7,7 @@ static const entry_field fields[] = {
     QUANTITY_NODE(response.node),
     QUANTITY_COMPONENT("component of the node's small motion, along fixed axes",
                        response.component),
-    {"from", ENTRY_NAME, .summary = "node of which the same component is subtracted",
+    {"from", ENTRY_NAME, .summary = "node whose corresponding component is subtracted",
      .left_out = "none", ENTRY_IN(scene_quantity, what.of.response.from), .of = SCENE_NODES},
     {"force", ENTRY_NAME, .group = 2,
      .summary = "node at which a harmonic force of 1 N or moment of 1 N m acts",

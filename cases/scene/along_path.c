@@ -405,7 +405,7 @@ static const char *const
                         "requires a single stiffness at rest; request it about a "
                         "static path that loads one side",
     *const no_feedback = "acts only in motions, harmonic analyses and damped modes (damped: yes); "
-                         "to remove it from other analyses, add path: [0, 1], factor: [0, 0] to "
+                         "to switch it off in other analyses, add path: [0, 1], factor: [0, 0] to "
                          "its load; about an instant of a motion, add loops: open",
     *const no_strains = "has stresses that the undeformed state does not have; request "
                         "the analysis about a static or a linear analysis",

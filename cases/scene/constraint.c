@@ -174,7 +174,9 @@ static status coordinate_of(const scene *s, int constraint, int node, int compon
                       "is both fixed and constrained; remove one of them", f);
     if (is_condition(s, node, component, *motion))
         return refuse(s, constraint, node, component,
-                      "belongs to a motion of unknown value; remove the constraint", f);
+                      "is driven by a motion of unknown value, or determines such a value; remove "
+                      "the constraint",
+                      f);
     return STATUS_OK;
 }
 
@@ -288,7 +290,7 @@ static status join_across(const scene *s, int i, scene_tie tie[], fault *f)
             if (k >= 0 && motion_at(s, (scene_tie){node, of[j], 1}) != SCENE_FREE)
                 return refuse(s, i, node, named,
                               "is fixed or driven, but follows the master of the diaphragm; fix or "
-                              "drive that node",
+                              "drive the master",
                               f);
             *at = (scene_tie){c->master, of[j], 1};
         }

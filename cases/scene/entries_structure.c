@@ -229,7 +229,7 @@ static const entry_field feedback[] = {
     {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS,
      .summary = "displacement or rotation that is measured, along fixed axes",
      ENTRY_IN(scene_load, feedback.component)},
-    {"from", ENTRY_NAME, .summary = "node of which the same component is subtracted",
+    {"from", ENTRY_NAME, .summary = "node whose corresponding component is subtracted",
      .left_out = "none: the displacement itself", ENTRY_IN(scene_load, feedback.from),
      .of = SCENE_NODES},
     {"proportional", ENTRY_NUMBER,

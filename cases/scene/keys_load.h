@@ -22,7 +22,7 @@ KEY(int, towards, , "towards", ENTRY_NAME, .summary = "second node of a tension"
     .left_out = "none; required with tension", .of = SCENE_NODES)
 /* elongation between the ends of the range, given instead of a temperature */
 KEY(double, elongation, , "elongation", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "m",
-    .summary = "stress-free elongation of a member, such as an actuator or a turnbuckle")
+    .summary = "stress-free elongation of a member, such as that of an actuator or a turnbuckle")
 KEY(double, gradient, [2], "gradient", ENTRY_VECTOR, .count = 2, .unit = "K/m",
     .summary = "gradient of the temperature change along y and z of the section", .usual = "[0, 0]",
     .mirrors = "-+")

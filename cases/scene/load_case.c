@@ -120,7 +120,8 @@ static status check_combination(const scene *s, int i, fault *f)
         if (c->term[k].load_case < 0 || c->term[k].load_case >= s->cases ||
             !isfinite(c->term[k].factor))
             return fault_set(f, STATUS_REFUSED,
-                             "%s: term %d is not a load case with a finite factor; give both",
+                             "%s: term %d is not a load case with a finite factor; name a load "
+                             "case and give a finite factor",
                              who.text, k);
         for (int j = 0; j < k; j++)
             if (c->term[j].load_case == c->term[k].load_case)

@@ -267,21 +267,22 @@ int scene_looks_foreign(const scene *s, char words[FAULT_TEXT])
         if (spec->kind == SECTION_MATRICES || !(E > 0))
             continue;
         if (E >= soft[0] && E <= soft[1] && length >= 10 && size >= 0.1) {
-            snprintf(words, FAULT_TEXT,
-                     "Young's modulus of %g Pa and members of %g m suggest units of mm, N and MPa",
-                     E, length);
+            snprintf(
+                words, FAULT_TEXT,
+                "a Young's modulus of %g Pa and members of %g m suggest units of mm, N and MPa", E,
+                length);
             return 1;
         }
         if (E >= stiff && size >= wide && length >= wide) {
             snprintf(words, FAULT_TEXT,
-                     "a section width of %g m and Young's modulus of %g Pa suggest lengths in mm",
+                     "a section width of %g m and a Young's modulus of %g Pa suggest lengths in mm",
                      size, E);
             return 1;
         }
         if ((rho >= 300 && speed < slow) || (E >= soft[0] && speed > fast)) {
             snprintf(words, FAULT_TEXT,
-                     "no solid has Young's modulus of %g Pa and a density of %g kg/m^3; the values "
-                     "seem to be in other units",
+                     "no solid has a Young's modulus of %g Pa and a density of %g kg/m^3; the "
+                     "values seem to be in other units",
                      E, rho);
             return 1;
         }

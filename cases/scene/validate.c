@@ -174,8 +174,8 @@ static status check_driver(const scene *s, int i, fault *f)
                           s->driver[d->condition_driver].value != NULL;
         if (!known || d->condition_node == SCENE_NONE)
             return fault_set(f, STATUS_REFUSED,
-                             "driver %s: its value is unknown and no condition fixes it; name a "
-                             "node and a driver with known values",
+                             "driver %s: its value is unknown and no condition determines it; name "
+                             "a node and a driver with known values",
                              d->name);
         if (!is_conditioned(s, d))
             return fault_set(f, STATUS_REFUSED,

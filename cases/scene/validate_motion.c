@@ -480,7 +480,7 @@ static status check_harmonic(const scene *s, const scene_analysis *a, int i, fau
     if (a->modes > 0 && ratios->stations > a->modes)
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: there are %d damping ratios for %d modes; increase 'modes', or remove ratios",
+            "%s: there are %d damping ratios, but modes: %d; increase 'modes', or remove ratios",
             who.text, ratios->stations, a->modes);
     if (a->modes > 0 && !a->by_modes && !scene_has_ratios(a))
         return fault_set(f, STATUS_REFUSED,
@@ -543,10 +543,11 @@ status scene_spectrum_stations(const scene *s, const scene_quantity *q, int *fir
     *first = begin;
     *count = end - begin;
     if (*count < 3)
-        return fault_set(f, STATUS_REFUSED,
-                         "quantity %s: the window contains %d stations, but a spectrum requires at "
-                         "least 3; give %s evenly spaced stations, such as stations: 0..1/1000",
-                         q->name, *count, scene_called(s, SCENE_ANALYSES, q->analysis).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "quantity %s: the number of stations in the window is %d, but a spectrum requires at "
+            "least 3; give %s evenly spaced stations, such as stations: 0..1/1000",
+            q->name, *count, scene_called(s, SCENE_ANALYSES, q->analysis).text);
     const double step = (at[end - 1] - at[begin]) / (*count - 1);
     for (int i = begin; i < end; i++)
         if (!(fabs(at[i] - (at[begin] + (i - begin) * step)) <= 1e-6 * step))

@@ -33,10 +33,10 @@ static status check_fork(const scene *s, int i, fault *f)
     for (int k = 0; k < 3; k++)
         if (n->angle[k] != SCENE_FREE)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: the supports are inconsistent, because there is a fork and R%c "
+                             "%s: the supports are inconsistent, because there is a fork and r%c "
                              "is %s; remove one of them, or give a sequence of angles",
-                             scene_called(s, SCENE_NODES, i).text, "XYZ"[k],
-                             n -> angle[k] == SCENE_HELD ? "held" : "driven");
+                             scene_called(s, SCENE_NODES, i).text, "xyz"[k],
+                             n -> angle[k] == SCENE_HELD ? "fixed" : "driven");
     if (!(lengths > 0) || !(fabs(vec3_dot(axis, web)) <= 1e-9 * lengths))
         return fault_set(f, STATUS_REFUSED,
                          "%s: the axis and the web of the fork are not perpendicular; give two "
@@ -230,7 +230,7 @@ static status check_node(const scene *s, int i, fault *f)
     const scene_node *n = &s->node[i];
     const scene_words who = scene_called(s, SCENE_NODES, i);
     if (is_out(s, n->position))
-        return refuse(s, who, "its position is not in one plane with the first node", f);
+        return refuse(s, who, "its position is outside the plane through the first node", f);
     double R[9];
     int along = scene_normal(s);
     scene_node_axes(n, R);

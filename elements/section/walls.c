@@ -31,7 +31,7 @@ static status connect(const section_spec *s, section_tree *t, fault *f)
                 if (t->cells == s->cells)
                     return fault_set(f, STATUS_REFUSED,
                                      "section: wall %d (points %d-%d) closes a cell; %s", w, a, b,
-                                     s->cells > 0 ? "give the number of closed cells"
+                                     s->cells > 0 ? "correct the number of closed cells"
                                                   : "open the cell, or give the number of cells");
                 closing[t->cells++] = w;
                 continue;

@@ -436,7 +436,7 @@ static void cells_refusals(void)
     refusal(&spec, "close 1 of the 2 cells");
     spec = two_cells(0, 0);
     spec.cells = 1;
-    refusal(&spec, "closes a cell; give the number");
+    refusal(&spec, "closes a cell; correct the number");
     spec = sections_steel(SECTION_TUBE);
     spec.diameter = 0.02;
     spec.wall_thickness = 0.011;

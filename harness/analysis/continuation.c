@@ -138,7 +138,7 @@ static status try_step(continuation *p, path_goal goal, double station, int last
     if (hidden)
         t->doubt = "stability changes and changes back within the step";
     if (jump)
-        t->doubt = "the pivots of its tangent stiffness change without a critical point";
+        t->doubt = "the pivots of the tangent stiffness change without a critical point";
     return STATUS_OK;
 }
 
@@ -355,7 +355,7 @@ static const char *continuation_sound_doubt(const continuation *p, int last_reso
      * may coincide. */
     const int reversed = (a->rate < 0) != (b->rate < 0), pivots = abs(b->negative - a->negative);
     if (!last_resort && reversed && (pivots > 1 || a->determinant == b->determinant))
-        return "the pivots of its tangent stiffness change by more than one critical point "
+        return "the pivots of the tangent stiffness change by more than one critical point "
                "explains";
     return NULL;
 }

@@ -159,8 +159,8 @@ status harmonic_judge_growth(vibration *v, double below, fault *f)
     if (v->about != NULL) { /* growth about a state during a motion is not a loss of stability */
         if (v->c->result->reason[0] == '\0')
             snprintf(v->c->result->reason, sizeof v->c->result->reason,
-                     "a mode of the coefficients at %g s grows at %.4g 1/s, so the responses are "
-                     "transfer functions and not steady vibrations",
+                     "with the coefficients at %g s, a mode grows at %.4g 1/s, so the responses "
+                     "are transfer functions and not steady vibrations",
                      v->about->time, growth);
         return STATUS_OK;
     }
@@ -223,7 +223,7 @@ static void note_growth(const vibration *v, const unsymmetric_result *r, outcome
         return;
     if (v->about != NULL)
         snprintf(to->reason, sizeof to->reason,
-                 "a mode of the coefficients at %g s grows at %.4g 1/s", v->about->time,
+                 "with the coefficients at %g s, a mode grows at %.4g 1/s", v->about->time,
                  out->growth);
     else
         snprintf(to->reason, sizeof to->reason, "unstable: a damped mode grows at %.4g 1/s",

@@ -247,10 +247,10 @@ static void extract_spectrum_buckling(const analysis_context *c, const scene_qua
     if (side->status != STATUS_OK)
         snprintf(why, sizeof why, "%s", side->reason);
     else if (side->reason[0] != '\0')
-        snprintf(why, sizeof why, "no %s load%s: %.250s", sign,
-                 side->count > 0 ? " of this order" : "", side->reason);
+        snprintf(why, sizeof why, "no %s critical load%s: %.250s", sign,
+                 side->count > 0 ? " with this index" : "", side->reason);
     else
-        snprintf(why, sizeof why, "there is no %s critical load of this order", sign);
+        snprintf(why, sizeof why, "there is no %s critical load with this index", sign);
     quantity_no_value(r, side->status, why);
 }
 

@@ -40,10 +40,10 @@ int extract_continued(const analysis_context *c, const scene_quantity *q, quanti
     if (!at && (q->passing.until == 0 || q->passing.until > e->time))
         snprintf(window, sizeof window, ", or let its window ('when') begin at %.10g s or later",
                  e->time);
-    snprintf(why, sizeof why,
-             "needs the motion %s %.10g s, but this run continues from %.10g s: run it without "
-             "--restart%s",
-             at ? "at" : "from", at ? q->at : begin, e->time, window);
+    snprintf(
+        why, sizeof why,
+        "needs the motion %s %.10g s, but this run continues from %.10g s: run without --restart%s",
+        at ? "at" : "from", at ? q->at : begin, e->time, window);
     quantity_no_value(r, STATUS_NO_VALUE, why);
     return 1;
 }

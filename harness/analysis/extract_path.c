@@ -162,11 +162,10 @@ static void judge_rate(const scene_quantity *q, double size, quantity_result *r)
     char why[FAULT_TEXT];
     if (q->what.kind != SCENE_RATE || r->status != STATUS_OK || !(r->rounding > most))
         return;
-    snprintf(
-        why, sizeof why,
-        "no digit is known: its rounding error is up to %.1e %s, and grows as steps get shorter; "
-        "give a longer step",
-        r->rounding * size, q->unit);
+    snprintf(why, sizeof why,
+             "no digit of the value is known: the rounding error is up to %.1e %s, and grows as "
+             "steps get shorter; give a longer step",
+             r->rounding * size, q->unit);
     quantity_no_value(r, STATUS_NO_VALUE, why);
     r->curve.points = 0;
 }
@@ -325,7 +324,7 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
     } else if (!known) {
         quantity_no_value(r, STATUS_NO_VALUE,
                           q->reduction >= SCENE_CROSSING && q->reduction <= SCENE_PER_SECOND
-                              ? "the quantity crosses the level fewer times during this time"
+                              ? "the quantity crosses the level too few times in the time window"
                               : "no part of the motion is in the time window");
     } else {
         r->value = quantity_scaled(q, found->value);

@@ -182,7 +182,7 @@ static status look_between(search *s, station a, station b, station c, int i, fa
 /* Reports that there is no critical load up to `last`, and the reason why the search ends there. */
 static status is_lost(const search *s, const char *why, fault *f)
 {
-    return fault_set(f, STATUS_NOT_CONVERGED, "no critical load from path 0 to %g; beyond %s",
+    return fault_set(f, STATUS_NOT_CONVERGED, "no critical load from path 0 to %g; beyond this, %s",
                      s->last.path, why);
 }
 

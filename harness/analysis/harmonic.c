@@ -228,9 +228,9 @@ status harmonic_check_rates(const vibration *v, const scene_response *r, fault *
         }
         if (turns && (model_body(m, node[i]) != node[i] || body->angles > 1))
             return fault_set(f, STATUS_REFUSED,
-                             "the velocity of %s is not only the rate of its displacement, because "
-                             "its body rotates at %g s; request the displacement, or the velocity "
-                             "of the main node of the body",
+                             "the velocity of %s depends on more than the rate of its "
+                             "displacement, because its body rotates at %g s; request the "
+                             "displacement, or the velocity of the main node of the body",
                              scene_called(model_scene(m), SCENE_NODES, node[i]).text,
                              v->about->time);
     }

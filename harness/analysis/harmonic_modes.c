@@ -64,8 +64,8 @@ static status factor_stiffness(vibration *v, harmonic_modes *m, fault *f)
                          ? "undamped modes require a symmetric stiffness, but follower loads or "
                            "springs make it unsymmetric; remove 'solution' and 'ratios'"
                      : v->loops > 0
-                         ? "the state is unstable without its loops of feedback, so it has "
-                           "no undamped modes; remove 'solution' and 'ratios'"
+                         ? "the state is unstable without its feedback loops, so it has no "
+                           "undamped modes; remove 'solution' and 'ratios'"
                          : "the state is unstable, so there are no steady vibrations about it");
 }
 

@@ -276,8 +276,8 @@ static double positive_part(vibration *v, harmonic_modes *m, double w)
 status harmonic_modes_few(const vibration *v, fault *f)
 {
     return fault_set(f, STATUS_NOT_CONVERGED,
-                     "at %g Hz the first %d modes give no error bound; use more modes, up to "
-                     "well above this frequency, or remove solution: modal",
+                     "at %g Hz the number of modes, %d, is too small for an error bound; use more "
+                     "modes, up to well above this frequency, or remove solution: modal",
                      v->modes->w / (2 * PI), v->modes->kept);
 }
 

@@ -114,8 +114,8 @@ static status mode_of(const analysis_context *c, int index, double out[], fault 
     free(u);
     return found ? STATUS_OK
                  : fault_set(f, STATUS_REFUSED,
-                             "%s: modes %d and %d are equal, and the direction does not choose "
-                             "between them; give another direction",
+                             "%s: modes %d and %d have the same value, and the direction does not "
+                             "choose between them; give another direction",
                              who.text, same.mode[0], same.mode[1]);
 }
 

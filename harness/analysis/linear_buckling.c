@@ -170,12 +170,12 @@ static status split_stays(analysis_context *c, linear_system *s, prestresses *p,
     const status factored = context_factor(c, s->factor, &s->K, f);
     if (factored == STATUS_SINGULAR ||
         (factored == STATUS_OK && factor_count(s->factor).negative_pivots > 0))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s are constant and already critical without the scaled loads; reduce them",
-            linear_initial(c->model) == 0 ? "the loads at path 0"
-            : !loads_begin(&c->eq)        ? "the strains of members"
-                                          : "the loads at path 0 and strains of members");
+        return fault_set(f, STATUS_REFUSED,
+                         "%s, which are constant, are critical even without the scaled loads; "
+                         "reduce the constant loads or strains",
+                         linear_initial(c->model) == 0 ? "the loads at path 0"
+                         : !loads_begin(&c->eq)        ? "the strains of members"
+                                                : "the loads at path 0 and strains of members");
     return factored;
 }
 

@@ -95,8 +95,8 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
         out->growth = r.growth[mode];
         if (c->result->reason[0] == '\0')
             snprintf(c->result->reason, sizeof c->result->reason,
-                     "unstable at path %g: %s, grows at %.4g 1/s", kinematics_state_path(n->state),
-                     flutter_name(&of, kind), r.growth[mode]);
+                     "unstable at path %g: %s, growth rate %.4g 1/s",
+                     kinematics_state_path(n->state), flutter_name(&of, kind), r.growth[mode]);
     }
     if (outcome == STATUS_OK)
         flutter_take(of.damped ? &undamped : &r, &out->positive);
@@ -417,8 +417,8 @@ static status find_critical(loaded_search *s, fault *f)
     }
     return isfinite(s->estimate) && target <= farthest_path
                ? fault_set(f, STATUS_NOT_CONVERGED,
-                           "the critical load was not found, because near path %g it still changes "
-                           "by %.1e",
+                           "the critical load was not found, because its estimate near path %g "
+                           "still changes by %.1e",
                            s->estimate, s->change)
                : fault_set(f, STATUS_NOT_CONVERGED,
                            "no critical load from path %g to %g, because the structure does not "

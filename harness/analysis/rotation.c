@@ -254,7 +254,7 @@ static void note_instability(analysis_context *c, const rotation_modes *modes, d
     for (int i = 0; i < modes->count; i++)
         if (grows(modes, i) && c->result->reason[0] == '\0')
             snprintf(c->result->reason, sizeof c->result->reason,
-                     "unstable at path %g: %s, %s, grows at %.4g 1/s", path,
+                     "unstable at path %g: %s, %s, growth rate %.4g 1/s", path,
                      modes_family_name(modes->shape[i].family),
                      modes->frequency[i] > 0 ? "flutter" : "divergence", modes->growth[i]);
 }
@@ -264,8 +264,8 @@ static void note_unproven(analysis_context *c, const rotation_modes *modes, doub
 {
     if (modes->unproven > 0 && c->result->reason[0] == '\0')
         snprintf(c->result->reason, sizeof c->result->reason,
-                 "at path %g, %d negative eigenvalues of the stiffness belong to none of the modes "
-                 "found; other modes may grow",
+                 "at path %g, the stiffness has negative eigenvalues that belong to none of the "
+                 "modes found (%d); other modes may grow",
                  path, modes->unproven);
 }
 

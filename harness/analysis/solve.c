@@ -54,7 +54,7 @@ static void advise_prestressed(const analysis_context *c, int analysis, fault *f
               of_linear = base != SCENE_NONE && c->scene->analysis[base].kind == SCENE_LINEAR;
     const size_t used = strlen(f->text);
     snprintf(f->text + used, sizeof f->text - used,
-             "; if pretension or temperatures make it stiff, use %s",
+             "; if pretension or temperatures make the structure stiff, use %s",
              of_linear || (base == SCENE_NONE && is_linear)
                  ? "a static path, which includes that stiffness"
                  : "more elements or stations");

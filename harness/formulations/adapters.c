@@ -161,7 +161,7 @@ static status check_history(const element_type *given, const double options[], f
 {
     const int count = element_history(given, options);
     if (count < 0 || count > ELEMENT_MAX_HISTORY)
-        return refuse(given, "an element has 0 to 256 values of history", f);
+        return refuse(given, "the number of history values must be from 0 to 256", f);
     if (given->force != NULL && given->limits & (LIMIT_NOT_OBJECTIVE | LIMIT_PATH_DEPENDENT))
         return refuse(given,
                       "with 'force', strains are relative to the first node and thus objective; "

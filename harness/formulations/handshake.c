@@ -282,7 +282,7 @@ status handshake_read(const char *who, const char *line, size_t length, handshak
         json_decref(r.said);
         return fault_set(f, STATUS_REFUSED,
                          "%.100s: began with '%.60s', which is not a line of JSON as in "
-                         "harness/formulations/protocol.md; print to standard error",
+                         "harness/formulations/protocol.md; print other text to standard error",
                          who, line);
     }
     const status outcome = read_all(&r, out);

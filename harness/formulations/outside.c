@@ -288,8 +288,8 @@ static status process_load(const char *command, const element_type **out, fault 
     while (count < PROCESS_MOST && list[count] != NULL)
         count++;
     if (count == PROCESS_MOST)
-        return fault_set(f, STATUS_REFUSED, "at most %d processes can be formulations",
-                         PROCESS_MOST);
+        return fault_set(f, STATUS_REFUSED,
+                         "at most %d formulations can run in their own processes", PROCESS_MOST);
     TRY(check_machine(command, f));
     process *p = calloc(1, sizeof *p);
     if (p == NULL)

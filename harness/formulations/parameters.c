@@ -150,8 +150,8 @@ status assignment_set(const assignment_list *l, const char *text, double value[]
     const size_t length = strcspn(text, "=");
     if (length == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s '%.60s' of %s: write NAME=VALUE; join several by a single '%c'",
-                         l->what, text, l->owner, l->separator);
+                         "%s '%.60s' of %s: write NAME=VALUE; separate several with '%c'", l->what,
+                         text, l->owner, l->separator);
     snprintf(name, sizeof name, "%.*s", (int)length, text);
     const parameter_type *p;
     int i = 0;

@@ -404,9 +404,10 @@ static status rest_of(channel *c, size_t least, size_t most, size_t had, size_t 
     size_t more = 0;
     memcpy(head, c->in.at + sizeof mark, sizeof head);
     if (memcmp(c->in.at, mark, sizeof mark) != 0) {
-        snprintf(why, sizeof why,
-                 "its process wrote '%.*s' instead of an answer; print to standard error",
-                 (int)(had < 40 ? had : 40), c->in.at);
+        snprintf(
+            why, sizeof why,
+            "its process wrote '%.*s' instead of an answer; print other text to standard error",
+            (int)(had < 40 ? had : 40), c->in.at);
         return channel_break(c, why, f);
     }
     if (head[0] < STATUS_OK || head[0] > STATUS_REFUSED || head[1] < 0)

@@ -182,8 +182,8 @@ static status number_vertices(model *m, coordinates_tally *of, fault *f)
     }
     free(used);
     share_coordinates(m);
-    return of->unused > 0 ? coordinates_note_left_out(
-                                m, f, "%d nodes that are not connected to a member", of->unused)
+    return of->unused > 0 ? coordinates_note_left_out(m, f, "%d node%s not connected to a member",
+                                                      of->unused, of->unused == 1 ? "" : "s")
                           : STATUS_OK;
 }
 
@@ -266,16 +266,21 @@ static status note_left_out(model *m, const coordinates_tally *of, fault *f)
         TRY(coordinates_note_left_out(m, f, "%d coordinates held in the plane %s", of->across,
                                       scene_plane_name(m->scene)));
     if (attached > 0)
-        TRY(coordinates_note_left_out(m, f,
-                                      "%d coordinates of %d nodes that move with a rigid body",
-                                      6 * attached, attached));
+        TRY(coordinates_note_left_out(m, f, "%d coordinates of %d node%s with a rigid body",
+                                      6 * attached, attached,
+                                      attached == 1 ? " that moves" : "s that move"));
     if (absent > 0)
         TRY(coordinates_note_left_out(
-            m, f, "warping amplitudes of %d element ends at which nothing warps", absent));
+            m, f,
+            absent == 1 ? "warping amplitude of %d element end at which nothing warps"
+                        : "warping amplitudes of %d element ends at which nothing warps",
+            absent));
     if (fixed > 0)
-        TRY(coordinates_note_left_out(m, f, "%d warping amplitudes held at zero", fixed));
+        TRY(coordinates_note_left_out(m, f, "%d warping amplitude%s held at zero", fixed,
+                                      fixed == 1 ? "" : "s"));
     if (m->mesh.driven > 0)
-        TRY(coordinates_note_left_out(m, f, "rows of %d prescribed coordinates", m->mesh.driven));
+        TRY(coordinates_note_left_out(m, f, "rows of %d prescribed coordinate%s", m->mesh.driven,
+                                      m->mesh.driven == 1 ? "" : "s"));
     return STATUS_OK;
 }
 

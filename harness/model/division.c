@@ -212,7 +212,7 @@ static status check_between(const model *m, int member, const section *c, fault 
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
                      "%s: between the ends the section has a property that it does not have at the "
-                     "ends: %s; put a node with another section there",
+                     "ends: %s; split the member with a node where the property appears",
                      scene_called(m->scene, SCENE_MEMBERS, member).text, limit);
 }
 

@@ -190,7 +190,8 @@ static status compress(const model *m, mesh_pattern *p, fault *f)
     }
     free(work);
     return good ? STATUS_OK
-                : fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates",
+                : fault_set(f, STATUS_FAULT,
+                            "out of memory for the matrix of a model with %d coordinates",
                             p->matrix.n);
 }
 
@@ -244,7 +245,8 @@ static status find_places(const model *m, mesh_pattern *p, fault *f)
     p->element = m->mesh.element;
     p->layout_of = malloc(((size_t)m->mesh.elements + 1) * sizeof *p->layout_of);
     if (p->layout_of == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a matrix of %d coordinates",
+        return fault_set(f, STATUS_FAULT,
+                         "out of memory for the matrix of a model with %d coordinates",
                          p->matrix.n);
     for (int i = 0; i < m->mesh.elements; i++) {
         const int entries = entries_of(&m->mesh.element[i], p, entry);

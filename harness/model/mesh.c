@@ -539,8 +539,8 @@ status mesh_build(model *m, fault *f)
         m->mesh.first_element[member] = m->mesh.elements;
         if ((a.bow[0] != 0 || a.bow[1] != 0) && n < 2 * a.half_waves)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: %d elements cannot represent an imperfection of %d half waves; "
-                             "use at least %d",
+                             "%s: the number of elements, %d, is too small for an imperfection "
+                             "with half_waves: %d; use at least %d",
                              scene_called(s, SCENE_MEMBERS, member).text, n, a.half_waves,
                              2 * a.half_waves);
         for (int i = 0; i < n; i++)

@@ -144,7 +144,8 @@ static int strains_lack(const scene *s, const element_type *type, char *words, i
     scene_words who;
     if (type->force == NULL || !scene_is_free(s, &who))
         return 0;
-    snprintf(words, (size_t)size, "strains (it gives forces), which %s changes", who.text);
+    snprintf(words, (size_t)size, "the stress-free strains of %s (it computes forces, not strains)",
+             who.text);
     return 1;
 }
 

@@ -124,7 +124,8 @@ static status note_tables(model *m, fault *f)
         for (int k = 0; k < SPRING_STRAINS; k++)
             if (s->spring[i].table[k].at.stations > 2)
                 return coordinates_note_left_out(
-                    m, f, "tables of %s%s beyond their line at 0, in analyses without a path",
+                    m, f,
+                    "tables of %s%s beyond their linear part at 0, in analyses without a path",
                     scene_called(s, SCENE_SPRINGS, i).text,
                     i + 1 < s->springs ? " and others" : "");
     return STATUS_OK;

@@ -268,10 +268,9 @@ static status recover_moved(const equations *eq, const internal_state *s, int i,
     if (jump != SCENE_NONE)
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: %s begins, ends or acts inside one of its elements, so resultants would have a "
-            "kink there: the position is within the fraction %g of the length from an end or from "
-            "another such position; move it there, or put a node of the scene at one of these "
-            "positions",
+            "%s: %s begins, ends or acts within the fraction %g of the length from an end or from "
+            "another such position, so resultants would have a kink inside an element; move the "
+            "load to that position, or put a node there",
             scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, i)->member).text,
             scene_called(model_scene(m), SCENE_LOADS, jump).text, DIVISION_LEAST);
     loads.acts = distributed_acts(&loads.loads);

@@ -208,12 +208,13 @@ static status judge_elements(const model *m, const model_state *s, fault *f)
     if (turn < (quarter ? PI / 2 : PI))
         return STATUS_OK;
     const int member = model_element(m, index)->member, first = model_first_element(m, member);
-    return fault_set(f, STATUS_NOT_CONVERGED,
-                     "element %d of %d of %s is rotated by %.3g rad at path %g, but %s is valid "
-                     "only below a %s turn per element; use more elements or smaller steps",
-                     index - first + 1, model_first_element(m, member + 1) - first,
-                     scene_called(model_scene(m), SCENE_MEMBERS, member).text, turn, s->path,
-                     model_type(m)->name, quarter ? "quarter" : "half");
+    return fault_set(
+        f, STATUS_NOT_CONVERGED,
+        "element %d of %d of %s has a relative rotation of %.3g rad at path %g, but %s is valid "
+        "only below a %s turn per element; use more elements or smaller steps",
+        index - first + 1, model_first_element(m, member + 1) - first,
+        scene_called(model_scene(m), SCENE_MEMBERS, member).text, turn, s->path,
+        model_type(m)->name, quarter ? "quarter" : "half");
 }
 
 /* Returns 1 if this end of a member can rotate about both transverse axes. */

@@ -415,7 +415,8 @@ status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f)
                                        dense_dot(t->free, b->V + i * t->free, out->Z + j * t->free);
     return columns > 0 && dense_lu_regular(b->count, out->S, out->pivot) != 0
                ? fault_set(f, STATUS_SINGULAR,
-                           "the structure is not supported without its prescribed motion")
+                           "the structure is not supported without its prescribed motion; fix more "
+                           "components, or release fewer")
                : STATUS_OK;
 }
 
@@ -507,8 +508,8 @@ status refinement_refuse(const solution_refinement *r, const char *what, fault *
 {
     const int digits = r->last < 1 ? (int)-log10(r->last) : 0; /* NAN gives no digits */
     return fault_set(f, STATUS_SINGULAR,
-                     "%s is lost in round-off: %d of its digits are significant (relative "
-                     "corrections stay at %.1e); use fewer elements or a less slender structure",
+                     "%s is lost in round-off (significant digits: %d; relative corrections stay "
+                     "at %.1e); use fewer elements or a less slender structure",
                      what, digits, r->last);
 }
 

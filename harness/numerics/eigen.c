@@ -100,7 +100,7 @@ static status fill(candidates *p, int wanted, double scale, double least, eigen_
     for (int pass = 0; missing > 0; pass++) {
         if (pass == MAX_PASSES || p->count + missing >= p->n)
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "%d of %d eigenvalues are missing after %d attempts", missing, asked,
+                             "missing eigenvalues: %d of %d, after %d attempts", missing, asked,
                              pass);
         candidates_count_rest(p);
         TRY(run_lanczos(p, missing, least, &r->solutions, f));
@@ -302,10 +302,11 @@ status eigen_solve(const eigen_problem *e, eigen_result *r, fault *f)
     if (negative != 0)
         return fault_set(f, STATUS_REFUSED,
                          "the eigenvalue solver requires a positive definite stiffness matrix; "
-                         "this one has %d negative pivots%s",
-                         negative,
-                         negative > 0 ? ", the structure is beyond a critical point"
-                                      : " (it is not symmetric)");
+                         "this one %s",
+                         negative > 0
+                             ? "has negative pivots, because the structure is beyond a critical "
+                               "point"
+                             : "is not symmetric");
     if (r->n == 0)
         return STATUS_OK;
     return solve_upper(e, r, f);

@@ -348,9 +348,9 @@ static status factor_unsymmetric_alloc(const sparse *pattern, factor_unsymmetric
     if (fu->largest != NULL && fu->symbolic != NULL)
         return STATUS_OK;
     if (fu->common.status == KLU_SINGULAR)
-        return fault_set(
-            f, STATUS_SINGULAR,
-            "the matrix is singular whatever its values, because a part is not supported");
+        return fault_set(f, STATUS_SINGULAR,
+                         "the matrix is structurally singular, because a part is not supported; "
+                         "support this part");
     return fault_set(f, STATUS_FAULT, "out of memory for ordering %d unknowns", fu->n);
 }
 

@@ -70,8 +70,9 @@ static status take_modes(reduction *b, int modes, fault *f)
     while (most < n && b->mu[n - 1 - most] > n * DBL_EPSILON * b->mu[n - 1])
         most++;
     if (modes > most)
-        return fault_set(f, STATUS_REFUSED, "there are only %d modes with mass%s; give at most %d",
-                         most, b->edge > 0 ? " while the interface is fixed" : "", most);
+        return fault_set(f, STATUS_REFUSED,
+                         "the number of modes with mass is %d%s; give at most %d", most,
+                         b->edge > 0 ? " while the interface is fixed" : "", most);
     b->modes = modes;
     while (b->modes > 0 && b->modes < most &&
            b->mu[n - 1 - b->modes] > (1 - 2 * same) * b->mu[n - b->modes])

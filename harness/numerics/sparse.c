@@ -290,8 +290,8 @@ status memory_check(double bytes, const char *what, const char *remedy, fault *f
     if (bytes <= limit)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%s require more memory than is available (%.3g of %.3g GB); %s", what,
-                     bytes / giga, limit / giga, remedy);
+                     "%s require more memory than is available (%.3g GB; available: %.3g GB); %s",
+                     what, bytes / giga, limit / giga, remedy);
 }
 
 status memory_append(void *list, int *count, const void *entry, size_t size, const char *what,

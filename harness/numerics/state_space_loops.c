@@ -69,13 +69,12 @@ static status find_factors(closing *c, fault *f)
     const int enough = own != NULL && pivot != NULL;
     free(own);
     free(pivot);
-    return !enough ? no_memory(f)
-           : singular
-               ? fault_set(
-                     f, STATUS_REFUSED,
-                     "a feedback loop acts immediately on the coordinate that it measures, and its "
-                     "gain leaves the factor undetermined; change the gain, or add a mass")
-               : STATUS_OK;
+    return !enough    ? no_memory(f)
+           : singular ? fault_set(f, STATUS_REFUSED,
+                                  "a feedback loop acts immediately on the coordinate that it "
+                                  "measures, and its gain leaves the factor of its load "
+                                  "undetermined; change the gain, or add a mass")
+                      : STATUS_OK;
 }
 
 /* Returns the position of the integral of a loop, after the states and references. Integrals that

@@ -359,7 +359,8 @@ static void write_model_error(FILE *to, const reach_question *q, reached list[])
     rounding_known(solid->value, solid->uncertainty, value);
     fprintf(to,
             "The beam model differs from the structure: %s of another model is %s %s (%s); the "
-            "limit of %s is %s%s %% from it. The %g %% apply only to the beam model.\n",
+            "limit of %s differs from it by %s%s %%. The target error of %g %% applies only to the "
+            "beam model.\n",
             q->s->point[q->point].scene.quantity[most->quantity].name, value, solid->unit,
             solid->source, q->s->series[most->series].formulation.key,
             most->model_error > 0 ? "+" : "", percent, 100 * q->level);

@@ -169,9 +169,14 @@ void junit_write(FILE *to, const sweep *s, const judgement *j)
         write_failed(to, "contract", j->breach[i].formulation, j->breach[i].why);
     for (int i = 0; i < j->regressions; i++)
         write_failed(to, "not-worse-than", j->regression[i].of, j->regression[i].why);
-    write_ledger(to, "findings", j->unobserved, "known deviations were not observed");
-    write_ledger(to, "truths", j->unmet, "reference values refer to unknown names");
-    write_ledger(to, "cells", j->flaws, "inconsistent run records");
+    write_ledger(to, "findings", j->unobserved,
+                 j->unobserved == 1 ? "known deviation was not observed"
+                                    : "known deviations were not observed");
+    write_ledger(to, "truths", j->unmet,
+                 j->unmet == 1 ? "reference value refers to an unknown name"
+                               : "reference values refer to unknown names");
+    write_ledger(to, "cells", j->flaws,
+                 j->flaws == 1 ? "inconsistent run record" : "inconsistent run records");
     if (judgement_exit(j) == JUDGED_NOTHING)
         write_ledger(to, "run", 1, "run assigned no verdict, because there is no reference value");
     if (s->unfinished > 0)

@@ -255,11 +255,13 @@ void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview
     if (s->unfinished > 0)
         fprintf(to, "; %d cells were not run", s->unfinished);
     if (j->unobserved > 0)
-        fprintf(to, "; %d known deviations were not observed", j->unobserved);
+        fprintf(to, "; %d known deviation%s not observed", j->unobserved,
+                j->unobserved == 1 ? " was" : "s were");
     if (j->unmet > 0)
-        fprintf(to, "; %d reference values refer to unknown names", j->unmet);
+        fprintf(to, "; %d reference value%s", j->unmet,
+                j->unmet == 1 ? " refers to an unknown name" : "s refer to unknown names");
     if (j->flaws > 0)
-        fprintf(to, "; %d inconsistent run records", j->flaws);
+        fprintf(to, "; %d inconsistent run record%s", j->flaws, j->flaws == 1 ? "" : "s");
     fprintf(to, ". Commit %s, %s.\n", e->commit, e->compiler);
     sentence_of_run(s, j, sentence, sizeof sentence);
     if (sentence[0] != '\0')

@@ -250,7 +250,7 @@ status output_close(output *out, fault *f)
     }
     discard(out);
     return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s)%s", out->to.path,
-                     why != 0 ? strerror(why) : "no room",
+                     why != 0 ? strerror(why) : "no space left",
                      out->temporary[0] != '\0' ? "; no file was left" : "");
 }
 
@@ -294,7 +294,7 @@ status output_partial(const char *path, char partial[PATH_MAX], fault *f)
 static status folder_fail(const output_folder *out, int why, fault *f)
 {
     return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); no file was left",
-                     out->to.path, why != 0 ? strerror(why) : "no room");
+                     out->to.path, why != 0 ? strerror(why) : "no space left");
 }
 
 static status find(const char *path, output_folder *out, fault *f)

@@ -101,11 +101,10 @@ status abouts_here(abouts *a, const instant *now, fault *f)
 {
     while (next_of(a) <= now->time + a->near) {
         if (next_of(a) < now->time - a->near)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "an analysis is about %g s, but the motion continues from %g s; give a "
-                "later time, or run it from its start",
-                next_of(a), now->time);
+            return fault_set(f, STATUS_REFUSED,
+                             "an analysis is about the state at %g s, but the motion continues "
+                             "from %g s; give a later time, or run the motion from its start",
+                             next_of(a), now->time);
         instant_copy(a->c->model, now, &a->at);
         TRY(take(a, f));
     }

@@ -291,8 +291,8 @@ static status check_mass(const analysis_context *c, int analysis, fault *f)
             scheme == SCENE_CONSERVING ? "conserving" : "explicit");
     if (!spreads && scene_spreads(one))
         return fault_set(f, STATUS_REFUSED,
-                         "the mass of %s is lumped at its nodes; give mass: lumped, or another "
-                         "formulation",
+                         "the formulation %s supports only lumped mass for this scene; use mass: "
+                         "lumped, or another formulation",
                          model_formulation(c->model));
     if (follows != SCENE_NONE && c->scene->analysis[follows].kind == SCENE_MOTION &&
         model_spreads(c->model, follows) != spreads)
@@ -333,9 +333,9 @@ status checks_massless(const analysis_context *c, const carried_masses *masses,
     if (massless == 0 || how->scheme != SCENE_ALPHA || how->alpha.force > how->alpha.mass)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%d coordinates have no inertia, so their accelerations would grow with the "
-                     "trapezoidal rule or rho = 1; use rho < 1 or radau, or give the sections "
-                     "rotary inertia (do not omit rotary_inertia)",
+                     "some coordinates (%d) have no inertia, so their accelerations would grow "
+                     "with the trapezoidal rule or rho = 1; use rho < 1 or radau, or give the "
+                     "sections rotary inertia (do not omit rotary_inertia)",
                      massless);
 }
 

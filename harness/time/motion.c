@@ -293,8 +293,8 @@ static status begin(motion_course *w, scene_rotating_frame *frame, fault *f)
     const analysis_outcome *before = &w->c->outcomes[follows];
     const outcome_path *path = outcome_path_of(before);
     if (before->status != STATUS_OK || path->reached < path->stations)
-        return fault_set(f, STATUS_NOT_CONVERGED, "the initial state of the motion: %s",
-                         before->reason);
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "the initial state of the motion was not reached: %s", before->reason);
     kinematics_state_copy(w->c->model, path->state[path->reached - 1], w->now.state);
     w->path = kinematics_state_path(w->now.state);
     const scene_analysis *of = &w->c->scene->analysis[follows];

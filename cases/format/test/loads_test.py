@@ -264,7 +264,7 @@ class MotionTest(SceneCase):
         for name in ("collocation", "sheet_third", "geometrically_exact:nodes=2"):
             value = values(self.record("solve", "--scene", path, "-f", name, "-n", 2))["behind"]
             self.assertAlmostEqual(value / behind[2], 1, delta=1e-3, msg=name)
-        self.refused(2, "lumped at its nodes", "solve", "--scene", path, "-n", 2, "-f",
+        self.refused(2, "supports only lumped mass", "solve", "--scene", path, "-n", 2, "-f",
                      "geometrically_exact")
 
     def test_mass_of_what_goes_on(self):

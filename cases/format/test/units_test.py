@@ -464,7 +464,7 @@ class Doubtful(SceneCase):
         """The unit of a load factor may be that of its load, which is K in any unit system. Another unit requires a factor."""
         self.assertRegex(self.answered("solve", "--scene", self.scene(WARM), "-f", "beamw", "-n", 8).stdout,
                          r"\ndT +\S+ K")
-        self.refused(2, "or 'unit: MPa, factor: 1' if the load has the value 1 in this unit", "solve", "--scene",
+        self.refused(2, "or write 'unit: MPa, factor: 1' if the load has the value 1 in this unit", "solve", "--scene",
                      self.scene(WARM.replace("unit: K", "unit: MPa")))
 
 

@@ -227,8 +227,8 @@ class DividedMember(ProgramTest):
         path.write_text(text + internal("M", "beam", 0.4, "Mz"), encoding="utf-8")
         done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
         self.assertEqual(done.returncode, 1)
-        self.assertIn("the position is within the fraction 0.001 of the length from an end or from another such position; "
-                      "move it there", " ".join(done.stdout.split()))
+        self.assertIn("acts within the fraction 0.001 of the length from an end or from another such position, so "
+                      "resultants would have a kink", " ".join(done.stdout.split()))
 
     def test_a_side_without_a_place(self):
         path = self.folder / "scene.yaml"

@@ -125,7 +125,7 @@ quantities:
                         self.assertAlmostEqual(got[name]["value"], value, delta=1e-6 * abs(value))
                 for name in ("li", "bu"):
                     self.assertIsNone(got[name]["value"])
-                    self.assertIn("; if pretension or temperatures make it stiff, use a static path", got[name]["reason"])
+                    self.assertIn("; if pretension or temperatures make the structure stiff, use a static path", got[name]["reason"])
 
     def ties(self, pretension, heat):
         """Returns the displacement of a mass between two hinged bars, the forces in the bars, and the lowest frequency,
@@ -305,7 +305,7 @@ quantities:
             done = run("solve", "--scene", "/dev/stdin", "--element", element, "-f", "corotational", "-n", 1,
                        input=HEAD + text)
             self.assertNotEqual(done.returncode, 0)
-            self.assertIn(f"strains (it gives forces), which {who} changes", " ".join(done.stderr.split()))
+            self.assertIn(f"the stress-free strains of {who} (it computes forces, not strains)", " ".join(done.stderr.split()))
 
 
 if __name__ == "__main__":

@@ -281,14 +281,14 @@ class ByModesTest(ProgramTest):
         path = self.folder/"scene.yaml"
         path.write_text(BEAM % ("hold: all", "", "", ", solution: modal, modes: 1", FORCED), encoding="utf-8")
         done = run("solve", "--scene", path, "-f", "collocation", "-n", 8)
-        self.assertRegex(done.stdout + done.stderr, "the first 1 modes give no error bound")
+        self.assertRegex(done.stdout + done.stderr, "the number of modes, 1, is too small for an error bound")
 
     def test_refused(self):
         load = "loads: {push: {force: [0, 50, 0], on: tip, follower: yes}}"
         path = self.folder/"scene.yaml"
         for keys, words in ((", modes: 3", "does not use modes"),
                             (", damping: {ratios: [-1]}", "a damping ratio is -1"),
-                            (", modes: 1, damping: {ratios: [0.1, 0.2]}", "2 damping ratios for 1 modes"),
+                            (", modes: 1, damping: {ratios: [0.1, 0.2]}", "2 damping ratios, but modes: 1"),
                             (", damping: {ratio: -1}", "at least 0")):
             path.write_text(BEAM % ("hold: all", "", "", keys, FORCED), encoding="utf-8")
             done = run("solve", "--scene", path, "-f", "collocation", "-n", 1)

@@ -153,7 +153,7 @@ class Histories(ProgramTest):
 
     def test_uneven(self):
         for stations, when, what in (("[0, 0.1, 0.2, 0.35, 0.45]", "", "0.1 s of analysis go is not at 0.1125 s"),
-                                     ("[0.1, 0.2]", "", "the window contains 2 stations")):
+                                     ("[0.1, 0.2]", "", "the number of stations in the window is 2")):
             done = self.done(SHAKEN % {"shake": SINES, "stations": stations, "when": when})
             self.assertNotEqual(done.returncode, 0)
             self.assertIn(what, done.stdout + done.stderr)

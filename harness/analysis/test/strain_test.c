@@ -410,7 +410,7 @@ static void staying_tests(void)
                     gsl_test_rel(other.value[k], (alone.value[k] - 0.5) / 0.5, 1e-8,
                                  "%s: half of it grows", e->name);
         }
-        staying_refuses(e, CRITICAL, "critical without the scaled");
+        staying_refuses(e, CRITICAL, "critical even without the scaled");
         staying_refuses(e, BENT, "do not vary linearly");
         ask_conclude(&tally, e, "loads that stay");
     }

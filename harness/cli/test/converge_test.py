@@ -111,7 +111,7 @@ class Forms(unittest.TestCase):
                    key=lambda q: abs(q["model_error"]))
         self.assertRegex(whole["sentence"],
                          rf"\. The beam model differs from the structure: {most['quantity']} of another model is .*; the limit of "
-                         rf"collocation is [+]?{100 * most['model_error']:.2g} % from it")
+                         rf"collocation differs from it by [+]?{100 * most['model_error']:.2g} %")
         text = run("converge", "sheet_cantilever", "-f", "collocation", "-n", "2,4,8").stdout
         self.assertIn("\nThe beam model differs from the structure: ", text)
         self.assertNotIn("The beam model differs", converge("text"))

@@ -169,7 +169,7 @@ class Plane(ProgramTest):
             "push: it rotates out of the plane": ("force: [-1, 0, 0]", "moment: [1, 0, 0]"),
             "push: it acts outside the plane":
                 ("force: [-1, 0, 0]", "at: [0, 0, 0.1], force: [-1, 0, 0]"),
-            "b: its position is not in one plane": (node, "b: {at: [1, 0, 0.1]"),
+            "b: its position is outside the plane through the first node": (node, "b: {at: [1, 0, 0.1]"),
             "b: the centre of its body is outside":
                 (node, node + ", mass: 1, centre: [0, 0, 0.1]"),
             "m: its initial curvature leaves":

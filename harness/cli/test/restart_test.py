@@ -118,7 +118,7 @@ class RestartTest(SceneCase):
                     else:
                         self.assertEqual((row["status"], row["value"]), ("no_value", ""), name)
                         self.assertEqual(row["reason"], f"needs the motion from {begin} s, but this run continues "
-                                         "from 1 s: run it without --restart, or let its window ('when') begin at "
+                                         "from 1 s: run without --restart, or let its window ('when') begin at "
                                          "1 s or later")
 
     def test_before_the_restart(self):
@@ -130,9 +130,9 @@ class RestartTest(SceneCase):
         for name, row in rows.items():
             if "_" in name:
                 self.assertIn("needs the motion from 0 s", row["reason"], name)
-                self.assertTrue(row["reason"].endswith("run it without --restart"), row["reason"])
+                self.assertTrue(row["reason"].endswith("run without --restart"), row["reason"])
         self.assertEqual(rows["early"]["reason"], "needs the motion at 0.5 s, but this run continues from 1 s: "
-                         "run it without --restart")
+                         "run without --restart")
         self.assertEqual(rows["track"]["meaning"], "begins at 1 s, where this run continues another run")
         self.assertIn("\ntrack                        begins at 1 s, where",
                       self.answered("solve", "--scene", path, "--restart", ends).stdout)

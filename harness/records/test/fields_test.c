@@ -439,7 +439,7 @@ static void other_models(void)
                 "for 1 % in every quantity: red n = 4; no own cost coefficients: red\n"
                 "The beam model differs from the structure: load of another model is 3.1 N (of the "
                 "test); the limit of "
-                "red is -3.2 % from it. The 1 % apply only to the beam model.\n");
+                "red differs from it by -3.2 %. The target error of 1 % applies only to the beam model.\n");
     line_expect(&b, 1e-9,
                 "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
                 "(load: 0.0098 %)\n");
@@ -450,7 +450,7 @@ static void other_models(void)
         "cost coefficients: grey, red, blue, green\n"
         "The beam model differs from the structure: load of another model is 3.1 N (of the test); "
         "the limit of "
-        "grey is +6.5 % from it. The 20 % apply only to the beam model.\n");
+        "grey differs from it by +6.5 %. The target error of 20 % applies only to the beam model.\n");
     finish(&b);
 }
 

@@ -430,8 +430,8 @@ class StateSpace(Matrices):
         for text, words in (("4:nix", "no node nix; name nodes"), ("few", "write the number of modes"), ("4;tip", "write the number"),
                             ("4:", "of an interface node is missing; name the node"), ("4:tip,,mid", "of an interface node is missing; name the node"),
                             ("4:tip,mid,tip", "node tip is named twice; name it only once"),
-                            ("5000", "with mass; give at most"), ("9"*30, "give at most"),
-                            ("100:tip", "with mass while the interface is fixed; give at most")):
+                            ("5000", "give at most"), ("9"*30, "give at most"),
+                            ("100:tip", "while the interface is fixed; give at most")):
             self.refused(1, words, *work, "--state-space", "--reduce", text, silent=False)
             self.assertFalse((self.folder/"new").exists())
 
@@ -444,13 +444,13 @@ members: {bar: {from: root, to: mid, section: bar, y: [0, 1, 0]}, two: {from: mi
 analyses: {ha: {harmonic: {frequencies: [1, 2], damping: {stiffness: 1e-3}}}}
 quantities: {r: {response: {analysis: ha, node: mid, component: uy, force: tip, along: ux}}}
 """, encoding="utf-8")
-        for nodes, words in (("", "there are only 3 modes with mass; give at most 3"),
-                             (":mid", "there are only 3 modes with mass while the interface is fixed; give at most 3")):
+        for nodes, words in (("", "the number of modes with mass is 3; give at most 3"),
+                             (":mid", "the number of modes with mass is 3 while the interface is fixed; give at most 3")):
             for modes in (3, 4, 5000):
                 work = ("solve", "--scene", self.folder/"scene.yaml", "-f", "collocation", "-n", 1, "--matrices",
                         self.folder/f"m{nodes[1:]}{modes}", "--state-space", "--reduce", f"{modes}{nodes}")
                 if modes == 3:
-                    self.assertIn("first 3 natural frequencies", self.answered(*work).stderr)
+                    self.assertIn("natural frequencies of modes 1 to 3", self.answered(*work).stderr)
                 else:
                     self.refused(1, [f"--reduce {modes}{nodes}: {words}"], *work, silent=False)
 

@@ -95,7 +95,7 @@ class ShortTable(ProgramTest):
             "quantities",
             lambda row: np.isfinite(row["error"]),
             lose,
-            ["worse", "values have an error"],
+            ["worse", "values with an error"],
         )
 
     def test_work(self):

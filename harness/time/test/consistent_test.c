@@ -259,7 +259,7 @@ static void refuse(void)
     add_free(&s, 1, SCENE_CONSISTENT, SCENE_ALPHA, 0.01, 0.1);
     ask_scene(&s, &element_geometrically_exact, NULL, 2, &a);
     scene_free(&s);
-    check_refused(a.status, a.reason, "lumped at its nodes");
+    check_refused(a.status, a.reason, "supports only lumped mass");
 }
 
 static void consistent_tests(void)

@@ -163,7 +163,7 @@ class MeansTest(SceneCase):
                                 ("when", 0.3), ("a", 0.3 if of == "acceleration" else 0.3 + math.asin(0.5)/10)):
                 self.assertAlmostEqual(got[name]["value"], exact, delta=most, msg=(scheme, name))
             self.assertEqual(got["gone"]["status"], "no_value")
-            self.assertIn("crosses the level fewer times", got["gone"]["reason"])
+            self.assertIn("crosses the level too few times", got["gone"]["reason"])
 
     def test_instants(self):
         """At the start and at a jump, stations must have the loads that act afterwards. Extremes must include the loads

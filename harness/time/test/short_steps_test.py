@@ -100,7 +100,7 @@ class ShortStepsTest(SceneCase):
                         self.assertLess(one["rounding"], min(most, 1e-2), why)
                     else:
                         self.assertEqual(one["status"], "no_value", why)
-                        self.assertIn("its rounding error is up to", one["reason"], why)
+                        self.assertIn("the rounding error is up to", one["reason"], why)
                 self.assertEqual(got["curve"]["status"], "no_value" if most == math.inf else "ok")
 
 
