@@ -67,7 +67,7 @@ static const verb_option both[] = {
 static const verb_option limit[] = {
     {"time-limit", 0, "SECONDS",
      "time limit of a cell (default 120; element-test: 60 for each part; 0: no limit); a cell that "
-     "exceeds the limit fails with status 'timeout'",
+     "exceeds the limit fails with status 'time_limit'",
      .member = offsetof(chosen_formulations, time_limit), .most = 1000000},
     {0}};
 const option_group options_formulations = {both, begin, end, NULL};
