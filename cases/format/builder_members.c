@@ -349,7 +349,7 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
     double before = -INFINITY;
     if (list->count == 0)
         document_mistake(f->b->mistakes, list, 0,
-                         "the list of pieces is empty; give [{until: [s], is: ...}, {is: ...}]");
+                         "the list of pieces is empty; give [{until: TIME, is: ...}, {is: ...}]");
     for (int i = 0; i < list->count; i++) {
         fields piece = *f;
         piece.map = list->item[i];
@@ -357,7 +357,7 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
         const double until = fields_number(&piece, "until", 0);
         if (!last && !(ends && until > before))
             document_mistake(f->b->mistakes, piece.map, 0,
-                             "a piece must end after the previous piece; give until: [s]");
+                             "a piece must end after the previous piece; give a later until: TIME");
         if (last && ends)
             document_mistake(f->b->mistakes, document_find(piece.map, "until"), 0,
                              "the last piece has no end; remove 'until', or add the "

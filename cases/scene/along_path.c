@@ -81,9 +81,8 @@ along_path_words along_path_end(const scene *s, int acting)
                  "; no load changes along the path; give a load that increases");
     else
         snprintf(out.text, sizeof out.text,
-                 "; nothing changes outside path %g to %g, because %s keeps its last value there; "
-                 "extend its values, or remove its 'path' and 'factor' so that it increases with "
-                 "the path",
+                 "; nothing changes outside path %g to %g, because %s is constant there; extend "
+                 "its values, or remove its 'path' and 'factor' so that it increases with the path",
                  c.begin, c.end, c.last.text);
     return out;
 }

@@ -409,7 +409,7 @@ static status read_call(reader *r, const expression_function *f, int word)
     *number = f->of_one != NULL ? f->of_one(*number) : *number;
     return isfinite(*number)
                ? STATUS_OK
-               : WRONG(r, word, "%s has no value there; check its arguments", f->name);
+               : WRONG(r, word, "%s has no value for its arguments; correct them", f->name);
 }
 
 static status read_name(reader *r)

@@ -375,7 +375,7 @@ static status check_load(const scene *s, int i, fault *f)
     const int limit = scene_load_along(load) ? s->members : s->nodes;
     if (load->where < 0 || load->where >= limit)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the node or member on which it acts does not exist; add it first",
+                         "%s: the node or member of this load does not exist; add it first",
                          scene_called(s, SCENE_LOADS, i).text);
     for (int k = 0; k < 3; k++)
         if (!isfinite(load->vector[k]) || !isfinite(load->last[k]))

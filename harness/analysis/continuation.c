@@ -282,9 +282,10 @@ static status walk_to(continuation *p, double station, double *size, fault *f)
 {
     while (p->here.control != station) {
         if (p->o->points >= MOST_POINTS)
-            return fault_set(f, STATUS_NOT_CONVERGED,
-                             "the path has %d points, but none of them is at %g m", MOST_POINTS,
-                             station);
+            return fault_set(
+                f, STATUS_NOT_CONVERGED,
+                "the path has %d points, but none of them is at %g m; use larger steps",
+                MOST_POINTS, station);
         const double length = p->by->constant_steps ? p->by->step : *size;
         TRY(reach(p, next_goal(p, station, length), station, size, f));
     }

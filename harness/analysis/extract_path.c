@@ -17,7 +17,7 @@ static double known(const analysis_context *c, double value, double error, const
     if (error <= EIGEN_LARGEST_ERROR)
         return value;
     snprintf(why, sizeof why,
-             "%s of %d unknowns is lost in round-off (error %.1e); use fewer elements", what,
+             "%s (with %d unknowns) is lost in round-off (error %.1e); use fewer elements", what,
              model_sizes(c->model).free, error);
     quantity_no_value(r, STATUS_NOT_CONVERGED, why);
     return NAN;

@@ -59,10 +59,10 @@ void flutter_take(unsymmetric_result *from, outcome_side *to)
             continue;
         to->value[i] = NAN;
         if (to->status == STATUS_OK)
-            snprintf(
-                to->reason, sizeof to->reason,
-                "frequency %d of %d unknowns is lost in round-off (error %.1e); use fewer elements",
-                i + 1, from->n, to->error[i]);
+            snprintf(to->reason, sizeof to->reason,
+                     "frequency %d (with %d unknowns) is lost in round-off (error %.1e); use fewer "
+                     "elements",
+                     i + 1, from->n, to->error[i]);
         to->status = STATUS_NOT_CONVERGED;
     }
     from->frequency = from->mode = from->error = NULL;

@@ -171,8 +171,8 @@ static status check_history(const element_type *given, const double options[], f
     if (count == 0 && given->limits & LIMIT_PATH_DEPENDENT)
         return refuse(given, "LIMIT_PATH_DEPENDENT requires 'history'", f);
     if (count > 0 && given->commit == NULL)
-        return refuse(given, "'history' requires 'commit', which computes the values of a state",
-                      f);
+        return refuse(
+            given, "'history' requires 'commit', which computes the history values of a state", f);
     if (count > 0 && given->force != NULL)
         return refuse(given, "'history' requires 'strain' and 'stress' instead of 'force'", f);
     if (count > 0 &&

@@ -43,7 +43,9 @@ status linearise_make_compatible(const equations *eq, model_state *s, fault *f)
         outcome = compatible_element(eq, s, i);
         if (outcome != STATUS_OK)
             fault_set(f, outcome,
-                      "element %d of %s: its state is outside the range that %s can evaluate", i,
+                      "element %d of %s: its state is outside the range that %s can evaluate; use "
+                      "smaller steps or more elements",
+                      i,
                       scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, i)->member).text,
                       model_type(m)->name);
     }
@@ -114,7 +116,8 @@ static status element_equations(const equations *eq, const linear_memory *memory
     const model_slot w = linearise_slot(m, memory, of->index);
     if (of->outcome != STATUS_OK)
         return fault_set(&part->why, of->outcome,
-                         "element %d of %s: its state is outside the range that %s can evaluate",
+                         "element %d of %s: its state is outside the range that %s can evaluate; "
+                         "use smaller steps or more elements",
                          of->index, scene_called(model_scene(m), SCENE_MEMBERS, el->member).text,
                          model_type(m)->name);
     if (!of->complete)

@@ -126,8 +126,9 @@ static status flexibility(const link_element *el, const double J_y[], const doub
         memcpy(&K[i * y], &H[(c + i) * n + c], (size_t)y * sizeof *K);
     dense_add_congruence(el->strains, y, J_y, el->C, K, work);
     out->negative = symmetric_inverse(y, K, out->F);
-    return out->negative >= 0 ? STATUS_OK
-                              : fault_set(f, STATUS_SINGULAR, "an element is at a critical state");
+    return out->negative >= 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_SINGULAR, "the stiffness of an element is singular");
 }
 
 status link_of(const link_element *el, chain_link *out, fault *f)

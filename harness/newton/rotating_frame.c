@@ -223,9 +223,11 @@ static status add_element(const equations *eq, const model_state *state, int i, 
     eq->run->counters.strain_evaluations++;
     eq->run->counters.stress_evaluations++;
     if (outcome != STATUS_OK)
-        return fault_set(
-            f, outcome, "element %d of %s: its state is outside the range that %s can evaluate", i,
-            scene_called(model_scene(m), SCENE_MEMBERS, el->member).text, model_type(m)->name);
+        return fault_set(f, outcome,
+                         "element %d of %s: its state is outside the range that %s can evaluate; "
+                         "use smaller steps or more elements",
+                         i, scene_called(model_scene(m), SCENE_MEMBERS, el->member).text,
+                         model_type(m)->name);
     dense_add_transpose_mul(model_own_coordinates(m), strains, 1, J, sigma, force);
     TRY(rotating_frame_add(eq, x, i, path, force, H, f));
     distributed_add(eq, state, x, i, path, along, H);

@@ -122,7 +122,8 @@ static status make(const equations *eq, int i, fault *f)
         if (outcome != STATUS_OK)
             return fault_set(
                 f, outcome,
-                "element %d of %s: its undeformed state is outside the range that %s can evaluate",
+                "element %d of %s: its undeformed state is outside the range that %s can evaluate; "
+                "use more elements",
                 i, scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, i)->member).text,
                 model_type(m)->name);
         u->last = i;

@@ -210,8 +210,8 @@ static void drop_lost(candidates *p, int count, eigen_side *out)
         p->mu[i] = NAN;
         if (out->status == STATUS_OK)
             snprintf(out->reason, sizeof out->reason,
-                     "eigenvalue %d of %d unknowns is lost in round-off (error %.1e); use fewer "
-                     "elements",
+                     "eigenvalue %d (with %d unknowns) is lost in round-off (error %.1e); use "
+                     "fewer elements",
                      i + 1, p->n, out->error[i]);
         out->status = STATUS_NOT_CONVERGED;
     }

@@ -155,7 +155,7 @@ static const schema_field fields_of_cell[] = {
     {"strains", "1", FIELD_INT, "number of strains of an element, including internal unknowns",
      .get = get_strains},
     {"features", "", FIELD_TEXT, "physics of the model", .get = get_features},
-    {"omitted", "", FIELD_TEXT, "physics that the scene requires but omits",
+    {"omitted", "", FIELD_TEXT, "physics that the structure requires but the scene omits",
      .get = fields_keys_omitted},
     {"assumed", "", FIELD_TEXT, "assumptions about sections: see the table 'assumptions'",
      .get = fields_keys_assumed},
@@ -278,7 +278,7 @@ void fields_keys_assumed(const subject *s, field_value *out)
 }
 
 static const schema_field field_omitted[] = {
-    {"omitted", "", FIELD_TEXT, "physics that the scene requires but omits",
+    {"omitted", "", FIELD_TEXT, "physics that the structure requires but the scene omits",
      .get = fields_keys_omitted},
     {"assumed", "", FIELD_TEXT, "assumptions about sections: see the table 'assumptions'",
      .get = fields_keys_assumed},

@@ -259,7 +259,7 @@ static const schema_field fields_of_verdict[] = {
      TEXT_OF(MODEL_TRUTH, truth, theory)},
     {"model_error", "1", FIELD_DOUBLE, "relative difference of the limit from this value",
      AT(verdict, model_error)},
-    {"omitted", "", FIELD_TEXT, "physics that the scene requires but omits",
+    {"omitted", "", FIELD_TEXT, "physics that the structure requires but the scene omits",
      .get = fields_keys_omitted},
     {"assumed", "", FIELD_TEXT, "assumptions about sections: see the table 'assumptions'",
      .get = fields_keys_assumed},

@@ -39,7 +39,9 @@ static status middle_stress_of(const equations *eq, int count, const int index[]
         if (outcome[k] != STATUS_OK)
             return fault_set(
                 f, outcome[k],
-                "element %d of %s: its state is outside the range that %s can evaluate", index[k],
+                "element %d of %s: its state is outside the range that %s can evaluate; use "
+                "smaller steps or more elements",
+                index[k],
                 scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, index[k])->member)
                     .text,
                 model_type(m)->name);

@@ -149,8 +149,10 @@ static status accelerate_joined(const model *m, const carried_masses *masses, in
     for (int k = 0; k < g->count; k++)
         g->value[k] = g->unit[k] * residual[g->index[k]];
     if (g->count > 0 && dense_lu_regular(g->count, g->M, g->used) != 0)
-        return fault_set(f, STATUS_SINGULAR, "%s: two of its rotation axes coincide (gimbal lock)",
-                         scene_called(model_scene(m), SCENE_NODES, body).text);
+        return fault_set(
+            f, STATUS_SINGULAR,
+            "%s: two of its rotation axes coincide (gimbal lock); give another sequence of angles",
+            scene_called(model_scene(m), SCENE_NODES, body).text);
     dense_lu_solve(g->count, 1, g->M, g->used, g->value);
     for (int k = 0; k < g->count; k++)
         a[g->index[k]] = g->unit[k] * g->value[k];
@@ -210,7 +212,8 @@ static status explicit_accelerate(const model *m, const carried_masses *masses,
             b[i] = residual[of[i]];
         if (dense_lu_regular(n, M, pivot) != 0)
             return fault_set(f, STATUS_SINGULAR,
-                             "%s: two of its rotation axes coincide (gimbal lock)",
+                             "%s: two of its rotation axes coincide (gimbal lock); give another "
+                             "sequence of angles",
                              scene_called(model_scene(m), SCENE_NODES, masses->mass[k].frame).text);
         dense_lu_solve(n, 1, M, pivot, b);
         for (int i = 0; i < n; i++)

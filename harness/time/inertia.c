@@ -313,8 +313,9 @@ static status stored(const equations *eq, const model_state *s, double time, dou
                                                      inner, &(stress_output){.energy = &energy});
         if (outcome != STATUS_OK)
             return fault_set(f, outcome,
-                             "element %d: its state is outside the range that %s can evaluate", i,
-                             model_type(m)->name);
+                             "element %d: its state is outside the range that %s can evaluate; use "
+                             "smaller steps or more elements",
+                             i, model_type(m)->name);
         *out += energy;
     }
     *out += discrete_stored(m, s);

@@ -213,8 +213,9 @@ static status begin(const equations *eq, int members, run_damping *d, fault *f)
                                   &(stress_output){.C = d->stiffness + (size_t)kind * n * n});
         if (outcome != STATUS_OK)
             return fault_set(f, outcome,
-                             "element %d: its state is outside the range that %s can evaluate", i,
-                             model_type(m)->name);
+                             "element %d: its state is outside the range that %s can evaluate; use "
+                             "smaller steps or more elements",
+                             i, model_type(m)->name);
     }
     eq->run->damping = d;
     damping_follow(eq, 0, d->none, NULL);
