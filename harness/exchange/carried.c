@@ -101,7 +101,7 @@ static status check_node(const scene *s, int node, fault *f)
     double R[9];
     if (scene_node_axes(n, R))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: supports along rotated axes cannot be written as solids; hold the "
+                         "%s: supports along rotated axes cannot be written as solids; fix the "
                          "node along the axes of the scene",
                          scene_called(s, SCENE_NODES, node).text);
     for (int i = 0; i < 3; i++)
@@ -154,14 +154,14 @@ static status check_analysis(const scene *s, int analysis, fault *f)
     const scene_analysis *a = &s->analysis[analysis];
     if (a->kind != SCENE_LINEAR && a->kind != SCENE_STATIC && a->kind != SCENE_COMPLIANCE)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: linear, static and compliance analyses can be written as solids, but "
-                         "%s cannot; remove the analysis and its quantities",
+                         "%s: an input deck supports only linear, static and compliance analyses, "
+                         "not %s; remove the analysis and its quantities",
                          scene_called(s, SCENE_ANALYSES, analysis).text,
                          scene_analysis_name(a->kind));
     if (a->kind == SCENE_STATIC && (analysis != carried_static(s) || scene_rotates(a)))
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: only one static path, in axes at rest, can be written as solids; remove this path",
+            "%s: an input deck supports only one static path, in axes at rest; remove this path",
             scene_called(s, SCENE_ANALYSES, analysis).text);
     if (a->kind == SCENE_COMPLIANCE && !rigid_moves(s, scene_compliance_of(a)->node))
         return fault_set(f, STATUS_REFUSED,
@@ -260,9 +260,10 @@ static status check_entry(const scene *s, const scene_quantity *q, fault *f)
     const scene_entry *e = scene_entry_of(q);
     if (s->analysis[q->analysis].follows != SCENE_NONE &&
         (e->row >= SCENE_RX || e->column >= SCENE_RX))
-        return refuse(
-            q, "rotations about a loaded state cannot be written as solids; remove the quantity",
-            f);
+        return refuse(q,
+                      "entries for rotations about a loaded state are not supported for solids; "
+                      "remove the quantity",
+                      f);
     return check_last(s, q, f);
 }
 
@@ -270,15 +271,16 @@ static status check_quantity(const scene *s, const scene_quantity *q, fault *f)
 {
     if (q->reduction == SCENE_MAX || q->reduction == SCENE_MIN)
         return refuse(q,
-                      "the maximum and minimum over a path cannot be written as solids; request a "
+                      "the maximum and minimum over a path are not supported for solids; request a "
                       "value at a station",
                       f);
     if (q->envelope != SCENE_ENVELOPE_NONE)
         return refuse(
-            q, "an envelope cannot be written as solids; request each combination that may govern",
+            q, "an envelope is not supported for solids; request each combination that may govern",
             f);
     if (scene_abscissa_of(s, q) != SCENE_NONE)
-        return refuse(q, "a curve over another quantity cannot be written as solids; remove x", f);
+        return refuse(q, "a curve over another quantity is not supported for solids; remove 'x'",
+                      f);
     switch (q->what.kind) {
     case SCENE_COORDINATE:
     case SCENE_REACTION:

@@ -109,7 +109,7 @@ static void read_header(file_reader *r, char *line)
     const char *near = choice_nearest(key, name_at, header_names);
     mistakes_add(r->m, r->line, 1, "unknown header '%.40s'%s%s%s", key,
                  near != NULL ? "; did you mean '"
-                              : "; they are program, version, case, model, convention, axes",
+                              : "; the headers are program, version, case, model, convention, axes",
                  near != NULL ? near : "", near != NULL ? "'?" : "");
 }
 
@@ -128,8 +128,8 @@ static void find_column(file_reader *r, const char *name, int field)
     const char *near = choice_nearest(name, name_at, all);
     mistakes_add(r->m, r->line, field + 1, "unknown column '%.40s'%s%s%s", name,
                  near != NULL ? "; did you mean '"
-                              : "; they are quantity, unit, elements, unknowns, seconds, x, value, "
-                                "uncertainty",
+                              : "; the columns are quantity, unit, elements, unknowns, seconds, x, "
+                                "value, uncertainty",
                  near != NULL ? near : "", near != NULL ? "'?" : "");
 }
 
@@ -244,7 +244,8 @@ static status read_line(file_reader *r, char *line, fault *f)
     if (line[0] == '\0')
         return STATUS_OK;
     if (!line_is_text(line)) {
-        mistakes_add(r->m, r->line, 1, "the line is not UTF-8 text without control characters");
+        mistakes_add(r->m, r->line, 1,
+                     "the line is not UTF-8 text, or contains control characters");
     } else if (line[0] == '#') {
         TRY(close_block(r, f));
         read_header(r, line);
@@ -268,7 +269,7 @@ static status read_lines(file_reader *r, FILE *from, char **line, fault *f)
     if (r->rows == 0 && r->m->count == 0)
         mistakes_add(r->m, r->line > 0 ? r->line : 1, 1,
                      "the file has no values; the first line that is not a comment names the "
-                     "columns, the following lines are values");
+                     "columns, and the following lines contain the values");
     return mistakes_status(r->m, f);
 }
 

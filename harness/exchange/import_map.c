@@ -259,11 +259,12 @@ static status read_keys(map_reader *r, const char *map, const char *const file[]
     r->unknowns = map_keys_count(r->m, r->root, "unknowns", 0);
     r->seconds = map_keys_number(r->m, r->root, "seconds", NAN);
     if (r->elements < 1)
-        mistakes_add(r->m, 1, 2, "elements: their number");
+        mistakes_add(r->m, 1, 2, "elements: give the number of elements");
     const document_node *values = document_find(r->root, "values");
     if (values != NULL && values->kind == DOCUMENT_MAP && values->count > 0)
         return read_values(r, values, map, file, files, into, f);
-    mistakes_add(r->m, 1, 3, "values: names the quantities in the files");
+    mistakes_add(r->m, 1, 3,
+                 "values: the key is missing or empty; it names the quantities in the files");
     return STATUS_OK;
 }
 
@@ -271,7 +272,8 @@ static status read_map(map_reader *r, const char *map, const char *const file[],
                        import_set *into, fault *f)
 {
     if (r->root != NULL && r->root->kind != DOCUMENT_MAP)
-        mistakes_add(r->m, 1, 1, "a map of keys; it begins with 'beamwork_map: 1'");
+        mistakes_add(r->m, 1, 1,
+                     "the file must be a map of keys that begins with 'beamwork_map: 1'");
     else if (r->root != NULL)
         TRY(read_keys(r, map, file, files, into, f));
     return mistakes_status(r->m, f);

@@ -117,7 +117,7 @@ static status take_series(store_reader *r, const char *of, const tables *t, cons
 {
     const char *parameters = parameters_of(t, first->point);
     if (parameters == NULL)
-        return damaged(r, "the point of an import");
+        return damaged(r, "the parameter point of an import");
     for (int i = 0; i < count; i++)
         if (first[i].elements < 1 || !isfinite(first[i].value))
             return damaged(r, "an imported value");

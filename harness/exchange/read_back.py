@@ -43,11 +43,11 @@ def value_of(answer, blocks):
     what, step, node, direction, reciprocal, factor, offset = answer[2:9]
     steps = blocks[what]
     if int(step) > len(steps):
-        raise Incomplete(f"step {step} was not solved ({answer[0]}); {len(steps)} were")
+        raise Incomplete(f"step {step} was not solved ({answer[0]}); number of solved steps: {len(steps)}")
     found = steps[int(step) - 1][int(node)][int(direction) - 1]
     if reciprocal == "1":
         if found == 0:
-            raise Incomplete(f"{answer[0]}: nothing moves under its load")
+            raise Incomplete(f"{answer[0]}: the displacement under its load is zero")
         found = 1 / found
     scaled = float(factor) * found
     return scaled + float(offset), abs(scaled) * DIGITS

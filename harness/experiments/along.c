@@ -120,10 +120,10 @@ static status measure(const formulation *chosen, softness *out, fault *f)
         out->shear[k] = shear_of(chosen, &c, k);
         if (!(fabs(C[v * SIX + v] / (tip + out->shear[k] * L) - 1) < rounding &&
               fabs(cross / (out->bend[k] * L * L / 2) - 1) < rounding))
-            return fault_set(
-                f, STATUS_REFUSED,
-                "under a force at its end one element is not exact (along %c: relative error %.2g)",
-                "yz"[k], C[v * SIX + v] / (tip + out->shear[k] * L) - 1);
+            return fault_set(f, STATUS_REFUSED,
+                             "under a force at its end, one element is not exact (along %c: "
+                             "relative error %.2g)",
+                             "yz"[k], C[v * SIX + v] / (tip + out->shear[k] * L) - 1);
     }
     return STATUS_OK;
 }
@@ -216,7 +216,7 @@ static void compare(const formulation *chosen, support of, const softness *soft,
     fault f = {""};
     const ends right = exact_ends(of, soft, q);
     if (found_ends(chosen, of, q, &found, &f) != STATUS_OK) {
-        claims_asks(one, 0, "%s under loads along it: %s", support_name[of], f.text);
+        claims_asks(one, 0, "one element %s under distributed loads: %s", support_name[of], f.text);
         return;
     }
     for (int i = 0; i < 2 * SIX; i++) {
@@ -225,9 +225,9 @@ static void compare(const formulation *chosen, support of, const softness *soft,
         char words[SPECIMEN_WORDS];
         claims_departs(
             one, fabs(a - b) / size_of(soft, c, reaction),
-            "loads along it: one element %s gives %.9g instead of %.9g as %s%s; if 'measured' "
+            "distributed loads: one element %s gives %.9g instead of %.9g as %s%s; if 'measured' "
             "names a stiffness, correct that stiffness first; otherwise correct the strains, which "
-            "use r and R of node_state and x axes that lie along the element at rest",
+            "must use r and R of node_state, with the x axis along the undeformed element",
             support_name[of], a, b, reaction ? "reaction to the " : "",
             specimen_coordinate(NODE_COORDINATES * node + c, words));
     }
@@ -372,7 +372,7 @@ void checks_along(const formulation *chosen, claims *out)
             continue;
         }
         for (support of = 0; of < SUPPORTS; of++) {
-            claims_doing(out, "one element %s under loads along it", support_name[of]);
+            claims_doing(out, "one element %s under distributed loads", support_name[of]);
             compare(chosen, of, &soft, load[i].q, claims_open(out, load[i].name, rounding));
         }
     }

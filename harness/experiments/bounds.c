@@ -84,7 +84,7 @@ static void stresses(const specimen *s, const double e[], claims *c)
 {
     const int m = s->strains;
     guarded energy, sigma, C, residual, memory, inner, G;
-    double *own = guard(&inner, "rest: the unknowns of its own", s->inner);
+    double *own = guard(&inner, "rest: the internal unknowns", s->inner);
     claims_doing(c, "rest and stress%s", s->words);
     specimen_rest(s, own);
     stress_output out = {.energy = guard(&energy, "stress: energy", 1),
@@ -285,8 +285,8 @@ static void same(const call_account *a, const call_account *b, const char *after
 {
     const char *other = apart(a, b);
     claims_asks(one, other == NULL,
-                "%s differs after %s; do not store anything between calls, neither in static "
-                "variables nor in the data%s",
+                "%s differs after %s; do not store anything between calls in static variables or "
+                "in 'data'%s",
                 other, after, s->words);
 }
 
@@ -380,7 +380,7 @@ static void two_ways(const specimen *s, const call_account *before, const node_s
     s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
     specimen_settled(s, e, inner, &(stress_output){.energy = &energy});
     claims_departs(one, fabs(energy / before->energy - 1),
-                   "stress, update: the same strains have an energy of %.9g J, but %.9g J when "
+                   "stress, update: the same strains give an energy of %.9g J, but %.9g J when "
                    "evaluated after other strains; the energy must not depend on the path%s",
                    before->energy, energy, s->words);
 }
@@ -447,5 +447,6 @@ void checks_stateless(const formulation *chosen, claims *out)
 {
     specimens_each(chosen, out, stateless_check);
     if (element_inner(chosen->type, chosen->option) == 0)
-        claims_not_made(out, "the result does not depend on the path", "no unknowns of its own");
+        claims_not_made(out, "the result does not depend on the path",
+                        "the element has no internal unknowns");
 }

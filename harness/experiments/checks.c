@@ -22,7 +22,7 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
     {"rotating", "centrifugal and gyroscopic terms derive from the kinetic energy",
      checks_rotating},
     {"in_time", "inertia forces during a motion derive from the kinetic energy", checks_in_time},
-    {"history", "committed values continue the strains", checks_history},
+    {"history", "committing the history does not change the strains", checks_history},
 };
 
 /* Checks of invariance under rigid motion, under reversal of the nodes, and under a change of the
@@ -164,8 +164,8 @@ void checks_motion(const formulation *chosen, claims *out)
         claims_not_made(out, "the energy does not change if the nodes are exchanged",
                         "declares LIMIT_ORDER_DEPENDENT");
     else if (element_history(chosen->type, chosen->option) > 0)
-        claims_not_made(out, "exchanging the nodes does not change the energy",
-                        "declares a history, which belongs to the order of the nodes");
+        claims_not_made(out, "the energy does not change if the nodes are exchanged",
+                        "declares a history, which depends on the order of the nodes");
     if (chosen->type->limits & LIMIT_NOT_OBJECTIVE)
         claims_not_made(out, "rigid motion changes no strain",
                         "declares LIMIT_NOT_OBJECTIVE; see 'paths'");

@@ -149,14 +149,12 @@ static void sizes(const formulation *chosen, claim *one)
 {
     const element_type *t = chosen->type;
     const int inner = element_inner(t, chosen->option), memory = element_memory(t, chosen->option);
-    claims_asks(one, inner == 0 || t->update != NULL,
-                "update: the type has %d internal unknowns but no function that corrects them; add "
-                "'update'",
-                inner);
     claims_asks(
-        one, inner == 0 || memory > 0,
-        "memory: the type has %d internal unknowns but no memory for 'update'; set 'memory'",
+        one, inner == 0 || t->update != NULL,
+        "update: internal unknowns (%d) require a function that corrects them; add 'update'",
         inner);
+    claims_asks(one, inner == 0 || memory > 0,
+                "memory: internal unknowns (%d) require memory for 'update'; set 'memory'", inner);
     claims_asks(one, inner >= 0 && memory >= 0,
                 "inner, memory: the values are %d and %d; neither may be negative", inner, memory);
 }

@@ -153,7 +153,7 @@ void checks_derivatives(const formulation *chosen, claims *out)
     if (!(t->leaves & LEAVES_J))
         specimens_each(chosen, out, check);
     if (claims_open(out, claim_J, allowed)->outcome == CLAIM_BROKEN)
-        claims_not_made(out, claim_H, "not checked before J is correct");
+        claims_not_made(out, claim_H, "not checked until J is correct");
 }
 
 /* Checks that many elements evaluated in one call give the same results as single calls. Elements

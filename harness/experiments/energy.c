@@ -310,11 +310,12 @@ static void own_motion(const specimen *s, const node_state x[], const inertia_ou
     dense_mul_vec(n, n, out->M, v, Mv);
     dense_mul_vec(n, n, out->G, v, Gv);
     if (s->section.matrices || s->made.features & FEATURE_ROTARY_INERTIA)
-        claims_departs(claims_open(c, "the motion of the frame has the centrifugal energy", 1e-11),
-                       fabs(dense_dot(n, v, Mv) / 2 / -*out->potential - 1),
-                       "inertia: the potential is %.6g J, but minus the kinetic energy of the "
-                       "motion of the frame, 1/2 v^T M v, is %.6g J%s",
-                       *out->potential, -dense_dot(n, v, Mv) / 2, s->words);
+        claims_departs(
+            claims_open(c, "the potential is minus the kinetic energy of the frame motion", 1e-11),
+            fabs(dense_dot(n, v, Mv) / 2 / -*out->potential - 1),
+            "inertia: the potential is %.6g J, but minus the kinetic energy of the "
+            "motion of the frame, 1/2 v^T M v, is %.6g J%s",
+            *out->potential, -dense_dot(n, v, Mv) / 2, s->words);
     for (int i = 0; i < n; i++)
         largest = fmax(largest, fabs(out->force[i]) * chart_unit(i, s->request.length));
     for (int i = 0; i < n; i++)

@@ -254,7 +254,7 @@ static const record_type record_certificate = {"certificate",
                                                {key_of_formulation, fields_of_certificate}};
 
 static const schema_field fields_of_part[] = {
-    {"what", "", FIELD_TEXT, "summary of the satisfied requirements", .get = get_what}, {0}};
+    {"what", "", FIELD_TEXT, "summary of the requirements", .get = get_what}, {0}};
 static const record_type record_part = {
     "part", "parts", "a group of checks or measurements", {key_of_family, fields_of_part}};
 

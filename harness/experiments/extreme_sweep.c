@@ -409,7 +409,7 @@ static void print_unexpected(FILE *to, const extreme_sweep *s)
     if (s->unobserved > 0)
         for (int i = 0; i < s->findings; i++)
             if (s->finding[i].observed == 0)
-                paragraph_say(to, 0, 0, "not observed: %s from %g to %g %s %s: %s",
+                paragraph_say(to, 0, 0, "not observed: %s from %g to %g, %s, %s: %s",
                               s->finding[i].extreme, s->finding[i].from, s->finding[i].to,
                               s->finding[i].formulation, s->finding[i].quantity,
                               s->finding[i].outcome);
@@ -435,10 +435,11 @@ void extreme_table(FILE *to, const void *found)
     print_counts(to, s);
     if (s->is_new > 0)
         paragraph_say(to, 0, 0,
-                      "%d outcomes of new formulations are neither accurate nor under-resolved and "
-                      "would require known deviations; they do not affect the exit status",
+                      "outcomes of new formulations that are neither accurate nor under-resolved, "
+                      "and would require known deviations: %d; these do not affect the exit status",
                       s->is_new);
     fprintf(to,
-            "%d outcomes differ from the expected ones; %d known deviations were not observed\n",
+            "outcomes that differ from the expected ones: %d; known deviations that were not "
+            "observed: %d\n",
             s->unexpected, s->unobserved);
 }

@@ -130,10 +130,11 @@ static void feature_subsets(const formulation *chosen, claims *c)
                     "it with a reason",
                     words, why.text[0] != '\0' ? why.text : "the stiffness is not finite");
     }
-    claims_departs(few, (double)count[REFUSED] / (1 << OPTIONAL),
-                   "prepare: %d of %d subsets of the declared features are rejected; at most half "
-                   "of the subsets may be rejected, because one feature requires another",
-                   count[REFUSED], 1 << OPTIONAL);
+    claims_departs(
+        few, (double)count[REFUSED] / (1 << OPTIONAL),
+        "prepare: %d of %d subsets of the declared features are rejected; at most half of the "
+        "subsets may be rejected, in which a feature lacks another that it requires",
+        count[REFUSED], 1 << OPTIONAL);
 }
 
 void checks_features(const formulation *chosen, claims *out)
@@ -332,8 +333,8 @@ static void positive(const specimen *s, const double A[], claim *one)
         }
     const int pivot = dense_cholesky(n, scaled);
     claims_asks(one, pivot == 0,
-                "inertia: M is not positive definite; a motion of the nodes in the coordinates up "
-                "to %d (%s) has negative kinetic energy%s",
+                "inertia: M is not positive definite; a motion of the nodes in coordinates 1 to %d "
+                "(the last: %s) has no positive kinetic energy%s",
                 pivot, specimen_coordinate(pivot > 0 ? pivot - 1 : 0, where), s->words);
 }
 
@@ -435,10 +436,11 @@ static void moments(const specimen *s, claim *one)
                 "not rho l I = %.6g kg m^2%s",
                 "xyz"[axis], found, moment, s -> words);
             if (axis == 0)
-                claims_departs(one, fabs(thin / moment - 1),
-                               "inertia: without rotary inertia the twist has %.6g kg m^2, not rho "
-                               "l Ip = %.6g kg m^2; the twist must always have inertia%s",
-                               thin, moment, s->words);
+                claims_departs(
+                    one, fabs(thin / moment - 1),
+                    "inertia: without rotary inertia, the moment of inertia about x is %.6g kg "
+                    "m^2, not rho l Ip = %.6g kg m^2; twist must always have inertia%s",
+                    thin, moment, s->words);
         }
     }
     specimen_free(&line);

@@ -160,7 +160,7 @@ static void check_one(const specimen *s, claims *c)
     s->type.inertia(s->data, x, NULL, &out);
     compare(s, taken, right, size_of(s, right),
             "M times the accelerations plus the forces without accelerations",
-            claims_open(c, "accelerations take M", 1e-12));
+            claims_open(c, "accelerations are multiplied by M", 1e-12));
     check_turned(s, x, &out, size_of(s, right),
                  claims_open(c, "inertia forces rotate with the element", 1e-11));
 }

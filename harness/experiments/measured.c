@@ -12,7 +12,8 @@ const measured_group measured_groups[MEASURED_GROUPS] = {
      measured_states},
     {"locking", "8 elements, thickness-to-length ratio from 1 to 1e-6", measured_locking},
     {"orders", "orders of convergence, and errors with 1 to 32 elements", measured_orders},
-    {"paths", "changes by superposed turns and after closed cycles, 24 steps each", measured_paths},
+    {"paths", "changes due to superposed full turns and after closed cycles, 24 steps each",
+     measured_paths},
 };
 
 /* Errors over thickness/length, from 1 to 1e-6. Locking makes the errors increase as the element
@@ -117,9 +118,9 @@ static const state states[] = {
     {"pure bending, a quarter turn", 0.05, 0.1, 0, FEATURE_LARGE, BEAM_LARGE, SCENE_MOMENT, 2,
      SCENE_UY, ""},
     {"tip force along y", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_FORCE, 1, SCENE_UY,
-     "E Iz, or does it lock?"},
+     "E Iz? Or the element locks"},
     {"tip force along z", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_FORCE, 2, SCENE_UZ,
-     "E Iy, or does it lock?"},
+     "E Iy? Or the element locks"},
     {"constant shear along y, short beam", 0.5, 0.4, 0, FEATURE_SHEAR, BEAM_LINEAR, SCENE_FORCE, 1,
      SCENE_UY, "G A times the shear factor, or E Iz?"},
     {"constant shear along z, short beam", 0.5, 0.4, 0, FEATURE_SHEAR, BEAM_LINEAR, SCENE_FORCE, 2,
@@ -207,7 +208,8 @@ static void compare_units(measures *out)
     const double thousands = log10(times) / 3;
     if (!(fabs(thousands) > 0.5) || fabs(thousands - round(thousands)) > 1e-3)
         return;
-    snprintf(out->words, sizeof out->words, "every value is %.0e times too %s; check the units",
+    snprintf(out->words, sizeof out->words,
+             "the element is %.0e times too %s in every state; check the units",
              fmax(times, 1 / times), times > 1 ? "soft" : "stiff");
 }
 

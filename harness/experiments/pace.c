@@ -291,8 +291,8 @@ static void print_reference(FILE *to, const pace *p, const pace_group *g)
     char stopped[160] = "";
     if (pace_order_is_stopped(g))
         snprintf(stopped, sizeof stopped,
-                 "; between these two steps the order is %.1f instead of %d, because motions "
-                 "faster than the steps contribute",
+                 "; between these two steps the order is %.1f instead of %d, because modes that "
+                 "the steps do not resolve contribute",
                  g->order, PACE_REFERENCE_ORDER);
     paragraph_say(to, 0, 2,
                   "time-integration errors: relative to radau at %g on the same mesh (%d steps), "
@@ -399,7 +399,7 @@ static void print_standing(FILE *to, const pace *p, const pace_group *g)
         if (write_standing(NULL, p, g, q) == 0)
             continue;
         FILE *text = paragraph_begin(&words, to);
-        fprintf(text, "%s does not converge with the step by", s->quantity[q].name);
+        fprintf(text, "%s does not converge as the step decreases, with", s->quantity[q].name);
         write_standing(text, p, g, q);
         paragraph_end(&words, 0, 2);
     }
@@ -469,5 +469,6 @@ void pace_table(FILE *to, const pace *p, const pace_verdicts *all, int runs)
     fputc('\n', to);
     for (int i = 0; i < all->count; i++)
         print_verdict(to, &all->verdict[i]);
-    fprintf(to, "%d verdicts; %d differ from the expected verdicts\n", all->count, all->unexpected);
+    fprintf(to, "verdicts: %d; different from the expected verdict: %d\n", all->count,
+            all->unexpected);
 }

@@ -40,7 +40,7 @@ status pace_plan_usual(pace_plan_request *r, fault *f)
     if (outcome == STATUS_OK && analysis < 0)
         outcome = fault_set(
             f, STATUS_REFUSED,
-            "%s is not a transient analysis; 'beamwork list' shows the cases with motions",
+            "case %s has no transient analysis; 'beamwork list' shows the cases with motions",
             r->type->name);
     if (outcome == STATUS_OK) {
         if (r->elements == 0)
@@ -220,7 +220,7 @@ status pace_plan_add(pace *p, const pace_plan_request *q, fault *f)
     memcpy(g->parameter, q->parameter, sizeof g->parameter);
     TRY(look(g, q, f));
     if (g->analysis < 0)
-        return fault_set(f, STATUS_REFUSED, "%s is not a transient analysis", q->type->name);
+        return fault_set(f, STATUS_REFUSED, "case %s has no transient analysis", q->type->name);
     p->groups++;
     if (q->errors)
         TRY(add_reference(p, g, q, f));

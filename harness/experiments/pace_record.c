@@ -133,7 +133,7 @@ static const schema_field fields_of_reference[] = {
     {"order", "1", FIELD_DOUBLE,
      "observed order of the reference solution, from the steps and errors of its checks",
      AT(pace_group, order)},
-    {"end", "s", FIELD_DOUBLE, "status of the motion", AT(pace_group, end)},
+    {"end", "s", FIELD_DOUBLE, "end time of the motion", AT(pace_group, end)},
     {"alone_from", "s", FIELD_DOUBLE,
      "time after which no load acts; infinite if loads act until the end", AT(pace_group, from)},
     {0}};

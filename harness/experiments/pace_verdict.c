@@ -147,7 +147,8 @@ static status read_elements(const char *text, int *out, fault *f)
     double value;
     if (!number_read(text, &end, &value) || *end != '\0' || value < 1 || value > 1e6 ||
         value != (int)value)
-        return fault_set(f, STATUS_REFUSED, "elements '%.40s' is not a whole number; give one",
+        return fault_set(f, STATUS_REFUSED,
+                         "elements '%.40s' is not valid; give a whole number from 1 to 1000000",
                          text);
     *out = (int)value;
     return STATUS_OK;

@@ -276,7 +276,8 @@ static void hold_against_declared(const formulation *chosen, const measures *out
         }
         for (int k = 0; k < one->points; k++)
             claims_departs(claims_open(c, of[i].claim, exact), one->error[k],
-                           "strain: %s: an error of %.2g of the largest strain after %g; correct "
+                           "strain: %s: an error of %.2g of the largest strain after %g turns or "
+                           "cycles; correct "
                            "the update, or declare %s",
                            one->name, one->error[k], one->at[k], of[i].word);
     }

@@ -308,7 +308,9 @@ static status run(void *context, int batch, FILE *to, digest *content, fault *f)
     rows w;
     status outcome = ranges_solve(own->of, batch, &w, f);
     if (outcome == STATUS_OK && rows_write(to, &w) != 0)
-        outcome = fault_set(f, STATUS_FAULT, "batch %d cannot be passed on", batch + 1);
+        outcome =
+            fault_set(f, STATUS_FAULT,
+                      "the results of batch %d cannot be passed to the main process", batch + 1);
     if (outcome == STATUS_OK)
         add_content(content, &w);
     rows_free(&w);
@@ -322,7 +324,8 @@ static status keep(ranges_work *own, int batch, FILE *from, rows *w, fault *f)
     const int points = ranges_batch(own->of, batch, &first);
     TRY(rows_alloc(&shape, points, w, f));
     if (rows_read(from, w) != 0)
-        return fault_set(f, STATUS_FAULT, "batch %d cannot be read", batch + 1);
+        return fault_set(f, STATUS_FAULT, "the results of batch %d cannot be read from a process",
+                         batch + 1);
     add_content(&own->content, w);
     if (own->tally != NULL)
         TRY(tally_add(own->tally, first, w, f));

@@ -187,19 +187,19 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
         long count;
         const char *words;
     } part[] = {
-        {kind[ROWS_STORED], "a stored reference value"},
-        {kind[ROWS_DERIVED], "a reference value computed for the point"},
+        {kind[ROWS_STORED], "stored reference values"},
+        {kind[ROWS_DERIVED], "reference values computed for each point"},
         {kind[ROWS_LIMIT], alone ? "the limit of the same meshes, which shows only convergence"
                                  : "the limit of the meshes of all formulations of one theory"},
-        {kind[ROWS_NONE], "nothing, because no limit has an uncertainty below half of the error "
-                          "(use finer meshes with -n, or --compute-references)"},
-        {kind[ROWS_DISPUTED], "nothing, because the limits of the formulations disagree"}};
+        {kind[ROWS_NONE], "none, because no limit has an uncertainty below half of the error (use "
+                          "finer meshes with -n, or --compute-references)"},
+        {kind[ROWS_DISPUTED], "none, because the limits of the formulations disagree"}};
     size_t used = 0;
     int parts = 0;
     text[0] = '\0';
     for (size_t i = 0; i < sizeof part / sizeof part[0]; i++) {
         if (part[i].count > 0)
-            used += (size_t)snprintf(text + used, RANGES_TABLE_LINE - used, "%s%ld point%s by %s",
+            used += (size_t)snprintf(text + used, RANGES_TABLE_LINE - used, "%s%ld point%s: %s",
                                      parts++ > 0 ? "; " : "", part[i].count,
                                      part[i].count == 1 ? "" : "s", part[i].words);
         if (i == LAST_KNOWN && parts > 0)
@@ -254,7 +254,7 @@ static void write_without_scene(FILE *to, const tally *t)
 void ranges_table_known(FILE *to, const tally *t)
 {
     char told[RANGES_QUANTITIES] = {0};
-    fprintf(to, "errors are measured by\n");
+    fprintf(to, "errors are relative to these reference values\n");
     for (int q = 0; q < t->of->quantities; q++)
         if (!told[q])
             write_reference(to, t, q, told);
@@ -386,23 +386,24 @@ void ranges_table_map(FILE *to, const tally *t, int every)
 {
     const parameter_ranges *r = t->of;
     if (t->columns == 0) {
-        fprintf(to, "\nno map for %d axes; the page of the sweep draws slices\n", r->design.axes);
+        fprintf(to, "\nno map for %d parameters; the report page of the sweep shows slices\n",
+                r->design.axes);
         return;
     }
     fprintf(to, "\n");
-    paragraph_say(to, fprintf(to, "least n "), 2,
-                  "from which every mesh is within %g %%; -: not even with n = %d%s%s%s%s%s",
-                  100 * r->request.tolerance, r->mesh[r->meshes - 1],
-                  has_other(t) ? "; o: another model" : "",
-                  has_unknown(t, 0) ? "; ?: no reference value" : "",
-                  has_unknown(t, 1) ? "; a number with ?: some of its points have no reference"
-                                    : "",
-                  has_mixed(t) ? "; *: relative to a reference value; elsewhere relative to limits "
-                                 "of meshes, which do not show the physics omitted by a theory"
-                               : "",
-                  is_coarse(t) ? "; each field shows the number of elements that suffices for all "
-                                 "its points; column and row give the lower bounds of the field"
-                               : "");
+    paragraph_say(
+        to, fprintf(to, "smallest n "), 2,
+        "at and above which every mesh is within %g %%; -: not even with n = %d%s%s%s%s%s",
+        100 * r->request.tolerance, r->mesh[r->meshes - 1],
+        has_other(t) ? "; o: another model" : "",
+        has_unknown(t, 0) ? "; ?: no reference value" : "",
+        has_unknown(t, 1) ? "; a number with ?: some of its points have no reference" : "",
+        has_mixed(t) ? "; *: relative to a reference value; elsewhere relative to limits "
+                       "of meshes, which do not show the physics omitted by a theory"
+                     : "",
+        is_coarse(t) ? "; each field shows the number of elements that suffices for all "
+                       "its points; column and row give the lower bounds of the field"
+                     : "");
     for (int q = 0; q < r->quantities && every && r->quantities > 1; q++)
         write_maps_of(to, t, q);
     write_maps_of(to, t, r->quantities > 1 ? r->quantities : 0);

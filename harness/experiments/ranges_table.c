@@ -292,5 +292,5 @@ void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault
     if (shown >= 0)
         write_command(to, r, shown, &t->worst[shown][0], folder, f);
     else
-        fprintf(to, "  none, because no point has an error\n");
+        fprintf(to, "  none, because no error is known at any point\n");
 }

@@ -46,7 +46,7 @@ static status hire(crew *c, int self, fault *f)
     const pid_t parent = getpid();
     c->todo.shelf->at[self] = -1;
     if (pipe2(ends, O_CLOEXEC) != 0)
-        return fault_set(f, STATUS_FAULT, "cannot start a process: no pipe");
+        return fault_set(f, STATUS_FAULT, "cannot start a process: no pipe can be created");
     c->hand[self].process = fork();
     if (c->hand[self].process == 0) {
         child_begin(parent);

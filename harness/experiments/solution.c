@@ -95,8 +95,7 @@ static status tell_change(const solution_request *r, const solution_choice *why,
         return out->status;
     out->status = STATUS_NOT_CONVERGED;
     snprintf(out->reason, sizeof out->reason,
-             "the values still change with the mesh: %.200s; %.3g %% was requested; use -n %d, or "
-             "a larger --error",
+             "no convergence on %.200s; %.3g %% was requested; use -n %d, or a larger --error",
              why->elements, 100 * asked, 2 * r->elements);
     return fault_set(f, STATUS_NOT_CONVERGED, "%s", out->reason);
 }
@@ -278,7 +277,7 @@ static status ask_scene(const char *script, const sweep_point *p, derived_value 
     FILE *text = tmpfile();
     const write_head head = {p->type->name, p->type->summary, p->type->source};
     if (text == NULL)
-        return fault_set(f, STATUS_FAULT, "no temporary file for the scene");
+        return fault_set(f, STATUS_FAULT, "a temporary file for the scene cannot be created");
     status outcome = write_scene(text, &p->scene, &head, f);
     if (outcome == STATUS_OK)
         outcome = derive_scene(script, text, value, count, f);

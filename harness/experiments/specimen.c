@@ -77,8 +77,7 @@ status specimen_make(const specimen_request *what, specimen *out, fault *f)
     out->size = out->type.data_size(&out->request);
     out->data = calloc(1, out->size > 0 ? out->size : 1);
     if (out->data == NULL)
-        return fault_set(f, STATUS_FAULT,
-                         "data_size requests %zu bytes, but so much memory is not available",
+        return fault_set(f, STATUS_FAULT, "data_size requests %zu bytes, which cannot be allocated",
                          out->size);
     TRY(out->type.prepare(&out->request, out->data, f));
     return begin(out, f);
@@ -442,7 +441,7 @@ static void check(const specimen *s, claims *c)
              &(force_output){
                  .energy = &energy, .F = leaves & LEAVES_FORCE ? NULL : F, .K = leaves ? NULL : K});
     claims_asks(claims_open(c, "moderate strains have forces", 0), outcome == STATUS_OK,
-                "force: a state displaced by a few hundredths ends with status '%s'%s",
+                "force: displacements of a few hundredths of the length end with status '%s'%s",
                 status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;

@@ -112,8 +112,10 @@ static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f
     if (kept > 0 && r->quantities > 0)
         return STATUS_OK;
     return w->select != NULL
-               ? fault_set(f, STATUS_REFUSED, "-k '%.100s' selects no quantity of %.60s", w->select,
-                           r->request.type->name)
+               ? fault_set(f, STATUS_REFUSED,
+                           "-k '%.100s' selects no quantity of %.60s; 'beamwork list CASE' shows "
+                           "the quantities",
+                           w->select, r->request.type->name)
                : fault_set(f, STATUS_REFUSED,
                            "%.60s has no single-valued quantity that a formulation can compute",
                            r->request.type->name);

@@ -255,9 +255,11 @@ static int contestants_jobs(void)
 /* Returns TIME_LIMIT if the caller stopped the work before all runs were complete. */
 static status contestants_finished(const sweep *s, fault *f)
 {
-    return s->unfinished == 0 ? STATUS_OK
-                              : fault_set(f, STATUS_TIME_LIMIT,
-                                          "stopped before %d cells were computed", s->unfinished);
+    return s->unfinished == 0
+               ? STATUS_OK
+               : fault_set(f, STATUS_TIME_LIMIT,
+                           "stopped before all cells were computed; number of missing cells: %d",
+                           s->unfinished);
 }
 
 /* Request and results. The function converge frees them. */

@@ -45,7 +45,7 @@ void table_path_steps(FILE *to, const solve_result *r)
         corrections(to, column, r, k);
     }
     if (steps > MOST_STEPS)
-        fprintf(to, "%4s %d more steps; --format json contains all steps\n", "",
+        fprintf(to, "%4s further steps: %d; --format json contains all steps\n", "",
                 steps - MOST_STEPS);
 }
 
@@ -92,7 +92,7 @@ static void row_of_event(FILE *to, const path_event *e)
     fprintf(to, "%s at %.9g m, load factor %.9g", result_event_name(e->kind), e->control,
             e->factor);
     if (e->kind == EVENT_BRANCH_JUMP)
-        fprintf(to, ": a step led to another branch with %.9g\n", e->other_factor);
+        fprintf(to, ": a step led to another branch, with load factor %.9g\n", e->other_factor);
     else if (e->negative_before >= 0)
         fprintf(to, ": negative pivots %d -> %d\n", e->negative_before, e->negative_after);
     else
@@ -163,7 +163,8 @@ static void steps_line(FILE *to, const motion_extent *e, const scene_motion *how
     if (iterations > 0)
         fprintf(text, "; %.1f iterations per step, at most %d", (double)iterations / steps, most);
     if (last->time < end * (1 - 1e-9))
-        fprintf(text, "; it ends before %g s; give a smaller step, a tolerance or more elements",
+        fprintf(text,
+                "; the motion ends before %g s; give a smaller step, a tolerance or more elements",
                 end);
     paragraph_end(&words, at, MOTION_INDENT);
 }
@@ -258,9 +259,9 @@ static void jump_lines(FILE *to, const scene *s, int analysis, double path)
         const double held = along_path_factor(load, path);
         if (fabs(held - value[0]) > 1e-9 * fmax(fabs(held), fabs(value[0])))
             paragraph_say(to, fprintf(to, "load: "), MOTION_INDENT,
-                          "%s has factor %g where the path ends but %g where the motion begins, so "
-                          "it jumps; for a load of the motion only, give path: [0, 1], factor: [0, "
-                          "0] in addition to its function",
+                          "%s has factor %g where the path ends, but %g where the motion begins, "
+                          "so it jumps; for a load of the motion only, give path: [0, 1], factor: "
+                          "[0, 0] in addition to its function",
                           scene_name(s, SCENE_LOADS, i).text, held, value[0]);
     }
 }

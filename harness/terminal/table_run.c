@@ -82,7 +82,7 @@ static void contradictions(FILE *to, const sweep *s, const judgement *j)
         const sweep_point *p = &s->point[s->series[v->series].point];
         fprintf(to, "\n%s", p->type->name);
         paragraph_say(to, (int)strlen(p->type->name), 2,
-                      "%s%s, %s: the published value %.10g +- %.1g contradicts %d limits, the "
+                      "%s%s, %s: the published value %.10g +- %.1g contradicts limits (%d), the "
                       "first of them %.10g (%s)",
                       p->text[0] != '\0' ? ": " : "", p->text, v->contradicted->quantity,
                       v->contradicted->value, v->contradicted->uncertainty, count, v->fit.limit,
@@ -163,17 +163,17 @@ void table_run(FILE *to, const sweep *s, const judgement *j, double seconds)
         fprintf(to, "%d of %d stored discrete values agree\n", j->agreements - j->disagreements,
                 j->agreements);
     if (j->waiting > 0)
-        fprintf(to, "%d reference values require a formulation that supports their physics\n",
+        fprintf(to, "reference values that require a formulation with their physics: %d\n",
                 j->waiting);
     if (j->unread > 0)
         fprintf(to,
-                "%d reference values of motions are for times and structures that verify does not "
-                "run; make lab L=motions checks them\n",
+                "reference values for times and structures of motions that verify does not run: "
+                "%d; make lab L=motions checks them\n",
                 j->unread);
     if (contradicted > 0)
         fprintf(to,
-                "%d published values are contradicted by limits that agree with a better reference "
-                "value (-v)\n",
+                "published values contradicted by limits that agree with a better reference value: "
+                "%d (-v lists them)\n",
                 contradicted);
 }
 

@@ -171,7 +171,7 @@ static void print_unmet(FILE *to, const truths *t, int *number)
                       row->formulation[0] != '\0' ? ", " : "", row->formulation, row->source);
     }
     if (t->strangers > 0) {
-        print_heading(to, ++*number, "reference values for %d unknown cases, the first: %s",
+        print_heading(to, ++*number, "unknown cases in the reference values: %d; the first is %s",
                       t->strangers, t->stranger);
     }
 }

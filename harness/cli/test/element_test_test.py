@@ -288,7 +288,7 @@ class Measured(Tested):
         made = self.compiled("timoshenko.c", ("out->stiffness, one, sizeof one);",
                               "out->stiffness, one, sizeof one);\n    for (int i = 0; i < STRAINS; "
                               "i++)\n        out->stiffness[i] *= 1e-3;"))
-        self.assertIn("every value is 1e+03 times too soft; check the units",
+        self.assertIn("the element is 1e+03 times too soft in every state; check the units",
                       run("element-test", "--element", made).stdout)
 
     def test_shear_locking(self):

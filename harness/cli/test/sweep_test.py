@@ -218,7 +218,7 @@ class Going(ProgramTest):
         done = self.answered("sweep", "--scene", SWEEP_RUN_LEAF, "--vary", "thickness=0.2e-3..1e-3/2", "-f",
                              "collocation", "-n", "1,2,4", "-k", "k_drive", "-o",
                              self.folder / "leaf.h5")
-        self.assertIn("3 points by a stored reference value", done.stdout)
+        self.assertIn("3 points: stored reference values", done.stdout)
         with group_of(self.folder / "leaf.h5") as file:
             self.assertEqual(file.attrs["scene"].decode(), str(SWEEP_RUN_LEAF))
 

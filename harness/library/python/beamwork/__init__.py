@@ -85,7 +85,7 @@ def load(element: str | _os.PathLike[str] | _Callable[..., _Any], *functions: _C
     if callable(element):
         element = _door((element, *functions), words)
     elif functions or words:
-        raise TypeError("load: words such as name= belong to functions, not to a file or a command")
+        raise TypeError("load: arguments such as name= are for functions, not for a file or a command")
     name = _text_of("formulation_load", _required(element, "element"))
     _LOADED[name] = _os.fspath(element)
     return name

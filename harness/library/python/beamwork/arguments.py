@@ -17,9 +17,9 @@ def utf8(value: Any, what: str) -> bytes | None:
     if isinstance(value, os.PathLike):
         value = os.fspath(value)
     if not isinstance(value, str):
-        raise TypeError(f"{what}: a text is expected, not {type(value).__name__}")
+        raise TypeError(f"{what}: a string is expected, not {type(value).__name__}")
     if not value or "\0" in value:
-        raise Refused(f"{what}: {'an empty text' if not value else 'a text with a zero'} "
+        raise Refused(f"{what}: {'an empty string' if not value else 'a string with a null character'} "
                       "is not allowed")
     return value.encode("utf-8", "surrogateescape")
 
@@ -27,7 +27,7 @@ def utf8(value: Any, what: str) -> bytes | None:
 def required(value: Any, what: str) -> bytes:
     """Returns the bytes of a text that is required."""
     if value is None:
-        raise TypeError(f"{what}: a text is expected, not None")
+        raise TypeError(f"{what}: a string is expected, not None")
     found = utf8(value, what)
     assert found is not None
     return found
@@ -45,7 +45,7 @@ def whole(value: Any, what: str) -> int:
     except TypeError:
         raise TypeError(f"{what}: a whole number is expected, not {value!r}") from None
     if isinstance(value, bool) or not 1 <= number < 2**31:
-        raise Refused(f"{what} is {value!r}: a whole number from 1 is expected")
+        raise Refused(f"{what} is {value!r}: a whole number of at least 1 is expected")
     return number
 
 
@@ -58,7 +58,7 @@ def whole_list(values: Any, what: str) -> bytes | None:
     except TypeError:
         raise TypeError(f"{what}: a list is expected, not {values!r}") from None
     if not listed:
-        raise Refused(f"{what}: an empty list; omit the argument for the scene's own")
+        raise Refused(f"{what}: the list is empty; to use that of the scene, omit the argument")
     return ",".join(str(whole(v, what)) for v in listed).encode()
 
 
@@ -68,4 +68,4 @@ def options(values: dict[str, Any]) -> bytes | None:
         return json.dumps(values, allow_nan=False,
                           default=lambda v: v.item()).encode() if values else None
     except (TypeError, ValueError, AttributeError):
-        raise TypeError(f"options are numbers, words, True and False, not {values!r}") from None
+        raise TypeError(f"an option must be a number, a string, True or False, not {values!r}") from None

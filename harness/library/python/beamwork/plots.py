@@ -29,7 +29,7 @@ def result(shown: Any, names: Sequence[str]) -> Any:
     """Draws curves of quantities against time, path or frequency."""
     chosen = list(names or shown.curves)
     if not chosen:
-        raise ValueError("the result has no curve to plot; give a quantity take: curve or history")
+        raise ValueError("the result has no curve to plot; give a quantity 'take: curve' or 'take: history'")
     figure, axes = _panels(len(chosen))
     about = {q["quantity"]: q for q in shown.document["quantities"]}
     for ax, name in zip(axes, chosen):

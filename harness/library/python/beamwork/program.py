@@ -41,7 +41,7 @@ def program() -> str:
     found = None if asked else shutil.which("beamwork")
     if found is None:
         raise Fault(f"BEAMWORK={asked} is not a program" if asked else
-                    "the program beamwork is not found; run 'make all' in a clone of beamwork, or "
+                    "the program beamwork was not found; run 'make all' in a clone of beamwork, or "
                     "give its path in BEAMWORK")
     return found
 

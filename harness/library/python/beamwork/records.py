@@ -35,8 +35,8 @@ class Records(list[dict[str, Any]]):
         try:
             import pandas  # pylint: disable=import-outside-toplevel
         except ImportError:
-            raise ImportError("beamwork: frame() needs pandas; the records are a list of dicts "
-                              "without it") from None
+            raise ImportError("beamwork: frame() requires pandas; without it, use the "
+                              "records, a list of dicts") from None
         found: pandas.DataFrame = pandas.DataFrame.from_records(list(self))
         return found
 

@@ -109,8 +109,8 @@ class Scene:
         if key not in ENTRIES:
             raise AttributeError(f"a scene has no {key!r}; it has: {', '.join(ENTRIES)}")
         if self._make is not None:
-            raise AttributeError(f"{key}: the entries of {self._name} are in its text, "
-                                 "scene.write(); a scene of dicts begins with Scene()")
+            raise AttributeError(f"{key}: {self._name} was read as text, which scene.write() returns; "
+                                 "to set entries as dicts, begin with Scene()")
         return self._entries[key]
 
     def __setattr__(self, key: str, value: Any) -> None:

@@ -84,7 +84,7 @@ class Model:
             return {"outputSizes": [len(self.outputs)]}
         if path == "/Evaluate":
             return {"output": [self.evaluate(request.get("input"), request.get("config") or {})]}
-        raise Invalid("UnsupportedFeature", f"{path.strip('/')} is not supported; Evaluate is")
+        raise Invalid("UnsupportedFeature", f"{path.strip('/')} is not supported; use Evaluate")
 
 
 def chosen(names: list[str] | None, known: list[str], kind: str) -> list[str]:

@@ -40,7 +40,7 @@ def written(value: Any, where: str, depth: int = 0) -> str:
     """Returns a value on one line: dicts as {key: value}, lists and arrays as [a, b]. The key 'from_' is written as
     'from'."""
     if depth > _DEEPEST:
-        raise Refused(f"{where} is nested deeper than {_DEEPEST}")
+        raise Refused(f"{where} is nested deeper than {_DEEPEST} levels")
     if hasattr(value, "tolist"):  # numpy: an array or a numpy number
         value = value.tolist()
     if isinstance(value, bool):
@@ -49,7 +49,7 @@ def written(value: Any, where: str, depth: int = 0) -> str:
         return number(value, where)
     if isinstance(value, str):
         if not value:
-            raise Refused(f"{where} is an empty text")
+            raise Refused(f"{where} is an empty string")
         return quoted(value, where)
     if isinstance(value, Mapping):
         pairs = (f"{name(key, where)}: {written(v, f'{where}[{key!r}]', depth + 1)}"
@@ -58,7 +58,7 @@ def written(value: Any, where: str, depth: int = 0) -> str:
     if isinstance(value, (list, tuple, range)):
         return "[" + ", ".join(
             written(v, f"{where}[{i}]", depth + 1) for i, v in enumerate(value)) + "]"
-    raise Refused(f"{where} is {type(value).__name__}: only numbers, texts, lists and dicts can be written")
+    raise Refused(f"{where} is {type(value).__name__}: only numbers, strings, lists and dicts can be written")
 
 
 def name(key: Any, where: str) -> str:

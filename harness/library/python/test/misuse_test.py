@@ -137,7 +137,7 @@ class Arguments(ModuleTest):
     def test_no_pandas(self):
         done = python("import sys; sys.modules['pandas'] = None\nimport beamwork as bw\n"
                       "bw.cases().frame()")
-        self.assertIn("ImportError: beamwork: frame() needs pandas", done.stderr)
+        self.assertIn("ImportError: beamwork: frame() requires pandas", done.stderr)
 
 
 def operator_set(target, key, value):
