@@ -31,7 +31,7 @@ def main():
     parser.add_argument("truths")
     what = parser.add_mutually_exclusive_group(required=True)
     what.add_argument("-o", dest="folder")
-    what.add_argument("--film", help="HTML file with a motion that plays in any browser")
+    what.add_argument("--film", help="write the motion of a case to this HTML file, which plays in any browser")
     what.add_argument("--vtk", metavar="FILE.pvd",
                       help="the shapes of 'beamwork solve --shapes -o' as a series of .vtu files, for any version "
                       "of ParaView and VTK")

@@ -84,7 +84,7 @@ def sentence(answer):
     def told(ways):
         return ", ".join(f"{w.key} n = {w.n}" for w in ways)
 
-    out = told(answer.best) or ("" if answer.unranked else "not reached by one that passes")
+    out = told(answer.best) or ("" if answer.unranked else "not reached by a formulation that passes")
     if len(answer.best) > 1:
         out += ": costs tie"
     for words in sorted({w.unranked for w in answer.unranked}):
@@ -125,7 +125,7 @@ def tolerance(text):
 def main():
     arguments = argparse.ArgumentParser(
         prog="python -m reports.answers_table",
-        description="Which formulation, with how many elements, is within an error at the lowest cost.")
+        description="Prints the formulation with the lowest cost within an error, and its number of elements.")
     arguments.add_argument("results", help="results of verify")
     arguments.add_argument("--error", type=tolerance, action="append",
                            help="0.3%% or 0.003; may be repeated (10, 1, 0.1, 0.01%%)")

@@ -128,7 +128,7 @@ GROUPS = (
     ("bench", "bench", "times with their noise"),
     ("lab L=certificates", "element-test", "interface requirements and features of each formulation"),
     ("stress", "stress", "every formulation at its extremes"),
-    ("motion", "motion", "integrators of motions: orders, what they conserve, large steps"),
+    ("motion", "motion", "integrators of motions: orders, conserved quantities, large steps"),
 )
 
 

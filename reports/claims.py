@@ -130,7 +130,7 @@ def sheets(look, truths):
                      for q in ("C_xx", "C_zz")))
     yield ("N 4.1: within 2.4 % of du_z/dF_z at 0.5 L (tip free to warp)", "2.4 %",
            f"C_zz {percent_of(look.error('sheet_cantilever', far, 'sheet_third', 1, 'C_zz'))}")
-    yield ("N 4.1: the second order needs more than three elements", "> 3", ", ".join(
+    yield ("N 4.1: the second-order element requires more than three elements", "> 3", ", ".join(
         f"n = {n}: {percent_of(look.error('sheet_cantilever', free, 'sheet_second', n, 'C_zz'))}"
         for n in (1, 2, 3, 4)))
     for wagner, quantity, claim in (("", "C_ux_My", "2.4 %"), (";wagner=0", "C_ux_My", "38 %"),
@@ -157,7 +157,7 @@ def joint(look, truths):
                f"{maximum} x 1e5 N/m, {time}", f"{value / 1e5:.3f} x 1e5 N/m, {ratio:.2f}")
     one, four = (look.value("spherical_joint", parameters, key, n, "support_stiffness_max")
                  for key, parameters, n, *_ in (published[0], published[4]))
-    yield ("N 4.2: one element of third order from four of second", "1.5 %",
+    yield ("N 4.2: one third-order element compared with four second-order elements", "1.5 %",
            percent_of(one / four - 1))
 
 

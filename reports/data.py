@@ -216,7 +216,7 @@ def read_about(path, root=of_root):
                     f"{path}: not a results file; 'make verify' and 'make bench' write them")
             if file.attrs["schema_version"] not in VERSIONS:
                 raise Unreadable(
-                    f"{path}: results of version {file.attrs['schema_version']}, the report reads {VERSIONS[0]} to {VERSIONS[-1]}; write it again with 'make verify' or 'make bench'"
+                    f"{path}: the results have version {file.attrs['schema_version']}, but the report reads versions {VERSIONS[0]} to {VERSIONS[-1]}; write the file again with 'make verify' or 'make bench'"
                 )
             return {name: text(value) for name, value in root(file).attrs.items()}
     except OSError as why:

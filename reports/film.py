@@ -122,7 +122,7 @@ def main(arguments=None):
     try:
         data.read_about(given.results)
         if os.path.exists(given.film) and os.path.samefile(given.results, given.film):
-            raise NoFilm(f"{given.film}: a film would replace the results; choose another name")
+            raise NoFilm(f"{given.film}: the film would overwrite the results; give another name")
         write(page(given.results, given.case), given.film)
     except NoFilm as why:
         print(f"film: {why}", file=sys.stderr)

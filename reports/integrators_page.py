@@ -48,13 +48,13 @@ def trust(problems, noise):
             for found in (integrators.answer(p, level, noise) for level in integrators.LEVELS)
             if found.best]
     if not best:
-        return "No run meets these errors."
+        return "No run meets these tolerances."
     doubted = [(p, way, integrators.doubt(p, way)) for p, way in best]
     doubted = [row for row in doubted if row[2]]
     if doubted:
         p, way, words = doubted[0]
-        return (f"{len(doubted)} of these {len(best)} answers need care; each answer gives "
-                f"the reason: {way.scheme} in {p.name}: {words}.")
+        return (f"{len(doubted)} of these {len(best)} answers are uncertain; each states "
+                f"the reason, for example {way.scheme} in {p.name}: {words}.")
     found = [p.ladder(way.scheme) for p, way in best]
     passed = sum(one is not None and one.verdict == "pass" for one in found)
     unread = len(best) - passed
@@ -87,7 +87,7 @@ def keeping(found):
     """Returns text on the integrators that reach the error and conserve energy, with their costs relative to the
     lowest."""
     if not found.keeping:
-        return "none of those within it conserves energy to round-off"
+        return "none of the integrators within this error conserves energy to round-off"
     names = joined(dict.fromkeys(scheme for scheme, _ in found.keeping))
     ratios = between([ratio for _, ratio in found.keeping], "{:.2g}")
     return f"conserves energy to round-off: {names}, at {ratios} times the cost"
@@ -110,9 +110,9 @@ def stability(problems):
             if run.fate in ("grows", "stops") and not run.tolerance:
                 bad.setdefault(run.scheme, set()).add(run.step)
     good = [s for s in every if s not in bad]
-    told = [f"{s} grows or stops from a step of {min(steps):.3g} s on" for s, steps in bad.items()]
+    told = [f"with {s}, the energy grows or the motion stops at steps of {min(steps):.3g} s or more" for s, steps in bad.items()]
     if good:
-        told = [f"{joined(good)} stay{'s' if len(good) == 1 else ''} bounded everywhere"] + told
+        told = [f"the energy stays bounded everywhere with {joined(good)}"] + told
     text = "; ".join(told)
     return text[:1].upper() + text[1:] + "."
 
@@ -122,8 +122,8 @@ def iterations(rows):
     change = [found[max(found)] - found[min(found)] for found in rows.values()]
     if not change:
         return ""
-    return (f"From the softest to the stiffest a step takes at most {max(0, max(change)):.1f} "
-            f"iterations more, of {len(change)} that were run with both.")
+    return ("From the lowest to the highest stiffness, the number of iterations per step increases by at most "
+            f"{max(0, max(change)):.1f}.")
 
 
 def verdicts(rows):
@@ -132,7 +132,7 @@ def verdicts(rows):
     if not rows:
         return ""
     told = f"{len(rows)} verdicts on orders, conservation and large steps: "
-    return told + (f"{off} differ from the expected ones." if off else "all as expected.")
+    return told + (f"{off} not as expected." if off else "all as expected.")
 
 
 # Figures of integrators: work-precision diagrams and performance profiles.

@@ -197,6 +197,6 @@ def section(_, case):
     if case.name not in PUBLISHED_SECONDS:
         return []
     return [(
-        "Beside the paper",
+        "Comparison with the paper",
         '<p>Published stiffnesses and times, growth with the elements and the dense baseline: <a href="mechanisms.html">mechanisms</a>.</p>'
     )]

@@ -115,7 +115,7 @@ LOOK = {
 MEANING = {
     "value": "a value within the extreme's tolerance",
     "coarse": "outside the tolerance, decreases with more elements", "named": "a reported failure",
-    "wrong": "a wrong number, known and explained below", "fault": "crashed"
+    "wrong": "a wrong value, listed and explained below", "fault": "crashed"
 }
 FLOOR = 1e-16  # smallest drawn error
 NAMED = ("not converged", "singular", "refused", "no value")

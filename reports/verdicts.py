@@ -16,7 +16,7 @@ class Kind:
 # Kinds from good to bad, then kinds without a verdict. Of several kinds, the worst is the last one in this order.
 KINDS = (
     Kind("pass", "✓", "pass", "the limit agrees with the reference value within the uncertainties"),
-    Kind("low order", "↓", "other", "the limit is the reference value, approached more slowly than expected"),
+    Kind("low order", "↓", "other", "the limit is the reference value, but the order of convergence is too low"),
     Kind("undecided", "~", "other", "the uncertainty of the limit is too large for a verdict"),
     Kind("biased", "≈", "other", "within the tolerance, but significantly different from the reference value"),
     Kind(
@@ -37,7 +37,7 @@ KINDS = (
     Kind("skip", "·", "skip", "requires physics that the formulation does not support"),
     Kind("no truth", "·", "skip", "no reference value for its theory"),
     Kind("other model", "○", "skip",
-         "without physics that the formulation does not support: shown, not judged"),
+         "the formulation omits physics of the case: shown without a verdict"),
 )
 BY_NAME = {kind.name: kind for kind in KINDS}
 SEVERITY = {kind.name: i for i, kind in enumerate(KINDS)}

@@ -82,7 +82,7 @@ def write(results, target):
 def replace(part, folder, listed, target):
     """Moves the states and their list from `part` to their final names. Removes states of an earlier series."""
     if folder.exists() and any(f.suffix != ".vtu" for f in folder.iterdir()):
-        raise NoSeries(f"{folder}: contains other files than .vtu; choose another name")
+        raise NoSeries(f"{folder}: contains files other than .vtu; choose another name")
     shutil.rmtree(folder, ignore_errors=True)
     folder.mkdir()
     for file in part.glob("*.vtu"):

@@ -469,6 +469,7 @@ void pace_table(FILE *to, const pace *p, const pace_verdicts *all, int runs)
     fputc('\n', to);
     for (int i = 0; i < all->count; i++)
         print_verdict(to, &all->verdict[i]);
-    fprintf(to, "verdicts: %d; different from the expected verdict: %d\n", all->count,
-            all->unexpected);
+    fprintf(to, "%d verdict%s; %d %s from the expected verdict%s\n", all->count,
+            all->count == 1 ? "" : "s", all->unexpected,
+            all->unexpected == 1 ? "differs" : "differ", all->unexpected == 1 ? "" : "s");
 }

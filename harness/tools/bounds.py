@@ -100,7 +100,7 @@ def text_of(one):
     met = "" if one["digits"] is None else "%d met, %.1f digits" % (one["met"], one["digits"])
     remark = "" if one["stands"] else f"  should allow {one['bound'] or 'nothing'}"
     if one["apart"]:
-        remark = "  some of its verdicts show %.2g at most: they need a separate entry" % one["least"]
+        remark = "  some of its verdicts show at most %.2g and need a separate entry" % one["least"]
     return "%-26s %5d verdicts  seen %-9s allowed %-8s %s%s" % (one["rule"], one["verdicts"], seen,
                                                                 one["allowed"], met, remark)
 

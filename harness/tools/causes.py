@@ -128,7 +128,7 @@ class Laboratory:
             return {**out, "error": None, "why": why}
         exact, against = self.exact(case, parameters, quantity, record, known)
         error = record["error"] if record["error"] is not None else error_of(record["limit"], exact)
-        missing = "" if math.isfinite(error) else "nothing exact to compare with"
+        missing = "" if math.isfinite(error) else "no exact value for comparison"
         return {
             **out,
             "limit": record["limit"],

@@ -116,7 +116,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     const section faulty = stiff(request->section), mass = heavy(request->section);
     TRY(__real_adapters_complete(request->type, request->options, &whole, f));
     if (whole.data_size(request) > ROOM)
-        return fault_set(f, STATUS_FAULT, "%s: its data take more than %d bytes",
+        return fault_set(f, STATUS_FAULT, "%s: the data of the element take more than %d bytes",
                          request->type->name, ROOM);
     behind->inertia = whole.inertia;
     preparing = 1;

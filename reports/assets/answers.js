@@ -41,7 +41,7 @@ const row = (one, quantity, found, level, percent) => {
   const place = make("td", "", line);
   make("a", one.case, place).href = one.case + ".html";
   make("div", quantity, place, "beside");
-  const best = make("td", tied ? list.slice(0, tied).map(name).join(", ") : loose.length ? "" : "not reached by one that passes", line, tied ? "" : "skip");
+  const best = make("td", tied ? list.slice(0, tied).map(name).join(", ") : loose.length ? "" : "not reached by a formulation that passes", line, tied ? "" : "skip");
   if (tied > 1) make("div", "costs tie", best, "noise");
   for (const words of [...new Set(loose.map(way => way.unranked))])
     make("div", `within ${percent}, no rank (${words}): ` + loose.filter(way => way.unranked == words).map(name).join(", "), best, "beside");

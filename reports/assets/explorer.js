@@ -51,7 +51,7 @@ function draw() {
   const place = find("explored"), words = find("explored-words");
   place.textContent = "";
   if (!curves.length) {
-    words.textContent = error ? `${name}: there is no truth to take an error from here, or no formulation has a value; choose "value".` : `${name}: no value that ${x_name} tells apart.`;
+    words.textContent = error ? `${name}: there is no reference value here, or no formulation has a value; choose "value".` : `${name}: no value that ${x_name} tells apart.`;
     return;
   }
   const [left, top, wide, tall] = [72, 12, 760, 380], all = curves.flatMap(curve => curve.rows);

@@ -217,8 +217,8 @@ def check(file, sweep):
              "least": (f, q), "not_modelled": (f, )}
     for name, size in whole.items():
         if file[name].shape != (sweep.points, *size) or 0 in file[name].shape:
-            raise ValueError(f"table '{name}' has the size {file[name].shape}, "
-                             f"{(sweep.points, *size)} is due")
+            raise ValueError(f"table '{name}' has the size {file[name].shape} instead of "
+                             f"{(sweep.points, *size)}")
 
 
 def worst_of(file):
@@ -236,7 +236,7 @@ def read(path):
             if file is None:
                 raise Unreadable(f"{path}: not a sweep; 'beamwork sweep -o FILE' writes one")
             if file.attrs[MARK] != VERSION:
-                raise Unreadable(f"{path}: a sweep of version {file.attrs[MARK]}, the report reads "
+                raise Unreadable(f"{path}: the sweep has version {file.attrs[MARK]}, but the report reads version "
                                  f"{VERSION}; run 'beamwork sweep' again")
             told = file.attrs
             quantities = [Quantity(text(r["name"]), text(r["unit"]))

@@ -38,7 +38,7 @@ class Stability(ProgramTest):
         page = self.page()
         tried, survived = (sum(f[name] for f in record["formulations"])
                            for name in ("tried", "survived"))
-        self.assertIn(f"{tried} in all: {survived} survived", page)
+        self.assertIn(f"of {tried} runs, {survived} gave", page)
         self.assertLess(survived, tried)
         self.assertIn('<svg id="stability_map"', page)
         for o in record["outcomes"]:
@@ -69,7 +69,7 @@ class Stability(ProgramTest):
         }
         put_experiment(self.folder / "results.h5", "stress", record)
         page = self.page()
-        self.assertIn("1 in all: 1 survived", page)
+        self.assertIn("of 1 runs, 1 gave", page)
         self.assertIn("commit made up, 2026-01-01T00:00:00Z", page)
         self.assertIn("of the other pages are of commit", page)
 

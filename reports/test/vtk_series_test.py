@@ -110,7 +110,7 @@ class Series(ProgramTest):
         for results, target, status, words in (
                 (plain, "a.pvd", 2, "contains no shapes for VTK; 'beamwork solve CASE --shapes -o FILE'"),
                 (self.results["moving"], "a.vtu", 2, "ends in .pvd"),
-                (self.results["moving"], "kept.pvd", 2, "contains other files than .vtu"),
+                (self.results["moving"], "kept.pvd", 2, "contains files other than .vtu"),
                 (self.results["moving"], "nowhere/a.pvd", 4, "nowhere"),
                 (self.folder / "absent.h5", "a.pvd", 4, "absent.h5")):
             found = written(results, self.folder / target)

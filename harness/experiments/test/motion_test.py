@@ -184,7 +184,7 @@ class Expected(ProgramTest):
                                     (1, "pendulums", "pendulum"), (2, "mass=1", "mass"),
                                     (3, "colocation", "collocation"), (4, "two", "whole number"),
                                     (5, "euler", "--integrator 'euler'"),
-                                    (6, "0", "--step '0'"), (1, "elastica", "not a transient analysis")):
+                                    (6, "0", "--step '0'"), (1, "elastica", "no transient analysis")):
             row = [*good[:column], word, *good[column + 1:]]
             done = self.judged(",".join(row))
             self.assertEqual(done.returncode, 2, row)

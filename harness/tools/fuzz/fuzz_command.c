@@ -92,7 +92,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     }
     running = 0;
     fuzz_must(code_of_run == -1 || code_of_run == EXIT_REFUSED || code_of_run == EXIT_AS_EXPECTED,
-              "what is refused ends with 2, help with 0");
+              "rejected input ends with status 2, help with 0");
     free(text);
     return 0;
 }

@@ -32,7 +32,7 @@ static void check_read(const char *text, const formula *f)
             formula_at(again, instant[i], two);
             fuzz_must(same(one, two), "parentheses change nothing");
             fuzz_must(strchr(text, 't') != NULL || (one[1] == 0 && one[2] == 0),
-                      "a constant does not change");
+                      "the derivatives of a constant are zero");
         }
     formula_free(again);
     free(wrapped);
@@ -48,7 +48,7 @@ static void check_formula(const char *text)
         check_read(text, f);
     else
         fuzz_must(mistake.at >= 0 && mistake.at <= (int)strlen(text) && mistake.what[0] != '\0',
-                  "a refusal has its place");
+                  "a rejected formula has a position and a reason");
     formula_free(f);
 }
 
@@ -68,7 +68,7 @@ static void check_pieces(char *text)
             fuzz_must(same(one, two), "a copy is the same");
         }
         fuzz_must(function_finite(&all, 2, 2, &time) || (time >= 0 && time <= 2),
-                  "where it is not finite");
+                  "a function that is not finite has a time at which it is not");
         fuzz_must(function_smooth(&all, 2, &time, &derivative) || derivative < 2, "what jumps");
     }
     function_free(&copy);

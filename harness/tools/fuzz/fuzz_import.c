@@ -30,7 +30,7 @@ static void check_values(const imported *found)
         fuzz_must(row->elements >= 1 && (i == 0 || found->row[i - 1].elements <= row->elements),
                   "its meshes ascend");
         fuzz_must(isfinite(row->value) && isfinite(row->factor) && row->factor != 0,
-                  "a value that was converted is finite");
+                  "a converted value is finite");
         fuzz_must(isnan(row->uncertainty) || row->uncertainty >= 0, "no uncertainty is negative");
     }
 }
@@ -44,12 +44,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     const status outcome = read_form(data[0] % FORMS, fuzz_file(data + 1, size - 1), &set, &m, &f);
     fuzz_must((outcome == STATUS_OK) == (f.text[0] == '\0') && strchr(f.text, '\n') == NULL,
-              "a refusal has one line");
-    fuzz_must(outcome != STATUS_OK || m.count == 0, "what has mistakes is refused");
+              "a rejection has a reason of one line");
+    fuzz_must(outcome != STATUS_OK || m.count == 0, "a file with mistakes is rejected");
     for (int i = 0; i < m.count; i++)
         fuzz_must(m.list[i].line >= 1 && m.list[i].column >= 1 && m.list[i].text[0] != '\0' &&
                       strchr(m.list[i].text, '\n') == NULL,
-                  "a mistake has a place and one line");
+                  "a mistake has a position and a text of one line");
     for (int i = 0; i < set.sweep.seriess && outcome == STATUS_OK; i++)
         check_values(set.sweep.series[i].imported);
     import_block_free_set(&set);

@@ -38,7 +38,7 @@ static void must_tell(bw_status got, const void *made, char *why)
     fuzz_must(got != BW_REFUSED || made == NULL, "a rejected call creates nothing");
     fuzz_must(why == NULL || is_utf8(why), "a reason is UTF-8");
     fuzz_must(why == NULL || (why[0] == '{' ? is_json(why) : strchr(why, '\n') == NULL),
-              "and a line, or a list of mistakes");
+              "a reason is one line or a JSON list of mistakes");
     bw_free_text(why);
 }
 
@@ -116,7 +116,7 @@ static void try_scene(const char *bytes, size_t size)
     if (bw_scene_json(s, &json, NULL) == BW_OK)
         must_be_json(json);
     if (bw_scene_write(s, &yaml, NULL) == BW_OK) {
-        fuzz_must(is_utf8(yaml), "a scene that is written is UTF-8");
+        fuzz_must(is_utf8(yaml), "a written scene is UTF-8");
         fuzz_must(bw_scene_read(yaml, strlen(yaml), NULL, &again, NULL) == BW_OK, "and reads back");
     }
     bw_free_text(yaml);

@@ -31,13 +31,12 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const case_type *type = registry_cases[data[0] % cases];
     char *text = fuzz_text(data + 1, size - 1);
     const status outcome = parameters_parse(type, text, value, any, &f);
-    fuzz_must((outcome == STATUS_OK) == (f.text[0] == '\0'),
-              "a refusal has one line, an acceptance none");
+    fuzz_must((outcome == STATUS_OK) == (f.text[0] == '\0'), "only a rejection has a reason");
     if (outcome == STATUS_OK) {
         parameters_text(type, value, written, sizeof written);
         const status same = parameters_parse(type, written, again, NULL, &f);
         fuzz_must(same == STATUS_OK && memcmp(value, again, sizeof value) == 0,
-                  "the text of a point reads back as the point");
+                  "the text of a point gives the same point");
         fuzz_must(parameters_hash(type, value, NULL) == parameters_hash(type, again, NULL),
                   "and has its hash");
         build(type, value);

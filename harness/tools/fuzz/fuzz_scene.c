@@ -45,7 +45,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     for (int i = 0; i < m.count; i++)
         fuzz_must(m.list[i].line >= 1 && m.list[i].column >= 1 && m.list[i].text[0] != '\0' &&
                       strchr(m.list[i].text, '\n') == NULL,
-                  "a mistake has a place and one line");
+                  "a mistake has a position and a text of one line");
     if (outcome != STATUS_OK)
         return 0;
     truths t = {0};
@@ -58,7 +58,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
                   "a written scene can be read");
         same = written(again, &two);
         fuzz_must(same != NULL && one == two && memcmp(text, same, one) == 0,
-                  "and is written the same way again");
+                  "a scene is written in the same way again");
     }
     free(text);
     free(same);

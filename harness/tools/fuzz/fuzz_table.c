@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const status outcome = results_table_read("table", from, &r, &f);
     fclose(from);
     fuzz_must((outcome == STATUS_OK) == (f.text[0] == '\0') && strchr(f.text, '\n') == NULL,
-              "a refusal has one line");
+              "a rejection has a reason of one line");
     if (outcome == STATUS_OK) {
         char *written = NULL;
         size_t length = 0;
@@ -22,7 +22,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         from = fuzz_stream((const uint8_t *)written, length);
         fuzz_must(results_table_read("table", from, &again, &f) == STATUS_OK &&
                       again.seriess == r.seriess,
-                  "what is written reads back");
+                  "written results can be read");
         fclose(from);
         free(written);
     }

@@ -10,12 +10,12 @@ static void read_formulation(const char *text)
     formulation one, again;
     fault f = {""};
     if (formulation_parse(text, &one, &f) != STATUS_OK) {
-        fuzz_must(f.text[0] != '\0', "a refusal has a line");
+        fuzz_must(f.text[0] != '\0', "a rejection has a reason");
         return;
     }
     fuzz_must(formulation_parse(one.key, &again, &f) == STATUS_OK &&
                   strcmp(one.key, again.key) == 0,
-              "a key reads back as itself");
+              "a key gives the same formulation");
     fuzz_must(memcmp(one.option, again.option, sizeof one.option) == 0, "with its options");
 }
 
@@ -33,7 +33,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     case 1: {
         const int here = select_matches(text, "c_column/default/beamw/buckling_load");
         fuzz_must(here >= -1 && here <= 1 && (here < 0) == (select_matches(text, "") < 0),
-                  "malformed whatever it is searched for in");
+                  "whether an expression is malformed does not depend on the text");
         break;
     }
     default:

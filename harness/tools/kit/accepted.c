@@ -13,12 +13,12 @@ static void read_table(void)
     truths t;
     fault f = {""};
     const status outcome = truths_read_rules(path != NULL ? path : "build/truths.h5", &t, &f);
-    gsl_test(outcome != STATUS_OK, "accepted formulations are read: %s", f.text);
+    gsl_test(outcome != STATUS_OK, "the accepted formulations cannot be read: %s", f.text);
     if (outcome == STATUS_OK)
         truths_free(&t);
     for (int i = 0; formulations_at(i) != NULL; i++)
         if (formulations_is_new(formulations_at(i)))
-            printf("%s is new: its answers are not asked for here\n", formulations_at(i)->name);
+            printf("%s is new, so its results are not tested here\n", formulations_at(i)->name);
 }
 
 const element_type *accepted_at(int i)

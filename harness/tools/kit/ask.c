@@ -42,7 +42,7 @@ static void copy_curve(const scene *s, const curve *c, answer *out, int i)
 static int copy_values(const scene *s, const solve_result *r, answer *out)
 {
     int all = 1;
-    gsl_test(r->quantities > ASK_QUANTITIES, "%s: its quantities fit into an answer", s->name);
+    gsl_test(r->quantities > ASK_QUANTITIES, "%s: too many quantities for an answer", s->name);
     for (int i = 0; i < r->quantities && i < ASK_QUANTITIES; i++) {
         out->value[i] = r->quantity[i].value;
         out->scale[i] = s->quantity[i].near_zero;
@@ -65,8 +65,9 @@ static void settle(const scene *s, const element_type *type, const solve_result 
     out->outcome = outcome_of(s, type, outcome, all);
     char words[OMIT_WORDS];
     if (out->outcome == ASK_NOT_OFFERED && missing_refused(s, type, words, sizeof words))
-        gsl_test(outcome != STATUS_REFUSED, "%s, %s: a value that is not offered is rejected (%s)",
-                 s->name, type->name, status_name(outcome));
+        gsl_test(outcome != STATUS_REFUSED,
+                 "%s, %s: a value that is not supported must be rejected (%s)", s->name, type->name,
+                 status_name(outcome));
 }
 
 /* Returns 1 if the edit of the question is defined for the case with these parameters. */
@@ -160,10 +161,12 @@ void ask_conclude(const ask_tally *t, const element_type *type, const char *test
 {
     const int *count = t->count;
     const int offered = count[ASK_ANSWERED] + count[ASK_REFUSED] + count[ASK_FAILED];
-    gsl_test(count[ASK_FAILED] > 0, "%s, %s: %d of %d that it offers failed (%s)", type->name, test,
-             count[ASK_FAILED], offered, t->failure);
-    gsl_test(count[ASK_REFUSED] > t->most_refused, "%s, %s: %d of %d that it offers refused (%s)",
-             type->name, test, count[ASK_REFUSED], offered, t->refusal);
-    gsl_test(offered > 0 && t->values == 0, "%s, %s: %d values in %d answers, %d not offered",
-             type->name, test, t->values, count[ASK_ANSWERED], count[ASK_NOT_OFFERED]);
+    gsl_test(count[ASK_FAILED] > 0, "%s, %s: %d of %d supported requests failed (%s)", type->name,
+             test, count[ASK_FAILED], offered, t->failure);
+    gsl_test(count[ASK_REFUSED] > t->most_refused,
+             "%s, %s: %d of %d supported requests were rejected (%s)", type->name, test,
+             count[ASK_REFUSED], offered, t->refusal);
+    gsl_test(offered > 0 && t->values == 0,
+             "%s, %s: %d values in %d answers, %d requests not supported", type->name, test,
+             t->values, count[ASK_ANSWERED], count[ASK_NOT_OFFERED]);
 }

@@ -12,8 +12,8 @@ cell_request cells_of(const case_type *type, const char *formulation_text, int e
     formulation chosen;
     fault f = {""};
     const status found = formulation_parse(formulation_text, &chosen, &f);
-    gsl_test(type == NULL || found != STATUS_OK, "a case and %s exist %s", formulation_text,
-             f.text);
+    gsl_test(type == NULL || found != STATUS_OK,
+             "the case or the formulation %s does not exist: %s", formulation_text, f.text);
     if (type != NULL)
         parameters_default(type, request.parameter);
     if (found == STATUS_OK)

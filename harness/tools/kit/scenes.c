@@ -61,7 +61,7 @@ __attribute__((format(printf, 3, 0))) static void parse(const case_type *type, d
     char text[PARAMETERS_TEXT];
     fault f = {""};
     if (vsnprintf(text, sizeof text, values, list) >= (int)sizeof text)
-        end(type->file, "values of more than PARAMETERS_TEXT characters");
+        end(type->file, "the parameter values have more than PARAMETERS_TEXT characters");
     parameters_default(type, value);
     if (parameters_parse(type, text, value, NULL, &f) != STATUS_OK)
         end(type->file, f.text);
@@ -124,7 +124,7 @@ int scenes_find(const scene *s, scene_list list, const char *name)
     for (int i = 0; i < scene_count(s, list); i++)
         if (strcmp(scene_own_name(s, list, i), name) == 0)
             return i;
-    end(name, "the scene has none of that name");
+    end(name, "the scene has no entry with this name");
     return SCENE_NONE;
 }
 

@@ -68,4 +68,4 @@ def options(values: dict[str, Any]) -> bytes | None:
         return json.dumps(values, allow_nan=False,
                           default=lambda v: v.item()).encode() if values else None
     except (TypeError, ValueError, AttributeError):
-        raise TypeError(f"an option must be a number, a string, True or False, not {values!r}") from None
+        raise TypeError(f"the values of options must be numbers, strings, True or False, not {values!r}") from None

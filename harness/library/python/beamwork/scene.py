@@ -109,8 +109,8 @@ class Scene:
         if key not in ENTRIES:
             raise AttributeError(f"a scene has no {key!r}; it has: {', '.join(ENTRIES)}")
         if self._make is not None:
-            raise AttributeError(f"{key}: {self._name} was read as text, which scene.write() returns; "
-                                 "to set entries as dicts, begin with Scene()")
+            raise AttributeError(f"{key}: {self._name} was not built from dicts; scene.write() returns "
+                                 "its text, and Scene() begins a scene of dicts")
         return self._entries[key]
 
     def __setattr__(self, key: str, value: Any) -> None:
