@@ -44,7 +44,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
         return 0;
     const status outcome = read_form(data[0] % FORMS, fuzz_file(data + 1, size - 1), &set, &m, &f);
     fuzz_must((outcome == STATUS_OK) == (f.text[0] == '\0') && strchr(f.text, '\n') == NULL,
-              "a rejection has a reason of one line");
+              "a rejection has a one-line error");
     fuzz_must(outcome != STATUS_OK || m.count == 0, "a file with mistakes is rejected");
     for (int i = 0; i < m.count; i++)
         fuzz_must(m.list[i].line >= 1 && m.list[i].column >= 1 && m.list[i].text[0] != '\0' &&

@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const status outcome = results_table_read("table", from, &r, &f);
     fclose(from);
     fuzz_must((outcome == STATUS_OK) == (f.text[0] == '\0') && strchr(f.text, '\n') == NULL,
-              "a rejection has a reason of one line");
+              "a rejection has a one-line error");
     if (outcome == STATUS_OK) {
         char *written = NULL;
         size_t length = 0;

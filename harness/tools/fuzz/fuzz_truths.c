@@ -13,9 +13,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size)
     const char *path = data[0] & 1 ? fuzz_file(data, size) : alter_file(data + 1, size - 1);
     const status outcome = truths_read(path, &t, &f), words = glossary_read(path, &g, &why);
     fuzz_must((outcome == STATUS_OK) == (f.text[0] == '\0') && strchr(f.text, '\n') == NULL,
-              "a rejection has a reason of one line");
+              "a rejection has a one-line error");
     fuzz_must((words == STATUS_OK) == (why.text[0] == '\0') && strchr(why.text, '\n') == NULL,
-              "a rejected glossary has a reason of one line");
+              "a rejected glossary has a one-line error");
     fuzz_must(H5Fget_obj_count((hid_t)H5F_OBJ_ALL, H5F_OBJ_ALL) == 0, "nothing stays open");
     if (outcome == STATUS_OK)
         truths_free(&t);
