@@ -306,6 +306,12 @@ typedef struct element_type {
      * lumped with the weights that integrate the polynomial through the nodes, which must be
      * positive. Default: equally spaced. */
     void (*places)(const double options[], double place[]);
+    /* Optional: damping of the formulation itself, such as a viscous material. Computes the matrix
+     * V [strains x strains] [N s/m], symmetric and positive semidefinite: strain rates e' = J x'
+     * add V e' to the stresses, in motions, damped modes and harmonic analyses. V does not depend
+     * on the state. Rigid motions therefore have no damping, and the dissipated power is e' . V e'.
+     * The damping of the member is added. Requires `strain` and `stress`. Default: no damping. */
+    void (*damping)(const element_data *, double V[]);
 } element_type;
 
 /* Makes a symbol visible outside a shared object, even with -fvisibility=hidden. */

@@ -13,6 +13,8 @@ function out = beamwork_element(first, varargin)
 %                           of undeformed elements. strain then has one more argument, h of the last
 %                           accepted state, the end of a load step or time step
 %   h = commit(kind, r, u, R, a, h)           h of an accepted state, which was reached from h
+%   V = damping(kind)             V(m,m), with 'damping', @damping: strain rates e' add V e' to the stresses
+%                           in motions, damped modes and harmonic analyses
 %   [energy, F, K] = force(kind, r, u, R, a)  (1,N), (7n,N), (7n,7n,N); 'force', @force in place of
 %                           strain and stress; with 'gives', 'energy' or 'force' the first of them
 % Derivatives of strains are complex steps: strain must take complex arrays and be analytic (.' for
@@ -46,6 +48,7 @@ for i = 1:2:numel(words)
 end
 gives = {'e,J,H', 'tangent'};
 if ~isfield(said, 'gives'), said.gives = gives{1 + isfield(call, 'force')}; end
+if isfield(call, 'damping'), said.damping = true; end
 if isfield(said, 'options') && isstruct(said.options), said.options = num2cell(said.options); end
 in = fopen('/dev/stdin', 'r', 'ieee-le');
 to = fopen('/dev/stdout', 'w', 'ieee-le');
@@ -119,6 +122,10 @@ else
 end
 if ~isempty(C), C = sized(C, [said.strains said.strains], 'prepare'); end
 values = reshape(C.', [], 1);
+if isfield(call, 'damping')
+    V = sized(call.damping(kind), [said.strains said.strains], 'damping');
+    values = [values; reshape(V.', [], 1)];
+end
 end
 
 function values = answer(said, call, kinds, what, mask, numbers, body)

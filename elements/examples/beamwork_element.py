@@ -14,6 +14,8 @@ argument of each function is the kind of all N elements:
                           angular velocity (both in fixed axes) and rate of warping of each node.
                           Everything else follows from it: rotating frames, motions
                           (not with inertia="vibration"). Default: the mass that all formulations share
+  damping(kind) -> V[m, m], optional, constant, symmetric and positive semidefinite: strain rates e' add V e' to the
+                          stresses in motions, damped modes and harmonic analyses
   begin(kind, r, u, R, a) -> h[N, q], with history=q: the values of the undeformed elements. strain then has one more
                           argument, h of the last accepted state, the end of a load step or time step
   commit(kind, r, u, R, a, h) -> h[N, q] of an accepted state, which was reached from h
@@ -36,7 +38,7 @@ FEATURES = ("warping", "shear", "eccentric shear centre", "trapeze", "wagner mom
             "rotary inertia", "initial curvature", "coupled section")
 SECTION = ("young shear_modulus density A Iy Iz It Iw ys zs Ip wagner_y wagner_z wagner_torque D:9 "
            "F:9 axes_angle centroid:2 matrices stiffness:36 mass:36 rectangle width height")
-FUNCTIONS = ("prepare", "strain", "stress", "force", "mass", "begin", "commit")
+FUNCTIONS = ("prepare", "strain", "stress", "force", "mass", "begin", "commit", "damping")
 KEYS = ("name summary source family offers gives strains nodes places order limits shear_theories "
         "inertia options history").split()
 TINY, STEP = 1e-20, 2e-3  # sizes of complex steps and of the finite differences that check complex steps
@@ -299,7 +301,10 @@ def prepared(body, kinds, said, functions):
     if "force" not in functions and C is None and "stress" not in functions:
         raise Refused("prepare returned None: give a constant C, or serve the function stress")
     m = said.get("strains", 0)
-    return [] if C is None else [checked(C, "prepare", 0, (m, m), f"strains={m} wants")]
+    found = [] if C is None else [checked(C, "prepare", 0, (m, m), f"strains={m} wants")]
+    if "damping" in functions:
+        found.append(checked(functions["damping"](kind), "damping", 0, (m, m), f"strains={m} wants"))
+    return found
 
 
 def answer(what, mask, count, body, kinds, said, functions):
@@ -352,6 +357,8 @@ def taken(functions, words):
         said["places"] = [float(v) for v in said["places"]]
     if "mass" in functions:
         said = {"inertia": "motion" if said.get("nodes", 2) == 2 else "vibration", **said}
+    if "damping" in functions:
+        said["damping"] = True
     return functions, {"beamwork": 1, "gives": "tangent" if "force" in functions else "e,J,H",
                        **said}
 

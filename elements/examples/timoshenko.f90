@@ -93,7 +93,7 @@ module beamwork
     type(c_funptr) :: along = c_null_funptr, mass_of_field = c_null_funptr, &
                       unstressed = c_null_funptr, history = c_null_funptr, &
                       begin = c_null_funptr, commit = c_null_funptr, &
-                      places = c_null_funptr
+                      places = c_null_funptr, damping = c_null_funptr
   end type
 end module
 

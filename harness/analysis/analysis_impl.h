@@ -152,7 +152,7 @@ status flutter_motions(const newton_run *, flutter_system *, int wanted, int est
  * NaN, and the status becomes NOT_CONVERGED. */
 void flutter_take(unsymmetric_result *from, outcome_side *to);
 /* Returns "" if nothing is damped, "undamped" if `damped` is 0, and "with damping" otherwise. */
-const char *flutter_damping(const scene *, int damped);
+const char *flutter_damping(const model *, int damped);
 /* Returns the kind of instability of the mode with the largest growth rate, and sets *mode to its
  * index. */
 flutter_kind flutter_of(const flutter_system *, const unsymmetric_result *, int *mode);

@@ -269,7 +269,7 @@ static status keep_model(const analysis_context *c, const model_state *state, co
                          .K = w->K,
                          .M = w->M,
                          .C = w->C,
-                         .damped = damping_acts(c->scene)};
+                         .damped = damping_acts(c->model)};
     return w->models ? second_order_keep(&v, out->turns ? &w->G : NULL, s, out, f) : STATUS_OK;
 }
 
@@ -285,7 +285,7 @@ static status systems_keep(const analysis_context *c, const model_state *state, 
         return STATUS_OK;
     TRY(rotating_frame_inertia(&c->eq, state, path, &w->M, out->turns ? &w->G : NULL, f));
     TRY(keep_block(w, &w->M, 0, &out->M, f));
-    if (damping_acts(c->scene)) {
+    if (damping_acts(c->model)) {
         TRY(damping_matrix(&c->eq, state, 0, &w->C, f));
         TRY(keep_block(w, &w->C, 0, &out->C, f));
     }
@@ -391,7 +391,7 @@ static status keep_instant(const analysis_context *c, int analysis, workspace *w
         outcome = keep_block(w, &v.K, 0, &out->K, f);
     if (outcome == STATUS_OK)
         outcome = keep_block(w, &about->M, 0, &out->M, f);
-    if (outcome == STATUS_OK && (damping_acts(c->scene) || motion->damping.mass > 0))
+    if (outcome == STATUS_OK && (damping_acts(c->model) || motion->damping.mass > 0))
         outcome = keep_block(w, &about->C, 0, &out->C, f);
     if (outcome == STATUS_OK) {
         for (int i = 0; i < v.B.column[v.B.n]; i++)

@@ -19,7 +19,7 @@ status flutter_system_alloc(const newton_run *n, flutter_system *s, fault *f)
         for (int k = s->M.column[j]; k < s->M.column[j + 1]; k++)
             if (s->M.row[k] == j)
                 s->M.value[k] = n->weight[j];
-    s->damped = !s->massless && damping_acts(n->c->scene);
+    s->damped = !s->massless && damping_acts(n->c->model);
     return s->damped ? sparse_alloc_like(&n->K, &s->C, f) : STATUS_OK;
 }
 
@@ -68,9 +68,9 @@ void flutter_take(unsymmetric_result *from, outcome_side *to)
     from->frequency = from->mode = from->error = NULL;
 }
 
-const char *flutter_damping(const scene *s, int damped)
+const char *flutter_damping(const model *m, int damped)
 {
-    return !damping_acts(s) ? "" : damped ? "with damping" : "undamped";
+    return !damping_acts(m) ? "" : damped ? "with damping" : "undamped";
 }
 
 flutter_kind flutter_of(const flutter_system *s, const unsymmetric_result *r, int *mode)

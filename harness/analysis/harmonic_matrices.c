@@ -117,7 +117,7 @@ static status damping_of(vibration *v, fault *f)
 {
     analysis_context *c = v->c;
     const scene_proportional *damping = &c->scene->analysis[v->analysis].damping;
-    v->damped = damping_acts(c->scene) || damping->mass > 0 || damping->stiffness > 0;
+    v->damped = damping_acts(c->model) || damping->mass > 0 || damping->stiffness > 0;
     if (!v->damped) {
         sparse_zero(&v->C);
         return STATUS_OK;

@@ -88,8 +88,8 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
     if (outcome == STATUS_OK && of.damped)
         outcome = flutter_motions(n, &(flutter_system){.M = of.M}, modal_wanted(c, analysis), 1,
                                   &undamped, f);
-    snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->scene, 0));
-    out->growth_meaning = flutter_damping(c->scene, of.damped);
+    snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->model, 0));
+    out->growth_meaning = flutter_damping(c->model, of.damped);
     const flutter_kind kind = outcome == STATUS_OK ? flutter_of(&of, &r, &mode) : FLUTTER_NONE;
     if (kind != FLUTTER_NONE) {
         out->growth = r.growth[mode];
@@ -118,7 +118,7 @@ static status frequencies(analysis_context *c, int analysis, newton_run *n, spar
     TRY(assemble_pattern(c->model, c->run->patterns, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, M, f));
     TRY(rotating_frame_inertia(&c->eq, n->state, 0, M, NULL, f));
-    snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->scene, 0));
+    snprintf(out->meaning, sizeof out->meaning, "%s", flutter_damping(c->model, 0));
     const sparse *upper = factor_upper(n->factor);
     const eigen_problem p = {.K = upper != NULL ? upper : &n->K,
                              .A = M,

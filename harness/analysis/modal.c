@@ -239,7 +239,7 @@ status modal_analysis(analysis_context *c, int analysis, analysis_outcome *o, fa
     const status result = solve(c, analysis, &s, &about, &e, f);
     keep(&about, &e.positive, o);
     snprintf(o->left.spectrum.meaning, sizeof o->left.spectrum.meaning, "%s",
-             flutter_damping(c->scene, 0));
+             flutter_damping(c->model, 0));
     if (about.prestressed && c->scene->analysis[analysis].follows == SCENE_NONE) {
         o->left.spectrum.strained = about.of.load_x;
         about.of.load_x = NULL;

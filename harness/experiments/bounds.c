@@ -114,6 +114,17 @@ static void stresses(const specimen *s, const double e[], claims *c)
     look(&G, 1, s, c);
 }
 
+static void dampings(const specimen *s, claims *c)
+{
+    guarded V;
+    if (s->type.damping == NULL)
+        return;
+    double *matrix = guard(&V, "damping: V", s->strains * s->strains);
+    claims_doing(c, "damping%s", s->words);
+    s->type.damping(s->data, matrix);
+    look(&V, 1, s, c);
+}
+
 static void masses(const specimen *s, const node_state x[], claims *c)
 {
     static const element_rotating_frame turning = {.omega = {31.3, -17.9, 23.7}};
@@ -201,6 +212,7 @@ static void check(const specimen *s, claims *c)
     s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
     memcpy(kept, e, (size_t)s->strains * sizeof *e);
     stresses(s, e, c);
+    dampings(s, c);
     masses(s, x, c);
     in_time(s, x, c);
     forces(s, x, c);

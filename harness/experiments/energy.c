@@ -185,6 +185,7 @@ static void check(const specimen *s, claims *c)
     check_stiffness(&at, C, c);
     check_rest(s, c);
     check_geometric(s, C, c);
+    own_damping_check(s, c);
 }
 
 void checks_energy(const formulation *chosen, claims *out)

@@ -123,6 +123,11 @@ void specimen_rest(const specimen *s, double inner[]);
 /* Computes the stress with converged inner unknowns of the element. */
 status specimen_settled(const specimen *s, const double e[], double inner[], stress_output *out);
 
+/* Checks that the damping matrix is symmetric and dissipates energy. Does nothing without
+ * `damping`.
+ */
+void own_damping_check(const specimen *s, claims *c);
+
 /* Returns a description such as "rotation about y of node 2". */
 const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS]);
 

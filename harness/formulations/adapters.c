@@ -85,6 +85,11 @@ static void commit(const element_data *d, const node_state x[], double history[]
     d->given->commit(adapted_own(d), x, history);
 }
 
+static void damping(const element_data *d, double V[])
+{
+    d->given->damping(adapted_own(d), V);
+}
+
 static double tension(const element_data *d, const double sigma[])
 {
     return d->given->tension(adapted_own(d), sigma);
@@ -137,6 +142,7 @@ static void wrap(const element_type *given, element_type *out)
     out->trouble = given->trouble != NULL ? trouble : NULL;
     out->begin = given->begin != NULL ? begin : NULL;
     out->commit = given->commit != NULL ? commit : NULL;
+    out->damping = given->damping != NULL ? damping : NULL;
 }
 
 static void make_relative(const element_type *given, int nodes, element_type *out)
@@ -216,6 +222,11 @@ static status check(const element_type *given, const double options[], fault *f)
         return refuse(given, "give 'strain' and 'stress' together", f);
     if (given->force != NULL && (given->along != NULL || given->tension != NULL))
         return refuse(given, "'along' and 'tension' require 'strain' and 'stress'", f);
+    if (given->force != NULL && given->damping != NULL)
+        return refuse(given,
+                      "'damping' is a matrix for the strains that the element computes; give "
+                      "'strain' and 'stress' instead of 'force', or remove 'damping'",
+                      f);
     if (nodes < 2 || nodes > ELEMENT_MAX_NODES)
         return fault_set(f, STATUS_REFUSED, "formulation %s: an element must have 2 to %d nodes",
                          given->name, ELEMENT_MAX_NODES);

@@ -40,6 +40,7 @@ typedef struct handshake {
     /* 1: the process computes the inertia of elements; if type.spreads is set, also for transient
      * analysis */
     int inertia;
+    int damping;                 /* 1: the process computes a damping matrix */
     element_constants constants; /* constants of the type */
 } handshake;
 

@@ -39,9 +39,10 @@ static const struct gives {
              {"force", 1, LEAVES_TANGENT},
              {"tangent", 1, 0}};
 
-static const char *const keys[] = {
-    "beamwork", "name",  "summary", "source",         "family",  "offers",  "gives",   "strains",
-    "nodes",    "order", "limits",  "shear_theories", "options", "inertia", "history", "places"};
+static const char *const keys[] = {"beamwork", "name",           "summary", "source",  "family",
+                                   "offers",   "gives",          "strains", "nodes",   "order",
+                                   "limits",   "shear_theories", "options", "inertia", "history",
+                                   "places",   "damping"};
 
 typedef struct handshake_reading {
     const char *who;
@@ -208,6 +209,18 @@ static status inertia_of(const handshake_reading *r, handshake *out)
     return STATUS_OK;
 }
 
+static status damping_of(const handshake_reading *r, handshake *out)
+{
+    const json_t *given = json_object_get(r->said, "damping");
+    if (given != NULL && !json_is_boolean(given))
+        return refuse(r, "damping", "give true or false");
+    out->damping = json_is_true(given);
+    if (out->damping && out->whole)
+        return refuse(r, "damping",
+                      "this requires strains; give e, or e,J or e,J,H as 'gives', or remove it");
+    return STATUS_OK;
+}
+
 static status only_known_keys(const handshake_reading *r)
 {
     const char *key;
@@ -261,6 +274,7 @@ static status read_all(const handshake_reading *r, handshake *out)
     TRY(number_of(r, "history", 1, ELEMENT_MAX_HISTORY, 0, &out->constants.history));
     TRY(orders_of(r, out->constants.order));
     TRY(inertia_of(r, out));
+    TRY(damping_of(r, out));
     return handshake_options(r->who, json_object_get(r->said, "options"), &t->options[0], r->f);
 }
 

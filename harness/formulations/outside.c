@@ -125,7 +125,7 @@ void process_limit(int seconds)
 static size_t data_size(const element_request *request)
 {
     const size_t m = (size_t)element_strains(request->type, request->options);
-    return sizeof(element_data) + m * m * sizeof(double);
+    return sizeof(element_data) + 2 * m * m * sizeof(double);
 }
 
 /* Starts the process again. Its description must be the same as after the first start. */
@@ -146,7 +146,8 @@ static status start_again(process *p, fault *f)
         again.type.leaves == p->type.leaves && again.inertia == (p->type.inertia != NULL) &&
         again.type.spreads == p->type.spreads && again.constants.strains == p->constants.strains &&
         again.constants.nodes == p->constants.nodes &&
-        again.constants.history == p->constants.history;
+        again.constants.history == p->constants.history &&
+        again.damping == (p->type.damping != NULL);
     return same ? STATUS_OK
                 : channel_break(&p->to, "gives different declarations when it is started again", f);
 }
@@ -183,6 +184,7 @@ static status ask_prepare(process *p, const element_request *request, element_da
     const int options = parameter_count(p->type.options);
     const int64_t head[3] = {out->kind % PROCESS_KINDS, request->features, options};
     const size_t C = (size_t)(out->strains * out->strains) * sizeof(double),
+                 V = p->type.damping != NULL ? C : 0,
                  size = sizeof head + (7 + SECTION_NUMBERS + (size_t)options) * sizeof(double);
     const char *body;
     size_t count;
@@ -196,9 +198,10 @@ static status ask_prepare(process *p, const element_request *request, element_da
     put(&to, request->strain, sizeof request->strain);
     put_section(&to, request->section);
     put(&to, request->options, (size_t)options * sizeof(double));
-    TRY(channel_ask(&p->to, CHANNEL_PREPARE, 0, 1, 0, p->whole ? 0 : C, &body, &count, f));
-    out->linear = count > 0;
-    memcpy(out->C, body, count);
+    TRY(channel_ask(&p->to, CHANNEL_PREPARE, 0, 1, V, p->whole ? 0 : C + V, &body, &count, f));
+    out->linear = count > V;
+    memcpy(out->C, body, count - V);
+    memcpy((char *)out->C + C, body + count - V, V);
     return STATUS_OK;
 }
 
@@ -279,6 +282,8 @@ static status begin(process *p, const char *command, fault *f)
         frames_serve_inertia(p);
     if (said.constants.history > 0)
         frames_serve_history(p);
+    if (said.damping)
+        frames_serve_damping(p);
     return channel_call(&p->to, p->type.name, f);
 }
 

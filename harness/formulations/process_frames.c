@@ -436,3 +436,14 @@ void frames_serve_history(process *p)
     p->type.begin = begin;
     p->type.commit = commit;
 }
+
+static void damping(const element_data *d, double V[])
+{
+    const size_t square = (size_t)(d->strains * d->strains);
+    memcpy(V, d->C + square, square * sizeof *V);
+}
+
+void frames_serve_damping(process *p)
+{
+    p->type.damping = damping;
+}

@@ -21,7 +21,8 @@ struct element_data {
      * process */
     long started, kind;
     int strains, coordinates, history, linear;
-    double C[]; /* [strains x strains] C of linear stresses sigma = C e */
+    /* [2 x strains x strains] C of linear stresses sigma = C e, and the damping matrix */
+    double C[];
 };
 
 /* Sets the functions of the type that evaluate elements (process_frames.c). */
@@ -30,6 +31,8 @@ void frames_serve(process *p);
 void frames_serve_inertia(process *p);
 /* Sets the functions of the history of the type if it has one (process_frames.c). */
 void frames_serve_history(process *p);
+/* Sets the damping function of the type (process_frames.c). */
+void frames_serve_damping(process *p);
 
 /* Requests to the process of a formulation. */
 

@@ -215,21 +215,20 @@ static void damp(const equations *eq, const linear_memory *memory, const model_s
 {
     const model *m = eq->m;
     const run_damping *d = eq->run->damping;
-    const double eta = model_scene(m)->member[model_element(m, index)->member].damping;
     const size_t n = (size_t)model_strains(m), first = (size_t)index * n;
-    const double *S = d->stiffness + (size_t)model_element(m, index)->kind * n * n;
+    const double *V = run_damping_of(d, m, index);
     const model_slot w = linearise_slot(m, memory, index);
     double rate[ELEMENT_MAX_STRAINS], more[ELEMENT_MAX_STRAINS];
-    if (eta == 0)
+    if (V == NULL)
         return;
     for (size_t k = 0; k < n; k++)
         rate[k] = d->known[first + k] +
                   d->g * (s->e[first + k] + w.incompatibility[k] - d->from[first + k]);
-    dense_mul_vec(model_strains(m), model_strains(m), S, rate, more);
+    dense_mul_vec(model_strains(m), model_strains(m), V, rate, more);
     for (size_t k = 0; k < n; k++)
-        w.sigma[k] += eta * more[k];
+        w.sigma[k] += more[k];
     for (size_t k = 0; k < n * n; k++)
-        w.C[k] += eta * d->g * S[k];
+        w.C[k] += d->g * V[k];
 }
 
 void chunk_evaluate(const equations *eq, const linear_memory *memory, const model_state *s,

@@ -68,13 +68,16 @@ typedef struct loading {
     int rotates, rotation_follows_path;
 } loading;
 
-/* Damping in a motion adds eta S0 e' to the stresses of members (eta: damping of the member) and C
- * e' to the stresses of dashpots. See harness/time/time.h. */
+/* Damping in a motion adds V e' to the stresses of elements, and C e' to the stresses of dashpots.
+ * V is eta S0 (eta: damping of the member, S0: stiffness of the undeformed element) plus the matrix
+ * of the formulation (element_type.damping). See harness/time/time.h. */
 typedef struct run_damping {
-    double *stiffness; /* [kinds x strains^2] S0 */
-    double *none;      /* [model_stresses] zeros */
-    double *begin;     /* [model_stresses] strains of the state from which rates are computed */
-    double g;          /* e' = known + g (e - from) */
+    int *which;      /* [elements] index of the matrix V of the element; NONE: not damped */
+    double *matrix;  /* [matrices x strains^2] V */
+    double *slowest; /* [matrices] [s] longest relaxation time of a strain, V_kk/S0_kk */
+    double *none;    /* [model_stresses] zeros */
+    double *begin;   /* [model_stresses] strains of the state from which rates are computed */
+    double g;        /* e' = known + g (e - from) */
     const double *known, *from; /* [model_stresses] */
     spring_rates springs;       /* strain rates of springs */
 } run_damping;
@@ -107,6 +110,15 @@ typedef struct equations {
     loading loading;
     run_state *run;
 } equations;
+
+/* Returns the damping matrix V [strains x strains] of an element; NULL: the element is not damped.
+ */
+static inline const double *run_damping_of(const run_damping *d, const model *m, int element)
+{
+    const size_t n = (size_t)model_strains(m);
+    return d == NULL || d->which[element] == NONE ? NULL
+                                                  : d->matrix + (size_t)d->which[element] * n * n;
+}
 
 status linear_memory_alloc(const model *, linear_memory *, fault *);
 void linear_memory_free(linear_memory *);

@@ -188,7 +188,7 @@ status alpha_alloc(const scheme_request *request, motion_scheme **out, fault *f)
     *s = (alpha){
         .base = {.order = 3, .adds = 1, .step = step, .free = release},
         .work = request->work,
-        .strains = damping_acts(request->c->scene) ? (size_t)model_stresses(request->c->model) : 0,
+        .strains = damping_acts(request->c->model) ? (size_t)model_stresses(request->c->model) : 0,
         .mass = how->mass,
         .force = how->force,
         .gamma = gamma,

@@ -13,7 +13,7 @@
 enum { N = ELEMENT_MAX_COORDINATES, M = DEFORMABLE_STRAINS };
 
 /* Computes the terms of sigma_m that do not depend on the gaps: (sigma_n + P'(e))/2 + k W d, and
- * eta S0 d/h for damping. */
+ * V d/h for damping. */
 static void middle_of(const conserving *s, evaluation *v)
 {
     const deformable *of = &v->of;
@@ -21,11 +21,11 @@ static void middle_of(const conserving *s, evaluation *v)
     dense_mul_vec(of->strains, of->strains, of->W, of->d, Wd);
     for (int k = 0; k < of->strains; k++)
         v->middle[k] = (of->before[k] + of->present[k]) / 2 + s->k * Wd[k];
-    if (of->S == NULL)
+    if (of->V == NULL)
         return;
-    dense_mul_vec(of->strains, of->strains, of->S, of->d, Wd);
+    dense_mul_vec(of->strains, of->strains, of->V, of->d, Wd);
     for (int k = 0; k < of->strains; k++)
-        v->middle[k] += of->damping / s->h * Wd[k];
+        v->middle[k] += 1 / s->h * Wd[k];
 }
 
 /* Computes the gaps and sigma_m, which includes the contribution of the gaps unless they are
@@ -48,10 +48,10 @@ static double gaps_of(const conserving *s, const double J[], evaluation *v, doub
     dense_mul_vec(of->strains, of->strains, of->W, of->gap_d, W_d);
     for (int k = 0; k < of->strains; k++)
         sigma[k] += C_e[k] / 2 + s->k * W_d[k];
-    if (of->S != NULL) {
-        dense_mul_vec(of->strains, of->strains, of->S, of->gap_d, W_d);
+    if (of->V != NULL) {
+        dense_mul_vec(of->strains, of->strains, of->V, of->gap_d, W_d);
         for (int k = 0; k < of->strains; k++)
-            sigma[k] += of->damping / s->h * W_d[k];
+            sigma[k] += 1 / s->h * W_d[k];
     }
     return largest;
 }
@@ -138,8 +138,7 @@ static double equations_of(conserving *s, const instant *from, const model_state
         J[k] = (v->J[0][k] + v->J[1][k]) / DEFORMABLE_POINTS;
     const double incompatibility = gaps_of(s, J, v, sigma);
     for (int k = 0; k < strains * strains; k++)
-        tangent[k] =
-            of->C[k] / 2 + s->k * of->W[k] + (of->S != NULL ? of->damping / s->h * of->S[k] : 0);
+        tangent[k] = of->C[k] / 2 + s->k * of->W[k] + (of->V != NULL ? 1 / s->h * of->V[k] : 0);
     dense_mul(strains, strains, n, tangent, of->J, inside);
     memset(v->K, 0, (size_t)(n * n) * sizeof *v->K);
     dense_add_transpose_mul(n, strains, n, J, inside, v->K);
@@ -378,15 +377,15 @@ static int moves_by_drivers(const conserving *s)
     return 0;
 }
 
-/* Returns the energy [J] that the damping stresses dissipate in the step: the sum of eta d . S0
- * d/h. */
+/* Returns the energy [J] that the damping stresses dissipate in the step: the sum of d . V d/h.
+ */
 static double dissipated(const conserving *s, const instant *from, model_state *now)
 {
     double sum = 0;
     for (int i = 0; i < deformable_count(s) && s->of.c->run->damping != NULL; i++) {
         const deformable of = deformable_at(s, from, now, i);
-        if (of.S != NULL)
-            sum += of.damping / s->h * dense_quadratic(of.strains, of.S, of.d);
+        if (of.V != NULL)
+            sum += 1 / s->h * dense_quadratic(of.strains, of.V, of.d);
     }
     return sum;
 }
@@ -437,11 +436,11 @@ void conserving_damped(const conserving *s, const instant *from, double h, insta
             r[k] = (3 * mean - r0) / 2 + h * s0 / 4;
             rate2[k] = (mean - r0) / h + s0 / 2;
         }
-        if (of.S == NULL ||
+        if (of.V == NULL ||
             of.spring != NULL) /* the stresses of a spring follow from its strains */
             continue;
-        dense_mul_vec(of.strains, of.strains, of.S, r, more);
+        dense_mul_vec(of.strains, of.strains, of.V, r, more);
         for (int k = 0; k < of.strains; k++)
-            of.sigma[k] += of.damping * more[k];
+            of.sigma[k] += more[k];
     }
 }

@@ -36,11 +36,7 @@ deformable deformable_at(const conserving *s, const instant *from, model_state *
         of.e = now->e + first;
         of.sigma = now->sigma + first;
         of.length = model_kind(m, of.el->kind)->length;
-        of.damping =
-            s->of.c->run->damping != NULL ? model_scene(m)->member[of.el->member].damping : 0;
-        if (of.damping > 0)
-            of.S = s->of.c->run->damping->stiffness +
-                   (size_t)of.el->kind * (size_t)model_strains(m) * (size_t)model_strains(m);
+        of.V = run_damping_of(s->of.c->run->damping, m, i);
     } else {
         double *own = s->spring + (size_t)(4 * SPRING_STRAINS * spring);
         of.spring = model_discrete(m, model_discretes(m) - model_springs(m) + spring);
@@ -50,8 +46,7 @@ deformable deformable_at(const conserving *s, const instant *from, model_state *
         of.sigma = own + SPRING_STRAINS;
         of.before = own + 2 * SPRING_STRAINS;
         of.first = own + 3 * SPRING_STRAINS;
-        of.damping = 1;
-        of.S = scene_spring_damps(of.spring->spring) ? of.spring->spring->damping : NULL;
+        of.V = scene_spring_damps(of.spring->spring) ? of.spring->spring->damping : NULL;
         of.length = model_length(m);
     }
     of.coordinates = NODE_COORDINATES * of.el->nodes;

@@ -8,7 +8,7 @@
 
 static size_t strains_of(const model *m)
 {
-    return damping_acts(model_scene(m)) ? (size_t)model_stresses(m) : 0;
+    return damping_acts(m) ? (size_t)model_stresses(m) : 0;
 }
 
 static size_t coordinates_of(const model *m)

@@ -391,10 +391,12 @@ int extent_is_less(const extent *so_far, double tolerance, double *scale)
 status integrator_alloc(const scheme_request *r, motion_scheme **out, fault *f)
 {
     *out = NULL;
-    if (r->how->scheme == SCENE_EXPLICIT && damping_of_members(r->c->scene))
-        return fault_set(f, STATUS_REFUSED,
-                         "the integrator explicit does not support members with damping; use "
-                         "another integrator");
+    if (r->how->scheme == SCENE_EXPLICIT && damping_of_elements(r->c->model))
+        return fault_set(
+            f, STATUS_REFUSED,
+            "the integrator explicit does not support members with damping%s; use "
+            "another integrator",
+            model_type(r->c->model)->damping != NULL ? ", nor damping of the formulation" : "");
     switch (r->how->scheme) {
     case SCENE_ALPHA:
         return alpha_alloc(r, out, f);

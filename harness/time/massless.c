@@ -476,12 +476,15 @@ static int mark(const model *m, const mesh_element *el, unsigned char of[])
 
 /* Marks in of[free] the coordinates that relax slowly: those of elements and springs whose damping
  * time is at least 1e-3 h, where h is the size of a step. Returns their number. */
-static int creeping(const model *m, const model_state *state, double h, unsigned char of[])
+static int creeping(const equations *eq, const model_state *state, double h, unsigned char of[])
 {
     const double part = 1e-3;
+    const model *m = eq->m;
+    const run_damping *damping = eq->run->damping;
     int count = 0;
     for (int i = 0; i < model_elements(m); i++)
-        if (!(model_scene(m)->member[model_element(m, i)->member].damping < part * h))
+        if (run_damping_of(damping, m, i) != NULL &&
+            damping->slowest[damping->which[i]] >= part * h)
             count += mark(m, model_element(m, i), of);
     for (int i = 0; i < model_springs(m); i++) {
         const mesh_discrete *d = model_discrete(m, model_discretes(m) - model_springs(m) + i);
@@ -538,12 +541,11 @@ static status creep(motion_stage *s, const double zero[], double h, instant *now
 
 static status find_balance(motion_stage *s, const double zero[], double h, instant *now, fault *f)
 {
-    const model *m = s->c->model;
     double *moved = calloc((size_t)s->free + 1, sizeof *moved);
     unsigned char *of = calloc((size_t)s->free + 1, 1);
     status outcome = fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     if (moved != NULL && of != NULL)
-        outcome = s->c->run->damping != NULL && creeping(m, now->state, h, of) > 0
+        outcome = s->c->run->damping != NULL && creeping(&s->c->eq, now->state, h, of) > 0
                       ? creep(s, zero, h, now, moved, of, f)
                       : balance(s, zero, now, moved, f);
     free(moved);

@@ -302,7 +302,7 @@ static void radau_in_space(const radau *r, int vertex, int i, const double B[9],
     mat3_mul(R, B, out);
 }
 
-/* Members with damping stresses eta S0 e'. The strain rates of the stages, e_i' = 1/h sum_j B_ij
+/* Elements with damping stresses V e'. The strain rates of the stages, e_i' = 1/h sum_j B_ij
  * (e_j - e_0), couple all three stages in every damped element. */
 
 /* Damping forces of an element in a stage. */
@@ -329,10 +329,10 @@ static void take(radau *r, const instant *from, int stage, int element, damped *
     }
 }
 
-/* Adds eta S0 e' in a stage to the linearised stress of the element, and subtracts its forces from
+/* Adds V e' in a stage to the linearised stress of the element, and subtracts its forces from
  * the residual. */
-static void add_stress(radau *r, const damped all[STAGES], double h, double eta, const double S[],
-                       int stage, int element)
+static void add_stress(radau *r, const damped all[STAGES], double h, const double V[], int stage,
+                       int element)
 {
     const model *m = r->of.c->model;
     const mesh_element *el = model_element(m, element);
@@ -340,8 +340,8 @@ static void add_stress(radau *r, const damped all[STAGES], double h, double eta,
            force[MODEL_MAX_COORDINATES] = {0};
     for (int j = 0; j < STAGES; j++)
         for (int k = 0; k < model_strains(m); k++)
-            rate[k] += eta * r->B[STAGES * stage + j] / h * all[j].gained[k];
-    dense_mul_vec(model_strains(m), model_strains(m), S, rate, more);
+            rate[k] += r->B[STAGES * stage + j] / h * all[j].gained[k];
+    dense_mul_vec(model_strains(m), model_strains(m), V, rate, more);
     const model_slot w = linearise_slot(m, &r->stage[stage].memory, element);
     for (int k = 0; k < model_strains(m); k++)
         w.sigma[k] += more[k];
@@ -351,21 +351,20 @@ static void add_stress(radau *r, const damped all[STAGES], double h, double eta,
             r->residual[(size_t)stage * (size_t)r->free + (size_t)el->index[c]] -= force[c];
 }
 
-/* Adds eta B_ik/h J_i^T S0 J_k to all blocks (i, k). */
-static void add_blocks(radau *r, const damped all[STAGES], double h, double eta, const double S[],
-                       int element)
+/* Adds B_ik/h J_i^T V J_k to all blocks (i, k). */
+static void add_blocks(radau *r, const damped all[STAGES], double h, const double V[], int element)
 {
     const model *m = r->of.c->model;
     const mesh_element *el = model_element(m, element);
     const int n = el->columns;
     for (int k = 0; k < STAGES; k++) {
-        double SJ[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES];
-        dense_mul(model_strains(m), model_strains(m), n, S, all[k].J, SJ);
+        double VJ[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES];
+        dense_mul(model_strains(m), model_strains(m), n, V, all[k].J, VJ);
         for (int i = 0; i < STAGES; i++) {
-            const double part = eta * r->B[STAGES * i + k] / h;
+            const double part = r->B[STAGES * i + k] / h;
             double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
             memset(K, 0, (size_t)(n * n) * sizeof *K);
-            dense_add_transpose_mul(n, model_strains(m), n, all[i].J, SJ, K);
+            dense_add_transpose_mul(n, model_strains(m), n, all[i].J, VJ, K);
             for (int row = 0; row < n; row++)
                 for (int column = 0; column < n; column++)
                     stages_add(&r->S, i, k, el->index[row], el->index[column],
@@ -418,20 +417,17 @@ static void damp_spring(radau *r, int fresh, const instant *from, double h, int 
 static void radau_damp(radau *r, int fresh, const instant *from, double h)
 {
     const model *m = r->of.c->model;
-    const size_t n = (size_t)model_strains(m);
     for (int i = 0; i < model_elements(m) && r->of.c->run->damping != NULL; i++) {
-        const double eta = model_scene(m)->member[model_element(m, i)->member].damping;
-        const double *S =
-            r->of.c->run->damping->stiffness + (size_t)model_element(m, i)->kind * n * n;
+        const double *V = run_damping_of(r->of.c->run->damping, m, i);
         damped all[STAGES];
-        if (eta == 0)
+        if (V == NULL)
             continue;
         for (int stage = 0; stage < STAGES; stage++)
             take(r, from, stage, i, &all[stage]);
         for (int stage = 0; stage < STAGES; stage++)
-            add_stress(r, all, h, eta, S, stage, i);
+            add_stress(r, all, h, V, stage, i);
         if (fresh)
-            add_blocks(r, all, h, eta, S, i);
+            add_blocks(r, all, h, V, i);
     }
     for (int i = 0; i < model_springs(m) && r->of.c->run->damping != NULL; i++)
         if (scene_spring_damps(

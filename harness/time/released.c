@@ -8,6 +8,7 @@
  * The rates of three released rotations are the angular velocity in the axes of the end. */
 #include "harness/time/time_impl.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -168,10 +169,31 @@ void released_project(const released_masses *of, const double A[36], const doubl
                 out[i * n + j] += of->T[k * n + i] * half[k * n + j];
 }
 
-int damping_of_members(const scene *s)
+/* Computes the damping matrix V [strains x strains] of the formulation. Returns 1 if it is not
+ * zero.
+ */
+static int own_damping(const model *m, int kind, double V[])
 {
+    const int n = model_strains(m) * model_strains(m);
+    memset(V, 0, (size_t)n * sizeof *V);
+    if (model_type(m)->damping == NULL)
+        return 0;
+    model_type(m)->damping(model_kind(m, kind)->data, V);
+    for (int k = 0; k < n; k++)
+        if (V[k] != 0)
+            return 1;
+    return 0;
+}
+
+int damping_of_elements(const model *m)
+{
+    const scene *s = model_scene(m);
+    double V[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
     for (int i = 0; i < s->members; i++)
         if (s->member[i].damping > 0)
+            return 1;
+    for (int i = 0; i < model_kinds(m) && model_type(m)->damping != NULL; i++)
+        if (own_damping(m, i, V))
             return 1;
     return 0;
 }
@@ -184,9 +206,9 @@ static int has_dashpots(const scene *s)
     return 0;
 }
 
-int damping_acts(const scene *s)
+int damping_acts(const model *m)
 {
-    return damping_of_members(s) || has_dashpots(s);
+    return has_dashpots(model_scene(m)) || damping_of_elements(m);
 }
 
 static size_t of_members(const model *m)
@@ -194,29 +216,123 @@ static size_t of_members(const model *m)
     return (size_t)model_elements(m) * (size_t)model_strains(m);
 }
 
-/* Allocates the data of damping for the run. members 1: also computes the stiffnesses of the
- * elements in the undeformed state. */
-static status begin(const equations *eq, int members, run_damping *d, fault *f)
+/* Elements with the same damping matrix: those of one kind with the same damping of their members.
+ */
+typedef struct damped_kinds {
+    int *first;          /* [kinds] first matrix of a kind, or NONE */
+    int *next, *element; /* [count] next matrix of the same kind, or NONE; an element */
+    double *eta;         /* [count] [s] */
+    int count;
+} damped_kinds;
+
+static status kinds_alloc(const model *m, damped_kinds *k, fault *f)
+{
+    const size_t elements = (size_t)model_elements(m) + 1, kinds = (size_t)model_kinds(m);
+    *k = (damped_kinds){.first = malloc((kinds + 2 * elements) * sizeof(int)),
+                        .eta = malloc(elements * sizeof(double))};
+    if (k->first == NULL || k->eta == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for damping");
+    for (size_t i = 0; i < kinds; i++)
+        k->first[i] = NONE;
+    k->next = k->first + kinds;
+    k->element = k->next + elements;
+    return STATUS_OK;
+}
+
+static int matrix_of(const model *m, int element, double eta, damped_kinds *k)
+{
+    int *to = &k->first[model_element(m, element)->kind];
+    while (*to != NONE && k->eta[*to] != eta)
+        to = &k->next[*to];
+    if (*to != NONE)
+        return *to;
+    k->next[k->count] = NONE;
+    k->element[k->count] = element;
+    k->eta[k->count] = eta;
+    *to = k->count;
+    return k->count++;
+}
+
+/* Returns 1 if a matrix is symmetric and positive semidefinite up to rounding errors. */
+static int dissipates(int n, const double V[])
+{
+    const double rounding = 1e-10;
+    double L[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS], largest = 0;
+    for (int k = 0; k < n * n; k += n + 1)
+        largest = fmax(largest, V[k]);
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j < n; j++) {
+            if (!(fabs(V[n * i + j] - V[n * j + i]) <= rounding * largest))
+                return 0;
+            L[n * i + j] = V[n * i + j] + (i == j ? rounding * largest : 0);
+        }
+    return largest > 0 && dense_cholesky(n, L) == 0;
+}
+
+/* Computes V = eta S0 + the damping matrix of the formulation, and the longest relaxation time. */
+static status fill_matrix(const model *m, int element, double eta, double V[], double *slowest,
+                          fault *f)
+{
+    const int n = model_strains(m), kind = model_element(m, element)->kind;
+    const size_t at = (size_t)element;
+    double S[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
+    const status outcome = model_type(m)->stress(
+        model_kind(m, kind)->data, kinematics_rest(m)->e + at * (size_t)n,
+        kinematics_rest(m)->inner + at * (size_t)model_inner(m), &(stress_output){.C = S});
+    if (outcome != STATUS_OK)
+        return fault_set(f, outcome,
+                         "element %d: its state is outside the range that %s can evaluate; use "
+                         "smaller steps or more elements",
+                         element, model_type(m)->name);
+    if (own_damping(m, kind, V) && !dissipates(n, V))
+        return fault_set(f, STATUS_REFUSED,
+                         "formulation %s: its damping matrix is not symmetric and positive "
+                         "semidefinite, so motions would gain energy; correct 'damping' "
+                         "(element-test shows the entries)",
+                         model_type(m)->name);
+    for (int k = 0; k < n * n; k++)
+        V[k] += eta * S[k];
+    for (int k = 0; k < n * n; k += n + 1)
+        if (V[k] > 0)
+            *slowest = fmax(*slowest, S[k] > 0 ? V[k] / S[k] : INFINITY);
+    return STATUS_OK;
+}
+
+/* Finds the damping matrices of all elements. more [s]: damping that is added to that of all
+ * members. */
+static status fill_matrices(const model *m, double more, damped_kinds *k, run_damping *d, fault *f)
+{
+    const size_t square = (size_t)model_strains(m) * (size_t)model_strains(m);
+    TRY(kinds_alloc(m, k, f));
+    for (int i = 0; i < model_elements(m); i++) {
+        const double eta = model_scene(m)->member[model_element(m, i)->member].damping + more;
+        d->which[i] = eta > 0 || model_type(m)->damping != NULL ? matrix_of(m, i, eta, k) : NONE;
+    }
+    d->matrix = calloc((size_t)k->count * square + 1, sizeof *d->matrix);
+    d->slowest = calloc((size_t)k->count + 1, sizeof *d->slowest);
+    if (d->matrix == NULL || d->slowest == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for damping");
+    for (int i = 0; i < k->count; i++)
+        TRY(fill_matrix(m, k->element[i], k->eta[i], d->matrix + (size_t)i * square, &d->slowest[i],
+                        f));
+    return STATUS_OK;
+}
+
+/* Allocates the data of damping for the run. */
+static status begin(const equations *eq, double more, run_damping *d, fault *f)
 {
     const model *m = eq->m;
-    const size_t n = (size_t)model_strains(m), all = (size_t)model_stresses(m);
-    d->stiffness = calloc((size_t)model_kinds(m) * n * n + 1, sizeof *d->stiffness);
+    const size_t all = (size_t)model_stresses(m);
+    damped_kinds kinds = {0};
+    d->which = malloc(((size_t)model_elements(m) + 1) * sizeof *d->which);
     d->none = calloc(2 * all + 1, sizeof *d->none);
-    if (d->stiffness == NULL || d->none == NULL)
+    if (d->which == NULL || d->none == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for damping");
     d->begin = d->none + all;
-    for (int i = 0; i < model_elements(m) && members; i++) {
-        const int kind = model_element(m, i)->kind;
-        const status outcome =
-            model_type(m)->stress(model_kind(m, kind)->data, kinematics_rest(m)->e + (size_t)i * n,
-                                  kinematics_rest(m)->inner + (size_t)i * (size_t)model_inner(m),
-                                  &(stress_output){.C = d->stiffness + (size_t)kind * n * n});
-        if (outcome != STATUS_OK)
-            return fault_set(f, outcome,
-                             "element %d: its state is outside the range that %s can evaluate; use "
-                             "smaller steps or more elements",
-                             i, model_type(m)->name);
-    }
+    const status outcome = fill_matrices(m, more, &kinds, d, f);
+    free(kinds.first);
+    free(kinds.eta);
+    TRY(outcome);
     eq->run->damping = d;
     damping_follow(eq, 0, d->none, NULL);
     return STATUS_OK;
@@ -224,15 +340,16 @@ static status begin(const equations *eq, int members, run_damping *d, fault *f)
 
 status damping_begin(const equations *eq, run_damping *d, fault *f)
 {
-    const scene *s = model_scene(eq->m);
     memset(d, 0, sizeof *d);
-    return damping_acts(s) ? begin(eq, damping_of_members(s), d, f) : STATUS_OK;
+    return damping_acts(eq->m) ? begin(eq, 0, d, f) : STATUS_OK;
 }
 
 void damping_end(const equations *eq, run_damping *d)
 {
     eq->run->damping = NULL;
-    free(d->stiffness);
+    free(d->which);
+    free(d->matrix);
+    free(d->slowest);
     free(d->none);
 }
 
@@ -264,23 +381,20 @@ status damping_matrix(const equations *eq, const model_state *s, double more, sp
     run_damping d = {0};
     sparse_zero(C);
     eq->run->damping = NULL;
-    const int members = more > 0 || damping_of_members(model_scene(m));
-    const status begun = members ? begin(eq, 1, &d, f) : STATUS_OK;
+    const int members = more > 0 || damping_of_elements(m);
+    const status begun = members ? begin(eq, more, &d, f) : STATUS_OK;
     for (int i = 0; begun == STATUS_OK && members && i < model_elements(m); i++) {
         const mesh_element *el = model_element(m, i);
-        const double eta = model_scene(m)->member[el->member].damping + more;
-        const size_t n = (size_t)model_strains(m);
+        const double *V = run_damping_of(&d, m, i);
         node_state x[ELEMENT_MAX_NODES];
-        double J[E * ELEMENT_MAX_COORDINATES], S[E * E], A[X * X], work[E * X];
-        if (eta == 0)
+        double J[E * ELEMENT_MAX_COORDINATES], A[X * X], work[E * X];
+        if (V == NULL)
             continue;
         memset(A, 0, (size_t)(el->columns * el->columns) * sizeof *A);
         kinematics_gather(m, s, el, x);
         model_type(m)->strain(model_kind(m, el->kind)->data, x,
                               &(strain_output){.J = J, .history = model_history_of(m, s, i)});
-        for (size_t k = 0; k < n * n; k++)
-            S[k] = eta * d.stiffness[(size_t)el->kind * n * n + k];
-        dense_add_congruence(model_strains(m), model_own_coordinates(m), J, S, A, work);
+        dense_add_congruence(model_strains(m), model_own_coordinates(m), J, V, A, work);
         eliminate_matrix(m, s, el, NULL, A);
         assemble_matrix(p, i, A, C);
     }
@@ -406,12 +520,11 @@ double damping_power(const equations *eq, const double rate[])
     const model *m = eq->m;
     const size_t n = (size_t)model_strains(m);
     double sum = 0;
-    for (int i = 0; i < model_elements(m); i++)
-        sum +=
-            model_scene(m)->member[model_element(m, i)->member].damping *
-            dense_quadratic(model_strains(m),
-                            eq->run->damping->stiffness + (size_t)model_element(m, i)->kind * n * n,
-                            rate + (size_t)i * n);
+    for (int i = 0; i < model_elements(m); i++) {
+        const double *V = run_damping_of(eq->run->damping, m, i);
+        if (V != NULL)
+            sum += dense_quadratic(model_strains(m), V, rate + (size_t)i * n);
+    }
     return sum + dashpots_power(m, rate + of_members(m));
 }
 

@@ -299,7 +299,7 @@ static void add_jacobians(const small_motions *s, const model_state *at, double 
     double J[ROOM], d[SPRING_STRAINS];
     for (int i = 0; i < model_elements(m); i++) {
         const mesh_element *el = model_element(m, i);
-        if (model_scene(m)->member[el->member].damping == 0)
+        if (run_damping_of(s->eq->run->damping, m, i) == NULL)
             continue;
         strains_of(m, at, i, J);
         for (int k = 0; k < model_strains(m) * el->columns; k++)
@@ -327,12 +327,12 @@ static void change_jacobians(small_motions *s, double change[])
     memset(s->inc, 0, (size_t)s->all * sizeof *s->inc);
 }
 
-/* Computes K[n x n] = J^T S J'. */
-static void stiffness_of_rates(int strains, int n, const double J[], const double S[],
+/* Computes K[n x n] = J^T V J'. */
+static void stiffness_of_rates(int strains, int n, const double J[], const double V[],
                                const double change[], double K[])
 {
     double half[ROOM];
-    dense_mul(strains, strains, n, S, change, half);
+    dense_mul(strains, strains, n, V, change, half);
     memset(K, 0, (size_t)n * (size_t)n * sizeof *K);
     dense_add_transpose_mul(n, strains, n, J, half, K);
 }
@@ -340,20 +340,15 @@ static void stiffness_of_rates(int strains, int n, const double J[], const doubl
 static void add_rates(small_motions *s, const double change[])
 {
     const model *m = s->m;
-    const double *stiffness = s->eq->run->damping->stiffness;
     const mesh_pattern *pattern = assemble_of(s->eq->run->patterns, &s->out->K);
-    const size_t count = (size_t)model_strains(m) * (size_t)model_strains(m);
-    double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES], J[ROOM], d[SPRING_STRAINS],
-        S[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
+    double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES], J[ROOM], d[SPRING_STRAINS];
     for (int i = 0; i < model_elements(m); i++) {
         const mesh_element *el = model_element(m, i);
-        const double eta = model_scene(m)->member[el->member].damping;
-        if (eta == 0)
+        const double *V = run_damping_of(s->eq->run->damping, m, i);
+        if (V == NULL)
             continue;
-        for (size_t k = 0; k < count; k++)
-            S[k] = eta * stiffness[(size_t)el->kind * count + k];
         strains_of(m, s->now->state, i, J);
-        stiffness_of_rates(model_strains(m), el->columns, J, S, change + (size_t)i * ROOM, K);
+        stiffness_of_rates(model_strains(m), el->columns, J, V, change + (size_t)i * ROOM, K);
         assemble_matrix(pattern, i, K, &s->out->K);
     }
     for (int i = 0; i < model_springs(m); i++) {
@@ -392,13 +387,13 @@ static status make_compatible(const equations *eq, instant *now, fault *f)
     const size_t n = (size_t)model_strains(m);
     TRY(linearise_make_compatible(eq, now->state, f));
     for (int i = 0; i < model_elements(m) && eq->run->damping != NULL; i++) {
-        const mesh_element *el = model_element(m, i);
-        const double *S = eq->run->damping->stiffness + (size_t)el->kind * n * n;
+        const double *V = run_damping_of(eq->run->damping, m, i);
         double more[ELEMENT_MAX_STRAINS];
-        dense_mul_vec((int)n, (int)n, S, now->strain + (size_t)i * n, more);
+        if (V == NULL)
+            continue;
+        dense_mul_vec((int)n, (int)n, V, now->strain + (size_t)i * n, more);
         for (size_t k = 0; k < n; k++)
-            now->state->sigma[(size_t)i * n + k] +=
-                model_scene(m)->member[el->member].damping * more[k];
+            now->state->sigma[(size_t)i * n + k] += more[k];
     }
     return STATUS_OK;
 }

@@ -319,8 +319,7 @@ static const double *goal_of(const complement *c, const model_state *s, int elem
     const model *m = c->m;
     const size_t first = (size_t)element * (size_t)model_strains(m);
     double C[MOST * MOST], de[MOST], more[MOST];
-    if (c->eq->run->damping == NULL ||
-        model_scene(m)->member[model_element(m, element)->member].damping == 0)
+    if (run_damping_of(c->eq->run->damping, m, element) == NULL)
         return s->sigma + first;
     c->eq->run->counters.stress_evaluations++;
     if (model_type(m)->stress(model_kind_of(m, element)->data, c->before + first, NULL,

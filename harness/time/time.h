@@ -164,11 +164,11 @@ void account_take(account *, int steps, const double balance[SCENE_BALANCES]);
 /* Returns the larger of the largest energy so far and the total absolute work so far [J]. */
 double account_size(const account *);
 
-/* Returns 1 if a member or a spring of the scene has damping. */
-int damping_acts(const scene *);
-int damping_of_members(const scene *);
-/* Computes S0 for all kinds of elements. From this call on, the stresses of the run include
- * damping. The strain rates are zero until they are set. Does nothing if no member has damping. */
+/* Returns 1 if an element or a spring has damping: that of its member or of the formulation. */
+int damping_acts(const model *);
+int damping_of_elements(const model *);
+/* Computes the damping matrices of all elements. From this call on, the stresses of the run include
+ * damping. The strain rates are zero until they are set. Does nothing if nothing has damping. */
 status damping_begin(const equations *, run_damping *, fault *);
 void damping_end(const equations *, run_damping *);
 

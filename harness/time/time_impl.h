@@ -50,9 +50,10 @@ double account_most(const account *, double part, double rounding);
 status account_judge(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
 
-/* Stiffness-proportional damping: stresses gain eta S0 e', where e' are the strain rates and S0 is
- * the stiffness of the undeformed element. Rigid motions have no damping. Dashpots have the same
- * form, with the deformations of the spring and a given matrix. */
+/* Damping of elements: stresses gain V e', where e' are the strain rates. V is eta S0, where S0 is
+ * the stiffness of the undeformed element, plus the damping matrix of the formulation. Rigid motions
+ * have no damping. Dashpots have the same form, with the deformations of the spring and a given
+ * matrix. */
 
 /* Sets the present strain rates to known + g (e - strains of `from`) with known[model_stresses].
  * from NULL: g is 0. */
@@ -580,8 +581,7 @@ typedef struct deformable {
     double *C, *memory;    /* [strains x strains] P''(e), and the memory of the stress function */
     double *present;       /* [strains] P'(e) */
     double *gap_e, *gap_d; /* [strains] D(x_1) - e and A (dr, c, da) - d */
-    const double *S; /* S0 of a damped member, or matrix of a dashpot; NULL: there is no damping */
-    double damping;  /* eta [s] of a damped member; 1 for a dashpot */
+    const double *V; /* damping matrix; NULL: there is no damping */
     double length;   /* [m] reference length for incompatibilities */
 } deformable;
 

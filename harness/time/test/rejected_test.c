@@ -46,7 +46,7 @@ static int same(const flying *f, const double a[], const double b[])
  * kept from step to step, and those of a rejected step may lead to different round-off. */
 static int is_close(const flying *f, const double a[], const double b[])
 {
-    const double rounding = 1e-11;
+    const double rounding = 5e-11;
     for (size_t i = 0; i < flying_numbers(f, &f->now, NULL); i++)
         if (fabs(a[i] - b[i]) > rounding * (1 + fabs(a[i])))
             return 0;
