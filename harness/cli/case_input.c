@@ -285,7 +285,7 @@ void case_input_tell_analysis(const case_options *r, const scene *s)
     const scene_path *path = scene_path_of(a);
     fprintf(stderr,
             "beamwork: the scene has no analysis; a static analysis is run to the end of the "
-            "motions, as if analyses: {run: {static: {stations: [%g]}}} were given\n",
+            "prescribed motions, as if analyses: {run: {static: {stations: [%g]}}} were given\n",
             path->value[path->stations - 1]);
 }
 

@@ -157,7 +157,7 @@ static void show_cases(const element_type *t)
             show_alike(all, count, i, "runs, without ");
     for (int i = 0; i < count; i++)
         if (!all[i].runs)
-            show_alike(all, count, i, "not run, because the formulation lacks ");
+            show_alike(all, count, i, "not run, because the formulation does not support ");
 }
 
 static void list_formulation(const formulation *chosen, const rule *rules, int count)
@@ -169,8 +169,8 @@ static void list_formulation(const formulation *chosen, const rule *rules, int c
     show_numbers(chosen);
     show_declared(chosen, "shear in stability", "shear_theory");
     show_declared(chosen, "restricted to", "limits");
-    show_declared(chosen, "lacks", "lacks");
-    show_features("offers", t->offers & ~theories);
+    show_declared(chosen, "does not model", "lacks");
+    show_features("supports", t->offers & ~theories);
     show_features("does not support", ~t->offers & (FEATURE_END - 1) & ~theories);
     show_options(t);
     if (rules != NULL)

@@ -138,10 +138,10 @@ static struct {
     int signal;
     const char *what;
     char line[200];
-} mishap[] = {{SIGSEGV, "accesses memory that it does not own", ""},
-              {SIGBUS, "accesses memory that does not exist", ""},
-              {SIGFPE, "divides an integer by zero", ""},
-              {SIGILL, "executes an invalid instruction", ""},
+} mishap[] = {{SIGSEGV, "accessed memory that it does not own", ""},
+              {SIGBUS, "accessed memory that does not exist", ""},
+              {SIGFPE, "divided an integer by zero", ""},
+              {SIGILL, "executed an invalid instruction", ""},
               {SIGABRT, "aborts", ""},
               {SIGALRM, "did not finish within the time limit (--time-limit)", ""}};
 

@@ -307,7 +307,7 @@ static status fill_walls(const section_spec *spec, const double centroid[2], fac
         if (axis_of(spec, i) < 0)
             return fault_set(f, STATUS_REFUSED,
                              "wall %d is oblique, but only walls along y and z of the section can "
-                             "be written as solids; change it",
+                             "be written as solids; change the wall",
                              i);
         strips[i] = strip_of(spec, i);
     }

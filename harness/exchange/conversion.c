@@ -132,8 +132,8 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
             "rad/(N m), MPa, J, kg m/s, Hz, deg, %%, 1",
             from);
     if (!read_unit(to, &b) || memcmp(a.power, b.power, sizeof a.power) != 0)
-        return fault_set(f, STATUS_REFUSED, "unit '%.40s' cannot be converted to '%.40s'", from,
-                         to);
+        return fault_set(f, STATUS_REFUSED,
+                         "unit '%.40s' cannot be converted to '%.40s'; correct the unit", from, to);
     *factor = strcmp(from, to) == 0 ? 1 : a.factor / b.factor;
     return STATUS_OK;
 }

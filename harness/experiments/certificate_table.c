@@ -279,7 +279,7 @@ static const char *what_is_hashed(const certificate *c)
 {
     const char *from = formulations_element(c->chosen.type);
     if (from == NULL)
-        return "of the program, which contains it";
+        return "of the program that contains the element";
     return strncmp(from, "exec:", 5) == 0 ? "of the files named by its command" : "of its file";
 }
 

@@ -431,7 +431,7 @@ void checks_rotating(const formulation *chosen, claims *out)
         claims_not_made(out, "G is skew",
                         chosen->type->offers & FEATURE_MASS
                             ? "the inertia of the displacement field is used"
-                            : "offers no mass");
+                            : "does not support mass");
         return;
     }
     specimens_each(chosen, out, check_all);

@@ -334,7 +334,7 @@ const record_type record_extreme = {
 
 static const schema_field fields_of_count[] = {
     {"tried", "1", FIELD_INT,
-     "number of cells; a cell is an extreme at one x and is counted by its worst quantity",
+     "number of cells; a cell is one value x of an extreme and is counted by its worst quantity",
      AT(extreme_count, tried)},
     {"survived", "1", FIELD_INT, "number of accurate or under-resolved cells",
      AT(extreme_count, survived)},

@@ -470,7 +470,7 @@ void checks_mass(const formulation *chosen, claims *out)
         claims_not_made(out, "M is symmetric",
                         chosen->type->offers & FEATURE_MASS
                             ? "the inertia of the displacement field is used"
-                            : "offers no mass");
+                            : "does not support mass");
         return;
     }
     specimens_each(chosen, out, check);

@@ -38,7 +38,7 @@ static void continues(const specimen *s, const committed *of, claim *one)
     for (int i = 0; i < s->strains; i++)
         claims_departs(one, fabs(then[i] - first[i]) / s->request.length,
                        "commit: strain %d of a state changes from %.9g m to %.9g m when the state "
-                       "is committed; store what gives the same strains%s",
+                       "is committed; store values that give the same strains%s",
                        i + 1, first[i], then[i], s->words);
 }
 

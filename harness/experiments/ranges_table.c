@@ -159,10 +159,10 @@ static void write_open(FILE *to, const tally *t)
     for (int i = 0; i < t->of->formulations; i++)
         open |= tally_of(t, i, t->of->quantities)->open > 0;
     if (open)
-        paragraph_say(to, 0, 2,
-                      "if a quantity of a formulation has a value but no reference at a point, the "
-                      "point counts for all quantities together only if another quantity is "
-                      "outside the error; n?: over the points that have a reference");
+        paragraph_say(
+            to, 0, 2,
+            "a point at which a value has no reference counts for all quantities together only if "
+            "another value is outside the error; n?: over the points that have a reference");
 }
 
 static void write_all_shares(FILE *to, const tally *t, int every)

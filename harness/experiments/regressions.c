@@ -137,8 +137,8 @@ static status find_moved(const stored_results *former, const sweep *s, judgement
         snprintf(new.of, sizeof new.of, "%s/default/%s", s->point[one->point].type->name,
                  one->formulation.key);
         snprintf(new.why, sizeof new.why,
-                 "limit of %s %.10g -> %.10g %s; no reference value is accurate enough to check "
-                 "this change",
+                 "limit of %s changed from %.10g to %.10g %s; no reference value is accurate "
+                 "enough to check this change",
                  q->name, old->value, v->fit.limit, q->unit);
         TRY(memory_append(&j->regression, &j->regressions, &new, sizeof new, "regressions", f));
     }

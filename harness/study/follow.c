@@ -230,20 +230,23 @@ int sound_cell(const cell_result *cell, const scene *s, newton_form newton, char
     const char *count =
         wrong_count(cell, most_reused(cell, s), most_stale(cell, s), is_plain(cell, s, newton));
     if (c->steps != r->steps)
-        snprintf(why, FAULT_TEXT, "%ld steps were counted, but %d were recorded", c->steps,
-                 r->steps);
+        snprintf(why, FAULT_TEXT,
+                 "the number of counted steps (%ld) differs from the number of recorded steps (%d)",
+                 c->steps, r->steps);
     else if (c->rejected_steps != rejected)
         snprintf(why, FAULT_TEXT,
-                 "%ld rejected steps were counted, but the following steps counted %ld",
+                 "the number of counted rejected steps (%ld) differs from the number in the "
+                 "records of the steps (%ld)",
                  c->rejected_steps, rejected);
     else if (iterations > r->iterations || r->iterations > c->iterations)
         snprintf(why, FAULT_TEXT,
-                 "the steps contain %d iterations, but %d were recorded and %ld counted",
+                 "the numbers of iterations differ: %d in the steps, %d recorded, %ld counted",
                  iterations, r->iterations, c->iterations);
     else if (early >= 0)
-        snprintf(why, FAULT_TEXT,
-                 "step %d ended with a correction of %.1e, before a predicted correction of %.1e",
-                 early, r->step[early].correction, r->step[early].remaining);
+        snprintf(
+            why, FAULT_TEXT,
+            "step %d ended without convergence: correction %.1e, predicted next correction %.1e",
+            early, r->step[early].correction, r->step[early].remaining);
     else if (count != NULL)
         snprintf(why, FAULT_TEXT, "the number of %s does not match %ld iterations with %d elements",
                  count, c->iterations, cell->size.elements);

@@ -384,8 +384,10 @@ static status add_row(int number, char *line, int columns, own_table *out, mista
         return fault_set(f, STATUS_FAULT, "out of memory for %.100s", m->file);
     const int fields = line_split(row.text, row.field, columns);
     if (fields != columns) {
-        mistakes_add(m, number, 1, "the line has %d fields, but the table has %d columns", fields,
-                     columns);
+        mistakes_add(
+            m, number, 1,
+            "the number of fields in the line (%d) differs from the number of columns (%d)", fields,
+            columns);
         free(row.text);
         return STATUS_OK;
     }

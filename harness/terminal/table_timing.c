@@ -169,7 +169,7 @@ static void parts(FILE *to, const sweep *s, int at)
     if (!iterative)
         return;
     if (!parted) {
-        fputs("  steps of motions are not divided into elements, assembly and factors\n", to);
+        fputs("  times of motions are not divided into elements, assembly and factors\n", to);
         return;
     }
     fprintf(to, "  %-*s%5s", NAME, "[us] in an iteration", "n");

@@ -297,14 +297,14 @@ class MotionTest(SceneCase):
         leaf = LEAF.replace("81e9", "81e9, density: 7800")
         leaf = leaf.replace("y: [0, 1, 0]}", "y: [0, 1, 0], warping: fixed}")
         moving = self.scene(leaf + "analyses: {swing: {motion: {stations: [1e-3]}}}\n", "leaf.yaml")
-        self.refused(2, "motion cannot; remove the analysis", "export", "--scene", moving, "--to", "calculix",
+        self.refused(2, "not motion; remove the analysis", "export", "--scene", moving, "--to", "calculix",
                      "-n", 2, "-o", self.folder / "deck.inp")
         own = self.record("solve", "--scene", path, "-f", "beamw", "-n", 2)
         again = self.scene(self.answered("scene", "--scene", path).stdout, "again.yaml")
         self.assertEqual(values(own),
                          values(self.record("solve", "--scene", again, "-f", "beamw", "-n", 2)))
         timed = self.answered("bench", "--scene", path, "-f", "beamw", "-n", 1).stdout
-        self.assertIn("steps of motions are not divided", timed)
+        self.assertIn("times of motions are not divided", timed)
         listed = self.answered("list", "--scene", path).stdout
         self.assertIn("0.5 s after the start of the motion", re.sub(r"\s+", " ", listed))
 

@@ -112,7 +112,7 @@ class Tables(Tested):
                               "--format", "markdown", env=path).stdout
         self.assertNotIn(before, again)
         out = self.answered("element-test", "beamw", "--format", "latex").stdout
-        self.assertIn("SHA-256 of the program, which contains it", out)
+        self.assertIn("SHA-256 of the program that contains the element", out)
 
     def test_csv(self):
         found = self.forms()

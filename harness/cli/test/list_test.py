@@ -47,7 +47,7 @@ class Lists(ProgramTest):
         for name in self.formulations:
             words = self.shown(name)[0]
             for word in ("source: ", "order of convergence: ", "shear in stability: ", "newton=",
-                         "known deviations", "offers"):
+                         "known deviations", "supports"):
                 self.assertIn(word, words, name)
             told = words.partition("cases, at their default parameters")[2]
             does = told.partition("not run")[0]
