@@ -357,7 +357,7 @@ static status check_tension(const scene *s, int i, fault *f)
         vec3_norm(load->at) > 0)
         return fault_set(f, STATUS_REFUSED,
                          "%s: 'towards' applies only to a tension, and a tension has no vector, "
-                         "'where', 'at' or 'follower'; remove these keys",
+                         "'where', 'at' or 'follower'; remove the keys that do not apply",
                          who.text);
     for (int k = 0; k < 3; k++)
         apart[k] = s->node[load->towards].position[k] - s->node[load->where].position[k];
