@@ -160,7 +160,7 @@ static void check_refusals(void)
     check_refused("sin(t, 1)", 1, "sin takes one argument, not 2");
     check_refused("sin(t, t)", 1, "sin takes one argument, not 2");
     check_refused("min(1)*t", 1, "min takes two or more arguments, not 1");
-    check_refused("mod(1, 0)*t", 1, "mod has no value there");
+    check_refused("mod(1, 0)*t", 1, "mod has no value for its arguments");
     check_refused("3mm", 2, "20e-3 for 20 mm");
     check_refused("2*t + 4t", 8, "* between factors");
     check_refused("2 t", 3, "* between factors");
@@ -172,7 +172,7 @@ static void check_refusals(void)
     check_refused("t + 1/0", 6, "division by zero");
     check_refused("t/(1 - 1)", 2, "division by zero");
     check_refused("t + 0^-1", 6, "0^-1 has no value");
-    check_refused("sqrt(-1)*t", 1, "sqrt has no value there");
+    check_refused("sqrt(-1)*t", 1, "sqrt has no value for its arguments");
     check_refused("1..2", 2, "a range where one number");
     check_refused("t*#", 3, "'#' where a number");
     memset(deep, '(', sizeof deep - 1);
