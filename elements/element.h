@@ -288,18 +288,21 @@ typedef struct element_type {
      * function is nonlinear, this causes an error of second order in curvature. */
     void (*unstressed)(const element_data *, const double more[3], const node_state x[],
                        element_data *out);
-    /* Optional: values that an element stores along a path, for strains that depend on previous
-     * states, such as interpolated rotation increments. A history requires `strain` and `stress`,
-     * and excludes `along`, `equations_many` and `unstressed`. `strain` receives the values of the
-     * last accepted state, the end of a load step or time step (strain_output.history), and
-     * derivatives are those for constant values. A step that is repeated starts from the same
-     * values. */
+    /* Optional: values that an element stores along a path, for strains or forces that depend on
+     * previous states, such as interpolated rotation increments. A history excludes `along`,
+     * `equations_many` and `unstressed`. `strain` or `force` receives the values of the last
+     * accepted state, the end of a load step or time step (strain_output.history,
+     * force_output.history), and derivatives are those for constant values. A step that is repeated
+     * starts from the same values.
+     * With a history, the forces of `force` may depend on rigid rotations, need not derive from an
+     * energy, which is not requested, and may have an unsymmetric K. Such elements have at
+     * most seven nodes. Linear buckling, damping of members and energies are refused. */
     int (*history)(const double options[]); /* number of doubles of each element; default: 0 */
     /* Computes the values in the undeformed state; default: zero. */
     void (*begin)(const element_data *, const node_state x[], double history[]);
     /* Required with a history: replaces the values by those of the state x, which is accepted and
-     * was reached from the previous values. The strains of x must not change, and a second call at
-     * x must change nothing, both to round-off. */
+     * was reached from the previous values. The strains, or the forces of `force`, at x must not
+     * change, and a second call at x must change nothing, both to round-off. */
     void (*commit)(const element_data *, const node_state x[], double history[]);
     /* Optional: computes the positions of the nodes in the undeformed element, divided by its
      * length: 0 for the first node, 1 for the last node, in ascending order. Masses and loads are

@@ -23,6 +23,8 @@ typedef struct stress_output {
                          inner unknowns) */
     double
         *memory; /* [memory] eliminated inner equations, which `stress` writes and `update` reads */
+    const double *history; /* in: as in strain_output. Only `stress` of a type that the program
+                              completes from `force` uses it */
 } stress_output;
 
 /* Outputs of `inertia`. */
@@ -48,12 +50,15 @@ typedef struct inertia_output {
 
 /* Outputs of `force`, which replaces the functions `strain` and `stress`. */
 typedef struct force_output {
-    double *energy; /* [1] [J] */
+    double *energy; /* [1] [J]. Not requested with a history */
     double
         *F; /* [7 nodes] d energy/dx: forces on the nodes [N], moments [N m], bimoments [N m^2] */
-    double *K; /* [7 nodes x 7 nodes] dF/dx. Only the symmetric part is used. Therefore K may be the
-                  derivative of F along spatial increments or the second derivative of the energy in
-                  the exponential chart */
+    double *K; /* [7 nodes x 7 nodes] dF/dx. Without a history, only the symmetric part is used.
+                  Therefore K may be the derivative of F along spatial increments or the second
+                  derivative of the energy in the exponential chart. With a history, K is the
+                  derivative of F along spatial increments, and may be unsymmetric */
+    const double
+        *history; /* in: [history] values of the last accepted state, or NULL without a history */
 } force_output;
 
 /* Number of points of a load along an element, and number of coordinates of its two nodes. */

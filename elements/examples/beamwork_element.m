@@ -10,8 +10,8 @@ function out = beamwork_element(first, varargin)
 %   e = strain(kind, r, u, R, a)  e(m,N) of r(3,n,N), u(3,n,N), R(3,3,n,N), a(n,N)
 %   [energy, sigma, C] = stress(kind, e)      (1,N), (m,N), (m,m,N); where prepare gives []
 %   h = begin(kind, r, u, R, a)   h(q,N), with 'history', q, 'begin', @begin, 'commit', @commit: values
-%                           of undeformed elements. strain then has one more argument, h of the last
-%                           accepted state, the end of a load step or time step
+%                           of undeformed elements. strain or force then has one more argument, h of
+%                           the last accepted state, the end of a load step or time step
 %   h = commit(kind, r, u, R, a, h)           h of an accepted state, which was reached from h
 %   V = damping(kind)             V(m,m), with 'damping', @damping: strain rates e' add V e' to the stresses
 %                           in motions, damped modes and harmonic analyses
@@ -139,7 +139,7 @@ q = 0;
 if isfield(said, 'history'), q = said.history; end
 h = [];
 second = first;
-if q > 0 && any(what == [2 7])
+if q > 0 && any(what == [2 4 7])
     second = first + q * N;
     h = reshape(body(first + 1:second), q, N);
 end
@@ -167,6 +167,7 @@ for number = unique(numbers)
             part = energies(call.stress, mask, {kind, x(:, of)}, said.strains, numel(of));
         else
             state = nodes(reshape(x(:, of), 16, n, []));
+            if q > 0, state = [state, {h(:, of)}]; end
             part = energies(call.force, mask, [{kind}, state], 7 * n, numel(of));
         end
         for i = find(mask)

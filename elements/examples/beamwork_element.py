@@ -16,8 +16,9 @@ argument of each function is the kind of all N elements:
                           (not with inertia="vibration"). Default: the mass that all formulations share
   damping(kind) -> V[m, m], optional, constant, symmetric and positive semidefinite: strain rates e' add V e' to the
                           stresses in motions, damped modes and harmonic analyses
-  begin(kind, r, u, R, a) -> h[N, q], with history=q: the values of the undeformed elements. strain then has one more
-                          argument, h of the last accepted state, the end of a load step or time step
+  begin(kind, r, u, R, a) -> h[N, q], with history=q: the values of the undeformed elements. strain or force then has
+                          one more argument, h of the last accepted state, the end of a load step or time step. The
+                          energy of force is then not requested and may be None
   commit(kind, r, u, R, a, h) -> h[N, q] of an accepted state, which was reached from h
 Derivatives of strain and mass are computed by complex steps: both must accept complex arrays and be analytic (no abs,
 norm, conj or comparison of values; rotation_vector and sinc below are analytic). With gives="e", strain receives only
@@ -268,6 +269,7 @@ def answers(what, mask, kind, body, said, functions):
         return inertia(mask, kind, x, body[:, 16 * n:], functions)
     state = states(x)
     h, s = body[:, 16 * n:16 * n + q], body[:, 16 * n + q:]
+    last = (h,) if q else ()
     if what in (6, 7):
         name = FUNCTIONS[what - 1]
         if name == "begin" and name not in functions:
@@ -275,7 +277,7 @@ def answers(what, mask, kind, body, said, functions):
         found = functions[name](kind, *state, *(() if what == 6 else (h,)))
         return [checked(found, name, N, (q,), f"history={q} wants")]
     if what == 4:
-        found = functions["force"](kind, *state)
+        found = functions["force"](kind, *state, *last)
         return three("force", found, mask, "FK", N, 7 * n, f"nodes={n}")
 
     def strain(kind, *state):
@@ -283,14 +285,13 @@ def answers(what, mask, kind, body, said, functions):
         return checked(functions["strain"](kind, *state), "strain", len(state[0]), (m,),
                        f"strains={m} wants", numbers)
 
-    h = (h,) if q else ()
     if mask & 6 and not functions.get("analytic") and np.isfinite(x[0]).all():
-        functions["analytic"] = is_analytic(kind, strain, x[:1], [v[:1] for v in h])
+        functions["analytic"] = is_analytic(kind, strain, x[:1], [v[:1] for v in last])
         if not functions["analytic"]:
             raise Refused("derivatives are complex steps, but strain is not analytic (abs, norm, "
                           "a comparison, .real?): correct it, or say gives='e'")
-    of = (lambda: strain(kind, *state, *h), lambda: derivatives(kind, strain, x, None, h),
-          lambda: derivatives(kind, strain, x, s, h))
+    of = (lambda: strain(kind, *state, *last), lambda: derivatives(kind, strain, x, None, last),
+          lambda: derivatives(kind, strain, x, s, last))
     return [f() for i, f in enumerate(of) if mask >> i & 1]
 
 
@@ -314,7 +315,7 @@ def answer(what, mask, count, body, kinds, said, functions):
     numbers, rest = np.frombuffer(body, "<i8", count), np.frombuffer(body, "<f8", offset=8 * count)
     n = said.get("nodes", 2) * count
     q = said.get("history", 0) * count
-    ends = {2: [16 * n, 16 * n + q], 4: [16 * n], 6: [16 * n], 7: [16 * n], 5: np.cumsum(
+    ends = {2: [16 * n, 16 * n + q], 4: [16 * n, 16 * n + q], 6: [16 * n], 7: [16 * n], 5: np.cumsum(
         [16 * n, 6 * (mask >> 8 & 1), 7 * n * (mask >> 9 & 1), 7 * n * (mask >> 10 & 1)])}
     parts = np.split(rest, ends.get(what, []))
     if what == 5:  # one frame for all elements

@@ -3,6 +3,9 @@
  * depend on the path and on rigid rotations. Both errors vanish with shorter elements (M. A.
  * Crisfield, G. Jelenic, Proc. R. Soc. A 455, 1999).
  *
+ * simo_vu_quoc.c has the same strains, but its forces follow from interpolated virtual rotations;
+ * here they are the derivatives of the energy of the strains, at constant history.
+ *
  * The history of an element contains the rotations of both nodes in the last accepted state, and
  * the rotation L and the curvature k at the point. With the increments p, q of the nodes,
  *   t = (p + q)/2, t' = (q - p)/l, R = exp(t~) L, strains l (R^T r' - (1, 0, 0)) and
@@ -191,7 +194,8 @@ const element_type beamwork_element = {
     .abi = ELEMENT_ABI,
     .size = sizeof(element_type),
     .name = "incremental",
-    .summary = "two nodes, one point, interpolated rotation increments, without warping",
+    .summary =
+        "two nodes, one integration point, interpolated rotation increments, without warping",
     .source = "Cardona, Geradin, Int. J. Numer. Meth. Eng. 26 (1988), one point of integration",
     .family = "example",
     .offers =

@@ -42,7 +42,7 @@ def commit(kind, _r, _u, R, _a, h):
 
 if __name__ == "__main__":
     serve(prepare, strain, begin=begin, commit=commit, name="incremental_py", family="example", strains=6, history=30,
-          summary="two nodes, one point, interpolated rotation increments, in Python",
+          summary="two nodes, one integration point, interpolated rotation increments, in Python",
           source="Cardona, Geradin, Int. J. Numer. Meth. Eng. 26 (1988), one point of integration",
           offers=["shear", "geometric", "large rotations", "mass", "rotary inertia"],
           shear_theories=["haringx"], limits=["doubly symmetric", "not objective", "path dependent"])

@@ -57,11 +57,11 @@ module beamwork
   end type
 
   type, bind(c) :: stress_output
-    type(c_ptr) :: energy, sigma, C, residual, memory
+    type(c_ptr) :: energy, sigma, C, residual, memory, history
   end type
 
   type, bind(c) :: force_output
-    type(c_ptr) :: energy, F, K
+    type(c_ptr) :: energy, F, K, history
   end type
 
   type, bind(c) :: element_type ! members that are not set: not given

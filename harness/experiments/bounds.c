@@ -91,7 +91,8 @@ static void stresses(const specimen *s, const double e[], claims *c)
                          .sigma = guard(&sigma, "stress: sigma", m),
                          .C = guard(&C, "stress: C", m * m),
                          .residual = guard(&residual, "stress: residual", 1),
-                         .memory = guard(&memory, "stress: memory", s->memory)};
+                         .memory = guard(&memory, "stress: memory", s->memory),
+                         .history = s->history};
     if (s->memory == 0)
         out.memory = NULL;
     const int filled = s->type.stress(s->data, e, own, &out) == STATUS_OK;
@@ -177,13 +178,16 @@ static void forces(const specimen *s, const node_state x[], claims *c)
     force_output out = {.energy = guard(&energy, "force: energy", 1),
                         .F = guard(&force, "force: F", n),
                         .K = guard(&stiffness, "force: K", n * n)};
+    out.history = s->history;
+    if (specimen_lacks_energy(s))
+        out.energy = NULL;
     if (leaves & LEAVES_FORCE)
         out.F = NULL;
     if (leaves)
         out.K = NULL;
     claims_doing(c, "force%s", s->words);
     const int filled = s->made.given->force(adapted_own(s->data), x, &out) == STATUS_OK;
-    look(&energy, filled, s, c);
+    look(&energy, filled && out.energy != NULL, s, c);
     look(&force, filled && out.F != NULL, s, c);
     look(&stiffness, filled && out.K != NULL, s, c);
 }
@@ -365,9 +369,10 @@ static void alone(const specimen *s, const call_account *before, const node_stat
     s->type.strain(s->data, x, &(strain_output){.J = a.J, .history = s->history});
     s->type.strain(s->data, x, &(strain_output){.e = a.e, .history = s->history});
     memcpy(inner, before->inner, sizeof inner);
-    s->type.stress(s->data, a.e, inner, &(stress_output){.C = a.C});
-    s->type.stress(s->data, a.e, inner, &(stress_output){.sigma = a.sigma});
-    s->type.stress(s->data, a.e, inner, &(stress_output){.energy = &a.energy});
+    s->type.stress(s->data, a.e, inner, &(stress_output){.C = a.C, .history = s->history});
+    s->type.stress(s->data, a.e, inner, &(stress_output){.sigma = a.sigma, .history = s->history});
+    s->type.stress(s->data, a.e, inner,
+                   &(stress_output){.energy = &a.energy, .history = s->history});
     if (s->inner >
         0) { /* not compared, because the last correction of the inner unknowns is not repeated */
         memcpy(a.sigma, before->sigma, sizeof a.sigma);

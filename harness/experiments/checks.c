@@ -58,13 +58,26 @@ static void rest(const specimen *s, claim *one)
                        e[i], s->words);
 }
 
+/* Computes the energy or, if there is none, the sum of the absolute stresses times the length. */
 static status energy_of(const specimen *s, const node_state x[], double *energy)
 {
     double e[M], inner[SPECIMEN_INNER];
     s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
     specimen_rest(s, inner);
     *energy = NAN;
-    return specimen_settled(s, e, inner, &(stress_output){.energy = energy});
+    if (!specimen_lacks_energy(s))
+        return specimen_settled(s, e, inner, &(stress_output){.energy = energy});
+    double sigma[M];
+    *energy = 0;
+    TRY(specimen_settled(s, e, inner, &(stress_output){.sigma = sigma}));
+    for (int i = 0; i < s->strains; i++)
+        *energy += fabs(sigma[i]) * s->request.length;
+    return STATUS_OK;
+}
+
+static const char *energy_word(const specimen *s)
+{
+    return specimen_lacks_energy(s) ? "a sum of forces times its length" : "an energy";
 }
 
 /* Checks that exchanging the nodes does not change the energy. The sections of the reversed element
@@ -124,17 +137,17 @@ static void units(const specimen *s, claim *one)
     for (int k = 1; k < 3; k++)
         claims_departs(
             one, claims_share(fabs(energy[k] - energy[0]), fabs(energy[0])),
-            "prepare, stress: the same element in units of %g m has an energy of %.9g J instead of "
+            "prepare, stress: the same element in units of %g m has %s of %.9g J instead of "
             "%.9g J; check that no length is compared with a dimensionless number%s",
-            unit[k], energy[k], energy[0], s->words);
+            unit[k], energy_word(s), energy[k], energy[0], s->words);
 }
 
 static void check(const specimen *s, claims *c)
 {
     static const double turn[][3] = {{0.71, -1.93, 1.37}, {0, 0, 2.2}, {3.1, 0, 0}, {0, -1.6, 0}};
     claims_doing(c, "strain of a rotated element%s", s->words);
-    for (size_t k = 0; k < sizeof turn / sizeof turn[0] && !(s->type.limits & LIMIT_NOT_OBJECTIVE);
-         k++) {
+    const int objective = !(s->type.limits & LIMIT_NOT_OBJECTIVE) && !specimen_lacks_energy(s);
+    for (size_t k = 0; k < sizeof turn / sizeof turn[0] && objective; k++) {
         rigid(s, 0, turn[k], claims_open(c, "rigid motion causes no strain", 1e-14));
         rigid(s, 0.2, turn[k], claims_open(c, "rigid motion changes no strain", 2e-14));
     }
@@ -169,6 +182,9 @@ void checks_motion(const formulation *chosen, claims *out)
     if (chosen->type->limits & LIMIT_NOT_OBJECTIVE)
         claims_not_made(out, "rigid motion changes no strain",
                         "declares LIMIT_NOT_OBJECTIVE; see 'paths'");
+    else if (chosen->type->force != NULL && element_history(chosen->type, chosen->option) > 0)
+        claims_not_made(out, "rigid motion changes no strain",
+                        "the element provides forces with a history; see 'paths'");
 }
 
 /* Checks of states with NaN or Inf, which occur in diverging iterations. The element must report
@@ -193,8 +209,10 @@ static int swallowed(const specimen *s, const node_state x[])
         return 0;
     specimen_rest(s, inner);
     const status outcome =
-        s->type.stress(s->data, e, inner, &(stress_output){.energy = &energy, .sigma = sigma});
-    return outcome == STATUS_OK && isfinite(energy) && all_finite(s->strains, sigma);
+        s->type.stress(s->data, e, inner,
+                       &(stress_output){.energy = &energy, .sigma = sigma, .history = s->history});
+    return outcome == STATUS_OK && (specimen_lacks_energy(s) || isfinite(energy)) &&
+           all_finite(s->strains, sigma);
 }
 
 static void spoil(const specimen *s, double by, claim *one)
@@ -222,7 +240,8 @@ static void spoil_strains(const specimen *s, double by, claim *one)
     const double none[UNSOUND_M] = {0};
     double C[UNSOUND_M * UNSOUND_M], inner[SPECIMEN_INNER];
     specimen_rest(s, inner);
-    if (s->type.stress(s->data, none, inner, &(stress_output){.C = C}) != STATUS_OK)
+    if (s->type.stress(s->data, none, inner, &(stress_output){.C = C, .history = s->history}) !=
+        STATUS_OK)
         return;
     for (int i = 0; i < s->strains; i++) {
         double e[UNSOUND_M] = {0}, sigma[UNSOUND_M], energy = 0;
@@ -230,10 +249,11 @@ static void spoil_strains(const specimen *s, double by, claim *one)
             continue;
         e[i] = by;
         specimen_rest(s, inner);
-        const status outcome =
-            s->type.stress(s->data, e, inner, &(stress_output){.energy = &energy, .sigma = sigma});
-        claims_asks(one,
-                    outcome != STATUS_OK || !isfinite(energy) || !all_finite(s->strains, sigma),
+        const status outcome = s->type.stress(
+            s->data, e, inner,
+            &(stress_output){.energy = &energy, .sigma = sigma, .history = s->history});
+        const int finite = specimen_lacks_energy(s) || isfinite(energy);
+        claims_asks(one, outcome != STATUS_OK || !finite || !all_finite(s->strains, sigma),
                     "stress: strain %d that is %g gives a finite energy and finite stresses; let "
                     "NaN and Inf propagate, or return a status%s",
                     i + 1, by, s->words);
@@ -249,7 +269,8 @@ static void far_away(const specimen *s, double size, claim *one)
     specimen_state(s, size, 61, x);
     s->type.strain(s->data, x, &(strain_output){.e = e, .J = J, .history = s->history});
     specimen_rest(s, inner);
-    s->type.stress(s->data, e, inner, &(stress_output){.sigma = sigma, .C = C});
+    s->type.stress(s->data, e, inner,
+                   &(stress_output){.sigma = sigma, .C = C, .history = s->history});
     claims_asks(one, 1, "%s", "");
 }
 

@@ -208,10 +208,12 @@ static strain_output strain_of(const many_batch *b, int k, many_answers *a)
     return out;
 }
 
-static stress_output many_stress_of(const many_batch *b, many_answers *a)
+static stress_output many_stress_of(const many_batch *b, int k, many_answers *a)
 {
     const unsigned leaves = b->of[0]->made.given->leaves;
-    stress_output out = {.energy = &a->energy};
+    stress_output out = {.history = b->of[k]->history};
+    if (!specimen_lacks_energy(b->of[k]))
+        out.energy = &a->energy;
     if (!(leaves & LEAVES_FORCE))
         out.sigma = a->sigma;
     if (!(leaves & (LEAVES_FORCE | LEAVES_TANGENT)))
@@ -301,13 +303,13 @@ static void stresses(const specimen *s, many_batch *b, claim *one)
     const double *e[MANY], *inner[MANY];
     status outcome[MANY];
     for (int k = 0; k < MANY; k++) {
-        out[k] = many_stress_of(b, &b->alone[k]);
+        out[k] = many_stress_of(b, k, &b->alone[k]);
         e[k] = b->alone[k].e;
         inner[k] = b->inner;
         b->alone[k].outcome = s->type.stress(b->data[k], e[k], b->inner, &out[k]);
     }
     for (int k = 0; k < MANY; k++)
-        out[k] = many_stress_of(b, &b->together[k]);
+        out[k] = many_stress_of(b, k, &b->together[k]);
     s->type.stress_many(MANY, b->data, e, inner, out, outcome);
     for (int k = 0; k < MANY; k++) {
         b->together[k].outcome = outcome[k];

@@ -296,6 +296,8 @@ typedef struct specimen {
  * case. */
 status specimen_make(const specimen_request *, specimen *out, fault *f);
 void specimen_free(specimen *s);
+/* Returns 1 if the type computes forces with a history, which need not derive from an energy. */
+int specimen_lacks_energy(const specimen *s);
 
 /* Computes the nodes of the undeformed element, displaced by random numbers times `size`, in units
  * of length, radians and 1/length. */

@@ -7,19 +7,21 @@
 #include <string.h>
 
 #include "elements/math/dense.h"
+#include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 #include "harness/formulations/adapted.h"
 
 enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
 
 static const char *const claim_continues = "commit does not change the strains",
+                         *const claim_forces = "commit does not change the forces",
                          *const claim_twice = "a second commit changes nothing",
                          *const claim_same = "commit gives the same bits again";
 
 /* A committed state, and the history before and after the call of `commit`. */
 typedef struct committed {
     node_state x[ELEMENT_MAX_NODES];
-    double before[ELEMENT_MAX_HISTORY], after[ELEMENT_MAX_HISTORY];
+    double before[ADAPTERS_MOST_HISTORY], after[ADAPTERS_MOST_HISTORY];
 } committed;
 
 static void commit_of(const specimen *s, const double before[], committed *out)
@@ -30,9 +32,42 @@ static void commit_of(const specimen *s, const double before[], committed *out)
     s->type.commit(s->data, out->x, out->after);
 }
 
+/* Computes the forces of a type that computes them, multiplied by the units of their coordinates
+ * [J]. */
+static status forces_of(const specimen *s, const node_state x[], const double history[],
+                        double force[N])
+{
+    TRY(s->made.given->force(adapted_own(s->data), x,
+                             &(force_output){.F = force, .history = history}));
+    for (int i = 0; i < s->coordinates; i++)
+        force[i] *= chart_unit(i, s->request.length);
+    return STATUS_OK;
+}
+
+static void forces_continue(const specimen *s, const committed *of, claim *one)
+{
+    double first[N], then[N], most = 0;
+    if (forces_of(s, of->x, of->before, first) != STATUS_OK ||
+        forces_of(s, of->x, of->after, then) != STATUS_OK)
+        return;
+    for (int i = 0; i < s->coordinates; i++)
+        most = fmax(most, fabs(first[i]));
+    for (int i = 0; i < s->coordinates; i++)
+        claims_departs(
+            one, claims_share(fabs(then[i] - first[i]), most),
+            "commit: the force in coordinate %d of a state, times its unit, changes from "
+            "%.9g J to %.9g J when the state is committed; store what gives the same "
+            "forces%s",
+            i + 1, first[i], then[i], s->words);
+}
+
 static void continues(const specimen *s, const committed *of, claim *one)
 {
     double first[M], then[M];
+    if (specimen_lacks_energy(s)) {
+        forces_continue(s, of, one);
+        return;
+    }
     s->type.strain(s->data, of->x, &(strain_output){.e = first, .history = of->before});
     s->type.strain(s->data, of->x, &(strain_output){.e = then, .history = of->after});
     for (int i = 0; i < s->strains; i++)
@@ -63,7 +98,9 @@ static void check(const specimen *s, claims *c)
         specimen_state(s, 0.05, seed[k], of.x);
         memcpy(again.x, of.x, sizeof of.x);
         commit_of(s, last, &of);
-        continues(s, &of, claims_open(c, claim_continues, 1e-13));
+        continues(s, &of,
+                  specimen_lacks_energy(s) ? claims_open(c, claim_forces, 1e-11)
+                                           : claims_open(c, claim_continues, 1e-13));
         commit_of(s, of.before, &again);
         compare_values(s, of.after, again.after, "in a second call with the same input",
                        claims_open(c, claim_same, 0));
@@ -94,11 +131,15 @@ static const int marks[MARKS] = {1, 10, 100};
 static const double turned = 0.3, moved = 0.05;
 static const double exact = 1e-9;
 
+/* What is compared along a path: strains, the forces of a type that computes them with a history,
+ * or the energy of any other type that computes forces or an energy. */
+enum { COMPARES_STRAINS, COMPARES_FORCES, COMPARES_ENERGY };
+
 /* An element that follows a path, with its history and its last results. */
 typedef struct walker {
     const specimen *s;
-    double history[ELEMENT_MAX_HISTORY];
-    int strains;                   /* 0: only the energy is computed */
+    double history[ADAPTERS_MOST_HISTORY];
+    int compares;
     double e[M], energy, force[N]; /* force: multiplied by the unit of its coordinate [J] */
     double most_e, most_energy, most_force; /* largest absolute values in the first cycle */
 } walker;
@@ -107,7 +148,9 @@ static void walker_begin(const specimen *s, walker *w)
 {
     memset(w, 0, sizeof *w);
     w->s = s;
-    w->strains = s->made.given->force == NULL;
+    w->compares = s->made.given->force == NULL ? COMPARES_STRAINS
+                  : specimen_lacks_energy(s)   ? COMPARES_FORCES
+                                               : COMPARES_ENERGY;
     if (s->values > 0)
         memcpy(w->history, s->history, (size_t)s->values * sizeof *w->history);
 }
@@ -148,37 +191,74 @@ static int matters(const specimen *s, int k)
     return is;
 }
 
+/* Computes the strains, and with `forces` also the forces, of a type that computes strains. */
+static status walker_strains(walker *w, const node_state x[], int forces)
+{
+    const specimen *s = w->s;
+    double J[M * N], sigma[M], inner[SPECIMEN_INNER];
+    s->type.strain(s->data, x,
+                   &(strain_output){.e = w->e,
+                                    .J = forces ? J : NULL,
+                                    .history = s->values > 0 ? w->history : NULL});
+    if (!forces)
+        return STATUS_OK;
+    specimen_rest(s, inner);
+    TRY(specimen_settled(s, w->e, inner, &(stress_output){.sigma = sigma}));
+    memset(w->force, 0, sizeof w->force);
+    dense_add_transpose_mul(s->coordinates, s->strains, 1, J, sigma, w->force);
+    for (int i = 0; i < s->coordinates; i++)
+        w->force[i] *= chart_unit(i, s->request.length);
+    return STATUS_OK;
+}
+
 /* Evaluates the element in step k of its path, and commits the state. forces 1: also computes the
  * forces. */
 static status walker_step(walker *w, int k, const node_state x[], int forces)
 {
     const specimen *s = w->s;
-    double J[M * N], sigma[M], inner[SPECIMEN_INNER];
-    if (!w->strains) {
+    if (w->compares == COMPARES_STRAINS)
+        TRY(walker_strains(w, x, forces));
+    else if (w->compares == COMPARES_FORCES)
+        TRY(forces_of(s, x, w->history, w->force));
+    else
         TRY(s->made.given->force(adapted_own(s->data), x, &(force_output){.energy = &w->energy}));
-        if (k <= STEPS)
-            w->most_energy = fmax(w->most_energy, fabs(w->energy));
-        return STATUS_OK;
-    }
-    s->type.strain(s->data, x,
-                   &(strain_output){.e = w->e,
-                                    .J = forces ? J : NULL,
-                                    .history = s->values > 0 ? w->history : NULL});
-    if (forces) {
-        specimen_rest(s, inner);
-        TRY(specimen_settled(s, w->e, inner, &(stress_output){.sigma = sigma}));
-        memset(w->force, 0, sizeof w->force);
-        dense_add_transpose_mul(s->coordinates, s->strains, 1, J, sigma, w->force);
-        for (int i = 0; i < s->coordinates; i++)
-            w->force[i] *= chart_unit(i, s->request.length);
-    }
     if (k <= STEPS) {
         w->most_e = fmax(w->most_e, largest(s->strains, w->e));
         w->most_force = fmax(w->most_force, largest(s->coordinates, w->force));
+        w->most_energy = fmax(w->most_energy, fabs(w->energy));
     }
     if (s->values > 0)
         s->type.commit(s->data, x, w->history);
     return STATUS_OK;
+}
+
+/* Rotates the forces of a carried element back. */
+static void turn_back(const specimen *s, const double turn[3], double force[N])
+{
+    double q[4], R[9];
+    rotation_exp(turn, q);
+    rotation_matrix(q, R);
+    for (int i = 0; i < s->coordinates; i += i % NODE_COORDINATES == 0 ? 3 : 4) {
+        const double v[3] = {force[i], force[i + 1], force[i + 2]};
+        mat3_transpose_mul_vec(R, v, force + i);
+    }
+}
+
+/* Returns the largest difference between two elements, of which one was carried by a rotation. */
+static double difference(const walker *at, const walker *there, const double turn[3])
+{
+    const specimen *s = at->s;
+    double differs[N > M ? N : M];
+    if (at->compares == COMPARES_ENERGY)
+        return fabs(there->energy - at->energy);
+    const int strains = at->compares == COMPARES_STRAINS;
+    memcpy(differs, strains ? there->e : there->force,
+           (size_t)(strains ? s->strains : s->coordinates) * sizeof *differs);
+    if (!strains)
+        turn_back(s, turn, differs);
+    for (int i = 0; i < (strains ? s->strains : s->coordinates); i++)
+        differs[i] -= strains ? at->e[i] : at->force[i];
+    return largest(strains ? s->strains : s->coordinates, differs);
 }
 
 static void conclude(element_measure *one, const char *holds, const char *fails)
@@ -190,18 +270,19 @@ static void conclude(element_measure *one, const char *holds, const char *fails)
 }
 
 /* Follows closed cycles with and without an additional rotation of the whole element, and compares
- * the strains. For elements without strains, compares the energies. */
+ * the results. */
 static void superposed(const specimen *s, measures *out)
 {
     static const double axis[3] = {0.36, 0.48, 0.8};
+    static const char *const name[] = {"strains, turns superposed", "forces, turns superposed",
+                                       "energy, turns superposed"};
     walker at, there;
     double most = 0;
     walker_begin(s, &at);
     walker_begin(s, &there);
-    element_measure *one =
-        measures_add(out, at.strains ? "strains, turns superposed" : "energy, turns superposed");
+    element_measure *one = measures_add(out, name[at.compares]);
     for (int k = 1, mark = 0; mark < MARKS; k++) {
-        double turn[3], differs[M];
+        double turn[3];
         node_state x[ELEMENT_MAX_NODES], carried[ELEMENT_MAX_NODES];
         if (!matters(s, k))
             continue;
@@ -214,13 +295,10 @@ static void superposed(const specimen *s, measures *out)
             snprintf(one->words, sizeof one->words, "a state of the path cannot be evaluated");
             return;
         }
-        for (int i = 0; i < s->strains && at.strains; i++)
-            differs[i] = there.e[i] - at.e[i];
-        most =
-            fmax(most, at.strains ? largest(s->strains, differs) : fabs(there.energy - at.energy));
-        if (k != marks[mark] * STEPS)
-            continue;
-        measures_point(one, marks[mark++], most / (at.strains ? at.most_e : at.most_energy));
+        most = fmax(most, difference(&at, &there, turn));
+        const double size[] = {at.most_e, at.most_force, at.most_energy};
+        if (k == marks[mark] * STEPS)
+            measures_point(one, marks[mark++], most / size[at.compares]);
     }
     conclude(one, "objective", "not objective");
 }
@@ -229,11 +307,12 @@ static void superposed(const specimen *s, measures *out)
 static void cycles(const specimen *s, measures *out)
 {
     walker at;
-    element_measure *strains, *forces;
+    element_measure *strains = NULL, *forces;
     walker_begin(s, &at);
-    if (!at.strains)
+    if (at.compares == COMPARES_ENERGY)
         return;
-    strains = measures_add(out, "strains after closed cycles");
+    if (at.compares == COMPARES_STRAINS)
+        strains = measures_add(out, "strains after closed cycles");
     forces = measures_add(out, "forces after closed cycles");
     for (int k = 1, mark = 0; mark < MARKS; k++) {
         node_state x[ELEMENT_MAX_NODES];
@@ -241,17 +320,20 @@ static void cycles(const specimen *s, measures *out)
             continue;
         cycle_state(s, (double)(k % STEPS) / STEPS, x);
         if (walker_step(&at, k, x, k <= STEPS || k == marks[mark] * STEPS) != STATUS_OK) {
-            snprintf(strains->words, sizeof strains->words,
+            snprintf(forces->words, sizeof forces->words,
                      "a state of the path cannot be evaluated");
-            memcpy(forces->words, strains->words, sizeof forces->words);
+            if (strains != NULL)
+                memcpy(strains->words, forces->words, sizeof strains->words);
             return;
         }
         if (k != marks[mark] * STEPS)
             continue;
-        measures_point(strains, marks[mark], largest(s->strains, at.e) / at.most_e);
+        if (strains != NULL)
+            measures_point(strains, marks[mark], largest(s->strains, at.e) / at.most_e);
         measures_point(forces, marks[mark++], largest(s->coordinates, at.force) / at.most_force);
     }
-    conclude(strains, "path-independent", "path-dependent");
+    if (strains != NULL)
+        conclude(strains, "path-independent", "path-dependent");
     conclude(forces, "path-independent", "path-dependent");
 }
 
@@ -276,9 +358,8 @@ static void hold_against_declared(const formulation *chosen, const measures *out
         }
         for (int k = 0; k < one->points; k++)
             claims_departs(claims_open(c, of[i].claim, exact), one->error[k],
-                           "strain: %s: an error of %.2g of the largest strain after %g turns or "
-                           "cycles; correct "
-                           "the update, or declare %s",
+                           "%s: an error of %.2g of the largest value after %g turns or cycles; "
+                           "correct the update, or declare %s",
                            one->name, one->error[k], one->at[k], of[i].word);
     }
 }

@@ -36,7 +36,7 @@ static void at_rest(const specimen *s, node_state x[])
 static status begin(specimen *s, fault *f)
 {
     node_state x[ELEMENT_MAX_NODES];
-    const int count = element_history(&s->type, s->options);
+    const int count = adapters_history(s->made.given, s->options);
     if (count == 0)
         return STATUS_OK;
     s->history = calloc((size_t)count, sizeof *s->history);
@@ -160,6 +160,8 @@ status specimen_settled(const specimen *s, const double e[], double inner[], str
 {
     double memory[SPECIMEN_MEMORY], residual = 1;
     const double none[SPECIMEN_STRAINS] = {0};
+    if (out->history == NULL)
+        out->history = s->history;
     for (int i = 0; i < SETTLING && s->inner > 0 && s->type.update != NULL; i++) {
         TRY(s->type.stress(s->data, e, inner,
                            &(stress_output){.residual = &residual, .memory = memory}));
@@ -170,6 +172,11 @@ status specimen_settled(const specimen *s, const double e[], double inner[], str
     const status outcome = s->type.stress(s->data, e, inner, out);
     out->memory = NULL;
     return outcome;
+}
+
+int specimen_lacks_energy(const specimen *s)
+{
+    return s->made.given->force != NULL && s->values > 0;
 }
 
 const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS])
@@ -318,6 +325,9 @@ static const char *const claim_F = "F is the gradient of the energy",
 
 static status call(const specimen *s, const node_state x[], force_output *out)
 {
+    out->history = s->history;
+    if (specimen_lacks_energy(s))
+        out->energy = NULL;
     return s->made.given->force(adapted_own(s->data), x, out);
 }
 
@@ -366,7 +376,8 @@ static void check_force(const specimen_place *at, const double F[], claim *one)
     }
 }
 
-/* Checks the symmetric part of K, which corresponds to the exponential chart. */
+/* Checks the symmetric part of K, which corresponds to the exponential chart, or, with a history,
+ * all of K, which then consists of derivatives along spatial increments. */
 static void check_stiffness(const specimen_place *at, const double K[], claim *one)
 {
     const specimen *s = at->s;
@@ -378,12 +389,14 @@ static void check_stiffness(const specimen_place *at, const double K[], claim *o
         stencil_first(force_at, at, n, j, column[j]);
         size = fmax(size, fabs(K[j * n + j]) * unit * unit);
     }
+    const double opposite = specimen_lacks_energy(s) ? 0 : 0.5; /* part of the opposite entry */
     for (int i = 0; i < n; i++)
-        for (int j = 0; j <= i; j++) {
+        for (int j = 0; j < (opposite > 0 ? i + 1 : n); j++) {
             const double ui = chart_unit(i, s->request.length),
                          uj = chart_unit(j, s->request.length);
-            const double given = (K[i * n + j] + K[j * n + i]) / 2 * ui * uj,
-                         found = (column[j][i] * ui + column[i][j] * uj) / 2;
+            const double given =
+                ((1 - opposite) * K[i * n + j] + opposite * K[j * n + i]) * ui * uj;
+            const double found = (1 - opposite) * column[j][i] * ui + opposite * column[i][j] * uj;
             claims_departs(one, claims_share(fabs(given - found), size),
                            "K: the derivative of the force in coordinate %d (%s) with respect to "
                            "coordinate %d (%s) is %.6g, but finite differences of F give %.6g%s",
@@ -416,6 +429,8 @@ static void check_rest(const specimen *s, double scale, claim *one)
     const unsigned leaves = s->made.given->leaves;
     specimen_state(s, 0, 1, x);
     call(s, x, &(force_output){.energy = &energy, .F = leaves & LEAVES_FORCE ? NULL : F});
+    if (specimen_lacks_energy(s))
+        energy = 0;
     claims_departs(one, fabs(energy) / scale,
                    "force: the undeformed element has an energy of %.3g J%s", energy, s->words);
     if (leaves & LEAVES_FORCE)
@@ -431,7 +446,7 @@ static void check_rest(const specimen *s, double scale, claim *one)
 static void check(const specimen *s, claims *c)
 {
     const unsigned leaves = s->made.given->leaves;
-    double energy = NAN, F[N], K[N * N];
+    double energy = NAN, F[N], work[N], K[N * N];
     node_state x[ELEMENT_MAX_NODES];
     const specimen_place at = {s, x};
     specimen_state(s, 0.05, 11, x);
@@ -445,9 +460,12 @@ static void check(const specimen *s, claims *c)
                 status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;
-    check_carried(s, x, energy, claims_open(c, claim_same, 1e-9));
+    if (!specimen_lacks_energy(s)) /* with a history, see 'paths' */
+        check_carried(s, x, energy, claims_open(c, claim_same, 1e-9));
+    else
+        energy = works(s, F, work);
     check_rest(s, fabs(energy), claims_open(c, claim_rest, 1e-10));
-    if (!(leaves & LEAVES_FORCE))
+    if (!(leaves & LEAVES_FORCE) && !specimen_lacks_energy(s))
         check_force(&at, F, claims_open(c, claim_F, 1e-8));
     if (leaves == 0)
         check_stiffness(&at, K, claims_open(c, claim_K, 1e-8));
@@ -458,6 +476,10 @@ void checks_force(const formulation *chosen, claims *out)
     if (chosen->type->force == NULL) {
         claims_not_made(out, claim_F, "the element is defined by its strains and stresses");
         return;
+    }
+    if (element_history(chosen->type, chosen->option) > 0) {
+        claims_not_made(out, claim_F, "with a history, forces need not derive from an energy");
+        claims_not_made(out, claim_same, "with a history, see 'paths'");
     }
     if (chosen->type->leaves & LEAVES_FORCE)
         claims_not_made(out, claim_F, "computed by differences");

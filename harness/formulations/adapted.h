@@ -10,7 +10,8 @@
 
 struct element_data {
     const element_type *given;
-    int nodes, strains, history;     /* numbers of nodes and strains of the completed type */
+    int nodes, strains;              /* numbers of nodes and strains of the completed type */
+    int history;                     /* number of history values of the given type */
     double length;                   /* [m] */
     double place[ELEMENT_MAX_NODES]; /* positions of the nodes, from 0 to 1 */
     field_mass mass;                 /* used if the type has no `inertia` */
@@ -57,5 +58,27 @@ status relative_stress(const element_data *d, const double e[], const double inn
 /* Computes the derivative of C in the undeformed state, in the direction of the strains that belong
  * to the prestress sigma, by finite differences. */
 void relative_geometric(const element_data *d, const double sigma[], double G[]);
+
+/* Strains and stresses of a type that computes forces with a history (absolute.c). The strains are
+ * the motions of the nodes: for each node the displacement u, 2 l (q - q0), and l^2 a [m], where q
+ * is the quaternion of the rotation of the node, and q0 its initial value. Rigid motions change
+ * them, so that forces which depend on rigid motions are functions of them. */
+enum { ABSOLUTE_NODE = 8, ABSOLUTE_KEPT = 11, ABSOLUTE_NODES = 7 };
+enum { ABSOLUTE_MOST = ABSOLUTE_NODE * ABSOLUTE_NODES };
+_Static_assert((int)ABSOLUTE_MOST <= (int)ELEMENT_MAX_STRAINS, "too many strains");
+/* Returns 1 if a type is completed in this way. */
+int absolute_is(const element_type *given, const double options[]);
+/* Returns the function for the number of strains of an element with this number of nodes. */
+int (*absolute_strains(int nodes))(const double options[]);
+void absolute_strain(const element_data *d, const node_state x[], strain_output *out);
+status absolute_stress(const element_data *d, const double e[], const double inner[],
+                       stress_output *out);
+/* Requires force_many. */
+void absolute_stress_many(int count, const element_data *const data[], const double *const e[],
+                          const double *const inner[], stress_output out[], status outcome[]);
+/* The history of the completed type contains the values of the given type, then, for each node, its
+ * initial position (3), q0 (4), and q in the last accepted state (4), which determines the sign. */
+void absolute_begin(const element_data *d, const node_state x[], double history[]);
+void absolute_commit(const element_data *d, const node_state x[], double history[]);
 
 #endif

@@ -16,8 +16,11 @@ static status prepare(const element_request *request, element_data *out, fault *
     const element_type *given = request->type;
     out->given = given;
     out->nodes = element_nodes(given, request->options);
-    out->strains = given->force == NULL ? element_strains(given, request->options)
-                                        : places_strains(out->nodes)(request->options);
+    if (absolute_is(given, request->options))
+        out->strains = ABSOLUTE_NODE * out->nodes;
+    else
+        out->strains = given->force == NULL ? element_strains(given, request->options)
+                                            : places_strains(out->nodes)(request->options);
     element_places(given, request->options, out->place);
     out->history = element_history(given, request->options);
     out->length = request->length;
@@ -158,6 +161,18 @@ static void make_relative(const element_type *given, int nodes, element_type *ou
     out->geometric = relative_geometric;
 }
 
+static void make_absolute(const element_type *given, int nodes, element_type *out)
+{
+    make_relative(given, nodes, out);
+    out->strains = absolute_strains(nodes);
+    out->strain = absolute_strain;
+    out->stress = absolute_stress;
+    out->stress_many = given->force_many != NULL ? absolute_stress_many : NULL;
+    out->geometric = NULL; /* linear buckling is refused */
+    out->begin = absolute_begin;
+    out->commit = absolute_commit;
+}
+
 static status refuse(const element_type *given, const char *what, fault *f)
 {
     return fault_set(f, STATUS_REFUSED, "formulation %s: %s", given->name, what);
@@ -168,19 +183,23 @@ static status check_history(const element_type *given, const double options[], f
     const int count = element_history(given, options);
     if (count < 0 || count > ELEMENT_MAX_HISTORY)
         return refuse(given, "the number of history values must be from 0 to 256", f);
-    if (given->force != NULL && given->limits & (LIMIT_NOT_OBJECTIVE | LIMIT_PATH_DEPENDENT))
+    if (given->force != NULL && count == 0 && given->limits & LIMIT_NOT_OBJECTIVE)
         return refuse(given,
-                      "with 'force', strains are relative to the first node and thus objective; "
-                      "give 'strain' and 'stress', or remove LIMIT_NOT_OBJECTIVE and "
-                      "LIMIT_PATH_DEPENDENT",
+                      "with 'force' and without 'history', strains are relative to the first node "
+                      "and thus objective; add 'history', or remove LIMIT_NOT_OBJECTIVE",
                       f);
     if (count == 0 && given->limits & LIMIT_PATH_DEPENDENT)
         return refuse(given, "LIMIT_PATH_DEPENDENT requires 'history'", f);
+    if (absolute_is(given, options) && element_nodes(given, options) > ABSOLUTE_NODES)
+        return refuse(given, "an element with 'force' and 'history' has at most 7 nodes", f);
+    if (count > 0 && given->force != NULL && given->leaves & LEAVES_FORCE)
+        return refuse(given,
+                      "with 'history', an energy is given by 'strain' and 'stress'; give these, or "
+                      "let 'force' compute forces",
+                      f);
     if (count > 0 && given->commit == NULL)
         return refuse(
             given, "'history' requires 'commit', which computes the history values of a state", f);
-    if (count > 0 && given->force != NULL)
-        return refuse(given, "'history' requires 'strain' and 'stress' instead of 'force'", f);
     if (count > 0 &&
         (given->along != NULL || given->unstressed != NULL || given->equations_many != NULL))
         return refuse(given, "with 'history', remove 'along', 'unstressed' and 'equations_many'",
@@ -247,9 +266,17 @@ status adapters_complete(const element_type *given, const double options[], elem
         given->data_size != NULL && element_history(given, options) == 0)
         return STATUS_OK;
     wrap(given, out);
-    if (given->force != NULL)
+    if (absolute_is(given, options))
+        make_absolute(given, element_nodes(given, options), out);
+    else if (given->force != NULL)
         make_relative(given, element_nodes(given, options), out);
     return STATUS_OK;
+}
+
+int adapters_history(const element_type *given, const double options[])
+{
+    const int own = element_history(given, options);
+    return absolute_is(given, options) ? own + ABSOLUTE_KEPT * element_nodes(given, options) : own;
 }
 
 double adapters_error(const element_type *given)

@@ -3,6 +3,7 @@
 #include <string.h>
 
 #include "elements/shared/choice.h"
+#include "harness/formulations/adapted.h"
 
 enum { MOST_ACCEPTED = 256 };
 
@@ -120,7 +121,9 @@ assignment_list formulation_options(const element_type *type)
 
 newton_form formulation_newton(const formulation *chosen)
 {
-    return (newton_form)chosen->option[parameter_count(chosen->type->options)];
+    const newton_form given = (newton_form)chosen->option[parameter_count(chosen->type->options)];
+    return given == NEWTON_MIXED && absolute_is(chosen->type, chosen->option) ? NEWTON_DISPLACEMENT
+                                                                              : given;
 }
 
 static const char *formulation_name(const void *context, int i)

@@ -18,6 +18,10 @@
 status adapters_complete(const element_type *given, const double options[], element_type *out,
                          fault *f);
 
+/* Returns the number of values of the history of an element of the completed type. */
+int adapters_history(const element_type *given, const double options[]);
+enum { ADAPTERS_MOST_HISTORY = ELEMENT_MAX_HISTORY + 11 * 7 };
+
 /* Returns the relative error of the stiffness due to finite differences, as measured on beams
  * (test/adapters_test.c); 0: the type needs no finite differences. */
 double adapters_error(const element_type *given);
@@ -122,6 +126,8 @@ typedef struct formulation {
 extern const parameter_type formulation_common[];
 /* Returns the options of a type, followed by the options that all formulations have. */
 assignment_list formulation_options(const element_type *);
+/* Returns the form of Newton's method. Instead of the mixed form, types that compute forces with a
+ * history use the form with displacements, because they have no strains that could be unknowns. */
 newton_form formulation_newton(const formulation *);
 status formulation_parse(const char *text, formulation *out, fault *f);
 /* Finds the type for "name" or "name:key=value,..."; NULL: none. */

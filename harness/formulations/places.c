@@ -220,7 +220,7 @@ status forces_of(const element_data *d, gather *together, const node_state x[], 
     const size_t n = (size_t)NODE_COORDINATES * (size_t)d->nodes;
     if (together == NULL)
         return d->given->force(adapted_own(d), x, out);
-    const double *answer = gather_next(together, adapted_own(d), x, NULL);
+    const double *answer = gather_next(together, adapted_own(d), x, out->history);
     if (answer == NULL)
         answer = none;
     if (out->energy != NULL)
@@ -246,7 +246,9 @@ void forces_evaluate(const element_type *given, gather *g, int first, int count)
     status outcome[GATHER_TOGETHER];
     for (int i = 0; i < count; i++) {
         double *answer = g->answer + (size_t)(first + i) * g->size;
-        out[i] = (force_output){.energy = answer + ENERGY};
+        out[i] = (force_output){.history = g->history[first + i]};
+        if (out[i].history == NULL) /* with a history, there may be no energy */
+            out[i].energy = answer + ENERGY;
         if (!(given->leaves & LEAVES_FORCE))
             out[i].F = answer + FORCES;
         if (!(given->leaves & (LEAVES_FORCE | LEAVES_TANGENT)))

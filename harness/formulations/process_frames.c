@@ -249,11 +249,14 @@ static status force_frame(const frame_question *q, const node_state x[], force_o
                           fault *f)
 {
     const element_data *d = q->data[0];
-    const size_t c = (size_t)d->coordinates, nodes = (size_t)frame_nodes(d) * sizeof *x;
+    const size_t c = (size_t)d->coordinates, nodes = (size_t)frame_nodes(d) * sizeof *x,
+                 h = (size_t)d->history * sizeof(double);
     const char *from;
     char *to;
-    TRY(frame_begin(q, nodes, &to, f));
+    TRY(frame_begin(q, nodes + h, &to, f));
     frame_put(&to, x, (size_t)q->count * nodes);
+    for (int i = 0; i < q->count && h > 0; i++)
+        frame_put(&to, out[i].history, h);
     TRY(frame_ask(q, &from, f));
     for (int i = 0; i < q->count && q->mask & 1; i++)
         frame_take(&from, out[i].energy, 1);

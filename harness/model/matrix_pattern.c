@@ -20,7 +20,7 @@ static int has_unsymmetric(const model *m, int damped)
  * symmetry depends on the state. */
 int assemble_symmetric(const model *m)
 {
-    int whole = has_unsymmetric(m, 1);
+    int whole = has_unsymmetric(m, 1) || model_absolute(m);
     for (int i = 0; i < m->scene->nodes; i++)
         whole |= coordinates_held_turn(m, i) != NONE;
     for (int i = 0; i < m->scene->loads; i++)

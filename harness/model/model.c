@@ -38,7 +38,7 @@ static status choose_options(model *m, const double options[], fault *f)
     m->mesh.strains = element_strains(m->mesh.type, m->options);
     m->mesh.inner = element_inner(m->mesh.type, m->options);
     m->mesh.memory = element_memory(m->mesh.type, m->options);
-    m->mesh.history = element_history(m->mesh.type, m->options);
+    m->mesh.history = adapters_history(t, m->options);
     m->mesh.takes = takes_loads(m);
     m->mesh.frees = scene_is_free(m->scene, NULL);
     if (m->mesh.history > 0 && m->mesh.frees)

@@ -375,6 +375,12 @@ static inline int model_history(const model *m)
 {
     return model_mesh_of(m)->history;
 }
+/* Returns 1 if the strains of the elements are the motions of their nodes, because they compute
+ * forces with a history. Tangents may then be unsymmetric. */
+static inline int model_absolute(const model *m)
+{
+    return model_mesh_of(m)->type->force != NULL && model_history(m) > 0;
+}
 /* Returns 1 if elements include loads along them in their equilibrium (element_type.along). */
 static inline int model_takes_loads(const model *m)
 {

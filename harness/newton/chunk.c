@@ -72,8 +72,10 @@ static void stresses_one_by_one(const equations *eq, const linear_memory *memory
             continue;
         element[k].outcome = ahead_stress(
             eq, i, free_strain_data(eq, i, path), of_strains(m, s->e, i), inner_of(m, s, i),
-            &(stress_output){
-                .sigma = w.sigma, .C = w.C, .memory = model_memory(m) > 0 ? w.memory : NULL});
+            &(stress_output){.sigma = w.sigma,
+                             .C = w.C,
+                             .memory = model_memory(m) > 0 ? w.memory : NULL,
+                             .history = model_history_of(m, s, i)});
     }
 }
 
@@ -114,8 +116,10 @@ static void stresses_together(const model *m, const linear_memory *memory, const
         data[owned] = model_kind_of(m, i)->data;
         e[owned] = of_strains(m, s->e, i);
         inner[owned] = inner_of(m, s, i);
-        out[owned] = (stress_output){
-            .sigma = w.sigma, .C = w.C, .memory = model_memory(m) > 0 ? w.memory : NULL};
+        out[owned] = (stress_output){.sigma = w.sigma,
+                                     .C = w.C,
+                                     .memory = model_memory(m) > 0 ? w.memory : NULL,
+                                     .history = model_history_of(m, s, i)};
         own[owned++] = k;
     }
     if (owned > 0)

@@ -18,7 +18,8 @@ static int applies(const equations *eq, int from)
 {
     const model *m = eq->m;
     int longest = 0;
-    if (eq->loading.rotates || model_keeps_all(m) || model_scene(m)->plane != SCENE_SPACE)
+    if (eq->loading.rotates || model_absolute(m) || model_keeps_all(m) ||
+        model_scene(m)->plane != SCENE_SPACE)
         return 0;
     for (int i = 0; i < model_scene(m)->loads; i++) {
         const scene_load *load = &model_scene(m)->load[i];

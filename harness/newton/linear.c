@@ -159,6 +159,11 @@ status linear_geometric_stiffness(const equations *eq, const double sigma[], dou
 {
     const model *m = eq->m;
     double work[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
+    if (model_absolute(m))
+        return fault_set(f, STATUS_REFUSED,
+                         "%s computes forces with a history, which have no linear stiffness due to "
+                         "a prestress; follow a static path or a continuation",
+                         model_formulation(m));
     if (out->symmetric) {
         TRY(loads_have_potential(eq, kinematics_rest(m), path, f));
         TRY(linearise_held_have_potential(eq, sigma, path, f));

@@ -29,7 +29,7 @@ static status compatible_element(const equations *eq, model_state *s, int i)
         return outcome;
     return ahead_stress(eq, i, free_strain_data(eq, i, s->path), e,
                         &s->inner[(size_t)i * (size_t)model_inner(m)],
-                        &(stress_output){.sigma = sigma});
+                        &(stress_output){.sigma = sigma, .history = model_history_of(m, s, i)});
 }
 
 status linearise_make_compatible(const equations *eq, model_state *s, fault *f)
@@ -38,7 +38,7 @@ status linearise_make_compatible(const equations *eq, model_state *s, fault *f)
     status outcome = STATUS_OK;
     ahead_strains(eq, s, AHEAD_E, NULL);
     if (!model_frees(m))
-        ahead_stresses(eq, NULL, s->inner);
+        ahead_stresses(eq, s, NULL, s->inner);
     for (int i = 0; i < model_elements(m) && outcome == STATUS_OK; i++) {
         outcome = compatible_element(eq, s, i);
         if (outcome != STATUS_OK)
@@ -319,7 +319,7 @@ status linearise_state(const equations *eq, const linear_memory *memory, const m
 {
     const int tangent = lin->K != NULL || lin->drive != NULL || lin->conditions > 0;
     ahead_strains(eq, s, AHEAD_E | AHEAD_J | (tangent ? AHEAD_H : 0), s->sigma);
-    ahead_stresses(eq, s->e, s->inner);
+    ahead_stresses(eq, s, s->e, s->inner);
     const status outcome = linearise_elements(eq, memory, s, lin, f);
     ahead_end(eq);
     return outcome;

@@ -155,7 +155,7 @@ static status tangent_of(const equations *eq, const model_state *s, const node_s
     const model *m = eq->m;
     const int rest = s == kinematics_rest(m);
     double sigma[ELEMENT_MAX_STRAINS];
-    stress_output out = {.sigma = sigma, .C = C};
+    stress_output out = {.sigma = sigma, .C = C, .history = model_history_of(m, s, element)};
     status outcome;
     if (model_takes_loads(m) && !rest &&
         distributed_stress(eq, s, x, element, s->path, &out, &outcome))

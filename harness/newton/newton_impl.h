@@ -317,9 +317,10 @@ enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* values of `what` */
 /* Evaluates the strains of all elements at the nodes of s. sigma[elements x strains] is used for H.
  * The values are valid until ahead_end. */
 void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[]);
-/* Evaluates sigma and C at e[elements x strains]; e NULL: at the strains that were evaluated last.
- * */
-void ahead_stresses(const equations *eq, const double e[], const double inner[]);
+/* Evaluates sigma and C at e[elements x strains] with the histories of s; e NULL: at the strains
+ * that were evaluated last. */
+void ahead_stresses(const equations *eq, const model_state *s, const double e[],
+                    const double inner[]);
 void ahead_end(const equations *eq);
 
 void ahead_copy_strain(const equations *eq, int i, const strain_output *out);

@@ -217,9 +217,9 @@ static status add_element(const equations *eq, const model_state *state, int i, 
     const stress_output stresses = {.sigma = P, .C = C};
     status outcome;
     if (!model_takes_loads(m) || !distributed_stress(eq, state, x, i, path, &stresses, &outcome))
-        outcome = model_type(m)->stress(free_strain_data(eq, i, path), e,
-                                        &state->inner[(size_t)i * (size_t)model_inner(m)],
-                                        &(stress_output){.sigma = P, .C = C});
+        outcome = model_type(m)->stress(
+            free_strain_data(eq, i, path), e, &state->inner[(size_t)i * (size_t)model_inner(m)],
+            &(stress_output){.sigma = P, .C = C, .history = model_history_of(m, state, i)});
     eq->run->counters.strain_evaluations++;
     eq->run->counters.stress_evaluations++;
     if (outcome != STATUS_OK)

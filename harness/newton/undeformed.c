@@ -67,8 +67,10 @@ static status evaluate_strained(const model *m, int i, const double e[], const d
 {
     static const double none[ELEMENT_MAX_STRAINS];
     double own[ELEMENT_MAX_STRAINS], own_free[ELEMENT_MAX_STRAINS], strain[ELEMENT_MAX_STRAINS];
-    TRY(model_type(m)->stress(model_kind_of(m, i)->data, none, inner,
-                              &(stress_output){.sigma = initial, .C = C}));
+    TRY(model_type(m)->stress(
+        model_kind_of(m, i)->data, none, inner,
+        &(stress_output){
+            .sigma = initial, .C = C, .history = model_history_of(m, kinematics_rest(m), i)}));
     free_strain_own(m, i, own_free);
     for (int k = 0; k < model_strains(m); k++)
         strain[k] = e[k] - own_free[k];
@@ -93,7 +95,9 @@ static status evaluate(const equations *eq, int i, double J[], double C[], doubl
         &(strain_output){.e = e, .J = J, .history = model_history_of(m, kinematics_rest(m), i)});
     if (is_strained(m, i))
         return evaluate_strained(m, i, e, inner, C, initial);
-    return ahead_stress(eq, i, model_kind_of(m, i)->data, e, inner, &(stress_output){.C = C});
+    return ahead_stress(
+        eq, i, model_kind_of(m, i)->data, e, inner,
+        &(stress_output){.C = C, .history = model_history_of(m, kinematics_rest(m), i)});
 }
 
 /* Makes room for one more element. */
@@ -152,7 +156,7 @@ void undeformed_begin(const equations *eq)
     if (eq->run->undeformed.of != NULL)
         return;
     ahead_strains(eq, kinematics_rest(m), AHEAD_E | AHEAD_J, NULL);
-    ahead_stresses(eq, NULL, kinematics_rest(m)->inner);
+    ahead_stresses(eq, kinematics_rest(m), NULL, kinematics_rest(m)->inner);
 }
 
 enum { X = ELEMENT_MAX_COORDINATES, SIX = SPRING_STRAINS };
@@ -368,7 +372,8 @@ void ahead_strains(const equations *eq, const model_state *s, int what, const do
     a->what = what;
 }
 
-void ahead_stresses(const equations *eq, const double e[], const double inner[])
+void ahead_stresses(const equations *eq, const model_state *s, const double e[],
+                    const double inner[])
 {
     const model *m = eq->m;
     if (model_type(m)->stress_many == NULL || model_type(m)->lanes > 0 || model_elements(m) == 0 ||
@@ -384,7 +389,8 @@ void ahead_stresses(const equations *eq, const double e[], const double inner[])
         a->stress[i] =
             (stress_output){.sigma = a->sigma + i * n,
                             .C = a->C + i * n * n,
-                            .memory = model_memory(m) > 0 ? a->memory + i * model_memory(m) : NULL};
+                            .memory = model_memory(m) > 0 ? a->memory + i * model_memory(m) : NULL,
+                            .history = model_history_of(m, s, i)};
     }
     model_type(m)->stress_many(model_elements(m), a->data, a->at, a->inner, a->stress, a->outcome);
     a->stresses = 1;

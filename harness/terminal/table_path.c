@@ -184,6 +184,16 @@ static void energy_line(FILE *to, const motion_extent *e)
     const int at = fprintf(to, "energy: ");
     paragraph words;
     FILE *text = paragraph_begin(&words, to);
+    if (isnan(last->balance[SCENE_ENERGY])) {
+        fprintf(
+            text,
+            "not computed, because forces with a history need not derive from an energy; a gain "
+            "of energy is therefore not detected; %.6g J at the end are kinetic; work since 0 s "
+            "%.6g J",
+            last->balance[SCENE_KINETIC], last->balance[SCENE_WORK]);
+        paragraph_end(&words, at, MOTION_INDENT);
+        return;
+    }
     fprintf(text,
             "%.6g J at the end, of which %.6g J is kinetic; work since 0 s %.6g J, dissipated "
             "%.3g J; energy-balance error at most %.2g J",

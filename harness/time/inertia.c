@@ -303,8 +303,8 @@ static status stored(const equations *eq, const model_state *s, double time, dou
 {
     const model *m = eq->m;
     double none[1] = {0};
-    *out = 0;
-    for (int i = 0; i < model_elements(m); i++) {
+    *out = model_absolute(m) ? NAN : 0; /* there may be no energy */
+    for (int i = 0; i < model_elements(m) && !model_absolute(m); i++) {
         double energy = 0;
         const double *inner =
             model_inner(m) > 0 ? s->inner + (size_t)i * (size_t)model_inner(m) : none;
@@ -357,9 +357,11 @@ static double rounding_of(const model *m, const mesh_element *el, int index)
     model_type(m)->strain(
         model_kind(m, el->kind)->data, x,
         &(strain_output){.J = J, .history = model_history_of(m, kinematics_rest(m), index)});
-    if (model_type(m)->stress(model_kind(m, el->kind)->data, kinematics_rest(m)->e + first,
-                              kinematics_rest(m)->inner + (size_t)index * (size_t)model_inner(m),
-                              &(stress_output){.C = C}) != STATUS_OK)
+    if (model_type(m)->stress(
+            model_kind(m, el->kind)->data, kinematics_rest(m)->e + first,
+            kinematics_rest(m)->inner + (size_t)index * (size_t)model_inner(m),
+            &(stress_output){.C = C, .history = model_history_of(m, kinematics_rest(m), index)}) !=
+        STATUS_OK)
         return 0;
     for (int i = 0; i < model_strains(m); i++) {
         double off = 0;

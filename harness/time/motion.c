@@ -130,7 +130,8 @@ static int allowed(motion_course *w, double step, double error)
  * loads gain energy, even if they are very short. */
 static int looks(const motion_course *w)
 {
-    return w->how->tolerance > 0 && (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);
+    return w->how->tolerance > 0 && !model_absolute(w->c->model) &&
+           (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);
 }
 
 /* Detects energy that is gained without cause, for example because of unresolved modes. Shorter
@@ -221,6 +222,8 @@ static status judge(motion_course *w, double end, fault *f)
         return STATUS_OK;
     }
     w->unjudged = 0;
+    if (model_absolute(w->c->model)) /* there may be no energy */
+        return STATUS_OK;
     return account_judge(&w->account, w->how, w->now.time, w->balance, w->rounding, f);
 }
 

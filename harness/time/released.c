@@ -308,6 +308,11 @@ static status fill_matrices(const model *m, double more, damped_kinds *k, run_da
         const double eta = model_scene(m)->member[model_element(m, i)->member].damping + more;
         d->which[i] = eta > 0 || model_type(m)->damping != NULL ? matrix_of(m, i, eta, k) : NONE;
     }
+    if (k->count > 0 && model_absolute(m))
+        return fault_set(f, STATUS_REFUSED,
+                         "damping of members requires strains, but %s computes forces with a "
+                         "history; damp the masses or springs instead, or use another formulation",
+                         model_formulation(m));
     d->matrix = calloc((size_t)k->count * square + 1, sizeof *d->matrix);
     d->slowest = calloc((size_t)k->count + 1, sizeof *d->slowest);
     if (d->matrix == NULL || d->slowest == NULL)

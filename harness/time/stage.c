@@ -165,7 +165,7 @@ static int curved(const model *m, const element_data *data, double length)
 static int wanted(const model *m)
 {
     const int elsewhere = model_type(m)->stress_many != NULL && model_type(m)->lanes == 0;
-    if (model_inner(m) > 0 || elsewhere)
+    if (model_inner(m) > 0 || elsewhere || model_absolute(m))
         return 0;
     for (int k = 0; k < model_kinds(m); k++)
         if (curved(m, model_kind(m, k)->data, model_kind(m, k)->length))
