@@ -160,6 +160,70 @@ class History(ProgramTest):
             self.assertAlmostEqual(curves["stiffness"][part] / path.stiffness(twist), 1, delta=2e-5)
             path.accept(twist)
 
+    def test_modes(self):
+        """The stiffness of modes about a path is that of the step that led to the state."""
+        text = FREE + ("loads: {pull: {moment: [200, 0, 0], on: b}}\n"
+                       "analyses: {half: {static: {stations: [0.5]}}, run: {static: {stations: 0..1/2}},\n"
+                       "  near: {modal: {about: half}}, far: {modal: {about: run}}}\n"
+                       "quantities: {f: {frequency: {analysis: near, which: 0}}, g: {frequency: {analysis: far, "
+                       "which: 0}}}\n")
+        _, record = self.solved(text)
+        f, g = (q["value"] for q in record["quantities"])
+        self.assertEqual([s["path"] for s in record["steps"]], [0.5, 0.5, 1])
+        path = Path()
+        near = path.stiffness(path.under(100))
+        path.accept(path.under(100))
+        self.assertAlmostEqual((g / f)**2 / (path.stiffness(path.under(200)) / near), 1, delta=2e-5)
+
+    def test_many(self):
+        """Elements that are evaluated together, in lanes or all in one call, have the same histories."""
+        text = DRIVEN + ("motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.8]}}\n"
+                         "analyses: {run: {static: {stations: 0..1/4}}}\n"
+                         f"quantities: {{{TORQUE}}}\n")
+        wanted, _ = self.solved(text, n=7)
+        for lanes in (0, 4):
+            source = self.folder / "many.c"
+            source.write_text((ROOT / "harness/formulations/test/midpoint.c").read_text(encoding="utf-8").replace(
+                "const element_type beamwork_element", """static void many(int count, const element_data *const data[],
+                 const node_state x[], strain_output out[])
+{
+    for (int i = 0; i < count; i++)
+        midpoint_strain(data[i], x + 2 * i, &out[i]);
+}
+
+static void many_stresses(int count, const element_data *const data[], const double *const e[],
+                          const double *const inner[], stress_output out[], status outcome[])
+{
+    for (int i = 0; i < count; i++)
+        outcome[i] = stress(data[i], e[i], inner[i], &out[i]);
+}
+
+const element_type beamwork_element""").replace(".stress = stress,", f""".stress = stress,
+    .strain_many = many,
+    .stress_many = many_stresses,
+    .lanes = {lanes},"""), encoding="utf-8")
+            made = compile_shared(source, self.folder / f"many{lanes}.so")
+            done = self.answered("solve", self.scene(text), "--element", made, "-f", "midpoint", "-n", 7, "--format",
+                                 "json")
+            curve = json.loads(done.stdout)["curves"][0]
+            self.assertEqual(dict(zip(curve["curve_x"], curve["curve_value"])), wanted["torque"])
+        self.follows(wanted["torque"], [0.25, 0.5, 0.75, 1], lambda at: 0.8 * at, 7)
+
+    def test_meshes(self):
+        """Meshes that are solved in one run, in one process or two, must not share histories."""
+        text = DRIVEN + ("motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.8]}}\n"
+                         "analyses: {run: {static: {stations: [0.5, 1]}}}\n"
+                         f"quantities: {{{TORQUE.replace(', take: curve', '')}}}\n")
+        for jobs in (1, 2):
+            done = self.answered("converge", "--scene", self.scene(text), "--element", self.shared, "-f", "midpoint",
+                                 "--elements", "1,2,4", "-j", jobs, "--format", "json")
+            found = {m["elements"]: m["value"] for m in json.loads(done.stdout)["series"][0]["quantities"][0]["meshes"]}
+            self.assertEqual(sorted(found), [1, 2, 4])
+            for n, value in found.items():
+                path = Path(n)
+                path.accept(0.4)
+                self.assertAlmostEqual(value / path.torque(0.8), 1, delta=2e-6)
+
     def test_motions(self):
         """Motions commit their steps, even if a motion continues another motion or begins from a static state."""
         text = DRIVEN + ("motions: {turn: {unit: rad, time: 0.8*t^2}}\n"
