@@ -106,7 +106,7 @@ static void place(const model *m, int element, const double amounts[AMOUNTS], fr
         out->strained[i] = along[i] + strain[i];
     }
     for (int n = 0; n < model_nodes(m); n++) {
-        const double x = (double)n / (model_nodes(m) - 1);
+        const double x = model_places(m)[n];
         double q[4], before[3], after[3], more[3];
         arc_at(out->rotation, out->strained, x, out->x[n].r, q);
         rotation_matrix(q, out->x[n].R);
@@ -153,7 +153,7 @@ static void strains_by(const model *m, int element, const free_element *of,
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES], dx[ELEMENT_MAX_COORDINATES] = {0};
     model_type(m)->strain(model_kind_of(m, element)->data, of->x, &(strain_output){.J = J});
     for (int n = 1; n < model_nodes(m); n++)
-        moved(of, amounts, (double)n / (model_nodes(m) - 1), dx + NODE_COORDINATES * n);
+        moved(of, amounts, model_places(m)[n], dx + NODE_COORDINATES * n);
     dense_mul_vec(model_strains(m), model_own_coordinates(m), J, dx, out);
 }
 

@@ -115,6 +115,35 @@ class Ancf(Judged, PluginTest):
              "weighted_column")
 
 
+class Legendre(Judged, PluginTest):
+    example, most = "legendre", 380
+    cases = Timoshenko.cases
+
+    def test_converges_exponentially(self):
+        """Each additional node reduces the error of one element, as published for BeamDyn."""
+        errors = []
+        for order in range(2, 7):
+            (tip, *_) = self.values(self.object, f"legendre:order={order}", "elastica", "-n", "1", "-k", "w_over_L")
+            errors.append(abs(tip / 0.30172077577 - 1))
+        for more, fewer in zip(errors, errors[1:]):
+            self.assertLess(fewer, more / 4)
+        self.assertLess(errors[-1], 1e-8)
+
+
+class Cubic(Judged, PluginTest):
+    example, most = "cubic", 330
+    cases = Corotational.cases
+
+    def test_beside_the_paper(self):
+        """N section 4.1: with two elements, C_xx within 0.7 % and C_zz within 0.2 % of the converged values; at a
+        deflection of half the length, C_zz within 1 %."""
+        for deflection, bounds in (("0.015", (0.007, 0.002)), ("0.05", (0.007, 0.01))):
+            two, many = (self.values(self.object, "cubic", "sheet_cantilever", "-n", n, "-s", f"tip_deflection={deflection}",
+                                     "-k", "=C_xx or =C_zz") for n in ("2", "8"))
+            for one, limit, bound in zip(two, many, bounds):
+                self.assertLess(abs(one / limit - 1), bound)
+
+
 @unittest.skipUnless(shutil.which("gfortran"), "needs gfortran")
 class Uel(Judged, PluginTest):
     """A user element in Fortran models the same beam as corotational.c."""
