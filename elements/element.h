@@ -272,8 +272,8 @@ typedef struct element_type {
     const char *misprint;
     /* Optional: includes dead forces along `count` elements of two nodes in the equilibrium of the
      * elements. Array sizes: x[count x nodes], outcome[count]. By default (NULL), loads do work on
-     * a displacement field between the nodes that is common to all types. Follower loads, moments
-     * and all loads in transient analyses always use this field. */
+     * a displacement field between the nodes that is common to all types, or on `line`. Follower
+     * loads, moments and all loads in transient analyses always do. */
     void (*along)(int count, const element_data *const data[], const node_state x[],
                   along_output out[], status outcome[]);
     /* Optional: kind of mass. If 1, `inertia` of an undeformed two-node element with these options
@@ -315,6 +315,14 @@ typedef struct element_type {
      * on the state. Rigid motions therefore have no damping, and the dissipated power is e' . V e'.
      * The damping of the member is added. Requires `strain` and `stress`. Default: no damping. */
     void (*damping)(const element_data *, double V[]);
+    /* Optional: motion of the sections between the nodes, for loads along the element. Computes
+     * place and axes of the section at `count` points, and the generalised forces of loads there.
+     * Loads along members, weights and partial loads do work on this motion, in all analyses, with
+     * dead and follower forces and moments and with eccentric loads. A rigid motion of the nodes
+     * must move the sections in the same way, so that nodal forces are in equilibrium with the
+     * loads. Loads that `along` includes do not use it. Excludes `history`. By default (NULL),
+     * loads do work on a displacement field that is common to all types (field/field.h). */
+    void (*line)(const element_data *, const node_state x[], int count, line_output out[]);
 } element_type;
 
 /* Makes a symbol visible outside a shared object, even with -fvisibility=hidden. */

@@ -16,11 +16,13 @@ argument of each function is the kind of all N elements:
                           (not with inertia="vibration"). Default: the mass that all formulations share
   damping(kind) -> V[m, m], optional, constant, symmetric and positive semidefinite: strain rates e' add V e' to the
                           stresses in motions, damped modes and harmonic analyses
+  line(kind, at, r, u, R, a) -> place[N, 3], axes[N, 3, 3], optional: the sections at at[N] in [0, 1] along the elements,
+                          for loads along them. axes: columns, at rest those of the element
   begin(kind, r, u, R, a) -> h[N, q], with history=q: the values of the undeformed elements. strain or force then has
                           one more argument, h of the last accepted state, the end of a load step or time step. The
                           energy of force is then not requested and may be None
   commit(kind, r, u, R, a, h) -> h[N, q] of an accepted state, which was reached from h
-Derivatives of strain and mass are computed by complex steps: both must accept complex arrays and be analytic (no abs,
+Derivatives of strain, mass and line are computed by complex steps: they must accept complex arrays and be analytic (no abs,
 norm, conj or comparison of values; rotation_vector and sinc below are analytic). With gives="e", strain receives only
 real arrays, and beamwork computes differences. Raise Refused(why) for unsupported requests.
 """
@@ -39,7 +41,8 @@ FEATURES = ("warping", "shear", "eccentric shear centre", "trapeze", "wagner mom
             "rotary inertia", "initial curvature", "coupled section")
 SECTION = ("young shear_modulus density A Iy Iz It Iw ys zs Ip wagner_y wagner_z wagner_torque D:9 "
            "F:9 axes_angle centroid:2 matrices stiffness:36 mass:36 rectangle width height")
-FUNCTIONS = ("prepare", "strain", "stress", "force", "mass", "begin", "commit", "damping")
+FUNCTIONS = ("prepare", "strain", "stress", "force", "mass", "begin", "commit", "damping",
+             "line")
 KEYS = ("name summary source family offers gives strains nodes places order limits shear_theories "
         "inertia options history").split()
 TINY, STEP = 1e-20, 2e-3  # sizes of complex steps and of the finite differences that check complex steps
@@ -258,6 +261,37 @@ def inertia(mask, kind, x, body, functions):
     return [v for i, v in enumerate(found) if mask >> i & 1]
 
 
+def sections(mask, kind, x, body, functions):
+    """Returns place, axes, P, T and H of the sections of the elements x[N, n, 16], as the mask requests. body[N, 7] contains
+    their positions, and forces and moments for H."""
+    N, (at, force, moment) = len(x), np.split(body, [1, 4], 1)
+
+    def motion(kind, *state):
+        found, numbers = functions["line"](kind, state[-1][:, 0], *state[:-1]), "biuf"
+        if not isinstance(found, (tuple, list)) or len(found) != 2:
+            raise Refused("line must return two values: place, axes")
+        numbers = "biufc" if np.iscomplexobj(state[0]) else "biuf"
+        return np.hstack([checked(v, f"line, for {part},", len(state[0]), each, "it wants", numbers).reshape(-1, 3**len(each))
+                          for v, part, each in zip(found, ("place", "axes"), ((3,), (3, 3)))])
+
+    if mask & 28 and not functions.get("analytic line") and np.isfinite(x[0]).all():
+        functions["analytic line"] = is_analytic(kind, motion, x[:1], (at[:1],))
+        if not functions["analytic line"]:
+            raise Refused("derivatives are complex steps, but line is not analytic (abs, norm, a "
+                          "comparison, .real?): correct it")
+    found = motion(kind, *states(x), at)
+    place, R = found[:, :3], found[:, 3:].reshape(N, 3, 3)
+    J = derivatives(kind, motion, x, None, (at,)) if mask & 28 else np.zeros((N, 12, 0))
+    P, dR = J[:, :3], J[:, 3:].reshape(N, 3, 3, -1)
+    T = np.cross(R[..., None], dR, axis=1).sum(2) / 2
+    H = None
+    if mask & 16:  # T^T m is half the sum of dR_k . (m x R_k) over the axes R_k
+        turned = np.cross(moment[..., None], R, axis=1) / 2
+        H = derivatives(kind, motion, x, np.hstack([force, turned.reshape(N, 9)]), (at,))
+        H += np.einsum("nikc,nij,njkd->ncd", dR, cross_matrix(moment), dR) / 2
+    return [v for i, v in enumerate((place, R, P, T, H)) if mask >> i & 1]
+
+
 def answers(what, mask, kind, body, said, functions):
     """Returns the arrays that the mask requests for elements of one kind. body[N, ...] is the body of the request."""
     N, n, m, q = len(body), *(said.get(key, no) for key, no in (("nodes", 2), ("strains", 0), ("history", 0)))
@@ -267,6 +301,8 @@ def answers(what, mask, kind, body, said, functions):
     x = body[:, :16 * n].reshape(N, n, 16)
     if what == 5:
         return inertia(mask, kind, x, body[:, 16 * n:], functions)
+    if what == 8:
+        return sections(mask, kind, x, body[:, 16 * n:], functions)
     state = states(x)
     h, s = body[:, 16 * n:16 * n + q], body[:, 16 * n + q:]
     last = (h,) if q else ()
@@ -316,7 +352,8 @@ def answer(what, mask, count, body, kinds, said, functions):
     n = said.get("nodes", 2) * count
     q = said.get("history", 0) * count
     ends = {2: [16 * n, 16 * n + q], 4: [16 * n, 16 * n + q], 6: [16 * n], 7: [16 * n], 5: np.cumsum(
-        [16 * n, 6 * (mask >> 8 & 1), 7 * n * (mask >> 9 & 1), 7 * n * (mask >> 10 & 1)])}
+        [16 * n, 6 * (mask >> 8 & 1), 7 * n * (mask >> 9 & 1), 7 * n * (mask >> 10 & 1)]),
+        8: np.cumsum([16 * n, count, 3 * count])}
     parts = np.split(rest, ends.get(what, []))
     if what == 5:  # one frame for all elements
         parts[1] = np.tile(parts[1], count)
@@ -358,8 +395,7 @@ def taken(functions, words):
         said["places"] = [float(v) for v in said["places"]]
     if "mass" in functions:
         said = {"inertia": "motion" if said.get("nodes", 2) == 2 else "vibration", **said}
-    if "damping" in functions:
-        said["damping"] = True
+    said.update({name: True for name in ("damping", "line") if name in functions})
     return functions, {"beamwork": 1, "gives": "tangent" if "force" in functions else "e,J,H",
                        **said}
 

@@ -64,6 +64,11 @@ module beamwork
     type(c_ptr) :: energy, F, K, history
   end type
 
+  type, bind(c) :: line_output
+    real(c_double) :: at, force(3), moment(3), r(3), R_(3, 3)
+    type(c_ptr) :: P, T, H
+  end type
+
   type, bind(c) :: element_type ! members that are not set: not given
     integer(c_int) :: abi = 4
     integer(c_size_t) :: size = 0 ! c_sizeof(the variable)
@@ -93,7 +98,7 @@ module beamwork
     type(c_funptr) :: along = c_null_funptr, mass_of_field = c_null_funptr, &
                       unstressed = c_null_funptr, history = c_null_funptr, &
                       begin = c_null_funptr, commit = c_null_funptr, &
-                      places = c_null_funptr, damping = c_null_funptr
+                      places = c_null_funptr, damping = c_null_funptr, line = c_null_funptr
   end type
 end module
 

@@ -357,6 +357,7 @@ static void check_taken(const specimen *s, claims *c)
 void checks_along(const formulation *chosen, claims *out)
 {
     specimens_each(chosen, out, check_taken);
+    specimens_each(chosen, out, own_line_check);
     static const struct {
         const char *name;
         double q[SIX];
@@ -365,7 +366,10 @@ void checks_along(const formulation *chosen, claims *out)
     softness soft;
     fault f = {""};
     claims_doing(out, "one element as a cantilever");
-    const status outcome = measure(chosen, &soft, &f);
+    const status outcome =
+        chosen->type->line != NULL
+            ? fault_set(&f, STATUS_REFUSED, "the element has its own motion between its nodes")
+            : measure(chosen, &soft, &f);
     for (size_t i = 0; i < sizeof load / sizeof load[0]; i++) {
         if (outcome != STATUS_OK) {
             claims_not_made(out, load[i].name, f.text);

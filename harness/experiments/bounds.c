@@ -126,6 +126,25 @@ static void dampings(const specimen *s, claims *c)
     look(&V, 1, s, c);
 }
 
+static void sections(const specimen *s, const node_state x[], claims *c)
+{
+    const int n = s->coordinates;
+    guarded P, T, H;
+    if (s->type.line == NULL)
+        return;
+    line_output out = {.at = 0.3,
+                       .force = {1, 2, 3},
+                       .moment = {4, 5, 6},
+                       .P = guard(&P, "line: P", 3 * n),
+                       .T = guard(&T, "line: T", 3 * n),
+                       .H = guard(&H, "line: H", n * n)};
+    claims_doing(c, "line%s", s->words);
+    s->type.line(s->data, x, 1, &out);
+    look(&P, 1, s, c);
+    look(&T, 1, s, c);
+    look(&H, 1, s, c);
+}
+
 static void masses(const specimen *s, const node_state x[], claims *c)
 {
     static const element_rotating_frame turning = {.omega = {31.3, -17.9, 23.7}};
@@ -217,6 +236,7 @@ static void check(const specimen *s, claims *c)
     memcpy(kept, e, (size_t)s->strains * sizeof *e);
     stresses(s, e, c);
     dampings(s, c);
+    sections(s, x, c);
     masses(s, x, c);
     in_time(s, x, c);
     forces(s, x, c);

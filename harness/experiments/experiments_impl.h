@@ -127,6 +127,9 @@ status specimen_settled(const specimen *s, const double e[], double inner[], str
  * `damping`.
  */
 void own_damping_check(const specimen *s, claims *c);
+/* Checks the motion of the sections, and that nodal forces are in equilibrium with loads along the
+ * element. Does nothing without `line`. */
+void own_line_check(const specimen *s, claims *c);
 
 /* Returns a description such as "rotation about y of node 2". */
 const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS]);

@@ -1,12 +1,15 @@
-/* Checks of optional terms of a formulation: its damping. */
+/* Checks of optional terms of a formulation: its damping, and the motion of its sections. */
 #include <math.h>
 #include <string.h>
 
 #include <gsl/gsl_eigen.h>
 
+#include "elements/math/dense.h"
+#include "elements/math/vec3.h"
 #include "harness/experiments/experiments_impl.h"
+#include "harness/formulations/formulations.h"
 
-enum { M = SPECIMEN_STRAINS };
+enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES, VALUES = 12 };
 
 /* Returns the smallest eigenvalue of a symmetric matrix; NaN: out of memory, or not computed. */
 static double least_eigenvalue(int n, double A[])
@@ -56,4 +59,187 @@ void own_damping_check(const specimen *s, claims *c)
                    "damping: V has the eigenvalue %.6g N s/m, so some motions gain energy; give a "
                    "positive semidefinite matrix%s",
                    least, s->words);
+}
+
+/* A point of an element, with a force and a moment. */
+typedef struct line_place {
+    specimen_place at;
+    double point, force[3], moment[3];
+} line_place;
+
+/* Computes place and axes of the section, and P, T and H unless they are NULL. */
+static line_output section_of(const line_place *p, const node_state x[], double P[], double T[],
+                              double H[])
+{
+    line_output out = {.at = p->point, .P = P, .T = T, .H = H};
+    memcpy(out.force, p->force, sizeof out.force);
+    memcpy(out.moment, p->moment, sizeof out.moment);
+    p->at.s->type.line(p->at.s->data, x, 1, &out);
+    return out;
+}
+
+static int motion_at(const void *context, int i, double si, int j, double sj, double values[])
+{
+    const line_place *p = context;
+    node_state x[ELEMENT_MAX_NODES];
+    specimen_moved(&p->at, i, si, j, sj, x);
+    const line_output out = section_of(p, x, NULL, NULL, NULL);
+    memcpy(values, out.r, sizeof out.r);
+    memcpy(values + 3, out.R, sizeof out.R);
+    return 0;
+}
+
+/* Computes the generalised forces P^T f + T^T m. */
+static void forces_of(const line_place *p, const node_state x[], double F[])
+{
+    const int n = p->at.s->coordinates;
+    double P[3 * N], T[3 * N];
+    section_of(p, x, P, T, NULL);
+    memset(F, 0, (size_t)n * sizeof *F);
+    dense_add_transpose_mul(n, 3, 1, P, p->force, F);
+    dense_add_transpose_mul(n, 3, 1, T, p->moment, F);
+}
+
+static int forces_at(const void *context, int i, double si, int j, double sj, double values[])
+{
+    const line_place *p = context;
+    node_state x[ELEMENT_MAX_NODES];
+    specimen_moved(&p->at, i, si, j, sj, x);
+    forces_of(p, x, values);
+    return 0;
+}
+
+static void check_jacobian(const line_place *p, claim *one)
+{
+    const specimen *s = p->at.s;
+    const int n = s->coordinates;
+    char where[SPECIMEN_WORDS];
+    double P[3 * N], T[3 * N], change[VALUES];
+    const line_output now = section_of(p, p->at.x, P, T, NULL);
+    for (int j = 0; j < n; j++) {
+        const double unit = chart_unit(j, s->request.length);
+        double turn[3] = {0};
+        stencil_first(motion_at, p, VALUES, j, change);
+        for (int k = 0; k < 3; k++) { /* half the sum of the axes times their changes */
+            const double axis[3] = {now.R[k], now.R[3 + k], now.R[6 + k]},
+                         moved[3] = {change[3 + k], change[6 + k], change[9 + k]};
+            double part[3];
+            vec3_cross(axis, moved, part);
+            for (int i = 0; i < 3; i++)
+                turn[i] += part[i] / 2;
+        }
+        for (int i = 0; i < 3; i++) {
+            claims_departs(one, fabs(P[n * i + j] * unit - change[i]) / s->request.length,
+                           "line: entry %d, %d of P (%s) at %g is %.6g, but differences of r give "
+                           "%.6g%s",
+                           i + 1, j + 1, specimen_coordinate(j, where), p->point, P[n * i + j],
+                           change[i] / unit, s->words);
+            claims_departs(one, fabs(T[n * i + j] * unit - turn[i]),
+                           "line: entry %d, %d of T (%s) at %g is %.6g, but differences of R give "
+                           "%.6g%s",
+                           i + 1, j + 1, specimen_coordinate(j, where), p->point, T[n * i + j],
+                           turn[i] / unit, s->words);
+        }
+    }
+}
+
+/* Checks H. Half of the moments on the nodes transforms the derivative with respect to spatial
+ * increments to the exponential chart. */
+static void check_second(const line_place *p, claim *one)
+{
+    const specimen *s = p->at.s;
+    const int n = s->coordinates;
+    double H[N * N], P[3 * N], T[3 * N], F[N], column[N];
+    section_of(p, p->at.x, P, T, H);
+    forces_of(p, p->at.x, F);
+    for (int j = 0; j < n; j++) {
+        const double unit = chart_unit(j, s->request.length);
+        const int k = j % NODE_COORDINATES - 3, first = j - k;
+        stencil_first(forces_at, p, n, j, column);
+        for (int i = 0; i < n; i++)
+            column[i] /= unit;
+        if (k >= 0 && k < 3) {
+            column[first + (k + 1) % 3] += F[first + (k + 2) % 3] / 2;
+            column[first + (k + 2) % 3] -= F[first + (k + 1) % 3] / 2;
+        }
+        for (int i = 0; i < n; i++)
+            claims_departs(one,
+                           fabs(H[n * i + j] - column[i]) * unit * chart_unit(i, s->request.length),
+                           "line: entry %d, %d of H at %g is %.6g, but differences give %.6g%s",
+                           i + 1, j + 1, p->point, H[n * i + j], column[i], s->words);
+    }
+}
+
+/* Checks that the forces on the nodes are in equilibrium with the load. */
+static void check_sums(const line_place *p, claim *one)
+{
+    const specimen *s = p->at.s;
+    const node_state *x = p->at.x;
+    const line_output at = section_of(p, x, NULL, NULL, NULL);
+    double F[N], sum[6] = {0}, moment[3];
+    forces_of(p, x, F);
+    for (int k = 0; k < s->nodes; k++) {
+        const double *own = F + NODE_COORDINATES * k;
+        vec3_cross(x[k].r, own, moment);
+        for (int i = 0; i < 3; i++) {
+            sum[i] += own[i];
+            sum[3 + i] += own[3 + i] + moment[i];
+        }
+    }
+    vec3_cross(at.r, p->force, moment);
+    for (int i = 0; i < 6; i++) {
+        const double right = i < 3 ? p->force[i] : p->moment[i - 3] + moment[i - 3],
+                     size = i < 3 ? s->request.length : 1;
+        claims_departs(one, fabs(sum[i] - right) * size,
+                       "line: the forces on the nodes have the %s %.6g along %c instead of %.6g, "
+                       "that of the load at %g; a rigid motion of the nodes must move the section "
+                       "in the same way%s",
+                       i < 3 ? "sum" : "moment", sum[i], "xyz"[i % 3], right, p -> point,
+                       s -> words);
+    }
+}
+
+/* Checks the section of the undeformed element, if it is straight. */
+static void check_at_rest(const line_place *p, claim *one)
+{
+    const specimen *s = p->at.s;
+    node_state x[ELEMENT_MAX_NODES];
+    specimen_state(s, 0, 1, x);
+    const line_output at = section_of(p, x, NULL, NULL, NULL);
+    for (int i = 0; i < 3; i++) {
+        const double right = (1 - p->point) * x[0].r[i] + p->point * x[s->nodes - 1].r[i];
+        claims_departs(one, fabs(at.r[i] - right) / s->request.length,
+                       "line: in the undeformed element, the section at %g is at %c = %.6g instead "
+                       "of %.6g%s",
+                       p->point, "xyz"[i], at.r[i], right, s->words);
+    }
+    for (int i = 0; i < 9; i++)
+        claims_departs(one, fabs(at.R[i] - x[0].R[i]),
+                       "line: in the undeformed element, R at %g differs from that of the nodes%s",
+                       p->point, s->words);
+}
+
+void own_line_check(const specimen *s, claims *c)
+{
+    static const double point[] = {0, 0.3, 0.75, 1}, turn[3] = {0.5, -0.6, 0.7};
+    node_state bent[ELEMENT_MAX_NODES], x[ELEMENT_MAX_NODES];
+    const int straight = vec3_norm(s->made.curvature) == 0;
+    if (s->type.line == NULL)
+        return;
+    claims_doing(c, "line%s", s->words);
+    specimen_state(s, 0.05, 5, bent);
+    specimen_carry(s, turn, bent, x);
+    for (size_t k = 0; k < sizeof point / sizeof point[0]; k++) {
+        const double f = 1 / s->request.length;
+        const line_place p = {.at = {s, x},
+                              .point = point[k],
+                              .force = {0.7 * f, -1.1 * f, 0.4 * f},
+                              .moment = {-0.6, 0.9, 1.2}};
+        check_jacobian(&p, claims_open(c, "P and T are the derivatives of the sections", 1e-8));
+        check_second(&p, claims_open(c, "H is the derivative of the forces of a load", 1e-7));
+        check_sums(&p,
+                   claims_open(c, "forces on the nodes are in equilibrium with the load", 1e-11));
+        if (straight)
+            check_at_rest(&p, claims_open(c, "sections of the undeformed element", 1e-13));
+    }
 }

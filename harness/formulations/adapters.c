@@ -93,6 +93,11 @@ static void damping(const element_data *d, double V[])
     d->given->damping(adapted_own(d), V);
 }
 
+static void line(const element_data *d, const node_state x[], int count, line_output out[])
+{
+    d->given->line(adapted_own(d), x, count, out);
+}
+
 static double tension(const element_data *d, const double sigma[])
 {
     return d->given->tension(adapted_own(d), sigma);
@@ -146,6 +151,7 @@ static void wrap(const element_type *given, element_type *out)
     out->begin = given->begin != NULL ? begin : NULL;
     out->commit = given->commit != NULL ? commit : NULL;
     out->damping = given->damping != NULL ? damping : NULL;
+    out->line = given->line != NULL ? line : NULL;
 }
 
 static void make_relative(const element_type *given, int nodes, element_type *out)
@@ -200,10 +206,10 @@ static status check_history(const element_type *given, const double options[], f
     if (count > 0 && given->commit == NULL)
         return refuse(
             given, "'history' requires 'commit', which computes the history values of a state", f);
-    if (count > 0 &&
-        (given->along != NULL || given->unstressed != NULL || given->equations_many != NULL))
-        return refuse(given, "with 'history', remove 'along', 'unstressed' and 'equations_many'",
-                      f);
+    if (count > 0 && (given->along != NULL || given->unstressed != NULL ||
+                      given->equations_many != NULL || given->line != NULL))
+        return refuse(
+            given, "with 'history', remove 'along', 'unstressed', 'equations_many' and 'line'", f);
     return STATUS_OK;
 }
 

@@ -40,7 +40,8 @@ typedef struct handshake {
     /* 1: the process computes the inertia of elements; if type.spreads is set, also for transient
      * analysis */
     int inertia;
-    int damping;                 /* 1: the process computes a damping matrix */
+    int damping; /* 1: the process computes a damping matrix */
+    int line;    /* 1: the process computes the motion of sections between the nodes */
     element_constants constants; /* constants of the type */
 } handshake;
 
@@ -60,7 +61,8 @@ enum channel_request {
     CHANNEL_FORCE,
     CHANNEL_INERTIA,
     CHANNEL_BEGIN,
-    CHANNEL_COMMIT
+    CHANNEL_COMMIT,
+    CHANNEL_LINE
 };
 
 enum { CHANNEL_HEADER = 40, CHANNEL_ANSWER = 24 };

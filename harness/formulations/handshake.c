@@ -42,7 +42,7 @@ static const struct gives {
 static const char *const keys[] = {"beamwork", "name",           "summary", "source",  "family",
                                    "offers",   "gives",          "strains", "nodes",   "order",
                                    "limits",   "shear_theories", "options", "inertia", "history",
-                                   "places",   "damping"};
+                                   "places",   "damping",        "line"};
 
 typedef struct handshake_reading {
     const char *who;
@@ -209,12 +209,19 @@ static status inertia_of(const handshake_reading *r, handshake *out)
     return STATUS_OK;
 }
 
-static status damping_of(const handshake_reading *r, handshake *out)
+static status flag_of(const handshake_reading *r, const char *key, int *out)
 {
-    const json_t *given = json_object_get(r->said, "damping");
-    if (given != NULL && !json_is_boolean(given))
-        return refuse(r, "damping", "give true or false");
-    out->damping = json_is_true(given);
+    const json_t *given = json_object_get(r->said, key);
+    *out = json_is_true(given);
+    return given == NULL || json_is_boolean(given) ? STATUS_OK
+                                                   : refuse(r, key, "give true or false");
+}
+
+/* Reads which optional terms the process computes. */
+static status terms_of(const handshake_reading *r, handshake *out)
+{
+    TRY(flag_of(r, "damping", &out->damping));
+    TRY(flag_of(r, "line", &out->line));
     if (out->damping && out->whole)
         return refuse(r, "damping",
                       "this requires strains; give e, or e,J or e,J,H as 'gives', or remove it");
@@ -274,7 +281,7 @@ static status read_all(const handshake_reading *r, handshake *out)
     TRY(number_of(r, "history", 1, ELEMENT_MAX_HISTORY, 0, &out->constants.history));
     TRY(orders_of(r, out->constants.order));
     TRY(inertia_of(r, out));
-    TRY(damping_of(r, out));
+    TRY(terms_of(r, out));
     return handshake_options(r->who, json_object_get(r->said, "options"), &t->options[0], r->f);
 }
 

@@ -147,7 +147,7 @@ static status start_again(process *p, fault *f)
         again.type.spreads == p->type.spreads && again.constants.strains == p->constants.strains &&
         again.constants.nodes == p->constants.nodes &&
         again.constants.history == p->constants.history &&
-        again.damping == (p->type.damping != NULL);
+        again.damping == (p->type.damping != NULL) && again.line == (p->type.line != NULL);
     return same ? STATUS_OK
                 : channel_break(&p->to, "gives different declarations when it is started again", f);
 }
@@ -284,6 +284,8 @@ static status begin(process *p, const char *command, fault *f)
         frames_serve_history(p);
     if (said.damping)
         frames_serve_damping(p);
+    if (said.line)
+        frames_serve_line(p);
     return channel_call(&p->to, p->type.name, f);
 }
 

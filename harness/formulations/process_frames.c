@@ -442,11 +442,85 @@ void frames_serve_history(process *p)
 
 static void damping(const element_data *d, double V[])
 {
-    const size_t square = (size_t)(d->strains * d->strains);
+    const size_t square = (size_t)d->strains * (size_t)d->strains;
     memcpy(V, d->C + square, square * sizeof *V);
 }
 
 void frames_serve_damping(process *p)
 {
     p->type.damping = damping;
+}
+
+/* Motion of the sections of one element at many points, with one request. */
+
+static void put_points(char **to, int count, const line_output out[])
+{
+    for (int i = 0; i < count; i++)
+        frame_put(to, &out[i].at, sizeof out->at);
+    for (int i = 0; i < count; i++)
+        frame_put(to, out[i].force, sizeof out->force);
+    for (int i = 0; i < count; i++)
+        frame_put(to, out[i].moment, sizeof out->moment);
+}
+
+static status line_frame(const frame_question *q, const node_state x[], line_output out[], fault *f)
+{
+    const size_t c = (size_t)q->data[0]->coordinates,
+                 nodes = (size_t)frame_nodes(q->data[0]) * sizeof *x;
+    const char *from;
+    char *to;
+    TRY(frame_begin(q, nodes + 7 * sizeof(double), &to, f));
+    for (int i = 0; i < q->count; i++)
+        frame_put(&to, x, nodes);
+    put_points(&to, q->count, out);
+    TRY(frame_ask(q, &from, f));
+    for (int i = 0; i < q->count; i++)
+        frame_take(&from, out[i].r, 3);
+    for (int i = 0; i < q->count; i++)
+        frame_take(&from, out[i].R, 9);
+    for (int i = 0; i < q->count && q->mask & 4; i++)
+        frame_take(&from, out[i].P, 3 * c);
+    for (int i = 0; i < q->count && q->mask & 8; i++)
+        frame_take(&from, out[i].T, 3 * c);
+    for (int i = 0; i < q->count && q->mask & 16; i++)
+        frame_take(&from, out[i].H, c * c);
+    return STATUS_OK;
+}
+
+static void no_motion(size_t c, line_output *out)
+{
+    fill_nan(out->r, 3);
+    fill_nan(out->R, 9);
+    fill_nan(out->P, 3 * c);
+    fill_nan(out->T, 3 * c);
+    fill_nan(out->H, c * c);
+}
+
+static void line(const element_data *d, const node_state x[], int count, line_output out[])
+{
+    enum { TOGETHER = 64 };
+    const size_t c = (size_t)d->coordinates;
+    const element_data *data[TOGETHER];
+    fault f = {""};
+    for (int i = 0; i < TOGETHER; i++)
+        data[i] = d;
+    pthread_mutex_lock(&d->of->to.lock);
+    for (int i = 0; i < count; i += TOGETHER) {
+        const int mask =
+            3 | (out->P != NULL ? 4 : 0) | (out->T != NULL ? 8 : 0) | (out->H != NULL ? 16 : 0);
+        const size_t numbers =
+            12 + (mask & 4 ? 3 * c : 0) + (mask & 8 ? 3 * c : 0) + (mask & 16 ? c * c : 0);
+        const frame_question q = {CHANNEL_LINE, mask, count - i < TOGETHER ? count - i : TOGETHER,
+                                  data, numbers * sizeof(double)};
+        const status outcome = line_frame(&q, x, out + i, &f);
+        for (int k = i; k < i + q.count && outcome != STATUS_OK; k++)
+            no_motion(c, &out[k]);
+        channel_note(&d->of->to, outcome == STATUS_OK ? STATUS_OK : STATUS_REFUSED, &f);
+    }
+    pthread_mutex_unlock(&d->of->to.lock);
+}
+
+void frames_serve_line(process *p)
+{
+    p->type.line = line;
 }

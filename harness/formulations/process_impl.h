@@ -33,6 +33,8 @@ void frames_serve_inertia(process *p);
 void frames_serve_history(process *p);
 /* Sets the damping function of the type (process_frames.c). */
 void frames_serve_damping(process *p);
+/* Sets the function of the type for the motion of sections (process_frames.c). */
+void frames_serve_line(process *p);
 
 /* Requests to the process of a formulation. */
 

@@ -117,6 +117,26 @@ static int points_of(const distributed_loads *of, const scene_load *load, double
     return count;
 }
 
+/* Like points_of, for a type that computes the motion of its sections: Gauss points x[]. */
+static int line_points_of(const distributed_loads *of, const scene_load *load, double scale,
+                          const double part[2], double x[ELEMENT_ALONG_POINTS],
+                          field_load acting[ELEMENT_ALONG_POINTS])
+{
+    const double length = model_kind_of(of->m, of->element)->length, wide = part[1] - part[0];
+    const int count = scene_load_within(load) ? 1 : ELEMENT_ALONG_POINTS;
+    double weight[ELEMENT_ALONG_POINTS] = {1}, before[9];
+    x[0] = 0;
+    if (count > 1)
+        quadrature_points(count, x, weight);
+    for (int k = 0; k < count; k++) {
+        x[k] = part[0] + wide * x[k];
+        undeformed(of, x[k], before);
+        load_at(of, load, count > 1 ? scale * weight[k] * wide * length : scale, x[k], before,
+                &acting[k]);
+    }
+    return count;
+}
+
 static int taken(const equations *eq, int element, const scene_load *load, const double part[2])
 {
     const model *m = eq->m;
@@ -301,6 +321,12 @@ static int add_field(const equations *eq, const node_state x[], int element, con
     const distributed_loads of = {eq, m, element, 0};
     field_rows rows[MOST];
     field_load acting[MOST];
+    if (model_type(m)->line != NULL) {
+        double at[ELEMENT_ALONG_POINTS];
+        const int points = line_points_of(&of, load, scale, part, at, acting);
+        line_add_loads(m, element, x, points, at, acting, forces, K);
+        return 1;
+    }
     const int count = points_of(&of, load, scale, part, rows, acting);
     field_add_loads(&model_kind_of(m, element)->field, x, count, rows, acting, forces, K);
     return 1;

@@ -4,6 +4,7 @@
 
 #include <stddef.h>
 
+#include "elements/field/field.h"
 #include "elements/shared/status.h"
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
@@ -152,6 +153,11 @@ int distributed_stress(const equations *, const model_state *, const node_state 
                        double path, const stress_output *, status *outcome);
 int distributed_add_field(const equations *, const node_state x[], int element, double path,
                           double forces[], double K[]);
+
+/* Like field_add_loads, for a type that computes the motion of its sections. Adds loads at `count`
+ * points of an element, at most ELEMENT_ALONG_POINTS. at: positions divided by the length. */
+void line_add_loads(const model *, int element, const node_state x[], int count, const double at[],
+                    const field_load load[], double forces[], double K[]);
 
 /* Returns 1 if a load acts along the element. */
 int distributed_acts(const distributed_loads *);
