@@ -56,7 +56,7 @@ def table(head, rows):
 
 
 def toctree(names):
-    """Returns a Markdown list of the pages below a page."""
+    """Returns a MyST toctree directive that lists the pages `names`."""
     return "```{toctree}\n:maxdepth: 1\n\n" + "\n".join(names) + "\n```"
 
 

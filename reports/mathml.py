@@ -2,7 +2,7 @@
 
 The subset contains letters, numbers and operators; `_`, `^` and `'`; groups in braces; Greek letters and symbols;
 names of functions; \\frac, \\sqrt, \\mathbf, \\mathrm, \\text; accents; \\left and \\right. Unknown commands are
-rejected by name.
+rejected.
 """
 import re
 

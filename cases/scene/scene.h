@@ -1436,7 +1436,7 @@ typedef enum scene_part {
      * on inertia. Otherwise without effect. */
     SCENE_PART_INERTIA = 'i',
     SCENE_PART_NONE = '-',   /* without effect by the nature of the analysis */
-    SCENE_PART_REFUSED = 'x' /* rejected by name, for this analysis only */
+    SCENE_PART_REFUSED = 'x' /* rejected for this analysis only; the message names the entry */
 } scene_part;
 
 typedef struct scene_input {

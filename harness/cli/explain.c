@@ -97,7 +97,7 @@ static int explain_inputs(const char *word)
     }
     printf("  u used   s used, but rejected in a state whose tangent is not symmetric\n  i used in "
            "rotating axes and if the tangent is not symmetric; otherwise no effect\n  - no effect: "
-           "the result does not depend on the input   x rejected by name\n");
+           "the result does not depend on the input   x rejected\n");
     return 1;
 }
 

@@ -1,4 +1,4 @@
-/* Writes a case or a scene as an input deck of another program. */
+/* Writes a case or a scene as an input deck for another program. */
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -79,8 +79,8 @@ static const verb_group shared[] = {
 const verb verb_export = {
     "export",
     "[CASE]",
-    "writes a structure as a solid model, in an input deck of another program",
-    "Writes a case, or your own scene (--scene FILE), as solids in an input deck of another "
+    "writes a structure as a solid model in an input deck for another program",
+    "Writes a case, or your own scene (--scene FILE), as solids in an input deck for another "
     "program. Rectangles and straight walls at right angles become 20-node bricks with reduced "
     "integration; ends and bodies are rigid. Each member has -n elements along its length (default "
     "20), shorter near its ends. A scene that a deck cannot express is rejected. "

@@ -181,8 +181,10 @@ status assignment_parse(const assignment_list *l, const char *text, double value
         const size_t length = strcspn(at, separators);
         int index = 0;
         if (length >= sizeof one)
-            return fault_set(f, STATUS_REFUSED, "%s '%.40s...' of %s: too long", l->what, at,
-                             l->owner);
+            return fault_set(f, STATUS_REFUSED,
+                             "%s '%.40s...' of %s is longer than %d characters; write NAME=VALUE; "
+                             "separate several with '%c'",
+                             l->what, at, l->owner, LONGEST - 1, l->separator);
         snprintf(one, sizeof one, "%.*s", (int)length, at);
         TRY(assignment_set(l, one, value, any, &index, f));
         if (given[index]++)

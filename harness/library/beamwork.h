@@ -1,11 +1,12 @@
 /* beamwork.h: scenes, solutions and verdicts from your own program.
  *
  * Handles are opaque and documents are text: the interface has no structs. Units are SI, texts are
- * UTF-8. A function that can fail returns a bw_status. After a failure, *why (NULL: not requested)
- * is one line that names the cause and the remedy. For a scene with errors, *why is a JSON list of
- * all errors, with file, line and column. *why is NULL after BW_OK. The caller frees texts returned
- * as char ** with bw_free_text; texts returned as const char * belong to the handle. After a
- * failure, the result is NULL. A required handle or name that is NULL is rejected.
+ * UTF-8. A function that can fail returns a bw_status. After a failure, *why is one line
+ * that names the cause and, where there is one, the remedy; `why` may be NULL if the text is not
+ * needed. For a scene with errors, *why is a JSON list of all errors, with file, line and column.
+ * *why is NULL after BW_OK. The caller frees texts returned as char ** with bw_free_text; texts
+ * returned as const char * belong to the handle. After a failure, the result is NULL. A required
+ * handle or name that is NULL is rejected.
  *
  * The library prints nothing and does not end the program. It does not change signal handlers, the
  * locale, the rounding mode or the handlers of GSL and HDF5, and the host's settings of these do

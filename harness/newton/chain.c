@@ -88,7 +88,9 @@ static status carry(chain *s, const double B[], double Z[], fault *f)
     if (s->count > 0)
         s->negative += more_negative(c, s->F, B, W);
     if (dense_lu(c, W, pivot) != 0)
-        return fault_set(f, STATUS_SINGULAR, "the stiffness of a part of a member is singular");
+        return fault_set(
+            f, STATUS_SINGULAR,
+            "the stiffness matrix of a part of a member with one end fixed is singular");
     dense_lu_solve(c, c, W, pivot, Z);
     return STATUS_OK;
 }
@@ -169,7 +171,8 @@ status chain_stiffness(const chain *s, double K[], fault *f)
     double stiffness[CHAIN_JOINT * CHAIN_JOINT], KA[CHAIN_JOINT * CHAIN_JOINT],
         whole[CHAIN_JOINT * CHAIN_JOINT];
     if (symmetric_inverse(c, s->F, stiffness) < 0)
-        return fault_set(f, STATUS_SINGULAR, "the stiffness of a single member is singular");
+        return fault_set(f, STATUS_SINGULAR,
+                         "the flexibility matrix of a member with one end fixed is singular");
     dense_mul(c, c, c, stiffness, s->A, KA);
     congruence(c, c, s->A, stiffness, whole);
     for (int i = 0; i < c; i++)

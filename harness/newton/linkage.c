@@ -128,7 +128,8 @@ static status flexibility(const link_element *el, const double J_y[], const doub
     out->negative = symmetric_inverse(y, K, out->F);
     return out->negative >= 0
                ? STATUS_OK
-               : fault_set(f, STATUS_SINGULAR, "the stiffness of an element is singular");
+               : fault_set(f, STATUS_SINGULAR,
+                           "the stiffness matrix of an element with one end fixed is singular");
 }
 
 status link_of(const link_element *el, chain_link *out, fault *f)

@@ -83,7 +83,8 @@ static const schema_field fields_of_quantity[] = {
      "if solve chose the mesh: relative change from the previous mesh; for a curve, relative to "
      "the largest value",
      VALUE(change)},
-    {"near_zero", OWN_UNIT, FIELD_DOUBLE, "magnitude below which values count as zero",
+    {"near_zero", OWN_UNIT, FIELD_DOUBLE,
+     "errors are relative to this value if the reference value is smaller",
      OF(QUANTITY, scene_quantity, near_zero)},
     {"prediction", OWN_UNIT, FIELD_DOUBLE, "value of an analytic estimate, which has no verdict",
      .get = get_prediction},

@@ -66,7 +66,8 @@ enum { RESULTS_STATUS = 16, RESULTS_MOST_ELEMENTS = 10000000 };
 
 typedef struct result_value {
     char quantity[SCENE_NAME];
-    /* [unit of the quantity] value (NAN: none); values below near_zero count as zero */
+    /* [unit of the quantity] value (NAN: none); errors are relative to near_zero if the magnitude
+     * of the reference value is smaller */
     double value, near_zero;
     double error; /* error relative to the reference value; NAN: there is no reference value */
     /* limit of the series, which is stored with its finest mesh at a default point; NAN: none */

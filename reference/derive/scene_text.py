@@ -1,6 +1,6 @@
 """Reads a scene in the form that `beamwork scene` writes, with loops and expressions expanded.
 
-Entries that the program does not support are rejected by name in one line, and never ignored.
+Entries that the program does not support are rejected with one line that names them, and never ignored.
 """
 import math
 

@@ -153,8 +153,9 @@ static double error_of_stress(element_subject *s)
     return worst / largest;
 }
 
-/* Returns the largest difference between the geometric stiffness and the derivative of the tangent
- * along the strain due to the prestress, relative to the geometric stiffness. */
+/* Returns the largest difference between the geometric stiffness of a prestress and the derivative
+ * of the tangent in the direction of the strain that corresponds to the prestress, relative to the
+ * largest entry of the tangent without stress. */
 static double error_of_geometric(element_subject *s)
 {
     const int n = s->strains;

@@ -1,7 +1,7 @@
 /* Every cell of the table of inputs. An input that is used must change the answer and obey a law:
  * equilibrium, superposition, a compliance that is the derivative of the path, a critical load that
  * is the limit point of a continuation, or a motion that stays in its initial equilibrium. An input
- * without effect must not change the answer. A rejected input must be rejected by name. */
+ * without effect must not change the answer. The message must name a rejected input. */
 #include "cases/scene/scene.h"
 
 #include <gsl/gsl_test.h>
@@ -550,7 +550,8 @@ static void cell(const scene_input *in, scene_column column, const element_type 
     if (part == SCENE_PART_REFUSED) {
         gsl_test(!refused || strstr(with.reason, in->name) == NULL ||
                      strstr(with.reason, where) == NULL,
-                 "%s: %s, %s: is refused by name (%s)", e->name, where, in->name, with.reason);
+                 "%s: %s, %s: the rejection names the input (%s)", e->name, where, in->name,
+                 with.reason);
         return;
     }
     if (part == SCENE_PART_STATE && with.values == 0) {

@@ -1,7 +1,7 @@
 /* Members that rotate freely against each other through large angles. A four-bar linkage and a
  * universal joint must follow their exact paths without internal forces. The results of a bent
  * linkage must not depend on the axes of the scene. If nothing drives a linkage, it must be
- * rejected by name. */
+ * rejected with a message that names it. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

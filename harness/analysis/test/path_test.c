@@ -354,7 +354,7 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
     ask_scene(&s, e, NULL, n, &a);
     scene_free(&s);
     if (slenderness >
-        2e4) { /* near the limit of double precision: accurate to round-off, or rejected by name */
+        2e4) { /* near the limit of double precision: accurate, or rejected because of round-off */
         if (a.status == STATUS_SINGULAR)
             gsl_test(strstr(a.reason, "round-off") == NULL,
                      "%s, slenderness %g, %d elements: the cause is named: %s", e->name,

@@ -129,7 +129,7 @@ static void rests(const sweep_point *p, const formulation *chosen, int elements)
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&s, m, NULL, &r, &f);
         worst = outcome == STATUS_OK ? largest(&s, &r, &whose) : INFINITY;
-        /* elements whose arcs rise beyond their declared limit are rejected by name */
+        /* if an arc rises beyond the declared limit of its element, the message names the limit */
         if (outcome == STATUS_NOT_CONVERGED && chosen->type->limits & LIMIT_FLAT_ARC &&
             strstr(f.text, "radii of gyration") != NULL)
             worst = 0;

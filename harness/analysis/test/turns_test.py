@@ -166,7 +166,7 @@ quantities: {f: {frequency: {analysis: v, which: 0}, unit: Hz}}
 
 
 # Rotations beyond 180 degrees: springs, drives and quantities must follow them, in statics, rotating axes and motions.
-# Elements must follow up to their declared limit and be rejected by name beyond it.
+# Elements must follow up to their declared limit and be rejected beyond it, with a message that names it.
 ROD = "sections: {s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 2e-9}, young: 200e9, shear_modulus: 80e9}}\n"
 WOUND = """beamwork: 1
 """ + ROD + """parameters: {angle: {value: 10, unit: rad, min: -200, max: 200, about: "of the end that is driven"}}

@@ -2,7 +2,7 @@
  * order of the scheme. Reactions at a fixed or prescribed base must equal the rate of change of
  * momentum, with rigid offsets, bodies and released ends. Newton's method must require as many
  * iterations as with lumped mass, even if members are stiff. Unsupported combinations must be
- * rejected by name. */
+ * rejected with a message that names them. */
 #include <math.h>
 
 #include "harness/analysis/analysis.h"
