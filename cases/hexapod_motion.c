@@ -52,7 +52,7 @@ static status build(const double value[], scene *s, fault *f)
 
 const case_type case_hexapod_motion = {
     .name = "hexapod_motion",
-    .summary = "flexure hexapod of twelve spherical joints that a drive moves through its stroke",
+    .summary = "flexure hexapod of twelve spherical joints, moved through its stroke by a drive",
     .source = "after N, section 4.3, with dimensions, masses and a duration chosen here",
     .parameters = {joint_parameters, hexapod_parameters, timed, case_mass_omit},
     .build = build,

@@ -245,7 +245,7 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
         scene_analysis_name(a->kind), key, who,
         a->kind == SCENE_HARMONIC && scene_reads_forces(q)
             ? "; or replace the node with two nodes joined by a stiff spring, and multiply the "
-              "spring stiffness by the response of one node relative to the other (from)"
+              "spring stiffness by the response of one node relative to the other (key 'from')"
             : "");
 }
 

@@ -64,8 +64,10 @@ int names_number(const void *context, const char *text, int *at, double *out,
     if (known == NULL || text[*at + (int)strspn(text + *at, " ")] == '(')
         return tell_unknown(c, text, from, length, why);
     if (known->word != NULL)
-        expression_wrong(why, from, "'%s' is a choice of words ('%.40s'), not a number",
-                         known->name, known->word);
+        expression_wrong(why, from,
+                         "'%s' is the word '%.40s', but a number is expected; give a number, or "
+                         "{%s: {WORD: NUMBER, ...}}",
+                         known->name, known->word, known->name);
     *out = known->number;
     return known->word == NULL && !isnan(*out); /* the error has already been reported */
 }

@@ -91,7 +91,8 @@ void key_list_all(key_list_take *take, void *context)
 const char *const key_list_head[2] = {
     "Scene files, version 1. *: required. EXPR: number, + - * / ^ ( ), names, pi, deg, abs sign "
     "sqrt exp log sin cos tan asin acos atan sinh cosh tanh atan2 hypot floor ceil mod min max; SI "
-    "only. [EXPR, ...] may be a range: a..b, a..b step c, a..b/n, a..b/n:log (equal ratios). A "
+    "units, or those of 'units'. [EXPR, ...] may be a range: a..b, a..b step c, a..b/n, a..b/n:log "
+    "(equal ratios). A "
     "word may be the name of a parameter.",
     "Keys of every entry (NAME: {...}, - {...}); $i is replaced in names and strings:"};
 

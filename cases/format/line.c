@@ -312,7 +312,7 @@ static void along_path(FILE *to, const scene *s, const scene_quantity *q, const 
 static void acting(FILE *to, const scene *s, const scene_quantity *q)
 {
     static const char *const of[] = {"", "largest of", "least of",
-                                     "value of the largest magnitude of"};
+                                     "value with the largest magnitude among"};
     const int own = scene_acting_of(s, q->analysis);
     if (q->envelope == SCENE_ENVELOPE_NONE) {
         const int number = own != 0 ? own : scene_acting_in(s, q, 0);

@@ -7,7 +7,7 @@ static const entry_field fields[] = {
     {"quantities", ENTRY_FORMS, .needed = 1,
      .summary = "[NAME, NAME, ...]: quantities with the same unit"},
     {"select", ENTRY_WORD, .needed = 1, .words = SCENE_ENVELOPE_CHOICES,
-     .summary = "largest or smallest value, or value of the largest magnitude",
+     .summary = "largest or smallest value, or value with the largest magnitude",
      ENTRY_IN(scene_quantity, what.of.envelope), .first = SCENE_ENVELOPE_MAX},
     {.name = NULL}};
 
@@ -22,7 +22,7 @@ static const char *unit(const scene *s, const scene_quantity *q)
 static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 {
     static const char *const of[] = {"", "largest of", "least of",
-                                     "value of the largest magnitude of"};
+                                     "value with the largest magnitude among"};
     fputs(of[q->what.of.envelope], to);
     for (int i = 0; i < q->overs; i++)
         fprintf(to, "%s %s", i > 0 ? "," : "", s->quantity[q->over[i]].name);

@@ -37,7 +37,8 @@ static status check_member(const scene *s, int i, fault *f)
         across += m->y_axis[k] * m->y_axis[k];
     }
     if (!(length > 0))
-        return fault_set(f, STATUS_REFUSED, "%s: its ends coincide; its length must be positive",
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: its ends coincide; move one of its nodes, or remove the member",
                          scene_called(s, SCENE_MEMBERS, i).text);
     if (!(across > 0) || !(across * length - along * along > 1e-12 * across * length))
         return fault_set(f, STATUS_REFUSED,

@@ -299,6 +299,7 @@ static void extract_spectrum_modal(const analysis_context *c, const scene_quanti
     else if (side->status != STATUS_OK)
         quantity_no_value(r, side->status, side->reason);
     else
-        quantity_no_value(r, STATUS_NO_VALUE, "the mesh has no mode of this kind");
+        quantity_no_value(r, STATUS_NO_VALUE,
+                          "the mesh has no mode of this kind with this index; use more elements");
     take_meaning(outcome_spectrum_of(o), r);
 }

@@ -184,7 +184,8 @@ static status prestress(analysis_context *c, linear_system *s, prestresses *p, f
 {
     if (!s->K.symmetric)
         return fault_set(f, STATUS_REFUSED,
-                         "linear buckling requires a symmetric stiffness matrix");
+                         "linear buckling requires a symmetric stiffness matrix; request the "
+                         "critical load about a static path");
     TRY(along_path_proportional(c->scene, c->eq.loading.acting, f));
     TRY(quadratic_forms_alloc(&c->eq, &s->K, &p->growing, f));
     TRY(linear_system_solve(c, s, 1, p->growing.load_x, f));

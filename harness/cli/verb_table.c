@@ -51,11 +51,12 @@ static const manual_row examples[] = {
 static const manual_row statuses[] = {
     {"0", "as expected"},
     {"1", "a verdict differs (solve: not converged or singular)"},
-    {"2", "refused input"},
+    {"2", "invalid input"},
     {"3", "no verdict was assigned"},
     {"4", "file, disk or memory"},
-    {"5", "incomplete: interrupted (the verdicts so far are in *.partial.*), or parts are missing; "
-          "the same command continues the run"},
+    {"5",
+     "incomplete: interrupted (the verdicts so far are in *.partial.*), or batches are missing; "
+     "the same command continues the run"},
     {NULL, NULL},
 };
 static const manual_program about = {

@@ -253,7 +253,8 @@ static void check_again(const import_block *b)
         const imported_row *one = &all->row[i - 1], *next = &all->row[i];
         if (one->elements == next->elements && strcmp(one->quantity, next->quantity) == 0 &&
             (one->x == next->x || (isnan(one->x) && isnan(next->x))))
-            mistakes_add(b->m, line_of(b, next), 5, "'%s' with n = %d is given again in line %d",
+            mistakes_add(b->m, line_of(b, next), 5,
+                         "'%s' with n = %d is given again in line %d; remove one of them",
                          next->quantity, next->elements, one->line);
     }
 }

@@ -190,7 +190,8 @@ static void take_fields(const file_reader *r, const char *const at[COLUMNS], imp
                           .value = number_of(r, at[VALUE], VALUE),
                           .uncertainty = number_of(r, at[UNCERTAINTY], UNCERTAINTY)};
     if (strlen(at[UNIT]) >= sizeof row->unit || strlen(at[QUANTITY]) >= sizeof row->quantity)
-        mistakes_add(r->m, r->line, 1, "the name of a quantity or unit is too long");
+        mistakes_add(r->m, r->line, 1,
+                     "the name of a quantity or unit is too long; give a shorter one");
     snprintf(row->unit, sizeof row->unit, "%s", at[UNIT]);
     snprintf(row->quantity, sizeof row->quantity, "%s", at[QUANTITY]);
 }

@@ -117,7 +117,8 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
     batch_stem(&w, stem);
     batch_name(stem, label->batch, name);
     if (snprintf(path, sizeof path, "%s/%s", folder, name) >= (int)sizeof path)
-        return fault_set(f, STATUS_FAULT, "%.200s: the name is too long", folder);
+        return fault_set(f, STATUS_FAULT, "%.200s: the name is too long; give a shorter one",
+                         folder);
     const status outcome = assemble(label, bytes, size, &whole, &length) == 0
                                ? write_locked(path, whole, length, f)
                                : fault_set(f, STATUS_FAULT, "out of memory for a batch");

@@ -132,8 +132,8 @@ static void feature_subsets(const formulation *chosen, claims *c)
     }
     claims_departs(
         few, (double)count[REFUSED] / (1 << OPTIONAL),
-        "prepare: %d of %d subsets of the declared features are rejected; at most half of the "
-        "subsets may be rejected, in which a feature lacks another that it requires",
+        "prepare: %d of %d subsets of the declared features are rejected, but at most half may be; "
+        "reject only subsets that lack a feature which another one requires",
         count[REFUSED], 1 << OPTIONAL);
 }
 

@@ -111,21 +111,21 @@ typedef struct state {
 } state;
 
 static const state states[] = {
-    {"stretch", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_FORCE, 0, SCENE_UX, "E A?"},
-    {"pure torsion", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_MOMENT, 0, SCENE_RX, "G It?"},
-    {"pure bending about y", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_MOMENT, 1, SCENE_UZ, "E Iy?"},
-    {"pure bending about z", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_MOMENT, 2, SCENE_UY, "E Iz?"},
+    {"stretch", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_FORCE, 0, SCENE_UX, "E A"},
+    {"pure torsion", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_MOMENT, 0, SCENE_RX, "G It"},
+    {"pure bending about y", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_MOMENT, 1, SCENE_UZ, "E Iy"},
+    {"pure bending about z", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_MOMENT, 2, SCENE_UY, "E Iz"},
     {"pure bending, a quarter turn", 0.05, 0.1, 0, FEATURE_LARGE, BEAM_LARGE, SCENE_MOMENT, 2,
-     SCENE_UY, ""},
+     SCENE_UY, "E Iz, unless large rotations are wrong"},
     {"tip force along y", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_FORCE, 1, SCENE_UY,
-     "E Iz? Or the element locks"},
+     "E Iz, unless the element locks"},
     {"tip force along z", 0.05, 0.1, 0, 0, BEAM_LINEAR, SCENE_FORCE, 2, SCENE_UZ,
-     "E Iy? Or the element locks"},
+     "E Iy, unless the element locks"},
     {"constant shear along y, short beam", 0.5, 0.4, 0, FEATURE_SHEAR, BEAM_LINEAR, SCENE_FORCE, 1,
-     SCENE_UY, "G A times the shear factor, or E Iz?"},
+     SCENE_UY, "G A times the shear factor, or E Iz"},
     {"constant shear along z, short beam", 0.5, 0.4, 0, FEATURE_SHEAR, BEAM_LINEAR, SCENE_FORCE, 2,
-     SCENE_UZ, "G A times the shear factor, or E Iy?"},
-    {"torsion, warping held", 0, 0, 1, 0, BEAM_LINEAR, SCENE_MOMENT, 0, SCENE_RX, "G It, E Iw?"},
+     SCENE_UZ, "G A times the shear factor, or E Iy"},
+    {"torsion, warping held", 0, 0, 1, 0, BEAM_LINEAR, SCENE_MOMENT, 0, SCENE_RX, "G It or E Iw"},
 };
 
 /* Returns the exact displacement or rotation of the end in the measured component. */
@@ -160,7 +160,7 @@ static void states_conclude(const state *s, element_measure *one)
     else if (one->astray)
         snprintf(one->words, sizeof one->words,
                  "the error is %.2g %% with one element and %.2g %% with four: a stiffness of the "
-                 "section is wrong (%s)",
+                 "section is wrong (probably %s)",
                  100 * coarse, 100 * fine, s->doubt);
 }
 

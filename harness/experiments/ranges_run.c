@@ -18,7 +18,8 @@ static status beside(const char *path, const char *ending, char out[PATH_MAX], f
                                                                            : (int)strlen(path);
     return snprintf(out, PATH_MAX, "%.*s%s", stem, path, ending) < PATH_MAX
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED, "%.200s: the name is too long", path);
+               : fault_set(f, STATUS_REFUSED, "%.200s: the name is too long; give a shorter one",
+                           path);
 }
 
 /* Returns 1 if the name is "." or "..", or that of a file written by worst_write. */

@@ -24,7 +24,7 @@ static status read_back(const sweep *s, const judgement *j, stored_results *out,
     const environment e = environment_now(1);
     if (snprintf(path, sizeof path, "%s/beamwork-XXXXXX", folder != NULL ? folder : "/tmp") >=
         (int)sizeof path)
-        return fault_set(f, STATUS_FAULT, "TMPDIR: the name is too long");
+        return fault_set(f, STATUS_FAULT, "TMPDIR: the name is too long; give a shorter one");
     const int file = mkstemp(path);
     if (file < 0)
         return fault_set(f, STATUS_FAULT, "%.200s: cannot be written; set TMPDIR to a folder",

@@ -71,8 +71,8 @@ status specimen_make(const specimen_request *what, specimen *out, fault *f)
     out->coordinates = NODE_COORDINATES * out->nodes;
     if (!fits(out))
         return fault_set(f, STATUS_FAULT,
-                         "%d internal unknowns and %d doubles of memory exceed the limits of the "
-                         "checks (%d and %d)",
+                         "the element declares %d internal unknowns and %d doubles of memory, but "
+                         "the checks support at most %d and %d",
                          out->inner, out->memory, SPECIMEN_INNER, SPECIMEN_MEMORY);
     out->size = out->type.data_size(&out->request);
     out->data = calloc(1, out->size > 0 ? out->size : 1);

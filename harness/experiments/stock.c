@@ -14,7 +14,8 @@ static status path_of(const char *folder, const char *name, char out[PATH_MAX], 
 {
     return snprintf(out, PATH_MAX, "%s/%s", folder, name) < PATH_MAX
                ? STATUS_OK
-               : fault_set(f, STATUS_FAULT, "%.200s: the name is too long", folder);
+               : fault_set(f, STATUS_FAULT, "%.200s: the name is too long; give a shorter one",
+                           folder);
 }
 
 status stock_path(const stock *s, int batch, char out[PATH_MAX], fault *f)

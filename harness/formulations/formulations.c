@@ -197,7 +197,10 @@ status formulation_parse(const char *text, formulation *out, fault *f)
     char name[FORMULATION_KEY];
     const size_t length = strcspn(text, ":");
     if (strlen(text) >= sizeof name)
-        return fault_set(f, STATUS_REFUSED, "formulation '%.40s...': too long", text);
+        return fault_set(f, STATUS_REFUSED,
+                         "formulation '%.40s...' is longer than %d characters; give a name, and "
+                         "only options that differ from their defaults",
+                         text, FORMULATION_KEY - 1);
     snprintf(name, sizeof name, "%.*s", (int)length, text);
     const element_type *type = formulation_find(name);
     if (type == NULL)

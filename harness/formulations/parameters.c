@@ -113,8 +113,8 @@ static status set_value(const assignment_list *l, const parameter_type *p, const
             return fault_set(f, STATUS_REFUSED, "%s %s of %s: %g %s is outside its range %g .. %g",
                              l->what, p->name, l->owner, number, p->unit, p->min, p->max);
         if (flag && number != 0 && number != 1)
-            return fault_set(f, STATUS_REFUSED, "%s %s of %s: %g: give 0 or 1", l->what, p->name,
-                             l->owner, number);
+            return fault_set(f, STATUS_REFUSED, "%s %s of %s: %g is not valid; give 0 or 1",
+                             l->what, p->name, l->owner, number);
     }
     *value = number;
     return STATUS_OK;

@@ -233,7 +233,9 @@ static status contestants_parse(const char *names, formulation list[CONTESTANTS_
         const int blanks = (int)strspn(at, " "), length = (int)strcspn(at + blanks, " ");
         at += blanks;
         if (length >= (int)sizeof one)
-            return fault_set(f, STATUS_REFUSED, "formulation '%.60s...': the name is too long", at);
+            return fault_set(f, STATUS_REFUSED,
+                             "formulation '%.60s...': the name is too long; give a shorter one",
+                             at);
         snprintf(one, sizeof one, "%.*s", length, at);
         if (length > 0)
             TRY(formulation_list_add(one, CONTESTANTS_MOST, list, count, f));

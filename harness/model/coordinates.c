@@ -263,7 +263,7 @@ static status note_left_out(model *m, const coordinates_tally *of, fault *f)
     if (of->tied > 0)
         TRY(coordinates_note_left_out(m, f, "%d coordinates determined by constraints", of->tied));
     if (m->scene->plane != SCENE_SPACE)
-        TRY(coordinates_note_left_out(m, f, "%d coordinates held in the plane %s", of->across,
+        TRY(coordinates_note_left_out(m, f, "%d coordinates out of the plane %s", of->across,
                                       scene_plane_name(m->scene)));
     if (attached > 0)
         TRY(coordinates_note_left_out(m, f, "%d coordinates of %d node%s with a rigid body",

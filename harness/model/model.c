@@ -241,7 +241,7 @@ static status build(model *m, const model_request *request, fault *f)
         TRY(coordinates_note_left_out(m, f, "%s", words));
     if (m->omits != 0) {
         missing_omit_words(m->omits, words);
-        TRY(coordinates_note_left_out(m, f, "physics not modelled: %s", words));
+        TRY(coordinates_note_left_out(m, f, "physics: %s", words));
     }
     if (adapters_words(type)[0] != '\0')
         TRY(coordinates_note_left_out(m, f, "%s", adapters_words(type)));
@@ -253,7 +253,7 @@ static status build(model *m, const model_request *request, fault *f)
             m, f, "path independence: results depend on the path and its steps"));
     if (process_serves(type))
         TRY(coordinates_note_left_out(
-            m, f, "of the times: the time taken by the process of the formulation"));
+            m, f, "in the times: the time taken by the process of the formulation"));
     return allocate(m, f);
 }
 

@@ -374,8 +374,9 @@ status context_symmetric(const matrix_factor *fa, const char *what, fault *f)
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
                            "%s require a symmetric tangent, but this tangent differs from its "
-                           "transpose by %.1e of the diagonal (limit %.0e); dead moments about "
-                           "fixed axes and follower loads have no potential here",
+                           "transpose by %.1e of the diagonal (limit %.0e), because dead moments "
+                           "about fixed axes and follower loads have no potential here; remove "
+                           "these loads, or use a motion",
                            what, counts.asymmetry, FACTOR_SYMMETRIC_WITHIN);
 }
 

@@ -364,8 +364,12 @@ static status give_up(const newton_use *use, const newton_correction *one, const
 {
     char at[40];
     snprintf(at, sizeof at, use->on == NULL ? "%g s" : "path %g", one->at);
-    return fault_set(f, STATUS_NOT_CONVERGED, "Newton %s at %s: correction %.1e in iteration %d",
-                     why, at, one->size, iteration);
+    return fault_set(f, STATUS_NOT_CONVERGED,
+                     "Newton's method %s at %s: correction %.1e in iteration %d; use %s", why, at,
+                     one->size, iteration,
+                     use->on == NULL
+                         ? "a smaller step or tolerance"
+                         : "smaller steps, or a continuation if the load passes a maximum");
 }
 
 static void take(watch *w, double correction, int iteration)

@@ -32,8 +32,9 @@ static status inertia_at(const equations *eq, const node_state x[], int i, doubl
     eq->run->counters.inertia_evaluations++;
     if (outcome != STATUS_OK)
         return fault_set(
-            f, outcome, "element %d of %s: its inertia cannot be evaluated", i,
-            scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, i)->member).text);
+            f, outcome,
+            "element %d of %s: its inertia cannot be evaluated; use smaller steps or more elements",
+            i, scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, i)->member).text);
     return STATUS_OK;
 }
 

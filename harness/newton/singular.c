@@ -207,9 +207,10 @@ static void explain_loss(const analysis_context *c, fault *f)
     int few, lost;
     const double coarse = condition_when_coarse(c, &few, &lost);
     if (lost)
-        fault_set(f, STATUS_SINGULAR,
-                  "the stiffness matrix is lost in round-off, whatever the mesh: the stiffnesses "
-                  "differ too much, or a stiffness of a section is zero");
+        fault_set(
+            f, STATUS_SINGULAR,
+            "the stiffness matrix is lost in round-off, whatever the mesh: the stiffnesses "
+            "differ too much, or a stiffness of a section is zero; correct sections and springs");
     else
         fault_set(
             f, STATUS_SINGULAR,
@@ -237,5 +238,6 @@ void singular_explain(analysis_context *c, fault *f)
         explain_loss(c, f);
     else
         fault_set(f, STATUS_SINGULAR,
-                  "the stiffness matrix is singular, because the structure is at a critical point");
+                  "the stiffness matrix is singular, because the structure is at a critical point; "
+                  "reduce the loads, or use a continuation");
 }

@@ -100,7 +100,7 @@ static status fill(candidates *p, int wanted, double scale, double least, eigen_
     for (int pass = 0; missing > 0; pass++) {
         if (pass == MAX_PASSES || p->count + missing >= p->n)
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "missing eigenvalues: %d of %d, after %d attempts", missing, asked,
+                             "%d of %d eigenvalues were not found in %d attempts", missing, asked,
                              pass);
         candidates_count_rest(p);
         TRY(run_lanczos(p, missing, least, &r->solutions, f));

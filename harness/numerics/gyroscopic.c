@@ -372,8 +372,8 @@ static status find(gyroscopic_solver *s, fault *f)
     int first = s->p->wanted + SPARE, lost = 1;
     for (int attempt = 0; lost > 0; attempt++) {
         if (attempt == MAX_STARTS)
-            return fault_set(f, STATUS_NOT_CONVERGED, "missing frequencies in a rotating frame: %d",
-                             lost);
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "frequencies in a rotating frame that were not found: %d", lost);
         TRY((attempt == 0 ? begin : start)(s, first < n ? first : n, f));
         TRY(iterate(s, s->p->wanted, f));
         TRY(missing(s, s->p->wanted, &lost, f));

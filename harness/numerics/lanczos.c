@@ -157,8 +157,9 @@ static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, 
     const int info = iterate(p, w, solutions);
     *found = info == 0 ? wanted : w->parameter[CONVERGED];
     if (info != 0 && (info != ENDED_EARLY || *found == 0))
-        return fault_set(f, STATUS_NOT_CONVERGED, "%d of %d eigenvalues found (ARPACK returned %d)",
-                         *found, wanted, info);
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "only %d of %d eigenvalues were found (ARPACK returned %d)", *found,
+                         wanted, info);
     return take_vectors(w, n, wanted, *found, mu, x, f);
 }
 

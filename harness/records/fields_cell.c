@@ -159,7 +159,7 @@ static const schema_field fields_of_cell[] = {
      .get = fields_keys_omitted},
     {"assumed", "", FIELD_TEXT, "assumptions about sections: see the table 'assumptions'",
      .get = fields_keys_assumed},
-    {"left_out", "", FIELD_TEXT, "eliminated coordinates, with the reason", .get = get_left_out},
+    {"left_out", "", FIELD_TEXT, "eliminated coordinates and omitted effects", .get = get_left_out},
     {"warping", "", FIELD_TEXT, "warping at ends of members: fixed, shared or free",
      .get = get_warping},
     {"divided", "", FIELD_TEXT, "members with more elements than requested, and the reason",

@@ -319,7 +319,7 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
                   c->solve.seconds_setup, c->solve.seconds_solve);
     table_stability_paths(to, &p->scene, &c->solve);
     for (int i = 0; i < c->left_out_lines; i++)
-        paragraph_write(to, fprintf(to, "eliminated: "), INDENT, c->left_out[i]);
+        paragraph_write(to, fprintf(to, "not included: "), INDENT, c->left_out[i]);
     warping_ends(&p->scene, ends, sizeof ends);
     if (ends[0] != '\0')
         paragraph_write(to, fprintf(to, "warping: "), INDENT, ends);

@@ -387,9 +387,10 @@ static status settle_rates(const explicit_scheme *s, int i, double time, fault *
             return STATUS_OK;
         before = change;
     }
-    return fault_set(f, STATUS_NOT_CONVERGED,
-                     "element %d: its internal equations were not solved in %d iterations", i,
-                     MOST);
+    return fault_set(
+        f, STATUS_NOT_CONVERGED,
+        "element %d: its internal equations were not solved in %d iterations; use a smaller step",
+        i, MOST);
 }
 
 static status accelerations(explicit_scheme *s, double time, fault *f)

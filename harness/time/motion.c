@@ -198,7 +198,9 @@ static status take_step(motion_course *w, double target, fault *f)
             return outcome != STATUS_OK
                        ? outcome
                        : fault_set(f, STATUS_NOT_CONVERGED,
-                                   "at %g s no step is short enough for %s", w->now.time,
+                                   "at %g s no step is short enough for %s; give a larger "
+                                   "tolerance, or use another integrator",
+                                   w->now.time,
                                    grows ? "the energy to be conserved" : "the tolerance");
         w->c->run->counters.rejected_steps++;
     }

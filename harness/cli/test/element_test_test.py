@@ -153,7 +153,7 @@ CLASSIC = {
         "pure bending about y:", "(E Iy?)"),
     "swapped shear": (
         ("c->F[i == 1 ? 4 : 0]", "c->F[i == 1 ? 0 : 4]"),
-        "constant shear along y, short beam:", "(G A times the shear factor, or E Iz?)"),
+        "constant shear along y, short beam:", "(probably G A times the shear factor, or E Iz)"),
     "coupling about y": (
         ("? -1 : (2 - phi)", "? -1 : (i == 1 ? -1 : 1) * (2 - phi)"),
         "tip force along z: the result is exact with one element, but", "a coupling of the nodes, its sign"),
@@ -165,7 +165,7 @@ CLASSIC = {
         "pure torsion: the error is 0.99 % with one element and 0.99 % with four", "(G It?)"),
     "no shear": (
         ("? 12 : 0;", "? 0 : 0;"),
-        "constant shear along y, short beam:", "(G A times the shear factor, or E Iz?)"),
+        "constant shear along y, short beam:", "(probably G A times the shear factor, or E Iz)"),
     "length": (
         ("c->young * c->A / l;", "c->young * c->A * l;"),
         "stretch: the result is exact with one element, but", "a power of the length is wrong"),

@@ -88,7 +88,7 @@ class Plane(ProgramTest):
         for plane in ("xy", "xz", "yz"):
             record, found = self.solved(turned(STRIP, plane))
             self.assertEqual(record["cell"]["free"], 48)
-            self.assertIn(f"held in the plane {plane}", record["cell"]["left_out"])
+            self.assertIn(f"out of the plane {plane}", record["cell"]["left_out"])
             self.assertLess(abs(found["p"] / (math.pi**2 * stiff / 4) - 1), 1e-3)
             for name, root in (("f", 1.8751040687), ("g", 4.6940911330)):
                 exact = root**2 / (2 * math.pi) * math.sqrt(stiff / (RHO * area))
@@ -114,7 +114,7 @@ class Plane(ProgramTest):
             text = (EXAMPLES / f"{name}.yaml").read_text()
             _, space = self.solved(text, n=4)
             record, plane = self.solved(text + "\nplane: xy\n", n=4)
-            self.assertIn("held in the plane xy", record["cell"]["left_out"])
+            self.assertIn("out of the plane xy", record["cell"]["left_out"])
             self.assertEqual(set(space), set(plane))
             compared = 0
             for key, value in space.items():
@@ -439,5 +439,5 @@ class NotAccepted(ProgramTest):
         for truths, code in (("accepted", 1), ("new", 0)):
             what = ("stress", "-k", f"slender_square and {NAME}", "--truths", self.truths[truths])
             out = self.answered(*what, code=code).stdout
-            self.assertEqual("they do not affect the exit status" in out, truths == "new", out)
+            self.assertEqual("these do not affect the exit status" in out, truths == "new", out)
             self.answered(*what, "-f", NAME, code=1)
