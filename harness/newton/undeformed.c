@@ -1,6 +1,7 @@
 #include "harness/newton/newton_impl.h"
 
 #include <float.h>
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -80,6 +81,27 @@ static status evaluate_strained(const model *m, int i, const double e[], const d
     return STATUS_OK;
 }
 
+/* Checks C of a type whose forces need not derive from an energy, because matrices of the
+ * undeformed structure are symmetric. Removes the asymmetry of rounding errors. */
+static status make_symmetric(const model *m, double C[], fault *f)
+{
+    const int n = model_strains(m);
+    double most = 0, apart = 0;
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= i; j++) {
+            double *const one = &C[i * n + j], *const other = &C[j * n + i];
+            most = fmax(most, fabs(*one));
+            apart = fmax(apart, fabs(*one - *other));
+            *one = *other = (*one + *other) / 2;
+        }
+    return apart <= 1e-7 * most
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "the stiffness of an undeformed element of %s is not symmetric, which "
+                           "linear analyses require; follow a static path or a motion",
+                           model_formulation(m));
+}
+
 static status evaluate(const equations *eq, int i, double J[], double C[], double initial[])
 {
     const model *m = eq->m;
@@ -130,6 +152,8 @@ static status make(const equations *eq, int i, fault *f)
                 "use more elements",
                 i, scene_called(model_scene(m), SCENE_MEMBERS, model_element(m, i)->member).text,
                 model_type(m)->name);
+        if (model_absolute(m))
+            TRY(make_symmetric(m, C, f));
         u->last = i;
         u->count++;
     }
