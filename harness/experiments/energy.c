@@ -185,7 +185,7 @@ static void check(const specimen *s, claims *c)
     check_stiffness(&at, C, c);
     check_rest(s, c);
     check_geometric(s, C, c);
-    own_damping_check(s, c);
+    own_damping_check(s, C, c);
 }
 
 void checks_energy(const formulation *chosen, claims *out)

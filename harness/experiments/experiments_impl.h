@@ -126,7 +126,7 @@ status specimen_settled(const specimen *s, const double e[], double inner[], str
 /* Checks that the damping matrix is symmetric and dissipates energy. Does nothing without
  * `damping`.
  */
-void own_damping_check(const specimen *s, claims *c);
+void own_damping_check(const specimen *s, const double C[], claims *c);
 /* Checks the motion of the sections, and that nodal forces are in equilibrium with loads along the
  * element. Does nothing without `line`. */
 void own_line_check(const specimen *s, claims *c);

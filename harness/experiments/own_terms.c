@@ -27,38 +27,49 @@ static double least_eigenvalue(int n, double A[])
     return failed ? NAN : least;
 }
 
-void own_damping_check(const specimen *s, claims *c)
+/* Computes the scaled matrix B. Returns 0, and reports a violation, if V contains NaN or Inf. */
+static int scale_damping(const specimen *s, const double C[], const double V[], double B[],
+                         claim *one)
+{
+    const int n = s->strains, wrong = damping_scale(n, C, V, B);
+    if (wrong < n * n)
+        claims_asks(one, 0, "damping: entry %d, %d of V is %s; give finite numbers%s",
+                    wrong / n + 1, wrong % n + 1, isnan(V[wrong]) ? "NaN" : "Inf", s->words);
+    return wrong == n * n;
+}
+
+void own_damping_check(const specimen *s, const double C[], claims *c)
 {
     const int n = s->strains;
-    double V[M * M], size = 0;
+    double V[M * M], B[M * M];
     if (s->type.damping == NULL)
         return;
     claims_doing(c, "damping%s", s->words);
     memset(V, 0, sizeof V);
     s->type.damping(s->data, V);
-    claim *symmetric = claims_open(c, "the damping matrix is symmetric", 1e-13),
-          *dissipates = claims_open(c, "damping dissipates energy", 1e-12);
-    for (int i = 0; i < n * n; i++)
-        size = isnan(V[i]) ? NAN : fmax(size, fabs(V[i]));
-    if (size == 0)
+    claim *symmetric = claims_open(c, "the damping matrix is symmetric", DAMPING_ROUNDING),
+          *dissipates = claims_open(c, "damping dissipates energy", DAMPING_ROUNDING);
+    if (!scale_damping(s, C, V, B, dissipates))
         return;
-    claims_asks(dissipates, isfinite(size), "damping: V contains %g; give finite numbers%s", size,
-                s->words);
-    if (!isfinite(size))
-        return;
-    for (int i = 0; i < n; i++)
+    for (int i = 0; i < n; i++) {
+        claims_departs(dissipates, B[n * i + i] < 0 ? -B[n * i + i] : 0,
+                       "damping: entry %d, %d of V is %.6g N s/m, so some motions gain energy; "
+                       "give a positive semidefinite matrix%s",
+                       i + 1, i + 1, V[n * i + i], s->words);
         for (int j = 0; j < i; j++)
-            claims_departs(symmetric, fabs(V[n * i + j] - V[n * j + i]) / size,
+            claims_departs(symmetric, fabs(B[n * i + j] - B[n * j + i]),
                            "damping: entry %d, %d of V is %.6g, but the transposed entry is %.6g%s",
                            i + 1, j + 1, V[n * i + j], V[n * j + i], s->words);
-    const double least = least_eigenvalue(n, V);
-    claims_departs(dissipates,
-                   least < 0    ? -least / size
-                   : least >= 0 ? 0
-                                : NAN,
-                   "damping: V has the eigenvalue %.6g N s/m, so some motions gain energy; give a "
-                   "positive semidefinite matrix%s",
-                   least, s->words);
+    }
+    const double least = least_eigenvalue(n, B);
+    claims_departs(
+        dissipates,
+        least < 0    ? -least
+        : least >= 0 ? 0
+                     : NAN,
+        "damping: V, scaled to a diagonal of 1, has the eigenvalue %.6g, so some motions "
+        "gain energy; give a positive semidefinite matrix%s",
+        least, s->words);
 }
 
 /* A point of an element, with a force and a moment. */

@@ -176,6 +176,17 @@ int process_serves(const element_type *);
 /* Sets the time limit [s] of an answer, which is initially 120; 0: no limit. */
 void process_limit(int seconds);
 
+/* Damping matrices of formulations. */
+
+/* largest error of a scaled damping matrix: the difference of opposite entries, or the size of a
+ * negative eigenvalue */
+#define DAMPING_ROUNDING 1e-10
+
+/* Scales a damping matrix V [n x n] to diagonal entries of 1 or -1, so that large and small entries
+ * count alike: B. C: stiffness at rest. Diagonal entries below round-off, relative to C, are not
+ * scaled up. Returns n^2, or the index of the first entry that is NaN or Inf. */
+int damping_scale(int n, const double C[], const double V[], double B[]);
+
 /* Parameter points of a case: conversion between text and values. */
 
 enum { PARAMETERS_TEXT = 512 };

@@ -16,6 +16,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
+#include "harness/formulations/formulations.h"
 
 enum { BALL = 3 };
 
@@ -253,20 +254,40 @@ static int matrix_of(const model *m, int element, double eta, damped_kinds *k)
     return k->count++;
 }
 
-/* Returns 1 if a matrix is symmetric and positive semidefinite up to rounding errors. */
-static int dissipates(int n, const double V[])
+/* Returns STATUS_REFUSED unless the damping matrix of the formulation is symmetric and positive
+ * semidefinite up to rounding errors. C: stiffness at rest. */
+static status dissipates(const char *name, int n, const double C[], const double V[], fault *f)
 {
-    const double rounding = 1e-10;
-    double L[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS], largest = 0;
-    for (int k = 0; k < n * n; k += n + 1)
-        largest = fmax(largest, V[k]);
+    static const char shown[] = "('energy' in the output of element-test shows the error)";
+    double B[ELEMENT_MAX_STRAINS * ELEMENT_MAX_STRAINS];
+    const int wrong = damping_scale(n, C, V, B);
+    if (wrong < n * n)
+        return fault_set(f, STATUS_REFUSED,
+                         "formulation %s: entry %d, %d of its damping matrix is %s; give finite "
+                         "numbers %s",
+                         name, wrong / n + 1, wrong % n + 1, isnan(V[wrong]) ? "NaN" : "Inf",
+                         shown);
     for (int i = 0; i < n; i++)
-        for (int j = 0; j < n; j++) {
-            if (!(fabs(V[n * i + j] - V[n * j + i]) <= rounding * largest))
-                return 0;
-            L[n * i + j] = V[n * i + j] + (i == j ? rounding * largest : 0);
-        }
-    return largest > 0 && dense_cholesky(n, L) == 0;
+        for (int j = 0; j < i; j++)
+            if (!(fabs(B[n * i + j] - B[n * j + i]) <= DAMPING_ROUNDING))
+                return fault_set(f, STATUS_REFUSED,
+                                 "formulation %s: entry %d, %d of its damping matrix is %.6g, but "
+                                 "the transposed entry is %.6g; give a symmetric matrix %s",
+                                 name, i + 1, j + 1, V[n * i + j], V[n * j + i], shown);
+    for (int i = 0; i < n; i++) {
+        if (B[n * i + i] < 0)
+            return fault_set(f, STATUS_REFUSED,
+                             "formulation %s: entry %d, %d of its damping matrix is %.6g N s/m, so "
+                             "motions would gain energy; give a positive semidefinite matrix %s",
+                             name, i + 1, i + 1, V[n * i + i], shown);
+        B[n * i + i] += DAMPING_ROUNDING;
+    }
+    if (dense_cholesky(n, B) != 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "formulation %s: its damping matrix has a negative eigenvalue, so motions "
+                         "would gain energy; give a positive semidefinite matrix %s",
+                         name, shown);
+    return STATUS_OK;
 }
 
 /* Computes V = eta S0 + the damping matrix of the formulation, and the longest relaxation time. */
@@ -284,12 +305,8 @@ static status fill_matrix(const model *m, int element, double eta, double V[], d
                          "element %d: its state is outside the range that %s can evaluate; use "
                          "smaller steps or more elements",
                          element, model_type(m)->name);
-    if (own_damping(m, kind, V) && !dissipates(n, V))
-        return fault_set(f, STATUS_REFUSED,
-                         "formulation %s: its damping matrix is not symmetric and positive "
-                         "semidefinite, so motions would gain energy; correct 'damping' "
-                         "(element-test shows the entries)",
-                         model_type(m)->name);
+    if (own_damping(m, kind, V))
+        TRY(dissipates(model_type(m)->name, n, S, V, f));
     for (int k = 0; k < n * n; k++)
         V[k] += eta * S[k];
     for (int k = 0; k < n * n; k += n + 1)

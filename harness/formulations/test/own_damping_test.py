@@ -171,6 +171,22 @@ class OwnDamping(Speaker):
                      *solve(PULLED % "radau", self.python("return prepare(kind) * eta", "return eta[:3]"),
                             "own_damping_py"), env=WITH_MODULES)
 
+    def test_slender(self):
+        """A negative entry is rejected even if it is small against the others, and NaN is named."""
+        slender = CANTILEVER.replace("width: 0.02, thickness: 0.01", "width: 0.01, thickness: 1e-5") % ""
+        slender += """analyses: {damped: {modal: {damped: yes}}}
+quantities: {d: {damping_ratio: {analysis: damped, which: 0, of: decay}}}
+"""
+        path = self.folder / "scene.yaml"
+        path.write_text(slender, encoding="utf-8")
+        for factor, entry, told, shown in (("-1", 5, "entry 6, 6 of its damping matrix is -", "entry 6, 6 of V is -"),
+                                           ("np.nan", 1, "entry 1, 2 of its damping matrix is NaN; give",
+                                            "entry 1, 2 of V is NaN")):
+            wrong = self.python("eta[3] = kind.options[\"eta_torsion\"]", f"eta[{entry}] *= {factor}")
+            self.refused(2, told, "solve", "--scene", path, "--element", wrong, "-f", "own_damping_py", "-n", 1,
+                         env=WITH_MODULES)
+            self.assertIn(shown, self.contract(wrong, "own_damping_py", code=1)[1])
+
     def test_first_line(self):
         self.refuse(self.speaker(first="said['damping'] = 1"), "'damping' in its first line", "give true or false")
         self.refuse(self.speaker(first="said.update(damping=True, gives='energy'); del said['strains']"),
