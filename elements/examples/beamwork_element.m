@@ -48,7 +48,10 @@ for i = 1:2:numel(words)
 end
 gives = {'e,J,H', 'tangent'};
 if ~isfield(said, 'gives'), said.gives = gives{1 + isfield(call, 'force')}; end
-if isfield(call, 'damping'), said.damping = true; end
+if isfield(call, 'damping')
+    said.damping = true;
+    if isfield(call, 'stress'), said.damping = 'only V'; end % without C
+end
 if isfield(said, 'options') && isstruct(said.options), said.options = num2cell(said.options); end
 in = fopen('/dev/stdin', 'r', 'ieee-le');
 to = fopen('/dev/stdout', 'w', 'ieee-le');
@@ -123,6 +126,9 @@ end
 if ~isempty(C), C = sized(C, [said.strains said.strains], 'prepare'); end
 values = reshape(C.', [], 1);
 if isfield(call, 'damping')
+    if isfield(call, 'stress') && ~isempty(C)
+        error('prepare returned C, but the function stress is given, too: give one of them');
+    end
     V = sized(call.damping(kind), [said.strains said.strains], 'damping');
     values = [values; reshape(V.', [], 1)];
 end

@@ -340,6 +340,8 @@ def prepared(body, kinds, said, functions):
     m = said.get("strains", 0)
     found = [] if C is None else [checked(C, "prepare", 0, (m, m), f"strains={m} wants")]
     if "damping" in functions:
+        if "stress" in functions and found:
+            raise Refused("prepare returned C, but the function stress is served, too: give one of them")
         found.append(checked(functions["damping"](kind), "damping", 0, (m, m), f"strains={m} wants"))
     return found
 
@@ -384,11 +386,12 @@ def taken(functions, words):
     for word, value in words.items():
         if word in KEYS:
             said[word] = value
-        elif word in FUNCTIONS and callable(value or serve):
+        elif word in FUNCTIONS and (value is None or callable(value)):
             functions[word] = value
         else:
             near = difflib.get_close_matches(word, KEYS, 1)
-            sys.exit(f"serve(): {word}={value!r} is no {'function' if word in FUNCTIONS else 'key'}"
+            value = type(value).__name__ if isinstance(value, np.ndarray) else repr(value)
+            sys.exit(f"serve(): {word}={value} is no {'function' if word in FUNCTIONS else 'key'}"
                      + (f", did you mean {near[0]}?" if near else f"; keys: {', '.join(KEYS)}"))
     functions = {name: f for name, f in functions.items() if f is not None}
     if "places" in said:
@@ -396,6 +399,8 @@ def taken(functions, words):
     if "mass" in functions:
         said = {"inertia": "motion" if said.get("nodes", 2) == 2 else "vibration", **said}
     said.update({name: True for name in ("damping", "line") if name in functions})
+    if "damping" in functions and "stress" in functions:
+        said["damping"] = "only V"  # without C
     return functions, {"beamwork": 1, "gives": "tangent" if "force" in functions else "e,J,H",
                        **said}
 

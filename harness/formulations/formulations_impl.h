@@ -33,6 +33,9 @@ typedef enum child_event {
 
 enum { PROCESS_PROTOCOL = 1, HANDSHAKE_MOST = 65536 };
 
+/* The answer to a prepare request of a process with damping: C, then V, or V alone. */
+enum damping_answer { DAMPING_NONE, DAMPING_AFTER_C, DAMPING_ONLY };
+
 typedef struct handshake {
     element_type type; /* type with data members only, without functions */
     int whole;         /* 1: the process computes the energy, force or tangent of whole elements;
@@ -40,7 +43,7 @@ typedef struct handshake {
     /* 1: the process computes the inertia of elements; if type.spreads is set, also for transient
      * analysis */
     int inertia;
-    int damping; /* 1: the process computes a damping matrix */
+    int damping; /* of enum damping_answer */
     int line;    /* 1: the process computes the motion of sections between the nodes */
     element_constants constants; /* constants of the type */
 } handshake;

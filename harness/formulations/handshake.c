@@ -217,10 +217,21 @@ static status flag_of(const handshake_reading *r, const char *key, int *out)
                                                    : refuse(r, key, "give true or false");
 }
 
+static status damping_of(const handshake_reading *r, int *out)
+{
+    const json_t *given = json_object_get(r->said, "damping");
+    const char *word = json_string_value(given);
+    const int alone = word != NULL && strcmp(word, "only V") == 0;
+    *out = alone ? DAMPING_ONLY : json_is_true(given) ? DAMPING_AFTER_C : DAMPING_NONE;
+    return alone || given == NULL || json_is_boolean(given)
+               ? STATUS_OK
+               : refuse(r, "damping", "give true or false, or 'only V' for V without C");
+}
+
 /* Reads which optional terms the process computes. */
 static status terms_of(const handshake_reading *r, handshake *out)
 {
-    TRY(flag_of(r, "damping", &out->damping));
+    TRY(damping_of(r, &out->damping));
     TRY(flag_of(r, "line", &out->line));
     if (out->damping && out->whole)
         return refuse(r, "damping",

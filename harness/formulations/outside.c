@@ -146,8 +146,8 @@ static status start_again(process *p, fault *f)
         again.type.leaves == p->type.leaves && again.inertia == (p->type.inertia != NULL) &&
         again.type.spreads == p->type.spreads && again.constants.strains == p->constants.strains &&
         again.constants.nodes == p->constants.nodes &&
-        again.constants.history == p->constants.history &&
-        again.damping == (p->type.damping != NULL) && again.line == (p->type.line != NULL);
+        again.constants.history == p->constants.history && again.damping == p->damping &&
+        again.line == (p->type.line != NULL);
     return same ? STATUS_OK
                 : channel_break(&p->to, "gives different declarations when it is started again", f);
 }
@@ -184,7 +184,10 @@ static status ask_prepare(process *p, const element_request *request, element_da
     const int options = parameter_count(p->type.options);
     const int64_t head[3] = {out->kind % PROCESS_KINDS, request->features, options};
     const size_t C = (size_t)(out->strains * out->strains) * sizeof(double),
-                 V = p->type.damping != NULL ? C : 0,
+                 V = p->damping != DAMPING_NONE ? C : 0,
+                 most = p->whole                     ? 0
+                        : p->damping == DAMPING_ONLY ? V
+                                                     : C + V,
                  size = sizeof head + (7 + SECTION_NUMBERS + (size_t)options) * sizeof(double);
     const char *body;
     size_t count;
@@ -198,7 +201,7 @@ static status ask_prepare(process *p, const element_request *request, element_da
     put(&to, request->strain, sizeof request->strain);
     put_section(&to, request->section);
     put(&to, request->options, (size_t)options * sizeof(double));
-    TRY(channel_ask(&p->to, CHANNEL_PREPARE, 0, 1, V, p->whole ? 0 : C + V, &body, &count, f));
+    TRY(channel_ask(&p->to, CHANNEL_PREPARE, 0, 1, V > 0 ? most : 0, most, &body, &count, f));
     out->linear = count > V;
     memcpy(out->C, body, count - V);
     memcpy((char *)out->C + C, body + count - V, V);
@@ -282,7 +285,8 @@ static status begin(process *p, const char *command, fault *f)
         frames_serve_inertia(p);
     if (said.constants.history > 0)
         frames_serve_history(p);
-    if (said.damping)
+    p->damping = said.damping;
+    if (said.damping != DAMPING_NONE)
         frames_serve_damping(p);
     if (said.line)
         frames_serve_line(p);

@@ -397,7 +397,8 @@ static status refused(channel *c, status outcome, size_t bytes, size_t had, faul
 }
 
 /* Reads the rest of an answer after its header and, possibly, after a part of its body. */
-static status rest_of(channel *c, size_t least, size_t most, size_t had, size_t *count, fault *f)
+static status rest_of(channel *c, enum channel_request what, size_t least, size_t most, size_t had,
+                      size_t *count, fault *f)
 {
     int64_t head[2];
     char why[200];
@@ -416,14 +417,19 @@ static status rest_of(channel *c, size_t least, size_t most, size_t had, size_t 
         return refused(c, (status)head[0], (size_t)head[1], had, f);
     *count = (size_t)head[1];
     if (*count != least && *count != most) {
-        snprintf(why, sizeof why, "an answer has %zu bytes instead of %zu", *count, most);
+        const int damped = what == CHANNEL_PREPARE && least == most && most > 0;
+        snprintf(why, sizeof why, "an answer has %zu bytes instead of %zu%s", *count, most,
+                 damped
+                     ? ": with 'damping' true, the answer to prepare is C, then V; with 'only V', "
+                       "it is V"
+                     : "");
         return channel_break(c, why, f);
     }
     if (had > CHANNEL_ANSWER + *count)
         return breach(c, CHILD_SPOKE, "", f);
     const size_t left = CHANNEL_ANSWER + *count - had;
-    const child_event what = child_read(&c->process, c->in.at + had, left, left, &more, c->limit);
-    return what == CHILD_DONE ? STATUS_OK : breach(c, what, " in the middle of an answer", f);
+    const child_event event = child_read(&c->process, c->in.at + had, left, left, &more, c->limit);
+    return event == CHILD_DONE ? STATUS_OK : breach(c, event, " in the middle of an answer", f);
 }
 
 status channel_ask(channel *c, enum channel_request what, int mask, int elements, size_t least,
@@ -443,7 +449,7 @@ status channel_ask(channel *c, enum channel_request what, int mask, int elements
         return breach(c, event, " in the middle of an answer", f);
     if (event != CHILD_DONE)
         return breach(c, event, event == CHILD_ENDED ? " and gave no answer" : "", f);
-    TRY(rest_of(c, least, most, had, count, f));
+    TRY(rest_of(c, what, least, most, had, count, f));
     *body = c->in.at + CHANNEL_ANSWER;
     return STATUS_OK;
 }

@@ -2,6 +2,7 @@
 the scene, and the checks of the damping matrix."""
 import json
 import math
+import subprocess
 import sys
 
 import scipy.io
@@ -187,7 +188,39 @@ quantities: {d: {damping_ratio: {analysis: damped, which: 0, of: decay}}}
                          env=WITH_MODULES)
             self.assertIn(shown, self.contract(wrong, "own_damping_py", code=1)[1])
 
+    def test_only_damping(self):
+        """With stresses computed by a function, the process sends V without C."""
+        given = self.solved(PULLED % "radau", None, f"own_damping_py:eta={20 * ETA}")
+        own = self.python("serve(prepare, strain, damping=damping", """
+
+    def stress(kind, e):
+        C = prepare(kind)
+        return np.einsum("ni,ij,nj->n", e, C, e) / 2, e @ C, np.tile(C, (len(e), 1, 1))
+
+    serve(lambda kind: None, strain, stress, damping=damping""")
+        self.assertEqual(given.keys(), (found := self.solved(PULLED % "radau", own, f"own_damping_py:eta={20 * ETA}")).keys())
+        for name, value in given.items():
+            self.assertLessEqual(abs(found[name] - value), 1e-9 * abs(value), name)
+
+    def test_arrays(self):
+        """A damping matrix in place of a function is rejected in one line."""
+        self.python("damping=damping", "damping=np.eye(6)")
+        told = subprocess.run([sys.executable, self.folder / "mine.py"], env=WITH_MODULES, stdin=subprocess.DEVNULL,
+                              capture_output=True, encoding="utf-8", check=False).stderr
+        self.assertEqual(len(told.splitlines()), 1, told)
+        self.assertIn("damping=ndarray is no function", told)
+
+    def breaks(self, element, *words):
+        told = self.answered("solve", "elastica", "-f", "speaker", "-n", "2", "--element", element, code=1).stderr
+        for word in words:
+            self.assertIn(word, told)
+
     def test_first_line(self):
         self.refuse(self.speaker(first="said['damping'] = 1"), "'damping' in its first line", "give true or false")
+        for more in "", "body += body[:280]", "body *= 3":
+            self.breaks(self.speaker(first="said['damping'] = True", at=f"if what == 1: {more or 'pass'}"),
+                        "bytes instead of 576: with 'damping' true, the answer to prepare is C, then V")
+        self.breaks(self.speaker(first="said['damping'] = 'only V'", at="if what == 1: body *= 2"),
+                    "an answer has 576 bytes instead of 288", "with 'only V', it is V")
         self.refuse(self.speaker(first="said.update(damping=True, gives='energy'); del said['strains']"),
                     "this requires strains")
