@@ -10,7 +10,8 @@
  * Each file in elements/ defines one const element_type with the symbol element_<file name>. The
  * build generates the registry from these files.
  *
- * An element with n nodes has 7n coordinates. The coordinates of a node are dr (3, displacement
+ * An element with n nodes has 7n coordinates, followed by the additional unknowns of its nodes if
+ * the type has any (element_type.scalars). The coordinates of a node are dr (3, displacement
  * [m]), dphi (3, spatial rotation increment [rad]) and da (warping amplitude [rad/m]), in this
  * order. First derivatives are with respect to these coordinates. Second derivatives refer to the
  * exponential chart R(dphi) = exp(dphi~) R and are therefore symmetric. Matrices are row-major. An
@@ -35,6 +36,7 @@ enum { ELEMENT_ABI = 4 };
 enum {
     ELEMENT_MAX_NODES = 8,
     NODE_COORDINATES = 7,
+    ELEMENT_MAX_SCALARS = 6,
     ELEMENT_MAX_COORDINATES = 56,
     ELEMENT_MAX_STRAINS = 56,
     ELEMENT_MAX_OPTIONS = 6,
@@ -138,6 +140,8 @@ typedef struct node_state {
     double
         R[9]; /* node rotation times the initial triad of the element, with the columns nX nY nZ */
     double a; /* warping amplitude [rad/m], which is phi_x' in the shear-rigid limit */
+    /* additional unknowns of the type (element_type.scalars); the others are undefined */
+    double scalar[ELEMENT_MAX_SCALARS];
 } node_state;
 
 /* A frame that rotates at a constant rate. */
@@ -153,6 +157,7 @@ typedef struct element_constants {
                                               lowest order is 2 and the highest order 4 */
     int history;                           /* number of values of the history */
     double place[ELEMENT_MAX_NODES];       /* positions of the nodes; all 0: equally spaced */
+    int scalars;                           /* number of additional unknowns of a node */
 } element_constants;
 
 /* An element type. Optional members may be NULL or 0. Each of their comments ends with the
@@ -244,8 +249,8 @@ typedef struct element_type {
     void (*force_many)(int count, const element_data *const data[], const node_state x[],
                        force_output out[], status outcome[]);
 
-    /* Optional: constant values that replace `nodes`, `strains`, `order`, `history` and `places` if
-     * they do not depend on options. */
+    /* Optional: constant values that replace `nodes`, `strains`, `order`, `history`, `places` and
+     * `scalars` if they do not depend on options. */
     const element_constants *constants;
     /* Optional: returns one line that explains why results since the last call are invalid, or NULL
      * if the results are valid. */
@@ -323,6 +328,20 @@ typedef struct element_type {
      * loads. Loads that `along` includes do not use it. Excludes `history`. By default (NULL),
      * loads do work on a displacement field that is common to all types (field/field.h). */
     void (*line)(const element_data *, const node_state x[], int count, line_output out[]);
+    /* Optional: number of additional unknowns of each node, in addition to its 7 coordinates, for
+     * example slopes or further modes of warping; default: 0. They are dimensionless numbers that
+     * are zero in the undeformed state and do not change in a rigid motion. The coordinates of an
+     * element with w of them are the 7n coordinates of its nodes, followed by the w of the first
+     * node, then those of the next node; J, F, M and all other arrays have 7n + wn columns. The
+     * elements of a member share the unknowns of their common nodes. Members share those of a node
+     * if they share the warping amplitude and have the same axes there. All other unknowns of ends
+     * are free, except those in `held`. A type with additional unknowns has no `along`, `line`,
+     * `equations_many` and `unstressed`. Without `inertia`, and in transient analyses, the unknowns
+     * have no mass. */
+    int (*scalars)(const double options[]);
+    /* Additional unknowns that are zero at ends of members with restrained warping: bit i for
+     * unknown i. Default: none. */
+    unsigned held;
 } element_type;
 
 /* Makes a symbol visible outside a shared object, even with -fvisibility=hidden. */
@@ -375,10 +394,18 @@ static inline void element_places(const element_type *t, const double options[],
     if (t->places)
         t->places(options, place);
 }
+/* Returns the number of additional unknowns of a node. */
+static inline int element_scalars(const element_type *t, const double options[])
+{
+    if (t->scalars)
+        return t->scalars(options);
+    return t->constants ? t->constants->scalars : 0;
+}
 /* Returns 1 if transient analyses can use the consistent mass of the type. */
 static inline int element_spreads(const element_type *t, const double options[])
 {
-    return t->spreads && t->inertia != NULL && element_nodes(t, options) == 2 &&
+    return t->spreads && element_scalars(t, options) == 0 && t->inertia != NULL &&
+           element_nodes(t, options) == 2 &&
            (t->mass_of_field == NULL || t->mass_of_field(options));
 }
 static inline int element_strains(const element_type *t, const double options[])

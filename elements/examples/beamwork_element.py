@@ -22,6 +22,8 @@ argument of each function is the kind of all N elements:
                           one more argument, h of the last accepted state, the end of a load step or time step. The
                           energy of force is then not requested and may be None
   commit(kind, r, u, R, a, h) -> h[N, q] of an accepted state, which was reached from h
+With scalars=w, all functions of a state have one more argument after a: s[N, n, w], the additional unknowns of the
+nodes; F, K and M then have c = (7 + w) n columns instead of 7 n: those of the nodes, followed by the unknowns.
 Derivatives of strain, mass and line are computed by complex steps: they must accept complex arrays and be analytic (no abs,
 norm, conj or comparison of values; rotation_vector and sinc below are analytic). With gives="e", strain receives only
 real arrays, and beamwork computes differences. Raise Refused(why) for unsupported requests.
@@ -44,7 +46,7 @@ SECTION = ("young shear_modulus density A Iy Iz It Iw ys zs Ip wagner_y wagner_z
 FUNCTIONS = ("prepare", "strain", "stress", "force", "mass", "begin", "commit", "damping",
              "line")
 KEYS = ("name summary source family offers gives strains nodes places order limits shear_theories "
-        "inertia options history").split()
+        "inertia options history scalars").split()
 TINY, STEP = 1e-20, 2e-3  # sizes of complex steps and of the finite differences that check complex steps
 
 
@@ -94,64 +96,74 @@ def rotation_vector(T):
     return axis * (angle / np.where(s == 0, 1, s) + (s == 0))[..., None]
 
 
+def turns(n):
+    """Returns the indices [n, 3] of the rotations of n nodes among the coordinates."""
+    return np.add.outer(7 * np.arange(n), [3, 4, 5])
+
+
+def units(kind, x):
+    """Returns the units [c] in which the increments of all coordinates of elements x[N, n, 16 + w] are of order one."""
+    n, w = x.shape[1], x.shape[2] - 16
+    return np.append(np.tile(kind.length ** np.array([1, 1, 1, 0, 0, 0, -1]), n), np.ones(w * n))
+
+
 @functools.lru_cache
-def steps(n, second):
-    """Returns the real and imaginary coordinate increments [P, n, 7] of the P evaluations from which derivatives are computed."""
-    one = np.eye(7 * n)
+def steps(n, w, second):
+    """Returns the real and imaginary coordinate increments [P, c] of the P evaluations from which derivatives are computed."""
+    one = np.eye((7 + w) * n)
     if not second:
-        return np.zeros((7 * n, n, 7)), one.reshape(-1, n, 7)
-    i, j = np.tril_indices(7 * n)
+        return 0 * one, one
+    i, j = np.tril_indices(len(one))
     size = STEP * np.array([1, -1, 2, -2])[:, None, None]
     real, imag = size * one[j], one[i] + 0 * size
-    real, imag = real.reshape(-1, n, 7), imag.reshape(-1, n, 7)
-    psi, e = real[..., 3:6], imag[..., 3:6]  # spatial increment dexp(psi) e
+    real, imag = real.reshape(-1, len(one)), imag.reshape(-1, len(one))
+    psi, e = real[:, turns(n)], imag[:, turns(n)]  # spatial increment dexp(psi) e
     t2 = (psi**2).sum(-1)[..., None]
     turn, twice = np.cross(psi, e), np.cross(psi, np.cross(psi, e))
-    imag[..., 3:6] = e + turn * (1 / 2 - t2 / 24) + twice * (1 / 6 - t2 / 120)
+    imag[:, turns(n)] = e + turn * (1 / 2 - t2 / 24) + twice * (1 / 6 - t2 / 120)
     return real, imag
 
 
 def moved(kind, x, real, imag):
-    """Returns the states r, u, R, a [N P, n, ...] of the elements x[N, n, 16] after each of P increments [P, n, 7]."""
-    unit = kind.length ** np.array([1, 1, 1, 0, 0, 0, -1])  # units in which the increments are of order one
-    move, (psi, e) = (real + 1j * TINY * imag) * unit, (real[..., 3:6], imag[..., 3:6])
+    """Returns the states r, u, R, a, s [N P, n, ...] of the elements x[N, n, 16 + w] after each of P increments [P, c]."""
+    n, w = x.shape[1], x.shape[2] - 16
+    move, (psi, e) = (real + 1j * TINY * imag) * units(kind, x), (real[:, turns(n)], imag[:, turns(n)])
+    more, move = move[:, 7 * n:].reshape(len(move), n, w), move[:, :7 * n].reshape(-1, n, 7)
     t, spin = np.linalg.norm(psi, axis=-1)[..., None, None] / np.pi, cross_matrix(psi)
     turn = np.eye(3) + spin * np.sinc(t) + spin @ spin * np.sinc(t / 2)**2 / 2
     turn, at = turn + 1j * TINY * cross_matrix(e) @ turn, x[:, None]
     turned = turn @ at[..., 6:15].reshape(len(x), 1, -1, 3, 3)
     return [v.reshape(-1, *v.shape[2:]) for v in (
         at[..., 0:3] + move[..., :3], at[..., 3:6] + move[..., :3], turned,
-        at[..., 15] + move[..., 6])]
+        at[..., 15] + move[..., 6], at[..., 16:] + more)[:5 if w else 4]]
 
 
 def derivatives(kind, strain, x, s, h=()):
-    """Returns J [N, m, 7 n]. If s [N, m] is given, returns H [N, 7 n, 7 n], the second derivative of s times the
+    """Returns J [N, m, c]. If s [N, m] is given, returns H [N, c, c], the second derivative of s times the
     strains. h is () or (history [N, q],)."""
-    (N, n, _), (real, imag) = x.shape, steps(x.shape[1], s is not None)
-    unit = np.tile(kind.length ** np.array([1, 1, 1, 0, 0, 0, -1]), n)
+    N, unit, (real, imag) = len(x), units(kind, x), steps(x.shape[1], x.shape[2] - 16, s is not None)
     h = [v.repeat(len(real), 0) for v in h]
     rate = strain(kind, *moved(kind, x, real, imag), *h).imag.reshape(N, len(real), -1) / TINY
     if s is None:
         return rate.swapaxes(1, 2) / unit
     f = np.einsum("npm,nm->np", rate, s).reshape(N, 4, -1)
-    i, j = np.tril_indices(7 * n)
-    H = np.empty((N, 7 * n, 7 * n))
+    i, j = np.tril_indices(len(unit))
+    H = np.empty((N, len(unit), len(unit)))
     H[:, i, j] = (8 * (f[:, 0] - f[:, 1]) - f[:, 2] + f[:, 3]) / (12 * STEP) / (unit[i] * unit[j])
     H[:, j, i] = H[:, i, j]
     return H
 
 
 def is_analytic(kind, strain, x, h=()):
-    """Returns True if complex steps of strain or mass agree with finite differences near an element x[1, n, 16]."""
-    n = x.shape[1]
-    away = np.sin(np.arange(1, 7 * n + 1)).reshape(1, n, 7) / 20
+    """Returns True if complex steps of strain or mass agree with finite differences near an element x[1, n, 16 + w]."""
+    n, unit = x.shape[1], units(kind, x)
+    away = np.sin(np.arange(1, len(unit) + 1))[None] / 20
     state = [v.real for v in moved(kind, x, away, 0 * away)]
     x = np.concatenate([v.reshape(1, n, -1) for v in state], -1)
-    real = STEP * np.kron([[1], [-1], [2], [-2]], np.eye(7 * n)).reshape(-1, n, 7)
+    real = STEP * np.kron([[1], [-1], [2], [-2]], np.eye(len(unit)))
     e = strain(kind, *(v.real for v in moved(kind, x, real, 0 * real)),
-               *(v.repeat(len(real), 0) for v in h)).reshape(4, 7 * n, -1)
+               *(v.repeat(len(real), 0) for v in h)).reshape(4, len(unit), -1)
     by_differences = (8 * (e[0] - e[1]) - e[2] + e[3]).T / (12 * STEP)
-    unit = np.tile(kind.length ** np.array([1, 1, 1, 0, 0, 0, -1]), n)
     by_steps = derivatives(kind, strain, x, None, h)[0] * unit
     return not (abs(by_steps - by_differences) > 1e-6 * abs(by_differences).max()).any()
 
@@ -182,20 +194,20 @@ def three(name, found, mask, parts, N, c, why):
 
 
 def turning(kind, M, x, frame):
-    """Returns potential, force, N and G of the elements x[N, n, 16] in a rotating frame (omega, centre)."""
-    N, n, c = len(x), x.shape[1], 7 * x.shape[1]
+    """Returns potential, force, N and G of the elements x[N, n, 16 + w] in a rotating frame (omega, centre)."""
+    N, n, c = len(x), x.shape[1], len(units(kind, x))
 
     def momentum(kind, r, *state):  # M v and v M v, where v is the velocity due to the rotation of the frame
-        v = np.zeros((len(r), n, 7), r.dtype)
-        v[..., :3], v[..., 3:6] = np.cross(frame[0], r - frame[1]), frame[0]
-        p = np.einsum("nij,nj->ni", M(kind, r, *state), v.reshape(-1, c))
-        return np.hstack([p, (p * v.reshape(-1, c)).sum(1)[:, None]])
+        v = np.zeros((len(r), c), r.dtype)
+        v[:, turns(n) - 3], v[:, turns(n)] = np.cross(frame[0], r - frame[1]), frame[0]
+        p = np.einsum("nij,nj->ni", M(kind, r, *state), v)
+        return np.hstack([p, (p * v).sum(1)[:, None]])
 
     J, s = derivatives(kind, momentum, x, None), np.zeros((N, c + 1))
     s[:, c] = -1 / 2
     p = momentum(kind, *states(x))
     G = J[:, :c] - J[:, :c].swapaxes(1, 2)
-    for k in range(3, c, 7):
+    for k in range(3, 7 * n, 7):
         G[:, k:k + 3, k:k + 3] += cross_matrix(p[:, k:k + 3])
     return [-p[:, c] / 2, J[:, c] / 2, derivatives(kind, momentum, x, s), G]
 
@@ -216,31 +228,32 @@ def in_time(kind, M, x, rate, acceleration, tangents):
     p = np.einsum("nij,nj->ni", now, rate)
     taken = np.einsum("nij,nj->ni", now, acceleration) + np.einsum(
         "nij,nj->ni", by_place - by_place.swapaxes(1, 2) / 2, rate)
-    turns = range(3, c, 7)
-    for k in turns:
+    starts = turns(x.shape[1])[:, 0]
+    for k in starts:
         taken[:, k:k + 3] += np.cross(p[:, k:k + 3], rate[:, k:k + 3])
     if not tangents:
         return [taken]
     C = np.einsum("nijk,nk->nij", D, rate) + by_place - by_place.swapaxes(1, 2)
-    for k in turns:
+    for k in starts:
         C[:, k:k + 3] -= cross_matrix(rate[:, k:k + 3]) @ now[:, k:k + 3]
         C[:, k:k + 3, k:k + 3] += cross_matrix(p[:, k:k + 3])
     return [taken, C, np.einsum("nijk,nj->nik", D, acceleration)]
 
 
 def states(x):
-    """Returns the positions r, displacements u, rotations R and amplitudes a of the elements x[N, n, 16]."""
-    return x[..., 0:3], x[..., 3:6], x[..., 6:15].reshape(*x.shape[:2], 3, 3), x[..., 15]
+    """Returns the positions r, displacements u, rotations R, amplitudes a and unknowns s of the elements x[N, n, 16 + w]."""
+    state = x[..., 0:3], x[..., 3:6], x[..., 6:15].reshape(*x.shape[:2], 3, 3), x[..., 15], x[..., 16:]
+    return state[:5 if x.shape[2] > 16 else 4]
 
 
 def inertia(mask, kind, x, body, functions):
-    """Returns the inertia outputs that the mask requests for the elements x[N, n, 16]. body[N, ...] contains the frame and the rates."""
-    N, c = len(x), 7 * x.shape[1]
+    """Returns the inertia outputs that the mask requests for the elements x[N, n, 16 + w]. body[N, ...] contains the frame and the rates."""
+    N, c = len(x), len(units(kind, x))
 
     def mass(kind, *state):
         numbers = "biufc" if np.iscomplexobj(state[0]) else "biuf"
         return checked(functions["mass"](kind, *state), "mass", len(state[0]), (c, c),
-                       f"nodes={c // 7} wants", numbers)
+                       f"nodes={x.shape[1]} wants", numbers)
 
     if mask & (256 | 224) and not functions.get("analytic mass") and np.isfinite(x[0]).all():
         functions["analytic mass"] = is_analytic(
@@ -298,13 +311,15 @@ def answers(what, mask, kind, body, said, functions):
     if what == 3:
         found = functions["stress"](kind, body)
         return three("stress", found, mask, ("sigma", "C"), N, m, f"strains={m}")
-    x = body[:, :16 * n].reshape(N, n, 16)
+    w = said.get("scalars", 0)
+    x = np.concatenate([body[:, :16 * n].reshape(N, n, 16), body[:, 16 * n:(16 + w) * n].reshape(N, n, w)], -1)
+    body = body[:, (16 + w) * n:]
     if what == 5:
-        return inertia(mask, kind, x, body[:, 16 * n:], functions)
+        return inertia(mask, kind, x, body, functions)
     if what == 8:
-        return sections(mask, kind, x, body[:, 16 * n:], functions)
+        return sections(mask, kind, x, body, functions)
     state = states(x)
-    h, s = body[:, 16 * n:16 * n + q], body[:, 16 * n + q:]
+    h, s = body[:, :q], body[:, q:]
     last = (h,) if q else ()
     if what in (6, 7):
         name = FUNCTIONS[what - 1]
@@ -314,7 +329,7 @@ def answers(what, mask, kind, body, said, functions):
         return [checked(found, name, N, (q,), f"history={q} wants")]
     if what == 4:
         found = functions["force"](kind, *state, *last)
-        return three("force", found, mask, "FK", N, 7 * n, f"nodes={n}")
+        return three("force", found, mask, "FK", N, (7 + w) * n, f"nodes={n}")
 
     def strain(kind, *state):
         numbers = "biufc" if np.iscomplexobj(state[0]) else "biuf"
@@ -352,13 +367,13 @@ def answer(what, mask, count, body, kinds, said, functions):
         return prepared(body, kinds, said, functions)
     numbers, rest = np.frombuffer(body, "<i8", count), np.frombuffer(body, "<f8", offset=8 * count)
     n = said.get("nodes", 2) * count
-    q = said.get("history", 0) * count
-    ends = {2: [16 * n, 16 * n + q], 4: [16 * n, 16 * n + q], 6: [16 * n], 7: [16 * n], 5: np.cumsum(
-        [16 * n, 6 * (mask >> 8 & 1), 7 * n * (mask >> 9 & 1), 7 * n * (mask >> 10 & 1)]),
-        8: np.cumsum([16 * n, count, 3 * count])}
-    parts = np.split(rest, ends.get(what, []))
+    w, q = said.get("scalars", 0), said.get("history", 0) * count
+    sizes = {2: [q], 4: [q], 5: [6 * (mask >> 8 & 1), *((7 + w) * n * (mask >> bit & 1) for bit in (9, 10))],
+             8: [count, 3 * count]}
+    ends = np.cumsum([16 * n, w * n, *sizes.get(what, [])]) if what != 3 else []
+    parts = np.split(rest, ends)
     if what == 5:  # one frame for all elements
-        parts[1] = np.tile(parts[1], count)
+        parts[2] = np.tile(parts[2], count)
     each = np.hstack([part.reshape(count, -1) for part in parts if part.size])
     out = None
     for number in np.unique(numbers):
@@ -397,7 +412,8 @@ def taken(functions, words):
     if "places" in said:
         said["places"] = [float(v) for v in said["places"]]
     if "mass" in functions:
-        said = {"inertia": "motion" if said.get("nodes", 2) == 2 else "vibration", **said}
+        moves = said.get("nodes", 2) == 2 and "scalars" not in said
+        said = {"inertia": "motion" if moves else "vibration", **said}
     said.update({name: True for name in ("damping", "line") if name in functions})
     if "damping" in functions and "stress" in functions:
         said["damping"] = "only V"  # without C

@@ -49,7 +49,7 @@ module beamwork
   end type
 
   type, bind(c) :: node_state
-    real(c_double) :: r(3), u(3), R_(3, 3), a ! R_(j, i) = R_ij: R_(j, :) is axis j
+    real(c_double) :: r(3), u(3), R_(3, 3), a, scalar(6) ! R_(j, i) = R_ij: R_(j, :) is axis j
   end type
 
   type, bind(c) :: strain_output ! null: not needed
@@ -98,7 +98,9 @@ module beamwork
     type(c_funptr) :: along = c_null_funptr, mass_of_field = c_null_funptr, &
                       unstressed = c_null_funptr, history = c_null_funptr, &
                       begin = c_null_funptr, commit = c_null_funptr, &
-                      places = c_null_funptr, damping = c_null_funptr, line = c_null_funptr
+                      places = c_null_funptr, damping = c_null_funptr, line = c_null_funptr, &
+                      scalars = c_null_funptr
+    integer(c_int) :: held = 0
   end type
 end module
 

@@ -240,3 +240,12 @@ void dense_lu_solve(int n, int m, const double *LU, const int pivot[], double *B
             B[i * m + c] /= LU[i * n + i];
     }
 }
+
+void dense_widen(int n, int wide, double K[])
+{
+    for (int i = n; i-- > 0;) {
+        memmove(&K[i * wide], &K[i * n], (size_t)n * sizeof *K);
+        memset(&K[i * wide + n], 0, (size_t)(wide - n) * sizeof *K);
+    }
+    memset(&K[n * wide], 0, (size_t)(wide * (wide - n)) * sizeof *K);
+}

@@ -17,6 +17,9 @@ void dense_mul_vec(int m, int n, const double *A, const double *x, double *y);
  * entries. */
 void dense_add_congruence(int m, int n, const double *J, const double *S, double *K, double *work);
 
+/* Adds rows and columns of zeros to K in place: K[n x n] -> K[wide x wide]. */
+void dense_widen(int n, int wide, double K[]);
+
 /* Replaces A (n x n) by the mean of A and its transpose. Returns the largest difference of two
  * opposite entries, divided by the square root of the product of their diagonal entries. Returns 0
  * if A is symmetric, and INFINITY if such a diagonal entry is zero. */

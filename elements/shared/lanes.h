@@ -103,7 +103,7 @@ lanes_gather_nodes(int nodes, int run, const node_state x[], node_real at[])
         const double *from[LANES];
         for (int lane = 0; lane < LANES; lane++)
             from[lane] = (const void *)&x[lanes_of(lane, run) * nodes + k];
-        lanes_gather(sizeof(node_state) / sizeof(double), from, (real *)(void *)&at[k]);
+        lanes_gather(sizeof(node_real) / sizeof(real), from, (real *)(void *)&at[k]);
     }
 }
 

@@ -330,3 +330,15 @@ status lumped_element(const lumped_mass *whole, int nodes, const double share[],
     moving_complete(n, out);
     return STATUS_OK;
 }
+
+void inertia_widen(int n, int wide, inertia_output *out)
+{
+    double *const matrix[] = {out->M, out->N, out->G, out->C, out->K}, *const vector[] = {
+                                                                           out->force, out->taken};
+    for (size_t k = 0; k < sizeof matrix / sizeof matrix[0] && wide > n; k++)
+        if (matrix[k] != NULL)
+            dense_widen(n, wide, matrix[k]);
+    for (size_t k = 0; k < sizeof vector / sizeof vector[0]; k++)
+        for (int i = n; i < wide && vector[k] != NULL; i++)
+            vector[k][i] = 0;
+}

@@ -229,7 +229,7 @@ static void compare(const formulation *chosen, support of, const softness *soft,
             "names a stiffness, correct that stiffness first; otherwise correct the strains, which "
             "must use r and R of node_state, with the x axis along the undeformed element",
             support_name[of], a, b, reaction ? "reaction to the " : "",
-            specimen_coordinate(NODE_COORDINATES * node + c, words));
+            specimen_coordinate(&(const specimen){.nodes = 2}, NODE_COORDINATES * node + c, words));
     }
 }
 
@@ -332,7 +332,7 @@ static void check_taken(const specimen *s, claims *c)
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
         for (int b = 0; b < X;
              b++) { /* differences along the exponential chart give the symmetric part of K */
-            const double ua = chart_unit(a, l), ub = chart_unit(b, l),
+            const double ua = specimen_unit(s, a), ub = specimen_unit(s, b),
                          change = (found[a][b] * ub + found[b][a] * ua) * FINER / 2,
                          scale = sqrt(fabs(K[a * (X + 1)] * K[b * (X + 1)]));
             claims_departs(derives,

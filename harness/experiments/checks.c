@@ -81,8 +81,9 @@ static const char *energy_word(const specimen *s)
 }
 
 /* Checks that exchanging the nodes does not change the energy. The sections of the reversed element
- * are rotated by pi about y, and the warping amplitudes are unchanged. Curved elements are not
- * checked, because their reversal gives a different element. */
+ * are rotated by pi about y, the warping amplitudes are unchanged, and additional unknowns, whose
+ * axes are not known, are zero. Curved elements are not checked, because their reversal gives a
+ * different element. */
 static void node_order(const specimen *s, double size, claim *one)
 {
     static const double half_turn[9] = {-1, 0, 0, 0, 1, 0, 0, 0, -1};
@@ -92,6 +93,8 @@ static void node_order(const specimen *s, double size, claim *one)
     for (int k = 0; k < s->nodes; k++) {
         reversed[k] = x[s->nodes - 1 - k];
         mat3_mul(x[s->nodes - 1 - k].R, half_turn, reversed[k].R);
+        memset(x[k].scalar, 0, sizeof x[k].scalar);
+        memset(reversed[k].scalar, 0, sizeof reversed[k].scalar);
     }
     energy_of(s, x, &there);
     energy_of(s, reversed, &back);

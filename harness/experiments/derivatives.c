@@ -43,11 +43,11 @@ static void compare_J(const specimen *s, int strain, int c, double given, double
                       claim *one)
 {
     char where[SPECIMEN_WORDS];
-    const double unit = chart_unit(c, s->request.length);
+    const double unit = specimen_unit(s, c);
     claims_departs(one, size > 0 ? fabs(given - found) / size : fabs(given - found),
                    "J: the derivative of strain %d with respect to coordinate %d (%s) is %.6g, but "
                    "finite differences give %.6g%s",
-                   strain + 1, c + 1, specimen_coordinate(c, where), given / unit, found / unit,
+                   strain + 1, c + 1, specimen_coordinate(s, c, where), given / unit, found / unit,
                    s->words);
 }
 
@@ -64,7 +64,7 @@ static void check_J(const specimen *s, const node_state x[], claim *one)
     for (int i = 0; i < s->strains; i++) {
         double row[N], differences[N];
         for (int c = 0; c < n; c++) {
-            row[c] = J[i * n + c] * chart_unit(c, s->request.length);
+            row[c] = J[i * n + c] * specimen_unit(s, c);
             differences[c] = found[c][i];
         }
         const double size = fmax(largest(n, row), largest(n, differences));
@@ -79,11 +79,10 @@ static void compare_H(const specimen *s, int strain, const double H[], const dou
                       double size, claim *one)
 {
     const int n = s->coordinates;
-    const double l = s->request.length;
     char first[SPECIMEN_WORDS], other[SPECIMEN_WORDS];
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++) {
-            const double ub = chart_unit(b, l), ua = chart_unit(a, l);
+            const double ub = specimen_unit(s, b), ua = specimen_unit(s, a);
             const double found =
                 (change[a][strain * n + b] * ub + change[b][strain * n + a] * ua) / 2;
             const double given = H[a * n + b] * ua * ub;
@@ -91,8 +90,8 @@ static void compare_H(const specimen *s, int strain, const double H[], const dou
                            "H: the second derivative of strain %d with respect to coordinates %d "
                            "and %d (%s, %s) is %.6g, but finite differences of J give %.6g, a "
                            "relative difference of %.1e%s",
-                           strain + 1, a + 1, b + 1, specimen_coordinate(a, first),
-                           specimen_coordinate(b, other), H[a * n + b], found / (ua * ub),
+                           strain + 1, a + 1, b + 1, specimen_coordinate(s, a, first),
+                           specimen_coordinate(s, b, other), H[a * n + b], found / (ua * ub),
                            claims_share(fabs(given - found), size), s->words);
         }
 }
@@ -108,7 +107,7 @@ static void check_H(const specimen *s, const node_state x[], claim *one)
         stencil_first(jacobian_at, &at, s->strains * n, c, change[c]);
     for (int i = 0; i < s->strains; i++)
         for (int c = 0; c < n; c++)
-            size = fmax(size, fabs(J[i * n + c]) * chart_unit(c, s->request.length));
+            size = fmax(size, fabs(J[i * n + c]) * specimen_unit(s, c));
     for (int i = 0; i < s->strains; i++) {
         memset(weight, 0, sizeof weight);
         weight[i] = 1;
@@ -251,13 +250,13 @@ static void compare_strains(const many_batch *b, int k, claim *one)
         differ(b, k, "strains", what, a->e[i], t->e[i], l, one);
         snprintf(what, sizeof what, "J of strain %d", i + 1);
         for (int j = 0; j < n; j++)
-            differ(b, k, "strains", what, a->J[i * n + j], t->J[i * n + j], l / chart_unit(j, l),
-                   one);
+            differ(b, k, "strains", what, a->J[i * n + j], t->J[i * n + j],
+                   l / specimen_unit(b->of[k], j), one);
     }
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             differ(b, k, "strains", "H", a->H[i * n + j], t->H[i * n + j],
-                   l / (chart_unit(i, l) * chart_unit(j, l)), one);
+                   l / (specimen_unit(b->of[k], i) * specimen_unit(b->of[k], j)), one);
 }
 
 static void strains(const specimen *s, many_batch *b, claim *one)

@@ -232,15 +232,15 @@ static void check_force(const specimen_place *at, const double force[], claim *o
     char where[SPECIMEN_WORDS];
     double size = 0;
     for (int i = 0; i < s->coordinates; i++)
-        size = fmax(size, fabs(force[i]) * chart_unit(i, s->request.length));
+        size = fmax(size, fabs(force[i]) * specimen_unit(s, i));
     for (int i = 0; i < s->coordinates; i++) {
-        const double unit = chart_unit(i, s->request.length);
+        const double unit = specimen_unit(s, i);
         double found = NAN;
         stencil_first(potential_at, at, 1, i, &found);
         claims_departs(one, claims_share(fabs(force[i] * unit + found), size),
                        "inertia: the centrifugal force in coordinate %d (%s) is %.6g, but minus "
                        "the derivative of the potential is %.6g%s",
-                       i + 1, specimen_coordinate(i, where), force[i], -found / unit, s->words);
+                       i + 1, specimen_coordinate(s, i, where), force[i], -found / unit, s->words);
     }
 }
 
@@ -253,21 +253,20 @@ static void rotating_check_stiffness(const specimen_place *at, const double stif
     claim *derives = claims_open(c, "N is minus the derivative of the force", 1e-9),
           *symmetric = claims_open(c, "N is symmetric", 1e-12);
     for (int j = 0; j < n; j++) {
-        const double unit = chart_unit(j, s->request.length);
+        const double unit = specimen_unit(s, j);
         stencil_first(force_at, at, n, j, column[j]);
         size = fmax(size, fabs(stiffness[j * n + j]) * unit * unit);
     }
     for (int i = 0; i < n; i++)
         for (int j = 0; j <= i; j++) {
-            const double ui = chart_unit(i, s->request.length),
-                         uj = chart_unit(j, s->request.length), a = stiffness[i * n + j],
-                         b = stiffness[j * n + i],
+            const double ui = specimen_unit(s, i), uj = specimen_unit(s, j),
+                         a = stiffness[i * n + j], b = stiffness[j * n + i],
                          found = -(column[j][i] * ui + column[i][j] * uj) / 2;
             claims_departs(derives, claims_share(fabs(a * ui * uj - found), size),
                            "inertia: entry %d, %d (%s, %s) of N is %.6g, but finite differences of "
                            "the centrifugal force give %.6g%s",
-                           i + 1, j + 1, specimen_coordinate(i, first),
-                           specimen_coordinate(j, other), a, found / (ui * uj), s->words);
+                           i + 1, j + 1, specimen_coordinate(s, i, first),
+                           specimen_coordinate(s, j, other), a, found / (ui * uj), s->words);
             claims_departs(symmetric, claims_share(fabs(a - b) * ui * uj, size),
                            "inertia: entry %d, %d of N is %.6g, but the transposed entry is %.6g%s",
                            i + 1, j + 1, a, b, s->words);
@@ -279,14 +278,13 @@ static void check_skew(const specimen *s, const double G[], claim *one)
     const int n = s->coordinates;
     double size = 0;
     for (int i = 0; i < n * n; i++)
-        size = fmax(size, fabs(G[i]) * chart_unit(i / n, s->request.length) *
-                              chart_unit(i % n, s->request.length));
+        size = fmax(size, fabs(G[i]) * specimen_unit(s, i / n) * specimen_unit(s, i % n));
     for (int i = 0; i < n; i++)
         for (int j = 0; j <= i; j++)
             claims_departs(
                 one,
-                claims_share(fabs(G[i * n + j] + G[j * n + i]) * chart_unit(i, s->request.length) *
-                                 chart_unit(j, s->request.length),
+                claims_share(fabs(G[i * n + j] + G[j * n + i]) * specimen_unit(s, i) *
+                                 specimen_unit(s, j),
                              size),
                 "inertia: entry %d, %d of G is %.6g, but the transposed entry is %.6g; the "
                 "gyroscopic matrix must be skew-symmetric%s",
@@ -318,13 +316,14 @@ static void own_motion(const specimen *s, const node_state x[], const inertia_ou
             "motion of the frame, 1/2 v^T M v, is %.6g J%s",
             *out->potential, -dense_dot(n, v, Mv) / 2, s->words);
     for (int i = 0; i < n; i++)
-        largest = fmax(largest, fabs(out->force[i]) * chart_unit(i, s->request.length));
+        largest = fmax(largest, fabs(out->force[i]) * specimen_unit(s, i));
     for (int i = 0; i < n; i++)
         claims_departs(claims_open(c, "the Coriolis force is twice the centrifugal force", 1e-11),
-                       fabs(Gv[i] + 2 * out->force[i]) * chart_unit(i, s->request.length) / largest,
+                       fabs(Gv[i] + 2 * out->force[i]) * specimen_unit(s, i) / largest,
                        "inertia: G times the motion of the frame is %.6g in coordinate %d (%s), "
                        "not minus twice the centrifugal force, %.6g%s",
-                       Gv[i], i + 1, specimen_coordinate(i, where), -2 * out->force[i], s->words);
+                       Gv[i], i + 1, specimen_coordinate(s, i, where), -2 * out->force[i],
+                       s->words);
 }
 
 static void in_frame(const specimen *s, claims *c)
@@ -366,7 +365,7 @@ static double twisted_energy(const specimen *s, double angle)
         node[6] = sin(angle) / s->request.length;
     }
     specimen_state(s, 0, 1, straight);
-    chart_move(straight, s->nodes, d, x);
+    chart_move(straight, s->nodes, s->scalars, d, x);
     s->type.inertia(s->data, x, &turning, &(inertia_output){.potential = &V});
     return V;
 }

@@ -287,7 +287,7 @@ typedef struct specimen {
     size_t size;     /* size of `data` [bytes] */
     double *history; /* [values] of the undeformed state; NULL: none */
     int values;
-    int nodes, strains, coordinates, inner, memory;
+    int nodes, scalars, strains, coordinates, inner, memory;
     double place[ELEMENT_MAX_NODES]; /* positions of the nodes, from 0 to 1 */
     char words[SPECIMEN_WORDS];      /* text for messages: "" or ", with option=value, section" */
 } specimen;
@@ -302,6 +302,8 @@ int specimen_lacks_energy(const specimen *s);
 /* Computes the nodes of the undeformed element, displaced by random numbers times `size`, in units
  * of length, radians and 1/length. */
 void specimen_state(const specimen *s, double size, unsigned seed, node_state x[]);
+/* Returns the unit of coordinate c (chart_unit). */
+double specimen_unit(const specimen *s, int c);
 
 typedef void checks_run(const formulation *chosen, claims *out);
 

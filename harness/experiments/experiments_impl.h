@@ -132,7 +132,7 @@ void own_damping_check(const specimen *s, const double C[], claims *c);
 void own_line_check(const specimen *s, claims *c);
 
 /* Returns a description such as "rotation about y of node 2". */
-const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS]);
+const char *specimen_coordinate(const specimen *s, int c, char words[SPECIMEN_WORDS]);
 
 /* Families of checks, one for each group of requirements of element.h. Each family checks all
  * elements that the formulation supports, and adds its results. */

@@ -315,7 +315,7 @@ static void symmetric(const specimen *s, const double A[], claim *one)
             claims_departs(
                 one, fabs(A[i * n + j] - A[j * n + i]) / size_of(A, n, i, j),
                 "inertia: entry %d, %d (%s, %s) of M is %.6g, but the transposed entry is %.6g%s",
-                i + 1, j + 1, specimen_coordinate(i, first), specimen_coordinate(j, other),
+                i + 1, j + 1, specimen_coordinate(s, i, first), specimen_coordinate(s, j, other),
                 A[i * n + j], A[j * n + i], s->words);
 }
 
@@ -335,7 +335,7 @@ static void positive(const specimen *s, const double A[], claim *one)
     claims_asks(one, pivot == 0,
                 "inertia: M is not positive definite; a motion of the nodes in coordinates 1 to %d "
                 "(the last: %s) has no positive kinetic energy%s",
-                pivot, specimen_coordinate(pivot > 0 ? pivot - 1 : 0, where), s->words);
+                pivot, specimen_coordinate(s, pivot > 0 ? pivot - 1 : 0, where), s->words);
 }
 
 /* Returns v^T M v, twice the kinetic energy, for the velocity field omega x r + shift. */
@@ -399,8 +399,9 @@ static void carried(const specimen *s, const node_state x[], const double M[], c
             claims_departs(one, fabs(back[i * n + j] - M[i * n + j]) / size_of(M, n, i, j),
                            "inertia: if the element is rotated as a whole and M is rotated back, "
                            "entry %d, %d (%s, %s) is %.6g instead of %.6g%s",
-                           i + 1, j + 1, specimen_coordinate(i, first),
-                           specimen_coordinate(j, second), back[i * n + j], M[i * n + j], s->words);
+                           i + 1, j + 1, specimen_coordinate(s, i, first),
+                           specimen_coordinate(s, j, second), back[i * n + j], M[i * n + j],
+                           s->words);
 }
 
 /* Checks the inertia of a straight element that rotates about its first node. The effect of

@@ -44,7 +44,7 @@ static void by_differences(const moving_place *m, const double M[], double h[])
         vec3_cross(p + NODE_COORDINATES * k + 3, m->rate + NODE_COORDINATES * k + 3,
                    h + NODE_COORDINATES * k + 3);
     for (int i = 0; i < n; i++) {
-        const double unit = chart_unit(i, s->request.length);
+        const double unit = specimen_unit(s, i);
         stencil_first(momenta_at, m, n, i, column);
         for (int j = 0; j < n; j++)
             h[j] += column[j] / unit * m->rate[i];
@@ -56,7 +56,7 @@ static double size_of(const specimen *s, const double F[])
 {
     double size = 0;
     for (int i = 0; i < s->coordinates; i++)
-        size = fmax(size, fabs(F[i]) * chart_unit(i, s->request.length));
+        size = fmax(size, fabs(F[i]) * specimen_unit(s, i));
     return size;
 }
 
@@ -66,10 +66,10 @@ static void compare(const specimen *s, const double found[], const double right[
     char where[SPECIMEN_WORDS];
     for (int i = 0; i < s->coordinates; i++)
         claims_departs(
-            one, claims_share(fabs(found[i] - right[i]) * chart_unit(i, s->request.length), size),
+            one, claims_share(fabs(found[i] - right[i]) * specimen_unit(s, i), size),
             "inertia: the inertia force in coordinate %d (%s) is %.6g, but according to %s it is "
             "%.6g%s",
-            i + 1, specimen_coordinate(i, where), found[i], what, right[i], s->words);
+            i + 1, specimen_coordinate(s, i, where), found[i], what, right[i], s->words);
 }
 
 /* Checks that C is the derivative of the inertia forces with respect to the rates. These forces are
@@ -82,7 +82,7 @@ static void check_rates(const specimen *s, const node_state x[], const double ra
     double moved[N], taken[2][N];
     memcpy(moved, rate, (size_t)n * sizeof *moved);
     for (int j = 0; j < n; j++) {
-        const double step = chart_unit(j, s->request.length);
+        const double step = specimen_unit(s, j);
         for (int side = 0; side < 2; side++) {
             moved[j] = rate[j] + (side ? step : -step);
             s->type.inertia(s->data, x, NULL,
@@ -92,10 +92,10 @@ static void check_rates(const specimen *s, const node_state x[], const double ra
         for (int i = 0; i < n; i++) {
             const double found = (taken[1][i] - taken[0][i]) / (2 * step);
             claims_departs(
-                one, fabs(C[n * i + j] - found) * chart_unit(i, s->request.length) * step / size,
+                one, fabs(C[n * i + j] - found) * specimen_unit(s, i) * step / size,
                 "inertia: entry %d, %d (%s, %s) of C is %.6g, but finite differences of the "
                 "inertia forces give %.6g%s",
-                i + 1, j + 1, specimen_coordinate(i, first), specimen_coordinate(j, other),
+                i + 1, j + 1, specimen_coordinate(s, i, first), specimen_coordinate(s, j, other),
                 C[n * i + j], found, s->words);
         }
     }
@@ -137,8 +137,8 @@ static void check_one(const specimen *s, claims *c)
     specimen_state(s, 0.2, 31, x);
     specimen_numbers(2 * n, 77, numbers);
     for (int i = 0; i < n; i++) {
-        rate[i] = 40 * numbers[i] * chart_unit(i, s->request.length);
-        acceleration[i] = 900 * numbers[n + i] * chart_unit(i, s->request.length);
+        rate[i] = 40 * numbers[i] * specimen_unit(s, i);
+        acceleration[i] = 900 * numbers[n + i] * specimen_unit(s, i);
     }
     claims_doing(c, "inertia in time%s", s->words);
     inertia_output out = {.M = M, .rate = rate, .taken = h, .C = C};

@@ -128,7 +128,7 @@ static void check_jacobian(const line_place *p, claim *one)
     double P[3 * N], T[3 * N], change[VALUES];
     const line_output now = section_of(p, p->at.x, P, T, NULL);
     for (int j = 0; j < n; j++) {
-        const double unit = chart_unit(j, s->request.length);
+        const double unit = specimen_unit(s, j);
         double turn[3] = {0};
         stencil_first(motion_at, p, VALUES, j, change);
         for (int k = 0; k < 3; k++) { /* half the sum of the axes times their changes */
@@ -143,12 +143,12 @@ static void check_jacobian(const line_place *p, claim *one)
             claims_departs(one, fabs(P[n * i + j] * unit - change[i]) / s->request.length,
                            "line: entry %d, %d of P (%s) at %g is %.6g, but differences of r give "
                            "%.6g%s",
-                           i + 1, j + 1, specimen_coordinate(j, where), p->point, P[n * i + j],
+                           i + 1, j + 1, specimen_coordinate(s, j, where), p->point, P[n * i + j],
                            change[i] / unit, s->words);
             claims_departs(one, fabs(T[n * i + j] * unit - turn[i]),
                            "line: entry %d, %d of T (%s) at %g is %.6g, but differences of R give "
                            "%.6g%s",
-                           i + 1, j + 1, specimen_coordinate(j, where), p->point, T[n * i + j],
+                           i + 1, j + 1, specimen_coordinate(s, j, where), p->point, T[n * i + j],
                            turn[i] / unit, s->words);
         }
     }
@@ -164,7 +164,7 @@ static void check_second(const line_place *p, claim *one)
     section_of(p, p->at.x, P, T, H);
     forces_of(p, p->at.x, F);
     for (int j = 0; j < n; j++) {
-        const double unit = chart_unit(j, s->request.length);
+        const double unit = specimen_unit(s, j);
         const int k = j % NODE_COORDINATES - 3, first = j - k;
         stencil_first(forces_at, p, n, j, column);
         for (int i = 0; i < n; i++)
@@ -175,7 +175,7 @@ static void check_second(const line_place *p, claim *one)
         }
         for (int i = 0; i < n; i++)
             claims_departs(one,
-                           fabs(H[n * i + j] - column[i]) * unit * chart_unit(i, s->request.length),
+                           fabs(H[n * i + j] - column[i]) * unit * specimen_unit(s, i),
                            "line: entry %d, %d of H at %g is %.6g, but differences give %.6g%s",
                            i + 1, j + 1, p->point, H[n * i + j], column[i], s->words);
     }

@@ -40,7 +40,7 @@ static status forces_of(const specimen *s, const node_state x[], const double hi
     TRY(s->made.given->force(adapted_own(s->data), x,
                              &(force_output){.F = force, .history = history}));
     for (int i = 0; i < s->coordinates; i++)
-        force[i] *= chart_unit(i, s->request.length);
+        force[i] *= specimen_unit(s, i);
     return STATUS_OK;
 }
 
@@ -167,9 +167,9 @@ static void cycle_state(const specimen *s, double phase, node_state x[])
     for (int i = 0; i < s->coordinates; i++) {
         const int k = i % NODE_COORDINATES;
         step[i] = (k >= 3 && k < 6 ? turned : moved) * (there * a[i] + aside * b[i]) *
-                  chart_unit(i, s->request.length);
+                  specimen_unit(s, i);
     }
-    chart_move(rest, s->nodes, step, x);
+    chart_move(rest, s->nodes, s->scalars, step, x);
 }
 
 /* Returns the largest absolute value, or NAN if a value is NAN. */
@@ -207,7 +207,7 @@ static status walker_strains(walker *w, const node_state x[], int forces)
     memset(w->force, 0, sizeof w->force);
     dense_add_transpose_mul(s->coordinates, s->strains, 1, J, sigma, w->force);
     for (int i = 0; i < s->coordinates; i++)
-        w->force[i] *= chart_unit(i, s->request.length);
+        w->force[i] *= specimen_unit(s, i);
     return STATUS_OK;
 }
 

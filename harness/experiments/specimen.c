@@ -68,7 +68,8 @@ status specimen_make(const specimen_request *what, specimen *out, fault *f)
     out->strains = element_strains(&out->type, out->options);
     out->inner = element_inner(&out->type, out->options);
     out->memory = element_memory(&out->type, out->options);
-    out->coordinates = NODE_COORDINATES * out->nodes;
+    out->scalars = element_scalars(&out->type, out->options);
+    out->coordinates = (NODE_COORDINATES + out->scalars) * out->nodes;
     if (!fits(out))
         return fault_set(f, STATUS_FAULT,
                          "the element declares %d internal unknowns and %d doubles of memory, but "
@@ -113,6 +114,11 @@ void specimen_numbers(int count, unsigned seed, double out[])
         out[i] = number(&state);
 }
 
+double specimen_unit(const specimen *s, int c)
+{
+    return chart_unit(c, s->nodes, s->request.length);
+}
+
 void specimen_state(const specimen *s, double size, unsigned seed, node_state x[])
 {
     double step[SPECIMEN_COORDINATES];
@@ -120,8 +126,8 @@ void specimen_state(const specimen *s, double size, unsigned seed, node_state x[
     at_rest(s, rest);
     specimen_numbers(s->coordinates, seed, step);
     for (int i = 0; i < s->coordinates; i++)
-        step[i] *= size * chart_unit(i, s->request.length);
-    chart_move(rest, s->nodes, step, x);
+        step[i] *= size * specimen_unit(s, i);
+    chart_move(rest, s->nodes, s->scalars, step, x);
 }
 
 void specimen_carry(const specimen *s, const double turn[3], const node_state x[], node_state out[])
@@ -144,9 +150,9 @@ void specimen_carry(const specimen *s, const double turn[3], const node_state x[
 void specimen_moved(const specimen_place *at, int i, double si, int j, double sj, node_state out[])
 {
     double step[SPECIMEN_COORDINATES] = {0};
-    step[i] += si * chart_unit(i, at->s->request.length);
-    step[j] += sj * chart_unit(j, at->s->request.length);
-    chart_move(at->x, at->s->nodes, step, out);
+    step[i] += si * specimen_unit(at->s, i);
+    step[j] += sj * specimen_unit(at->s, j);
+    chart_move(at->x, at->s->nodes, at->s->scalars, step, out);
 }
 
 void specimen_rest(const specimen *s, double inner[])
@@ -179,10 +185,14 @@ int specimen_lacks_energy(const specimen *s)
     return s->made.given->force != NULL && s->values > 0;
 }
 
-const char *specimen_coordinate(int c, char words[SPECIMEN_WORDS])
+const char *specimen_coordinate(const specimen *s, int c, char words[SPECIMEN_WORDS])
 {
-    const int node = c / NODE_COORDINATES + 1, k = c % NODE_COORDINATES;
-    if (k < 3)
+    const int node = c / NODE_COORDINATES + 1, k = c % NODE_COORDINATES,
+              more = c - NODE_COORDINATES * s->nodes;
+    if (more >= 0)
+        snprintf(words, SPECIMEN_WORDS, "additional unknown %d of node %d", more % s->scalars + 1,
+                 more / s->scalars + 1);
+    else if (k < 3)
         snprintf(words, SPECIMEN_WORDS, "displacement along %c of node %d", "xyz"[k], node);
     else if (k < 6)
         snprintf(words, SPECIMEN_WORDS, "rotation about %c of node %d", "xyz"[k - 3], node);
@@ -353,7 +363,7 @@ static double works(const specimen *s, const double F[], double out[])
 {
     double largest = 0;
     for (int i = 0; i < s->coordinates; i++) {
-        out[i] = F[i] * chart_unit(i, s->request.length);
+        out[i] = F[i] * specimen_unit(s, i);
         largest = fmax(largest, fabs(out[i]));
     }
     return largest;
@@ -367,12 +377,12 @@ static void check_force(const specimen_place *at, const double F[], claim *one)
     const double size = works(s, F, work);
     for (int i = 0; i < s->coordinates; i++) {
         double found = NAN;
-        const double unit = chart_unit(i, s->request.length);
+        const double unit = specimen_unit(s, i);
         stencil_first(energy_at, at, 1, i, &found);
         claims_departs(
             one, claims_share(fabs(work[i] - found), size),
             "force: F in coordinate %d (%s) is %.6g, but the derivative of the energy is %.6g%s",
-            i + 1, specimen_coordinate(i, where), F[i], found / unit, s->words);
+            i + 1, specimen_coordinate(s, i, where), F[i], found / unit, s->words);
     }
 }
 
@@ -385,23 +395,22 @@ static void check_stiffness(const specimen_place *at, const double K[], claim *o
     char first[SPECIMEN_WORDS], other[SPECIMEN_WORDS];
     double column[N][N], size = 0;
     for (int j = 0; j < n; j++) {
-        const double unit = chart_unit(j, s->request.length);
+        const double unit = specimen_unit(s, j);
         stencil_first(force_at, at, n, j, column[j]);
         size = fmax(size, fabs(K[j * n + j]) * unit * unit);
     }
     const double opposite = specimen_lacks_energy(s) ? 0 : 0.5; /* part of the opposite entry */
     for (int i = 0; i < n; i++)
         for (int j = 0; j < (opposite > 0 ? i + 1 : n); j++) {
-            const double ui = chart_unit(i, s->request.length),
-                         uj = chart_unit(j, s->request.length);
+            const double ui = specimen_unit(s, i), uj = specimen_unit(s, j);
             const double given =
                 ((1 - opposite) * K[i * n + j] + opposite * K[j * n + i]) * ui * uj;
             const double found = (1 - opposite) * column[j][i] * ui + opposite * column[i][j] * uj;
             claims_departs(one, claims_share(fabs(given - found), size),
                            "K: the derivative of the force in coordinate %d (%s) with respect to "
                            "coordinate %d (%s) is %.6g, but finite differences of F give %.6g%s",
-                           i + 1, specimen_coordinate(i, first), j + 1,
-                           specimen_coordinate(j, other), given / (ui * uj), found / (ui * uj),
+                           i + 1, specimen_coordinate(s, i, first), j + 1,
+                           specimen_coordinate(s, j, other), given / (ui * uj), found / (ui * uj),
                            s->words);
         }
 }
@@ -440,7 +449,7 @@ static void check_rest(const specimen *s, double scale, claim *one)
         claims_departs(
             one, fabs(work[i]) / scale,
             "force: F in coordinate %d (%s) of the undeformed element is %.3g, not zero%s", i + 1,
-            specimen_coordinate(i, where), F[i], s->words);
+            specimen_coordinate(s, i, where), F[i], s->words);
 }
 
 static void check(const specimen *s, claims *c)

@@ -170,9 +170,9 @@ static absolute_place place_of(const element_data *d, const double e[], const do
 static void moved(const absolute_place *at, int i, double si, int j, double sj, node_state out[])
 {
     double step[N] = {0};
-    step[i] += si * chart_unit(i, at->data->length);
-    step[j] += sj * chart_unit(j, at->data->length);
-    chart_move(at->x, at->data->nodes, step, out);
+    step[i] += si * chart_unit(i, at->data->nodes, at->data->length);
+    step[j] += sj * chart_unit(j, at->data->nodes, at->data->length);
+    chart_move(at->x, at->data->nodes, 0, step, out);
 }
 
 static int forces_at(const void *context, int i, double si, int j, double sj, double values[])
@@ -196,7 +196,7 @@ static status stiffness_here(const absolute_place *at, double K[])
     for (int j = 0; j < n && outcome == 0; j++) {
         outcome = stencil_first(forces_at, at, n, j, column);
         for (int i = 0; i < n && outcome == 0; i++)
-            K[i * n + j] = column[i] / chart_unit(j, d->length);
+            K[i * n + j] = column[i] / chart_unit(j, d->nodes, d->length);
     }
     return (status)outcome;
 }
@@ -305,7 +305,7 @@ static void stress_of_one(void *context, gather *together, int i)
 static void evaluate_states(void *context, gather *g, int first, int count)
 {
     const absolute_many *all = context;
-    forces_evaluate(all->data[0]->given, g, first, count);
+    forces_evaluate(all->data[0], g, first, count);
 }
 
 void absolute_stress_many(int count, const element_data *const data[], const double *const e[],

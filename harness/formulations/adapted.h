@@ -12,11 +12,18 @@ struct element_data {
     const element_type *given;
     int nodes, strains;              /* numbers of nodes and strains of the completed type */
     int history;                     /* number of history values of the given type */
+    int scalars;                     /* number of additional unknowns of a node */
     double length;                   /* [m] */
     double place[ELEMENT_MAX_NODES]; /* positions of the nodes, from 0 to 1 */
     field_mass mass;                 /* used if the type has no `inertia` */
     max_align_t own[];               /* element_data of the type */
 };
+
+/* Returns the number of coordinates of the nodes. */
+static inline int adapted_coordinates(const element_data *d)
+{
+    return d->nodes * (NODE_COORDINATES + d->scalars);
+}
 
 static inline const element_data *adapted_own(const element_data *d)
 {
@@ -42,8 +49,8 @@ void differences_strain(const element_data *d, const node_state x[], strain_outp
  * Requires strain_many. */
 void differences_strain_many(int count, const element_data *const data[], const node_state x[],
                              strain_output out[]);
-/* Computes the second derivatives H [7n x 7n] of the strains by finite differences of the
- * Jacobian. jacobian(d, x, J) fills J [strains x 7n]. */
+/* Computes the second derivatives H of the strains by finite differences of the Jacobian.
+ * jacobian(d, x, J) fills J [strains x coordinates]. */
 typedef void differences_jacobian(const element_data *d, const node_state x[],
                                   const double *history, double J[]);
 void differences_curvature(const element_data *d, const node_state x[], differences_jacobian *,

@@ -16,11 +16,13 @@ static status prepare(const element_request *request, element_data *out, fault *
     const element_type *given = request->type;
     out->given = given;
     out->nodes = element_nodes(given, request->options);
+    out->scalars = element_scalars(given, request->options);
     if (absolute_is(given, request->options))
         out->strains = ABSOLUTE_NODE * out->nodes;
     else
-        out->strains = given->force == NULL ? element_strains(given, request->options)
-                                            : places_strains(out->nodes)(request->options);
+        out->strains = given->force == NULL
+                           ? element_strains(given, request->options)
+                           : places_strains(out->nodes, out->scalars)(request->options);
     element_places(given, request->options, out->place);
     out->history = element_history(given, request->options);
     out->length = request->length;
@@ -116,7 +118,9 @@ static void along(int count, const element_data *const data[], const node_state 
 static status spread(const element_data *d, const node_state x[],
                      const element_rotating_frame *frame, inertia_output *out)
 {
-    return field_mass_inertia(&d->mass, x, frame, out);
+    const status outcome = field_mass_inertia(&d->mass, x, frame, out);
+    inertia_widen(NODE_COORDINATES * d->nodes, adapted_coordinates(d), out);
+    return outcome;
 }
 
 static int always(const double options[])
@@ -154,10 +158,10 @@ static void wrap(const element_type *given, element_type *out)
     out->line = given->line != NULL ? line : NULL;
 }
 
-static void make_relative(const element_type *given, int nodes, element_type *out)
+static void make_relative(const element_type *given, const double options[], element_type *out)
 {
     out->offers &= ~(unsigned)FEATURE_CURVATURE;
-    out->strains = places_strains(nodes);
+    out->strains = places_strains(element_nodes(given, options), element_scalars(given, options));
     out->inner = NULL;
     out->memory = NULL;
     out->strain = places_strain;
@@ -167,10 +171,10 @@ static void make_relative(const element_type *given, int nodes, element_type *ou
     out->geometric = relative_geometric;
 }
 
-static void make_absolute(const element_type *given, int nodes, element_type *out)
+static void make_absolute(const element_type *given, const double options[], element_type *out)
 {
-    make_relative(given, nodes, out);
-    out->strains = absolute_strains(nodes);
+    make_relative(given, options, out);
+    out->strains = absolute_strains(element_nodes(given, options));
     out->strain = absolute_strain;
     out->stress = absolute_stress;
     out->stress_many = given->force_many != NULL ? absolute_stress_many : NULL;
@@ -235,6 +239,33 @@ static status check_places(const element_type *given, const double options[], fa
     return STATUS_OK;
 }
 
+static status check_scalars(const element_type *given, const double options[], fault *f)
+{
+    const int count = element_scalars(given, options),
+              all = element_nodes(given, options) * (NODE_COORDINATES + count);
+    if (count < 0 || count > ELEMENT_MAX_SCALARS)
+        return fault_set(f, STATUS_REFUSED,
+                         "formulation %s: a node has 0 to %d additional unknowns", given->name,
+                         ELEMENT_MAX_SCALARS);
+    if (all > ELEMENT_MAX_COORDINATES)
+        return fault_set(f, STATUS_REFUSED,
+                         "formulation %s: %d coordinates of an element exceed %d; use fewer nodes "
+                         "or fewer additional unknowns",
+                         given->name, all, ELEMENT_MAX_COORDINATES);
+    if (count > 0 && given->force != NULL && element_history(given, options) > 0)
+        return refuse(given,
+                      "with additional unknowns, a history requires 'strain' and 'stress' instead "
+                      "of 'force'",
+                      f);
+    if (count > 0 && (given->along != NULL || given->unstressed != NULL ||
+                      given->equations_many != NULL || given->line != NULL))
+        return refuse(given,
+                      "with additional unknowns, remove 'along', 'unstressed', 'equations_many' and "
+                      "'line'",
+                      f);
+    return STATUS_OK;
+}
+
 static status check(const element_type *given, const double options[], fault *f)
 {
     const int nodes = element_nodes(given, options);
@@ -260,6 +291,7 @@ static status check(const element_type *given, const double options[], fault *f)
                                  element_strains(given, options) > ELEMENT_MAX_STRAINS))
         return fault_set(f, STATUS_REFUSED, "formulation %s: an element must have 1 to %d strains",
                          given->name, ELEMENT_MAX_STRAINS);
+    TRY(check_scalars(given, options, f));
     return check_history(given, options, f);
 }
 
@@ -273,9 +305,9 @@ status adapters_complete(const element_type *given, const double options[], elem
         return STATUS_OK;
     wrap(given, out);
     if (absolute_is(given, options))
-        make_absolute(given, element_nodes(given, options), out);
+        make_absolute(given, options, out);
     else if (given->force != NULL)
-        make_relative(given, element_nodes(given, options), out);
+        make_relative(given, options, out);
     return STATUS_OK;
 }
 

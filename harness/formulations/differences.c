@@ -49,8 +49,9 @@ int stencil_second(stencil_function *f, const void *context, int count, int i, i
     return outcome;
 }
 
-void chart_move(const node_state x[], int nodes, const double step[], node_state out[])
+void chart_move(const node_state x[], int nodes, int scalars, const double step[], node_state out[])
 {
+    const double *more = step + (ptrdiff_t)NODE_COORDINATES * nodes;
     memcpy(out, x, (size_t)nodes * sizeof *x);
     for (int k = 0; k < nodes; k++, step += NODE_COORDINATES) {
         for (int i = 0; i < 3; i++) {
@@ -64,11 +65,15 @@ void chart_move(const node_state x[], int nodes, const double step[], node_state
             mat3_mul(turn, x[k].R, out[k].R);
         }
         out[k].a += step[6];
+        for (int i = 0; i < scalars; i++)
+            out[k].scalar[i] += more[scalars * k + i];
     }
 }
 
-double chart_unit(int c, double length)
+double chart_unit(int c, int nodes, double length)
 {
+    if (c >= NODE_COORDINATES * nodes)
+        return 1;
     c %= NODE_COORDINATES;
     if (c < 3)
         return length;
@@ -207,9 +212,10 @@ typedef struct difference_place {
 static void moved(const difference_place *at, int i, double si, int j, double sj, node_state out[])
 {
     double step[ELEMENT_MAX_COORDINATES] = {0};
-    step[i] += si * chart_unit(i, at->data->length);
-    step[j] += sj * chart_unit(j, at->data->length);
-    chart_move(at->x, at->data->nodes, step, out);
+    const element_data *d = at->data;
+    step[i] += si * chart_unit(i, d->nodes, d->length);
+    step[j] += sj * chart_unit(j, d->nodes, d->length);
+    chart_move(at->x, d->nodes, d->scalars, step, out);
 }
 
 /* Copies an answer, or writes zeros if there is no answer yet. */
@@ -252,7 +258,7 @@ static int work_at(const void *context, int i, double si, int j, double sj, doub
 static int forces_at(const void *context, int i, double si, int j, double sj, double values[])
 {
     const difference_place *at = context;
-    const int n = NODE_COORDINATES * at->data->nodes;
+    const int n = adapted_coordinates(at->data);
     double J[ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES];
     node_state x[ELEMENT_MAX_NODES];
     if (at->together == NULL || !at->together->answered)
@@ -274,13 +280,13 @@ static int forces_at(const void *context, int i, double si, int j, double sj, do
  * derivative with respect to c. */
 static double per_unit(const element_data *d, int c)
 {
-    return 1 / chart_unit(c, d->length);
+    return 1 / chart_unit(c, d->nodes, d->length);
 }
 
 static void first(const difference_place *at, double J[])
 {
     const element_data *d = at->data;
-    const int n = NODE_COORDINATES * d->nodes;
+    const int n = adapted_coordinates(d);
     double column[ELEMENT_MAX_STRAINS];
     for (int c = 0; c < n; c++) {
         stencil_first(strains_at, at, d->strains, c, column);
@@ -292,7 +298,7 @@ static void first(const difference_place *at, double J[])
 static void second(const difference_place *at, double H[])
 {
     const element_data *d = at->data;
-    const int n = NODE_COORDINATES * d->nodes;
+    const int n = adapted_coordinates(d);
     for (int i = 0; i < n; i++)
         for (int j = 0; j <= i; j++) {
             double value;
@@ -304,7 +310,7 @@ static void second(const difference_place *at, double H[])
 static void curvature(const difference_place *at, double H[])
 {
     const element_data *d = at->data;
-    const int n = NODE_COORDINATES * d->nodes;
+    const int n = adapted_coordinates(d);
     double column[ELEMENT_MAX_COORDINATES];
     memset(H, 0, (size_t)(n * n) * sizeof *H);
     for (int j = 0; j < n; j++) {
@@ -417,7 +423,7 @@ static int has_history(int count, const element_data *const data[], strain_outpu
     int missing = 0;
     for (int i = 0; i < count; i++) {
         const element_data *d = data[i];
-        const int n = NODE_COORDINATES * d->nodes;
+        const int n = adapted_coordinates(d);
         if (d->history == 0 || out[i].history != NULL)
             continue;
         missing = 1;
@@ -439,7 +445,7 @@ void differences_strain_many(int count, const element_data *const data[], const 
         return;
     give_parts(count, &all);
     const element_data *d = data[0];
-    const int answer = leaves_j(d) ? d->strains : d->strains * NODE_COORDINATES * d->nodes;
+    const int answer = leaves_j(d) ? d->strains : d->strains * adapted_coordinates(d);
     gather_run(count, d->nodes, (size_t)answer, make_one, evaluate_states, &all);
 }
 

@@ -74,12 +74,15 @@ const case_type *case_find(const char *name, fault *f);
 /* Moves states of nodes by increments. The derivatives of element.h refer to such increments.
  * Positions and warping amplitudes are added; rotations are changed by R <- exp(dphi~) R. */
 
-/* Moves x by step[7 nodes] (dr [m], dphi [rad], da [rad/m] of each node). */
-void chart_move(const node_state x[], int nodes, const double step[], node_state out[]);
+/* Moves x by step[7 nodes] (dr [m], dphi [rad], da [rad/m] of each node), followed by the changes
+ * of the additional unknowns, step[scalars nodes]. */
+void chart_move(const node_state x[], int nodes, int scalars, const double step[],
+                node_state out[]);
 
-/* Returns the size of a small step of coordinate c [m, rad, rad/m]. The scale is such that the
- * strains due to the step do not depend on the length of the beam. */
-double chart_unit(int c, double length);
+/* Returns the size of a small step of coordinate c [m, rad, rad/m, 1] of an element with this
+ * number of nodes. The scale is such that the strains due to the step do not depend on the length
+ * of the beam. */
+double chart_unit(int c, int nodes, double length);
 
 /* Computes dexp(psi), row-major, in d(exp(psi)) exp(-psi) = dexp(psi) dpsi. dexp(psi) dpsi is the
  * spatial increment due to a change of the rotation vector. chart_dexp_inverse computes the inverse

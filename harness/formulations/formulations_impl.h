@@ -158,19 +158,21 @@ status forces_of(const element_data *d, gather *together, const node_state x[], 
 size_t forces_size(const element_data *d);
 /* Computes the answers of states first .. first + count - 1, including everything that the type
  * computes. Requires force_many. */
-void forces_evaluate(const element_type *given, gather *, int first, int count);
+void forces_evaluate(const element_data *, gather *, int first, int count);
 
 /* Strains of an element that is defined by its force or energy. The strains are the positions of
  * its nodes relative to the first node, in the axes of the first node: e = (|d| - undeformed
- * distance, l p, l log(R0^T R_k)) for every other node, and l^2 a for all nodes [m]. Here d = r_k -
+ * distance, l p, l log(R0^T R_k)) for every other node, l^2 a for
+ * all nodes, and l times the additional unknowns [m]. Here d = r_k -
  * r_0, and p = (2 n_y, 2 n_z)/(1 + n_x) for the direction n of d. p is regular unless the chord
  * points backwards. The distance is a separate strain, because otherwise a stiff chord would need
  * more iterations of the mixed equations than a soft chord. */
 
-enum { PLACES_MOST = 6 * (ELEMENT_MAX_NODES - 1) + ELEMENT_MAX_NODES };
+enum { PLACES_MOST = ELEMENT_MAX_COORDINATES - 6 };
 
-/* Returns the function that gives the number of strains of an element with these nodes. */
-int (*places_strains(int nodes))(const double options[]);
+/* Returns the function that returns the number of strains (element_type.strains). */
+typedef int places_count(const double options[]);
+places_count *places_strains(int nodes, int scalars);
 
 void places_strain(const element_data *d, const node_state x[], strain_output *out);
 
@@ -178,8 +180,8 @@ void places_strain(const element_data *d, const node_state x[], strain_output *o
  * */
 void places_nodes(const element_data *d, const double e[], node_state x[]);
 
-/* Computes B [7n x strains], the derivatives of the nodes' positions, rotations and warping
- * amplitudes with respect to the strains. */
+/* Computes B [coordinates x strains], the derivative of the states of the nodes with respect to the
+ * strains. */
 void places_motion(const element_data *d, const double e[], double B[]);
 
 #endif

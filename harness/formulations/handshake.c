@@ -42,7 +42,7 @@ static const struct gives {
 static const char *const keys[] = {"beamwork", "name",           "summary", "source",  "family",
                                    "offers",   "gives",          "strains", "nodes",   "order",
                                    "limits",   "shear_theories", "options", "inertia", "history",
-                                   "places",   "damping",        "line"};
+                                   "places",   "damping",        "line",    "scalars"};
 
 typedef struct handshake_reading {
     const char *who;
@@ -290,6 +290,7 @@ static status read_all(const handshake_reading *r, handshake *out)
         return refuse(r, "strains",
                       "formulations that provide whole elements do not have this key; remove it");
     TRY(number_of(r, "history", 1, ELEMENT_MAX_HISTORY, 0, &out->constants.history));
+    TRY(number_of(r, "scalars", 1, ELEMENT_MAX_SCALARS, 0, &out->constants.scalars));
     TRY(orders_of(r, out->constants.order));
     TRY(inertia_of(r, out));
     TRY(terms_of(r, out));

@@ -146,7 +146,8 @@ static status start_again(process *p, fault *f)
         again.type.leaves == p->type.leaves && again.inertia == (p->type.inertia != NULL) &&
         again.type.spreads == p->type.spreads && again.constants.strains == p->constants.strains &&
         again.constants.nodes == p->constants.nodes &&
-        again.constants.history == p->constants.history && again.damping == p->damping &&
+        again.constants.history == p->constants.history &&
+        again.constants.scalars == p->constants.scalars && again.damping == p->damping &&
         again.line == (p->type.line != NULL);
     return same ? STATUS_OK
                 : channel_break(&p->to, "gives different declarations when it is started again", f);
@@ -215,13 +216,14 @@ static status prepare_locked(process *p, const element_request *request, element
         return fault_set(f, STATUS_FAULT, "%s", p->to.trouble);
     if (!channel_runs(&p->to))
         TRY(start_again(p, f));
-    *out =
-        (element_data){.of = p,
-                       .started = p->to.started,
-                       .kind = p->kinds++,
-                       .strains = p->constants.strains,
-                       .history = p->constants.history,
-                       .coordinates = NODE_COORDINATES * element_nodes(&p->type, request->options)};
+    *out = (element_data){.of = p,
+                          .started = p->to.started,
+                          .kind = p->kinds++,
+                          .strains = p->constants.strains,
+                          .history = p->constants.history,
+                          .scalars = p->constants.scalars,
+                          .coordinates = (NODE_COORDINATES + p->constants.scalars) *
+                                         element_nodes(&p->type, request->options)};
     return ask_prepare(p, request, out, f);
 }
 

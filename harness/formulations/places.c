@@ -6,27 +6,25 @@
 #include "elements/math/rotation.h"
 #include "harness/formulations/adapted.h"
 
-/* Returns the number of strains of an element with these nodes. */
-#define STRAINS(nodes) (6 * ((nodes) - 1) + (nodes))
-#define STRAINS_OF(nodes)                                                                          \
-    static int strains_##nodes(const double options[])                                             \
+/* Functions that return a number. */
+#define COUNT(n)                                                                                   \
+    static int count_##n(const double options[])                                                   \
     {                                                                                              \
         (void)options;                                                                             \
-        return STRAINS(nodes);                                                                     \
+        return n;                                                                                  \
     }
-STRAINS_OF(2)
-STRAINS_OF(3)
-STRAINS_OF(4)
-STRAINS_OF(5)
-STRAINS_OF(6)
-STRAINS_OF(7)
-STRAINS_OF(8)
+#define TEN(of, t)                                                                                 \
+    of(t##0) of(t##1) of(t##2) of(t##3) of(t##4) of(t##5) of(t##6) of(t##7) of(t##8) of(t##9)
+#define ALL(of)                                                                                    \
+    of(0) of(1) of(2) of(3) of(4) of(5) of(6) of(7) of(8) of(9) TEN(of, 1) TEN(of, 2) TEN(of, 3)   \
+        TEN(of, 4) TEN(of, 5)
+ALL(COUNT)
 
-int (*places_strains(int nodes))(const double[])
+places_count *places_strains(int nodes, int scalars)
 {
-    static int (*const strains[ELEMENT_MAX_NODES + 1])(const double[]) = {
-        NULL, NULL, strains_2, strains_3, strains_4, strains_5, strains_6, strains_7, strains_8};
-    return strains[nodes];
+#define NAMED(n) count_##n,
+    static places_count *const all[] = {ALL(NAMED)};
+    return all[6 * (nodes - 1) + nodes * (1 + scalars)];
 }
 
 /* Returns the undeformed distance [m] of node k from the first node. */
@@ -76,6 +74,8 @@ static void strains_of(const element_data *d, const node_state x[], double e[])
     }
     for (int k = 0; k < d->nodes; k++)
         e[first_warping(d) + k] = l * l * x[k].a;
+    for (int i = 0; i < d->scalars * d->nodes; i++)
+        e[first_warping(d) + d->nodes + i] = l * x[i / d->scalars].scalar[i % d->scalars];
 }
 
 /* Computes Q[3 x 3]: the derivatives of the three strains of a node's position with respect to the
@@ -96,7 +96,7 @@ static void direction_rows(double l, const double to[3], double Q[9])
  * first node. */
 static void node_rows(const element_data *d, const node_state x[], int k, double J[])
 {
-    const int n = NODE_COORDINATES * d->nodes;
+    const int n = adapted_coordinates(d);
     double to[3], moved[3], psi[3], T[9], Q[9], turned[9], placed[9];
     double *place = J + 6 * (k - 1) * n, *turn = place + 3 * n;
     chord(x, k, to, moved);
@@ -126,12 +126,14 @@ static void node_rows(const element_data *d, const node_state x[], int k, double
 static void jacobian(const element_data *d, const node_state x[], const double *history, double J[])
 {
     (void)history;
-    const int n = NODE_COORDINATES * d->nodes;
+    const int n = adapted_coordinates(d);
     memset(J, 0, (size_t)(d->strains * n) * sizeof *J);
     for (int k = 1; k < d->nodes; k++)
         node_rows(d, x, k, J);
     for (int k = 0; k < d->nodes; k++)
         J[(first_warping(d) + k) * n + NODE_COORDINATES * k + 6] = d->length * d->length;
+    for (int i = 0; i < d->scalars * d->nodes; i++)
+        J[(first_warping(d) + d->nodes + i) * n + NODE_COORDINATES * d->nodes + i] = d->length;
 }
 
 void places_strain(const element_data *d, const node_state x[], strain_output *out)
@@ -171,6 +173,8 @@ void places_nodes(const element_data *d, const double e[], node_state x[])
         rotation_exp(psi, q);
         rotation_matrix(q, x[k].R);
         x[k].a = e[first_warping(d) + k] / (l * l);
+        for (int i = 0; i < d->scalars; i++)
+            x[k].scalar[i] = e[first_warping(d) + d->nodes + d->scalars * k + i] / l;
     }
 }
 
@@ -194,7 +198,9 @@ void places_motion(const element_data *d, const double e[], double B[])
 {
     const double l = d->length;
     const int m = d->strains;
-    memset(B, 0, (size_t)(NODE_COORDINATES * d->nodes * m) * sizeof *B);
+    memset(B, 0, (size_t)(adapted_coordinates(d) * m) * sizeof *B);
+    for (int i = 0; i < d->scalars * d->nodes; i++)
+        B[(NODE_COORDINATES * d->nodes + i) * m + first_warping(d) + d->nodes + i] = 1 / l;
     for (int k = 0; k < d->nodes; k++) {
         double *rows = B + NODE_COORDINATES * k * m, psi[3], T[9];
         rows[6 * m + first_warping(d) + k] = 1 / (l * l);
@@ -217,7 +223,7 @@ enum { OUTCOME, ENERGY, FORCES };
 status forces_of(const element_data *d, gather *together, const node_state x[], force_output *out)
 {
     static const double none[FORCES + ELEMENT_MAX_COORDINATES * (ELEMENT_MAX_COORDINATES + 1)];
-    const size_t n = (size_t)NODE_COORDINATES * (size_t)d->nodes;
+    const size_t n = (size_t)adapted_coordinates(d);
     if (together == NULL)
         return d->given->force(adapted_own(d), x, out);
     const double *answer = gather_next(together, adapted_own(d), x, out->history);
@@ -234,14 +240,15 @@ status forces_of(const element_data *d, gather *together, const node_state x[], 
 
 size_t forces_size(const element_data *d)
 {
-    const int n = NODE_COORDINATES * d->nodes;
+    const int n = adapted_coordinates(d);
     if (d->given->leaves & LEAVES_FORCE)
         return FORCES;
     return (size_t)(d->given->leaves & LEAVES_TANGENT ? FORCES + n : FORCES + n + n * n);
 }
 
-void forces_evaluate(const element_type *given, gather *g, int first, int count)
+void forces_evaluate(const element_data *d, gather *g, int first, int count)
 {
+    const element_type *given = d->given;
     force_output out[GATHER_TOGETHER];
     status outcome[GATHER_TOGETHER];
     for (int i = 0; i < count; i++) {
@@ -252,7 +259,7 @@ void forces_evaluate(const element_type *given, gather *g, int first, int count)
         if (!(given->leaves & LEAVES_FORCE))
             out[i].F = answer + FORCES;
         if (!(given->leaves & (LEAVES_FORCE | LEAVES_TANGENT)))
-            out[i].K = answer + FORCES + NODE_COORDINATES * g->nodes;
+            out[i].K = answer + FORCES + adapted_coordinates(d);
     }
     given->force_many(count, g->data + first, g->x + (size_t)first * (size_t)g->nodes, out,
                       outcome);

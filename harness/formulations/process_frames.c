@@ -77,23 +77,41 @@ static int frame_fitting(size_t each)
 
 static int frame_nodes(const element_data *d)
 {
-    return d->coordinates / NODE_COORDINATES;
+    return d->coordinates / (NODE_COORDINATES + d->scalars);
+}
+
+enum { NODE_NUMBERS = 16 }; /* r, u, R and a of a node */
+_Static_assert(offsetof(node_state, scalar) == NODE_NUMBERS * sizeof(double),
+               "a node is sent as its bytes");
+
+/* Returns the size of the nodes of an element in a request [bytes]. */
+static size_t frame_node_bytes(const element_data *d)
+{
+    return (size_t)(frame_nodes(d) * (NODE_NUMBERS + d->scalars)) * sizeof(double);
+}
+
+/* Writes the nodes of the elements, x[count x nodes], followed by their additional unknowns. */
+static void frame_put_nodes(char **to, const frame_question *q, const node_state x[])
+{
+    const element_data *d = q->data[0];
+    for (int i = 0; i < q->count * frame_nodes(d); i++)
+        frame_put(to, &x[i], NODE_NUMBERS * sizeof(double));
+    for (int i = 0; i < q->count * frame_nodes(d) && d->scalars > 0; i++)
+        frame_put(to, x[i].scalar, (size_t)d->scalars * sizeof(double));
 }
 
 /* Strains, stresses and forces of many elements, with one request for each kind of result. */
-
-_Static_assert(sizeof(node_state) == 16 * sizeof(double), "a node is sent as its bytes");
 
 static status strain_frame(const frame_question *q, const node_state x[], strain_output out[],
                            fault *f)
 {
     const element_data *d = q->data[0];
     const size_t m = (size_t)d->strains, c = (size_t)d->coordinates, h = (size_t)d->history,
-                 nodes = (size_t)frame_nodes(d) * sizeof *x, s = q->mask & 4 ? m : 0;
+                 nodes = frame_node_bytes(d), s = q->mask & 4 ? m : 0;
     const char *from;
     char *to;
     TRY(frame_begin(q, nodes + (h + s) * sizeof(double), &to, f));
-    frame_put(&to, x, (size_t)q->count * nodes);
+    frame_put_nodes(&to, q, x);
     for (int i = 0; i < q->count && h > 0; i++)
         frame_put(&to, out[i].history, h * sizeof(double));
     for (int i = 0; i < q->count && s > 0; i++)
@@ -139,7 +157,7 @@ static void strain_many(int count, const element_data *const data[], const node_
                      (out->s != NULL && out->H != NULL ? 4 : 0);
     const size_t answer =
         sizeof(double) * ((mask & 1 ? m : 0) + (mask & 2 ? m * c : 0) + (mask & 4 ? c * c : 0));
-    const int most = frame_fitting(answer + (size_t)frame_nodes(d) * sizeof *x);
+    const int most = frame_fitting(answer + frame_node_bytes(d));
     status outcome = STATUS_OK;
     fault f = {""};
     pthread_mutex_lock(&d->of->to.lock);
@@ -249,12 +267,12 @@ static status force_frame(const frame_question *q, const node_state x[], force_o
                           fault *f)
 {
     const element_data *d = q->data[0];
-    const size_t c = (size_t)d->coordinates, nodes = (size_t)frame_nodes(d) * sizeof *x,
+    const size_t c = (size_t)d->coordinates, nodes = frame_node_bytes(d),
                  h = (size_t)d->history * sizeof(double);
     const char *from;
     char *to;
     TRY(frame_begin(q, nodes + h, &to, f));
-    frame_put(&to, x, (size_t)q->count * nodes);
+    frame_put_nodes(&to, q, x);
     for (int i = 0; i < q->count && h > 0; i++)
         frame_put(&to, out[i].history, h);
     TRY(frame_ask(q, &from, f));
@@ -278,7 +296,7 @@ static void force_many(int count, const element_data *const data[], const node_s
         (out->energy != NULL ? 1 : 0) + (out->F != NULL ? 2 : 0) + (out->K != NULL ? 4 : 0);
     const size_t answer =
         sizeof(double) * ((mask & 1 ? 1 : 0) + (mask & 2 ? c : 0) + (mask & 4 ? c * c : 0));
-    const int most = frame_fitting(answer + (size_t)frame_nodes(d) * sizeof *x);
+    const int most = frame_fitting(answer + frame_node_bytes(d));
     pthread_mutex_lock(&d->of->to.lock);
     for (int i = 0; i < count; i += most) {
         const frame_question q = {CHANNEL_FORCE, mask, i + most < count ? most : count - i,
@@ -358,14 +376,13 @@ static status inertia_frame(const frame_question *q, const node_state x[],
                             const element_rotating_frame *turning, double *const to[OUTPUTS],
                             const inertia_output *out, fault *f)
 {
-    const size_t c = (size_t)q->data[0]->coordinates,
-                 nodes = (size_t)frame_nodes(q->data[0]) * sizeof *x,
+    const size_t c = (size_t)q->data[0]->coordinates, nodes = frame_node_bytes(q->data[0]),
                  numbers = (q->mask & TURNING ? 6 : 0) + (q->mask & RATE ? c : 0) +
                            (q->mask & ACCELERATION ? c : 0);
     const char *from;
     char *at;
     TRY(frame_begin(q, nodes + numbers * sizeof(double), &at, f));
-    frame_put(&at, x, nodes);
+    frame_put_nodes(&at, q, x);
     put_motion(&at, q, turning, out);
     TRY(frame_ask(q, &from, f));
     for (int i = 0; i < OUTPUTS; i++)
@@ -403,7 +420,7 @@ void frames_serve_inertia(process *p)
 static void history_of(const element_data *d, enum channel_request what, const node_state x[],
                        double history[])
 {
-    const size_t nodes = (size_t)frame_nodes(d) * sizeof *x, count = (size_t)d->history,
+    const size_t nodes = frame_node_bytes(d), count = (size_t)d->history,
                  given = what == CHANNEL_COMMIT ? count * sizeof *history : 0;
     const frame_question q = {what, 0, 1, &d, count * sizeof *history};
     const char *from;
@@ -412,7 +429,7 @@ static void history_of(const element_data *d, enum channel_request what, const n
     pthread_mutex_lock(&d->of->to.lock);
     status outcome = frame_begin(&q, nodes + given, &to, &f);
     if (outcome == STATUS_OK) {
-        frame_put(&to, x, nodes);
+        frame_put_nodes(&to, &q, x);
         frame_put(&to, history, given);
         outcome = frame_ask(&q, &from, &f);
     }
@@ -466,12 +483,12 @@ static void put_points(char **to, int count, const line_output out[])
 static status line_frame(const frame_question *q, const node_state x[], line_output out[], fault *f)
 {
     const size_t c = (size_t)q->data[0]->coordinates,
-                 nodes = (size_t)frame_nodes(q->data[0]) * sizeof *x;
+                 nodes = frame_node_bytes(q->data[0]);
     const char *from;
     char *to;
     TRY(frame_begin(q, nodes + 7 * sizeof(double), &to, f));
-    for (int i = 0; i < q->count; i++)
-        frame_put(&to, x, nodes);
+    for (int i = 0; i < q->count * frame_nodes(q->data[0]); i++)
+        frame_put(&to, &x[i % frame_nodes(q->data[0])], NODE_NUMBERS * sizeof(double));
     put_points(&to, q->count, out);
     TRY(frame_ask(q, &from, f));
     for (int i = 0; i < q->count; i++)

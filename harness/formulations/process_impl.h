@@ -21,7 +21,7 @@ struct element_data {
     /* number of the start of the process that prepared the kind, and number of the kind in this
      * process */
     long started, kind;
-    int strains, coordinates, history, linear;
+    int strains, coordinates, scalars, history, linear;
     /* [2 x strains x strains] C of linear stresses sigma = C e, and the damping matrix */
     double C[];
 };

@@ -55,7 +55,7 @@ static int carried_at(const void *context, int i, double si, int j, double sj, d
     moved(at, i, si, j, sj, e);
     places_motion(at->data, e, B);
     memset(values, 0, (size_t)m * sizeof *values);
-    dense_add_transpose_mul(m, NODE_COORDINATES * at->data->nodes, 1, B, at->F, values);
+    dense_add_transpose_mul(m, adapted_coordinates(at->data), 1, B, at->F, values);
     return 0;
 }
 
@@ -86,7 +86,7 @@ static status stresses_of(const relative_place *at, double energy[], double sigm
         return STATUS_OK;
     places_motion(d, at->e, B);
     memset(sigma, 0, (size_t)d->strains * sizeof *sigma);
-    dense_add_transpose_mul(d->strains, NODE_COORDINATES * d->nodes, 1, B, F, sigma);
+    dense_add_transpose_mul(d->strains, adapted_coordinates(d), 1, B, F, sigma);
     return STATUS_OK;
 }
 
@@ -116,7 +116,7 @@ static int add_columns(const element_data *d, stencil_function *f, const relativ
 static status given_tangent(const relative_place *here, double C[])
 {
     const element_data *d = here->data;
-    const int n = NODE_COORDINATES * d->nodes, m = d->strains;
+    const int n = adapted_coordinates(d), m = d->strains;
     double F[ELEMENT_MAX_COORDINATES], K[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     double B[ELEMENT_MAX_COORDINATES * PLACES_MOST], work[ELEMENT_MAX_COORDINATES * PLACES_MOST];
     node_state x[ELEMENT_MAX_NODES];
@@ -180,7 +180,7 @@ static void stress_of_one(void *context, gather *together, int i)
 static void evaluate_states(void *context, gather *g, int first, int count)
 {
     const relative_many *all = context;
-    forces_evaluate(all->data[0]->given, g, first, count);
+    forces_evaluate(all->data[0], g, first, count);
 }
 
 void relative_stress_many(int count, const element_data *const data[], const double *const e[],

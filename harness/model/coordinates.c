@@ -226,6 +226,11 @@ static void index_element(model *m, mesh_element *el)
 {
     el->plain = 1;
     el->columns = NODE_COORDINATES * el->nodes;
+    for (int k = 0; k < el->nodes; k++)
+        for (int i = 0; i < el->scalars; i++)
+            el->index[el->columns++] = mesh_scalar(el, k, i) == NONE
+                                           ? NONE
+                                           : m->mesh.warp[mesh_scalar(el, k, i)].coordinate;
     for (int k = 0; k < el->nodes; k++) {
         const mesh_vertex *v = &m->mesh.vertex[el->vertex[k]], *body = &m->mesh.vertex[v->body];
         for (int c = 0; c < VERTEX_COORDINATES; c++)
@@ -248,6 +253,16 @@ static int fixed_warps(const model *m, int *absent)
             *absent += !(features & FEATURE_WARPING);
             fixed += (features & FEATURE_WARPING) && m->mesh.element[i].warp[k] == NONE;
         }
+    return fixed;
+}
+
+/* Returns the number of additional unknowns at ends of members that are fixed at zero. */
+static int fixed_scalars(const model *m)
+{
+    int fixed = 0;
+    for (int i = 0; i < m->mesh.elements; i++)
+        for (int k = 0; k < m->mesh.nodes; k++)
+            fixed += __builtin_popcount(m->mesh.element[i].held[k]);
     return fixed;
 }
 
@@ -278,6 +293,10 @@ static status note_left_out(model *m, const coordinates_tally *of, fault *f)
     if (fixed > 0)
         TRY(coordinates_note_left_out(m, f, "%d warping amplitude%s held at zero", fixed,
                                       fixed == 1 ? "" : "s"));
+    if (fixed_scalars(m) > 0)
+        TRY(coordinates_note_left_out(
+            m, f, "%d additional unknowns held at zero at ends with restrained warping",
+            fixed_scalars(m)));
     if (m->mesh.driven > 0)
         TRY(coordinates_note_left_out(m, f, "rows of %d prescribed coordinate%s", m->mesh.driven,
                                       m->mesh.driven == 1 ? "" : "s"));

@@ -20,7 +20,7 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
 {
     if (el->plain)
         return;
-    for (int k = 0, own = NODE_COORDINATES * el->nodes; k < el->nodes; k++) {
+    for (int k = 0, own = mesh_own_coordinates(el); k < el->nodes; k++) {
         const int v = el->vertex[k], body = m->mesh.vertex[v].body;
         double rho[3], b[3][3];
         if (release_of(m, v) != NULL) {
@@ -92,9 +92,9 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
     if (el->plain)
         return;
     const int n = el->columns;
-    if (n > NODE_COORDINATES * el->nodes)
-        release_widen(el, K);
-    for (int k = 0, own = NODE_COORDINATES * el->nodes; k < el->nodes; k++) {
+    if (n > mesh_own_coordinates(el))
+        dense_widen(mesh_own_coordinates(el), n, K);
+    for (int k = 0, own = mesh_own_coordinates(el); k < el->nodes; k++) {
         const int v = el->vertex[k], body = m->mesh.vertex[v].body;
         double rho[3], b[3][3], moment[7];
         if (force != NULL)

@@ -113,6 +113,8 @@ void kinematics_gather(const model *m, const model_state *s, const mesh_element 
         rotation_matrix(&s->q[4 * v], R);
         mat3_mul(R, el->triad[k], x[k].R);
         x[k].a = el->warp[k] == NONE ? 0 : s->warp[el->warp[k]];
+        for (int i = 0; i < el->scalars; i++)
+            x[k].scalar[i] = mesh_scalar(el, k, i) == NONE ? 0 : s->warp[mesh_scalar(el, k, i)];
     }
 }
 
@@ -191,6 +193,8 @@ void kinematics_local(const model *m, const model_state *s, const mesh_element *
         if (release_of(m, v) != NULL)
             release_add_local(m, s, v, dx, d);
     }
+    for (int c = NODE_COORDINATES * el->nodes; c < mesh_own_coordinates(el); c++)
+        local[c] = el->index[c] == NONE ? 0 : dx[el->index[c]];
 }
 
 void kinematics_frame(const model *m, const model_state *s, int node, double r[3], double q[4])

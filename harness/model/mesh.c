@@ -402,6 +402,68 @@ static void add_warps(model *m, int *named)
     }
 }
 
+/* Returns the index of the first of new additional unknowns of a node. */
+static int new_scalars(model *m, unsigned held)
+{
+    const int first = m->mesh.warps;
+    m->mesh.warps += m->mesh.scalars - __builtin_popcount(held);
+    for (int i = first; i < m->mesh.warps; i++)
+        m->mesh.warp[i].scalar = 1;
+    return first;
+}
+
+static int same_axes(const mesh_triad a, const mesh_triad b)
+{
+    const double rounding = 1e-9;
+    double apart = 0;
+    for (int i = 0; i < 9; i++)
+        apart = fmax(apart, fabs(a[i] - b[i]));
+    return apart <= rounding;
+}
+
+/* Sets the additional unknowns of node k of an element at an end of a member. named: for each
+ * warping amplitude that ends share, the element and the node of the first of these ends, or NONE.
+ */
+static void end_scalars(model *m, int element, int k, int warping, int (*named)[2])
+{
+    mesh_element *el = &m->mesh.element[element];
+    const unsigned all = (1U << m->mesh.scalars) - 1;
+    if (warping == SCENE_WARP_FIXED)
+        el->held[k] = m->mesh.type->held & all;
+    if (warping >= 0 && named[warping][0] != NONE) {
+        const mesh_element *first = &m->mesh.element[named[warping][0]];
+        const int node = named[warping][1];
+        if (same_axes(first->triad[node], el->triad[k])) {
+            el->scalar[k] = first->scalar[node];
+            return;
+        }
+    }
+    el->scalar[k] = new_scalars(m, el->held[k]);
+    if (warping >= 0 && named[warping][0] == NONE) {
+        named[warping][0] = element;
+        named[warping][1] = k;
+    }
+}
+
+/* Adds the additional unknowns of the elements (element_type.scalars). */
+static void add_scalars(model *m, int (*named)[2])
+{
+    const int last = m->mesh.nodes - 1;
+    for (int i = 0; i < m->mesh.elements && m->mesh.scalars > 0; i++) {
+        mesh_element *el = &m->mesh.element[i];
+        const scene_member *sm = &m->scene->member[el->member];
+        const int at_start = i == m->mesh.first_element[el->member],
+                  at_end = i + 1 == m->mesh.first_element[el->member + 1];
+        el->scalars = m->mesh.scalars;
+        for (int k = 0; k <= last; k++) {
+            if ((k == 0 && at_start) || (k == last && at_end))
+                end_scalars(m, i, k, k == 0 ? sm->warp_p : sm->warp_q, named);
+            else
+                el->scalar[k] = k == 0 ? m->mesh.element[i - 1].scalar[last] : new_scalars(m, 0);
+        }
+    }
+}
+
 /* Returns the weight of a node near the end of n equal lengths. The weighted sums integrate cubics
  * exactly. With these weights, lumped masses have the same order of convergence as distributed
  * masses in slender bending (Gregory's rule for n >= 6, closed Newton-Cotes rules for n < 6). */
@@ -501,7 +563,8 @@ static status allocate(model *m, fault *f)
     m->mesh.element = calloc((size_t)total, sizeof *m->mesh.element);
     m->triad = malloc((size_t)total * (size_t)m->mesh.nodes * sizeof *m->triad);
     m->mesh.kind = calloc((size_t)total, sizeof *m->mesh.kind);
-    m->mesh.warp = calloc((size_t)total * (size_t)m->mesh.nodes, sizeof *m->mesh.warp);
+    m->mesh.warp = calloc((size_t)total * (size_t)m->mesh.nodes * (size_t)(1 + m->mesh.scalars),
+                          sizeof *m->mesh.warp);
     m->mesh.first_element = calloc((size_t)s->members + 1, sizeof *m->mesh.first_element);
     if (m->mesh.release == NULL || m->mesh.vertex == NULL || m->mesh.element == NULL ||
         m->triad == NULL || m->mesh.kind == NULL || m->mesh.warp == NULL ||
@@ -552,12 +615,18 @@ status mesh_build(model *m, fault *f)
     share_mass(m);
     TRY(release_build(m, f));
     const int names = largest_name(s) + 1;
-    int *named = malloc((size_t)(names > 0 ? names : 1) * sizeof *named);
-    if (named == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for warping coordinates");
-    for (int i = 0; i < names; i++)
-        named[i] = NONE;
-    add_warps(m, named);
+    int *named = malloc((size_t)(names + 1) * sizeof *named),
+        (*first)[2] = malloc((size_t)(names + 1) * sizeof *first);
+    for (int i = 0; i < names && named != NULL && first != NULL; i++)
+        named[i] = first[i][0] = NONE;
+    const int good = named != NULL && first != NULL;
+    if (good) {
+        add_warps(m, named);
+        add_scalars(m, first);
+    }
     free(named);
+    free(first);
+    if (!good)
+        return fault_set(f, STATUS_FAULT, "out of memory for warping coordinates");
     return STATUS_OK;
 }

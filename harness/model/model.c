@@ -34,7 +34,8 @@ static status choose_options(model *m, const double options[], fault *f)
     m->mesh.nodes = element_nodes(t, m->options);
     element_places(t, m->options, m->mesh.place);
     lumped_shares(m->mesh.nodes, m->mesh.place, m->mesh.share);
-    m->mesh.coordinates = NODE_COORDINATES * m->mesh.nodes;
+    m->mesh.scalars = element_scalars(t, m->options);
+    m->mesh.coordinates = (NODE_COORDINATES + m->mesh.scalars) * m->mesh.nodes;
     m->mesh.strains = element_strains(m->mesh.type, m->options);
     m->mesh.inner = element_inner(m->mesh.type, m->options);
     m->mesh.memory = element_memory(m->mesh.type, m->options);
@@ -46,6 +47,12 @@ static status choose_options(model *m, const double options[], fault *f)
                          "temperatures, elongations and initial strains of members require strains "
                          "that depend only on the state, but %s has a history; use another "
                          "formulation",
+                         t->name);
+    if (m->mesh.scalars > 0 && m->mesh.frees)
+        return fault_set(f, STATUS_REFUSED,
+                         "temperatures, elongations and initial strains of members are not "
+                         "available for formulations with additional unknowns, such as %s; use "
+                         "another formulation",
                          t->name);
     m->mesh.work_size = m->mesh.strains * (m->mesh.coordinates + m->mesh.strains + 2) +
                         m->mesh.memory + (m->mesh.takes ? slot_along(m) : 0);

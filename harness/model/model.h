@@ -245,9 +245,10 @@ typedef struct mesh_release {
     int turn_of[3], slide_of[3]; /* the components, SCENE_UX .. SCENE_RZ */
 } mesh_release;
 
-/* A warping amplitude that the ends of connected elements share. */
+/* A warping amplitude, or an additional unknown, that the ends of connected elements share. */
 typedef struct mesh_warp {
     int coordinate; /* global */
+    int scalar;     /* 1: an additional unknown */
 } mesh_warp;
 
 typedef double mesh_triad[9]; /* columns nX nY nZ */
@@ -258,17 +259,34 @@ typedef struct mesh_element {
     int vertex[ELEMENT_MAX_NODES];
     /* index of the warping amplitude; NONE: fixed at zero, or absent */
     int warp[ELEMENT_MAX_NODES];
+    /* number of additional unknowns of a node (element_type.scalars), index among the warping
+     * amplitudes of the first that is not fixed, and those that are fixed at zero (bits) */
+    int scalars, scalar[ELEMENT_MAX_NODES];
+    unsigned held[ELEMENT_MAX_NODES];
     /* share of the element's mass at each node if the mass is lumped (mesh.c) */
     double share[ELEMENT_MAX_NODES];
     /* addition to resultants at the ends of an element with two nodes (time/deformable.c) */
     double couple[2];
     mesh_triad *triad; /* [nodes] initial triads; not owned, because equal triads are shared */
-    /* number of coordinates after elimination: 7 per node, then those of released ends */
+    /* number of coordinates after elimination: 7 per node, then the additional unknowns, then those
+     * of released ends */
     int columns;
     int index[MODEL_MAX_COORDINATES]; /* global coordinate of each column; NONE: fixed */
     /* 1: there is no offset, sequence or released end, so elimination only selects coordinates */
     int plain;
 } mesh_element;
+
+/* Returns the index of an additional unknown of a node; NONE: fixed at zero. */
+static inline int mesh_scalar(const mesh_element *el, int node, int i)
+{
+    const unsigned held = el->held[node];
+    return held >> i & 1 ? NONE : el->scalar[node] + i - __builtin_popcount(held & ((1U << i) - 1));
+}
+/* Returns the number of coordinates of an element without those of released ends. */
+static inline int mesh_own_coordinates(const mesh_element *el)
+{
+    return el->nodes * (NODE_COORDINATES + el->scalars);
+}
 
 /* A discrete element, in addition to the elements of members: the mass of a rigid body at a vertex,
  * or a spring between vertices. */
@@ -305,6 +323,7 @@ typedef struct mesh_kind {
 typedef struct model_mesh {
     const element_type *type;                                /* completed by adapters_complete */
     int nodes, coordinates, strains, inner, memory, history; /* numbers per element */
+    int scalars;                                             /* number per node */
     /* positions of the nodes of an element, from 0 to 1, and their shares of a uniform load */
     double place[ELEMENT_MAX_NODES], share[ELEMENT_MAX_NODES];
     int vertices, elements, kinds, warps;
@@ -336,8 +355,8 @@ static inline const model_mesh *model_mesh_of(const model *m)
 }
 
 /* Return data of an element: its type, number of nodes, number of coordinates of the nodes (7
- * each), number of strains, number of internal unknowns, and number of doubles that its type stores
- * in a linearisation. */
+ * each, and the additional unknowns), number of strains, number of internal unknowns, and number of
+ * doubles that its type stores in a linearisation. */
 static inline const element_type *model_type(const model *m)
 {
     return model_mesh_of(m)->type;
@@ -358,6 +377,11 @@ static inline const double *model_shares(const model *m)
 static inline int model_own_coordinates(const model *m)
 {
     return model_mesh_of(m)->coordinates;
+}
+/* Returns the number of additional unknowns of a node. */
+static inline int model_scalars(const model *m)
+{
+    return model_mesh_of(m)->scalars;
 }
 static inline int model_strains(const model *m)
 {
@@ -518,7 +542,8 @@ static inline int model_first_release(const model *m)
  * exert a moment about this axis at any rotation about the other two. NONE: there is no such axis,
  * or there are several. */
 int coordinates_held_turn(const model *, int node);
-/* Return the number of warping amplitudes, and the coordinate of a warping amplitude. */
+/* Return the number of warping amplitudes and additional unknowns, and the coordinate of one of
+ * them. */
 static inline int model_warps(const model *m)
 {
     return model_mesh_of(m)->warps;
@@ -526,6 +551,12 @@ static inline int model_warps(const model *m)
 static inline int model_warp(const model *m, int warp)
 {
     return model_mesh_of(m)->warp[warp].coordinate;
+}
+/* Returns the length [m] that makes a change of a warping amplitude dimensionless; 1 for an
+ * additional unknown, which is dimensionless. */
+static inline double model_warp_length(const model *m, int warp)
+{
+    return model_mesh_of(m)->warp[warp].scalar ? 1 : model_length(m);
 }
 /* Returns the number of rotation vectors that are tracked beyond half a revolution. */
 static inline int model_turns(const model *m)
@@ -817,7 +848,7 @@ struct model_state {
     /* [vertices x 3] angles of sequences; accumulated spatial increments of other rotations */
     double *angle;
     double *shift;             /* [releases x 3] displacements along slides */
-    double *warp;              /* [warps] */
+    double *warp;              /* [warps] warping amplitudes and additional unknowns */
     double *driver;            /* [drivers] current value */
     double *e, *sigma, *inner; /* [elements x strains], [elements x strains], [elements x inner] */
     double *history;           /* [elements x history] */
@@ -904,10 +935,6 @@ void release_turn_axes(const model *, const model_state *, int vertex, double b[
  * to the end [m]. */
 void release_slide_axes(const model *, const model_state *, int vertex, double along[3][3],
                         double apart[3]);
-
-/* Inserts columns for released ends after the columns of the nodes: K[7 nodes x 7 nodes] ->
- * K[columns x columns]. */
-void release_widen(const mesh_element *, double K[]);
 
 /* A spring between two frames, or between a frame and the ground. */
 

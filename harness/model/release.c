@@ -387,16 +387,6 @@ void release_force(const model *m, const model_state *s, int vertex, double forc
         memset(force + 3, 0, 3 * sizeof *force);
 }
 
-void release_widen(const mesh_element *el, double K[])
-{
-    const int n = NODE_COORDINATES * el->nodes, wide = el->columns;
-    for (int i = n; i-- > 0;) {
-        memmove(&K[i * wide], &K[i * n], (size_t)n * sizeof *K);
-        memset(&K[i * wide + n], 0, (size_t)(wide - n) * sizeof *K);
-    }
-    memset(&K[n * wide], 0, (size_t)(wide * (wide - n)) * sizeof *K);
-}
-
 /* Replaces row and column `to` of K by the combination of the three rows and columns at `from`
  * along v. */
 static void take_along(int n, int from, const double v[3], int to, double K[])

@@ -19,7 +19,7 @@ static int applies(const equations *eq, int from)
     const model *m = eq->m;
     int longest = 0;
     if (eq->loading.rotates || model_absolute(m) || model_keeps_all(m) ||
-        model_scene(m)->plane != SCENE_SPACE)
+        model_scene(m)->plane != SCENE_SPACE || model_scalars(m) > 0)
         return 0;
     for (int i = 0; i < model_scene(m)->loads; i++) {
         const scene_load *load = &model_scene(m)->load[i];

@@ -314,6 +314,20 @@ static void add_rate(const equations *eq, const model_state *s, const node_state
     distributed_add_taken(m, &of.out, J, NULL, forces, NULL);
 }
 
+/* Adds loads to the forces and the matrix of an element with additional unknowns, which loads along
+ * it do not move. */
+static void add_field_wide(const model *m, const displacement_field *field, const node_state x[],
+                           int count, const field_rows rows[], const field_load acting[],
+                           double forces[], double K[])
+{
+    double own[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES] = {0};
+    const int all = model_own_coordinates(m);
+    field_add_loads(field, x, count, rows, acting, forces, own);
+    dense_widen(NODE_COORDINATES * model_nodes(m), all, own);
+    for (int i = 0; i < all * all; i++)
+        K[i] += own[i];
+}
+
 static int add_field(const equations *eq, const node_state x[], int element, const scene_load *load,
                      double scale, const double part[2], double forces[], double K[])
 {
@@ -328,7 +342,11 @@ static int add_field(const equations *eq, const node_state x[], int element, con
         return 1;
     }
     const int count = points_of(&of, load, scale, part, rows, acting);
-    field_add_loads(&model_kind_of(m, element)->field, x, count, rows, acting, forces, K);
+    const displacement_field *field = &model_kind_of(m, element)->field;
+    if (K != NULL && model_scalars(m) > 0)
+        add_field_wide(m, field, x, count, rows, acting, forces, K);
+    else
+        field_add_loads(field, x, count, rows, acting, forces, K);
     return 1;
 }
 

@@ -37,6 +37,21 @@ static void put_vertex(const model *m, int vertex, row_label label, row_label ou
     }
 }
 
+/* Labels the additional unknowns of node k of an element. */
+static void put_scalars(const model *m, const mesh_element *el, int k, row_label label,
+                        row_label out[])
+{
+    static const char *const names[ELEMENT_MAX_SCALARS] = {"scalar 1", "scalar 2", "scalar 3",
+                                                           "scalar 4", "scalar 5", "scalar 6"};
+    for (int i = 0; i < el->scalars; i++) {
+        if (mesh_scalar(el, k, i) == NONE)
+            continue;
+        label.component = names[i];
+        label.unit = "1";
+        put(m, model_warp(m, mesh_scalar(el, k, i)), &label, out);
+    }
+}
+
 static void put_element(const model *m, const mesh_element *el, row_label out[])
 {
     const int number = (int)(el - model_element(m, model_first_element(m, el->member)));
@@ -48,6 +63,7 @@ static void put_element(const model *m, const mesh_element *el, row_label out[])
         memcpy(label.position, model_vertex(m, vertex)->position, sizeof label.position);
         if (!is_node)
             put_vertex(m, vertex, label, out);
+        put_scalars(m, el, k, label, out);
         if (el->warp[k] == NONE)
             continue;
         label.component = "warping";
@@ -408,6 +424,8 @@ static void add_elements(identity *out, const model *m)
     for (int i = 0; i < model_elements(m); i++) {
         add_number(out, model_element(m, i)->kind);
         identity_add(out, model_element(m, i)->warp, sizeof model_element(m, i)->warp);
+        identity_add(out, model_element(m, i)->scalar, sizeof model_element(m, i)->scalar);
+        identity_add(out, model_element(m, i)->held, sizeof model_element(m, i)->held);
         identity_add(out, model_element(m, i)->triad, (size_t)model_nodes(m) * sizeof(mesh_triad));
     }
 }

@@ -157,7 +157,7 @@ double advance_state(const equations *eq, const linear_memory *memory, model_sta
         largest = larger(largest, release_advance(m, s, i, dx));
     for (int i = 0; i < model_warps(m); i++) {
         s->warp[i] += dx[model_warp(m, i)];
-        largest = larger(largest, fabs(dx[model_warp(m, i)]) * model_length(m));
+        largest = larger(largest, fabs(dx[model_warp(m, i)]) * model_warp_length(m, i));
     }
     for (int d = 0; d < model_scene(m)->drivers; d++)
         if (model_driver_coordinate(m, d) != NONE)

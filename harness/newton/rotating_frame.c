@@ -26,6 +26,7 @@ static status inertia_at(const equations *eq, const node_state x[], int i, doubl
             lumped_of(model_section(m, kind->section), model_features(m), kind->length);
         outcome =
             lumped_element(&whole, model_nodes(m), model_element(m, i)->share, x, turning, out);
+        inertia_widen(NODE_COORDINATES * model_nodes(m), model_own_coordinates(m), out);
     } else {
         outcome = model_type(m)->inertia(kind->data, x, turning, out);
     }
@@ -145,6 +146,7 @@ int rotating_frame_inner_matrix(const equations *eq, sparse *out)
             continue;
         memset(E, 0, FIELD_INNER * FIELD_INNER * sizeof *E);
         turn_inner(model_element(m, e), B, E);
+        dense_widen(FIELD_INNER, model_own_coordinates(m), E);
         eliminate_matrix(m, kinematics_rest(m), model_element(m, e), NULL, E);
         assemble_matrix(p, e, E, out);
         any = 1;

@@ -111,7 +111,7 @@ static void to_coordinates(const conserving *s, const instant *from, const model
     if (el->plain)
         return;
     if (el->columns > own)
-        release_widen(el, v->K);
+        dense_widen(mesh_own_coordinates(el), el->columns, v->K);
     for (int j = 0; j < el->nodes; j++) {
         const int at = NODE_COORDINATES * j;
         frame_place p;

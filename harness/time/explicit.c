@@ -253,10 +253,13 @@ static status refuse(const model *m, int vertex, const char *what, fault *f)
                      what, whose.text);
 }
 
-static status refuse_warping(fault *f)
+static status refuse_warping(const model *m, int warp, fault *f)
 {
-    return fault_set(f, STATUS_REFUSED,
-                     "integrator explicit: warping has no inertia; use alpha, conserving or radau");
+    return fault_set(f, STATUS_REFUSED, "integrator explicit: %s; use alpha%s or radau",
+                     model_mesh_of(m)->warp[warp].scalar
+                         ? "the additional unknowns of the formulation have no inertia"
+                         : "warping has no inertia",
+                     model_scalars(m) > 0 ? "" : ", conserving");
 }
 
 static status check_vertex(const model *m, int index, const int heavy[], fault *f)
@@ -306,7 +309,7 @@ static status check_joined(const model *m, const carried_masses *masses, fault *
     }
     for (int w = 0; w < model_warps(m) && outcome == STATUS_OK; w++)
         if (model_warp(m, w) < model_unknowns(m) && !(masses->warping[model_warp(m, w)] > 0))
-            outcome = refuse_warping(f);
+            outcome = refuse_warping(m, w, f);
     body_mass_free(&g);
     return outcome;
 }
@@ -340,7 +343,7 @@ static status explicit_check(const model *m, const carried_masses *masses, fault
             outcome = check_vertex(m, i, heavy, f);
     for (int w = 0; w < model_warps(m) && outcome == STATUS_OK; w++)
         if (model_warp(m, w) < model_unknowns(m) && !heavy[model_warp(m, w)])
-            outcome = refuse_warping(f);
+            outcome = refuse_warping(m, w, f);
     free(heavy);
     free(rest);
     return outcome;

@@ -366,7 +366,8 @@ static double rounding_of(const model *m, const mesh_element *el, int index)
     for (int i = 0; i < model_strains(m); i++) {
         double off = 0;
         for (int k = 0; k < model_own_coordinates(m); k++)
-            off += fabs(J[i * model_own_coordinates(m) + k]) * part[k % NODE_COORDINATES] *
+            off += fabs(J[i * model_own_coordinates(m) + k]) *
+                   (k < NODE_COORDINATES * el->nodes ? part[k % NODE_COORDINATES] : 1) *
                    coordinate_rounding;
         sum += C[i * model_strains(m) + i] * off * off / 2;
     }

@@ -307,8 +307,14 @@ static status check_mass(const analysis_context *c, int analysis, fault *f)
 static status check_conserving(const analysis_context *c, int analysis, fault *f)
 {
     const element_type *t = model_type(c->model);
-    if (scene_motion_of(&c->scene->analysis[analysis])->scheme != SCENE_CONSERVING ||
-        (model_history(c->model) == 0 && !(t->limits & LIMIT_NOT_OBJECTIVE)))
+    if (scene_motion_of(&c->scene->analysis[analysis])->scheme != SCENE_CONSERVING)
+        return STATUS_OK;
+    if (model_scalars(c->model) > 0)
+        return fault_set(f, STATUS_REFUSED,
+                         "the integrator conserving does not support formulations with additional "
+                         "unknowns, such as %s; use the integrator alpha or radau",
+                         t->name);
+    if (model_history(c->model) == 0 && !(t->limits & LIMIT_NOT_OBJECTIVE))
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
                      "the integrator conserving requires strains that depend only on the state and "

@@ -257,7 +257,7 @@ class OpenSeesLike(Judged, PluginTest):
 class Fortran(Judged, PluginTest):
     """An element in Fortran models the same beam as timoshenko.c."""
 
-    example, ending, most = "timoshenko", "f90", 240
+    example, ending, most = "timoshenko", "f90", 250
     loaded, cases = "timoshenko_f90", Timoshenko.cases
 
     @classmethod

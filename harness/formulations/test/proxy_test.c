@@ -87,8 +87,9 @@ static void evaluate(int64_t what, int64_t count, const int64_t number[], const 
     for (int64_t i = 0; i < count; i++) {
         const element_data *d = kind[number[i]];
         if (what == 2) {
-            node_state x[2];
-            memcpy(x, body + i * 32, sizeof x);
+            node_state x[2] = {0};
+            for (int k = 0; k < 2; k++)
+                memcpy(&x[k], body + i * 32 + 16 * k, 16 * sizeof *body);
             served->strain(d, x,
                            &(strain_output){.e = out[0] ? out[0] + i * m : NULL,
                                             .J = out[1] ? out[1] + i * m * c : NULL,
