@@ -41,8 +41,8 @@ PYTHON_TESTS := $(sort $(patsubst %/,%,$(dir $(wildcard reference/test/*_test.py
 REGISTRY := $(BUILD)/registry.c
 QUANTITIES := $(BUILD)/quantities.h
 VERBS := $(BUILD)/verbs.h
-PRICES := $(BUILD)/price_table.c
-EXPENSES := $(BUILD)/expense_table.c
+COST_COEFFICIENTS := $(BUILD)/cost_coefficient_table.c
+RUN_COSTS := $(BUILD)/run_cost_table.c
 # Scene files among the cases are read while the program is built, and are C in it.
 PACKED := $(patsubst cases/%.yaml,$(BUILD)/packed/%.o,$(filter %.yaml,$(CASES)))
 PACK_CASE := $(BUILD)/pack_case
@@ -50,7 +50,7 @@ LIBRARY := $(BUILD)/libbeamwork.a
 PROGRAM := $(BUILD)/beamwork
 PLANTED := $(BUILD)/planted
 TRUTHS := $(BUILD)/truths.h5
-OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o) $(PACKED)
+OBJECTS := $(LIBRARY_SOURCES:%.c=$(BUILD)/%.o) $(REGISTRY:.c=.o) $(COST_COEFFICIENTS:.c=.o) $(RUN_COSTS:.c=.o) $(PACKED)
 # What is compiled a second time for processors with AVX2, where there are such (elements/math/real.h); no FMA: the same bits.
 WIDE := elements/math/congruence.c elements/beamw/in_time.c $(sort $(wildcard elements/*/lanes.c elements/*/alone.c harness/*/triangular_*.c))
 ifneq ($(filter x86_64%,$(shell $(CC) -dumpmachine)),)
@@ -223,11 +223,11 @@ $(PACK_CASE): $(BUILD)/harness/tools/pack_case.o $(filter $(addprefix $(BUILD)/,
 $(PACKED:.o=.c): $(BUILD)/packed/%.c: cases/%.yaml $(PACK_CASE)
 	@mkdir -p $(@D); $(PACK_CASE) $< >$@
 
-$(PRICES): harness/study/prices.csv harness/tools/price_table.sh
-	@harness/tools/price_table.sh $@ $<
+$(COST_COEFFICIENTS): harness/study/cost_coefficients.csv harness/tools/cost_coefficient_table.sh
+	@harness/tools/cost_coefficient_table.sh $@ $<
 
-$(EXPENSES): harness/study/expense.csv harness/tools/expense_table.sh
-	@harness/tools/expense_table.sh $@ $<
+$(RUN_COSTS): harness/study/run_cost.csv harness/tools/run_cost_table.sh
+	@harness/tools/run_cost_table.sh $@ $<
 
 # The list of objects: when a source disappears, the archive is made anew.
 $(BUILD)/objects.list: FORCE
@@ -255,10 +255,10 @@ $(BUILD)/%.avx2.o: %.c
 	@mkdir -p $(@D)
 	$(call SAY,compile $< for AVX2)$(CC) $(BASE_CFLAGS) -mavx2 -DREAL_AVX2 $(CFLAGS) $(DEP_CFLAGS) $(DEFINES) -MMD -MP -c $< -o $@
 
-$(PRICES:.c=.o): harness/study/study.h
-$(EXPENSES:.c=.o): harness/study/study_impl.h
+$(COST_COEFFICIENTS:.c=.o): harness/study/study.h
+$(RUN_COSTS:.c=.o): harness/study/study_impl.h
 $(PACKED): cases/format/format_impl.h cases/case.h elements/shared/parameter.h
-$(REGISTRY:.c=.o) $(PRICES:.c=.o) $(EXPENSES:.c=.o) $(PACKED): $(BUILD)/%.o: $(BUILD)/%.c
+$(REGISTRY:.c=.o) $(COST_COEFFICIENTS:.c=.o) $(RUN_COSTS:.c=.o) $(PACKED): $(BUILD)/%.o: $(BUILD)/%.c
 	$(call SAY,compile $<)$(CC) $(BASE_CFLAGS) $(CFLAGS) $(DEP_CFLAGS) -c $< -o $@
 
 $(LIBRARY): $(OBJECTS) $(BUILD)/objects.list
@@ -281,7 +281,7 @@ $(PROGRAM): $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY) $(BUILD)/program_libr
 
 # The same with a fault in it (harness/tools/plant.c).
 $(PLANTED): $(BUILD)/harness/tools/plant.o $(PROGRAM)
-	$(call SAY,link $@)$(CC) $(CFLAGS) -o $@ $< $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY) $(LDFLAGS) $(foreach name,adapters_complete case_build lumped_of judgement_doubts,-Wl,--wrap=$(name)) $(if $(filter shared,$(HDF5)),$(DEP_LIBS),$(PROGRAM_LIBS))
+	$(call SAY,link $@)$(CC) $(CFLAGS) -o $@ $< $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o) $(LIBRARY) $(LDFLAGS) $(foreach name,adapters_complete case_build lumped_of evaluation_needs_scatter,-Wl,--wrap=$(name)) $(if $(filter shared,$(HDF5)),$(DEP_LIBS),$(PROGRAM_LIBS))
 
 $(BUILD)/%_test: $(BUILD)/%_test.o $(KIT) $(LIBRARY)
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)

@@ -160,8 +160,8 @@ static void geometric(const element_data *data, const double sigma[], double G[]
  * the unit of bending forces must not prevent convergence. */
 static double force_scale(const beam_constants *c)
 {
-    const double told = 1e-9, stiffness = c->coupled ? c->C[0] : c->EA;
-    return fmax(1, DBL_EPSILON / told * stiffness);
+    const double resolved = 1e-9, stiffness = c->coupled ? c->C[0] : c->EA;
+    return fmax(1, DBL_EPSILON / resolved * stiffness);
 }
 
 static double update(const element_data *data, const double de[], const double memory[],

@@ -119,7 +119,7 @@ ADDS = (
      "times of the joint and the hexapod next to the published ones"),
     ("lab L=causes", ("causes.json", ), "experiments on the causes of known deviations"),
     ("lab L=newton", ("newton.json", ), "Newton's method with stresses as unknowns, and with displacements only"),
-    ("lab L=paces", ("paces.json", ), "integrators on all cases of motion: profiles, error against cost"),
+    ("lab L=integrators", ("integrators.json", ), "integrators on all cases of motion: profiles, error against cost"),
     ("lab L=faults", ("faults.json", ), "injected faults"),
     ("lab L=fuzz", ("fuzz.json", ), "random bytes as input"),
 )

@@ -1,5 +1,5 @@
-"""Reads the results of `beamwork motion` and of `make lab L=paces` into plain records: motions computed by integrators
-with given steps and tolerances. The results of `make lab L=paces` contain records for every case with a motion."""
+"""Reads the results of `beamwork motion` and of `make lab L=integrators` into plain records: motions computed by integrators
+with given steps and tolerances. The results of `make lab L=integrators` contain records for every case with a motion."""
 import json
 import math
 import os
@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from reports import experiments
 from reports.data import Unreadable
 
-PACES = "paces.json"
+INTEGRATOR_RUNS = "integrators.json"
 KEPT = 1e-11  # fraction of the largest energy; the energy is conserved if the drift is smaller
 ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # order in legends and tables
 KEYS = ("case", "parameters", "formulation", "elements")  # columns that identify a problem
@@ -182,7 +182,7 @@ class Check:
 @dataclass
 class Record:
     """Contents of the results. `verdicts` are rows with observed and expected verdicts. `compared` are the problems on
-    which integrators are compared (every case with a motion if `make lab L=paces` was run). `left_out` is {(case,
+    which integrators are compared (every case with a motion if `make lab L=integrators` was run). `left_out` is {(case,
     formulation): reason why it is not run}. `about` contains the attributes and tables of `beamwork motion`."""
 
     problems: list
@@ -213,26 +213,26 @@ def check_of(row):
 
 
 def compared_in(path):
-    """Returns the contents of paces.json: (problems, left_out, checks), or None if there is none."""
+    """Returns the contents of integrators.json: (problems, left_out, checks), or None if there is none."""
     try:
-        paces = load(path)
-        return None if paces is None else (
-            problems_of(paces),
-            {(row["case"], row["formulation"]): row["reason"] for row in paces["left_out"]},
-            [check_of(row) for row in paces["checks"]])
+        runs = load(path)
+        return None if runs is None else (
+            problems_of(runs),
+            {(row["case"], row["formulation"]): row["reason"] for row in runs["left_out"]},
+            [check_of(row) for row in runs["checks"]])
     except (KeyError, TypeError, ValueError) as why:
-        raise Unreadable(f"{path}: damaged, or of an earlier version; run 'make lab L=paces', or "
+        raise Unreadable(f"{path}: damaged, or of an earlier version; run 'make lab L=integrators', or "
                          "remove it") from why
 
 
 def read(path):
-    """Returns the Record of a results file and of paces.json next to the file. Returns None if the file contains no
+    """Returns the Record of a results file and of integrators.json next to the file. Returns None if the file contains no
     results of `beamwork motion`."""
     found = experiments.read(path, "motion")
     if found is None:
         return None
     problems = problems_of(found)
-    beside = os.path.join(os.path.dirname(os.path.abspath(path)), PACES)
+    beside = os.path.join(os.path.dirname(os.path.abspath(path)), INTEGRATOR_RUNS)
     return Record(problems, found["verdicts"], *(compared_in(beside) or (problems, {}, [])), found)
 
 

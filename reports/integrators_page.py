@@ -1,5 +1,5 @@
 """Page of integrators: the integrator and the step with the lowest cost within a time-integration error, and the evidence
-for it (from `beamwork motion`, and from paces.json if it exists)."""
+for it (from `beamwork motion`, and from integrators.json if it exists)."""
 import functools
 import math
 

@@ -28,10 +28,10 @@ typedef enum extreme_knob {
     EXTREME_WHOLE       /* the steps of a motion are not halved */
 } extreme_knob;
 
-typedef enum extreme_judge {
+typedef enum extreme_criterion {
     EXTREME_EXACT, /* compared with the stored exact value for the same parameters */
     EXTREME_SAME   /* compared with the value of the same formulation at `base` */
-} extreme_judge;
+} extreme_criterion;
 
 typedef struct extreme {
     const char *name;  /* NULL ends the table */
@@ -47,7 +47,7 @@ typedef struct extreme {
     int elements; /* number per member, unless x sets it */
     int values;
     double value[EXTREME_MAX_VALUES]; /* values of x */
-    extreme_judge judge;
+    extreme_criterion criterion;
     double same_as;   /* value of x with which the results for other values are compared */
     double tolerance; /* relative tolerance, within which a value is neither under-resolved nor
                          wrong */

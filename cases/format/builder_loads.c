@@ -57,20 +57,22 @@ static scene_load at_centre(const scene_load *what)
 static void weigh_all(const fields *f, scene_load *what)
 {
     const scene *s = f->b->scene;
-    const int before = s->loads, told = f->b->mistakes->count;
+    const int before = s->loads, reported = f->b->mistakes->count;
     if (f->placed != NULL)
         mistake_at(f, "on",
                    "gravity on all members belongs to the scene, not to a part; move this load to "
                    "the loads of the scene");
-    for (what->where = 0; what->where < s->members && f->b->mistakes->count == told; what->where++)
+    for (what->where = 0; what->where < s->members && f->b->mistakes->count == reported;
+         what->where++)
         if (is_heavy(s, &s->member[what->where]))
             add(f, what);
     *what = at_centre(what);
     what->lumped = 0;
-    for (what->where = 0; what->where < s->nodes && f->b->mistakes->count == told; what->where++)
+    for (what->where = 0; what->where < s->nodes && f->b->mistakes->count == reported;
+         what->where++)
         if (s->node[what->where].body.mass > 0)
             add(f, what);
-    if (s->loads == before && f->b->mistakes->count == told)
+    if (s->loads == before && f->b->mistakes->count == reported)
         mistake_at(f, "on", "the scene has no mass; give a density to sections or a mass to nodes");
 }
 
@@ -181,7 +183,7 @@ static void read_range(const fields *f, int given, scene_load *what)
 }
 
 /* Returns the node or the member on which a load acts. */
-static int place_of(const fields *f, const scene_load *what)
+static int frame_motion_of(const fields *f, const scene_load *what)
 {
     const int node = fields_names(f, "on", SCENE_NODES),
               member = fields_names(f, "on", SCENE_MEMBERS), within = scene_load_within(what);
@@ -252,7 +254,7 @@ void builder_loads(builder *b)
         if (what.kind == SCENE_GRAVITY && !fields_names(&f, "on", SCENE_MEMBERS) &&
             fields_names(&f, "on", SCENE_NODES))
             what = at_centre(&what);
-        what.where = place_of(&f, &what);
+        what.where = frame_motion_of(&f, &what);
         if (what.kind == SCENE_WEIGHT)
             check_weight(&f, &what);
         builder_call(b, SCENE_LOADS, add(&f, &what), i);

@@ -46,7 +46,7 @@ static void read_warping(const fields *f, scene_member *m)
 {
     const document_node *n = document_find(f->map, "warping");
     if (n == NULL) {
-        m->warp_p = m->warp_q = f->b->unsaid_warping;
+        m->warp_p = m->warp_q = f->b->default_warping;
         return;
     }
     if (n->kind == DOCUMENT_LIST && n->count != 2) {
@@ -97,19 +97,19 @@ static void read_sections(const fields *f, scene_member *m)
 static void read_released(const fields *f, const char *key, int member, int end)
 {
     const document_node *n = document_find(f->map, key);
-    unsigned told = 0;
+    unsigned seen_components = 0;
     if (n == NULL)
         return;
     const int count = n->kind == DOCUMENT_LIST ? n->count : 1;
     for (int i = 0; i < count; i++) {
         const document_node *word = n->kind == DOCUMENT_LIST ? n->item[i] : n;
         const int c = fields_word_of(f, word, "release", fields_components, -1);
-        if (c >= 0 && told >> c & 1u)
+        if (c >= 0 && seen_components >> c & 1u)
             document_mistake(f->b->mistakes, word, 0,
                              "release: '%s' is given twice at this end; remove one", word->text);
         else if (c >= 0)
             scene_release_end(f->b->scene, member, end, c);
-        told |= c >= 0 ? 1u << c : 0;
+        seen_components |= c >= 0 ? 1u << c : 0;
     }
 }
 
@@ -232,17 +232,17 @@ void builder_analyses(builder *b)
 void builder_no_quantity(const fields *what, const char *key, const scene_quantity *q)
 {
     const scene_analysis *a = &what->b->scene->analysis[q->analysis];
-    char who[128] = "";
+    char names[128] = "";
     for (int k = SCENE_LINEAR; k <= SCENE_HARMONIC; k++)
         if (scene_gives((scene_analysis_kind)k, q)) {
-            const size_t used = strlen(who);
-            snprintf(who + used, sizeof who - used, "%s%s", used > 0 ? ", " : "",
+            const size_t used = strlen(names);
+            snprintf(names + used, sizeof names - used, "%s%s", used > 0 ? ", " : "",
                      scene_analysis_name((scene_analysis_kind)k));
         }
     document_mistake(
         what->b->mistakes, document_find(what->map, "analysis"), 0,
         "'%s' is of kind %s and has no %s; name an analysis of a kind that has one: %s%s", a->name,
-        scene_analysis_name(a->kind), key, who,
+        scene_analysis_name(a->kind), key, names,
         a->kind == SCENE_HARMONIC && scene_reads_forces(q)
             ? "; or replace the node with two nodes joined by a stiff spring, and multiply the "
               "spring stiffness by the response of one node relative to the other (key 'from')"

@@ -497,12 +497,12 @@ static const char *const of_alpha[] = {"rho", "hht", "trapezoidal", "parameters"
 
 /* Returns 1 if the file selects alpha without naming an integrator. It does so by a parameter that
  * only alpha has, or by constant steps. */
-static int asks_for_alpha(const fields *f)
+static int has_alpha_keys(const fields *f)
 {
-    int asks = fields_have(f, "step") && !fields_have(f, "tolerance");
+    int requests = fields_have(f, "step") && !fields_have(f, "tolerance");
     for (int i = 0; i < 4; i++)
-        asks |= fields_have(f, of_alpha[i]);
-    return asks;
+        requests |= fields_have(f, of_alpha[i]);
+    return requests;
 }
 
 /* Rejects parameters of alpha for another integrator, unless their values are parameters of the
@@ -531,7 +531,7 @@ static scene_scheme scheme_of(const fields *f)
             return SCENE_ALPHA;
         }
     return (scene_scheme)fields_word(f, "integrator", SCENE_SCHEME_CHOICES,
-                                     asks_for_alpha(f) ? SCENE_ALPHA : SCENE_RADAU);
+                                     has_alpha_keys(f) ? SCENE_ALPHA : SCENE_RADAU);
 }
 
 static void read_steps(const fields *f, scene_motion *how)

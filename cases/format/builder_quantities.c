@@ -214,16 +214,16 @@ static void read_prediction(const fields *f, const unrolled *entry, scene_quanti
 }
 
 /* Returns the number of eigenvalues of an analysis that the quantities request. */
-static int asked_of(const scene *s, int analysis)
+static int requested_of(const scene *s, int analysis)
 {
     int most = 0;
     for (int i = 0; i < s->quantities; i++) {
         const scene_quantity *q = &s->quantity[i];
         int order = -1;
-        if (scene_asks(q, analysis, SCENE_CRITICAL_FACTOR))
+        if (scene_requests(q, analysis, SCENE_CRITICAL_FACTOR))
             order = scene_critical_load_of(q)->order;
-        if (scene_asks(q, analysis, SCENE_FREQUENCY) ||
-            scene_asks(q, analysis, SCENE_DAMPING_RATIO))
+        if (scene_requests(q, analysis, SCENE_FREQUENCY) ||
+            scene_requests(q, analysis, SCENE_DAMPING_RATIO))
             order = scene_mode_of(q)->order;
         most = order >= most ? order + 1 : most;
     }
@@ -237,12 +237,13 @@ static void check_wanted(builder *b)
     for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {
         const fields entry = fields_of(b, &b->list[SCENE_ANALYSES].entry[i]);
         const fields f = fields_below(&entry, fields_have(&entry, "modal") ? "modal" : "buckling");
-        const int asked = asked_of(b->scene, i);
-        if (fields_have(&f, "wanted") && fields_whole(&f, "wanted", 0, 1, ENTRY_MOST_ORDER) < asked)
+        const int requested = requested_of(b->scene, i);
+        if (fields_have(&f, "wanted") &&
+            fields_whole(&f, "wanted", 0, 1, ENTRY_MOST_ORDER) < requested)
             document_mistake(
                 b->mistakes, document_find(f.map, "wanted"), 0,
                 "the quantities require %d modes of this analysis; write %d, or remove the key",
-                asked, asked);
+                requested, requested);
     }
 }
 
@@ -266,10 +267,10 @@ static void read_overs(const fields *what, scene_quantity *q)
 }
 
 /* Sets the members of a quantity that the key table of its kind does not describe. */
-static void settle(const fields *what, const quantity_type *type, scene_quantity *q)
+static void complete(const fields *what, const quantity_type *type, scene_quantity *q)
 {
     const scene *s = what->b->scene;
-    const char *key = "", *wrong = type->settle != NULL ? type->settle(s, q, &key) : NULL;
+    const char *key = "", *wrong = type->complete != NULL ? type->complete(s, q, &key) : NULL;
     if (wrong != NULL)
         document_mistake(what->b->mistakes, document_find(what->map, key), 0, "%s", wrong);
     if (fields_have(what, "side") && !fields_have(what, "where"))
@@ -290,7 +291,7 @@ void builder_quantities(builder *b)
         fields_read(&f, entry_quantity, q);
         const quantity_type *type = quantity_type_of(q);
         const fields what = fields_below(&f, type->key);
-        settle(&what, type, q);
+        complete(&what, type, q);
         if (q->what.kind == SCENE_ENVELOPE_OF)
             read_members(&what, q);
         else
@@ -318,7 +319,7 @@ static int add_analysis(builder *b)
 }
 
 /* Returns 1 if the node has a load or a prescribed motion. */
-static int is_asked(const scene *s, int node)
+static int is_requested(const scene *s, int node)
 {
     for (int i = 0; i < s->loads; i++)
         if (!scene_load_along(&s->load[i]) && s->load[i].where == node)
@@ -367,11 +368,11 @@ static void add_states(builder *b, int analysis, int prefixed)
 {
     const scene *s = b->scene;
     const int first = s->quantities;
-    int asked = 0;
+    int requested = 0;
     for (int i = 0; i < s->nodes; i++)
-        asked += is_asked(s, i);
+        requested += is_requested(s, i);
     for (int i = 0; i < s->nodes; i++)
-        if (asked > 0 ? is_asked(s, i) : s->node[i].attached == SCENE_NONE)
+        if (requested > 0 ? is_requested(s, i) : s->node[i].attached == SCENE_NONE)
             add_displacements(b, analysis, i, prefixed);
     for (int i = first; i < s->quantities && scene_solves_all(s, analysis); i++)
         s->quantity[i].envelope = SCENE_ENVELOPE_LARGEST;

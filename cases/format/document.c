@@ -25,7 +25,7 @@ static void *refuse(document_reader *r, yaml_mark_t at, const char *what)
 
 /* Reports a syntax error, with a message of beamwork for known errors and otherwise with the
  * message of the parser. */
-static void tell_syntax(document_reader *r)
+static void report_syntax(document_reader *r)
 {
     const yaml_parser_t *p = &r->parser;
     const char *context = p->context != NULL ? p->context : "";
@@ -59,7 +59,7 @@ static int next(document_reader *r, yaml_event_t *event)
 {
     if (yaml_parser_parse(&r->parser, event))
         return 1;
-    tell_syntax(r);
+    report_syntax(r);
     return 0;
 }
 

@@ -9,8 +9,8 @@
 /* Returns the index of a section constant by its name, or -1. */
 static int section_names_index(const char *name, size_t length);
 
-static int tell_unknown(const name_context *c, const char *text, int from, int length,
-                        expression_mistake *why)
+static int report_unknown(const name_context *c, const char *text, int from, int length,
+                          expression_mistake *why)
 {
     char name[64], remedy[FAULT_TEXT];
     snprintf(name, sizeof name, "%.*s", length, text + from);
@@ -62,7 +62,7 @@ int names_number(const void *context, const char *text, int *at, double *out,
     const scope *known = scope_find(c->names, text + from, (size_t)length);
     *at += length;
     if (known == NULL || text[*at + (int)strspn(text + *at, " ")] == '(')
-        return tell_unknown(c, text, from, length, why);
+        return report_unknown(c, text, from, length, why);
     if (known->word != NULL)
         expression_wrong(why, from,
                          "'%s' is the word '%.40s', but a number is expected; give a number, or "

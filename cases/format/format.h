@@ -104,9 +104,9 @@ void key_list_loops(key_list_take *take, void *context);
 void key_list_all(key_list_take *take, void *context);
 
 /* Writes a text after `at` columns of a line, indents continuation lines, and ends the line. */
-typedef void key_list_say(FILE *to, int at, int indent, const char *text);
+typedef void key_list_print(FILE *to, int at, int indent, const char *text);
 /* Writes the name, form, unit, summary and words of each key. */
-void key_list_write(FILE *to, key_list_say *say);
+void key_list_write(FILE *to, key_list_print *print);
 
 /* Opens a text file and skips a byte order mark at its start. Returns NULL and sets errno after a
  * failure. */

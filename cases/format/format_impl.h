@@ -141,7 +141,7 @@ typedef struct builder {
     } list[SCENE_LISTS]; /* entries of each list, in the order of the indices of the scene */
     const char **shared; /* names of warping coordinates shared by members */
     int shares;
-    int unsaid_warping; /* number of ends without a specified warping condition */
+    int default_warping; /* number of ends without a specified warping condition */
 } builder;
 
 /* A map: an entry, or a map inside an entry. */
@@ -328,7 +328,8 @@ extern const char section_names_all[];
 const document_node *substitute_node(const document_node *n, const scope *names, arena *a,
                                      mistakes *m);
 /* Returns the string for use in messages, where numbers have six digits. */
-const char *substitute_said(const document_node *n, const scope *names, arena *a, mistakes *m);
+const char *substitute_for_message(const document_node *n, const scope *names, arena *a,
+                                   mistakes *m);
 /* Returns 1 if a loop name remains in the string, for which an error has been reported. */
 int substitute_is_left(const char *text);
 

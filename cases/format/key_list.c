@@ -99,7 +99,7 @@ const char *const key_list_head[2] = {
 typedef struct key_rows {
     FILE *to;
     int depth; /* depth of the current part */
-    key_list_say *say;
+    key_list_print *print;
 } key_rows;
 
 static void write_key(void *context, int depth, const char *name, const char *form,
@@ -108,14 +108,14 @@ static void write_key(void *context, int depth, const char *name, const char *fo
     const key_rows *l = context;
     const int indent = 2 * (l->depth + depth);
     const int at = fprintf(l->to, "%*s%-*s %-12s ", indent, "", 26 - indent, name, form);
-    l->say(l->to, at, at, text);
+    l->print(l->to, at, at, text);
 }
 
-void key_list_write(FILE *to, key_list_say *say)
+void key_list_write(FILE *to, key_list_print *print)
 {
-    key_rows loops = {to, 1, say}, all = {to, 0, say};
+    key_rows loops = {to, 1, print}, all = {to, 0, print};
     for (int i = 0; i < 2; i++)
-        say(to, 0, 2, key_list_head[i]);
+        print(to, 0, 2, key_list_head[i]);
     key_list_loops(write_key, &loops);
     key_list_all(write_key, &all);
 }

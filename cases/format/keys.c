@@ -200,8 +200,8 @@ static const entry_field *find(const entry_field *table, const char *name)
 static void check_map(const document_node *map, const known_keys *known, const document_node *name,
                       mistakes *m);
 
-static void tell_kind(const document_node *n, const document_node *name, const char *expected,
-                      mistakes *m)
+static void report_kind(const document_node *n, const document_node *name, const char *expected,
+                        mistakes *m)
 {
     static const char *const is[] = {"a text", "a list", "a map"};
     const int text = n->kind == DOCUMENT_TEXT, empty = text && n->text[0] == '\0';
@@ -234,8 +234,8 @@ static void check_entries(const document_node *n, const entry_field *k, const do
 {
     const known_keys known = {k->below, keys_loops(k->below) ? keys_loop : NULL};
     if (n->kind != (k->kind == ENTRY_LIST ? DOCUMENT_LIST : DOCUMENT_MAP)) {
-        tell_kind(n, name, k->kind == ENTRY_LIST ? "a list of maps: - {...}" : "a map: NAME: {...}",
-                  m);
+        report_kind(n, name,
+                    k->kind == ENTRY_LIST ? "a list of maps: - {...}" : "a map: NAME: {...}", m);
         return;
     }
     for (int i = 0; i < n->count; i++)
@@ -245,11 +245,11 @@ static void check_entries(const document_node *n, const entry_field *k, const do
 static void check_words(const document_node *n, const document_node *name, mistakes *m)
 {
     if (n->kind == DOCUMENT_MAP)
-        tell_kind(n, name, "a word or a list of words", m);
+        report_kind(n, name, "a word or a list of words", m);
     if (n->kind == DOCUMENT_LIST)
         for (int i = 0; i < n->count; i++)
             if (n->item[i]->kind != DOCUMENT_TEXT)
-                tell_kind(n->item[i], name, "a word", m);
+                report_kind(n->item[i], name, "a word", m);
 }
 
 static void check_value(const document_node *n, const entry_field *k, const document_node *name,
@@ -264,8 +264,9 @@ static void check_value(const document_node *n, const entry_field *k, const docu
     case ENTRY_NUMBER:
     case ENTRY_WHOLE:
         if (n->kind != DOCUMENT_TEXT)
-            tell_kind(n, name,
-                      k->kind == ENTRY_NUMBER || k->kind == ENTRY_WHOLE ? "a number" : "a text", m);
+            report_kind(n, name,
+                        k->kind == ENTRY_NUMBER || k->kind == ENTRY_WHOLE ? "a number" : "a text",
+                        m);
         break;
     case ENTRY_WORDS:
         check_words(n, name, m);
@@ -279,7 +280,7 @@ static void check_value(const document_node *n, const entry_field *k, const docu
         break;
     case ENTRY_NUMBERS:
         if (n->kind != DOCUMENT_LIST && !range_is(n))
-            tell_kind(n, name, "a list of numbers or a range a..b", m);
+            report_kind(n, name, "a list of numbers or a range a..b", m);
         break;
     case ENTRY_MAP:
         check_map(n, &below, name, m);
@@ -290,7 +291,7 @@ static void check_value(const document_node *n, const entry_field *k, const docu
         break;
     case ENTRY_NAMES:
         if (n->kind != DOCUMENT_MAP)
-            tell_kind(n, name, "a map: NAME: value", m);
+            report_kind(n, name, "a map: NAME: value", m);
         if (n->kind == DOCUMENT_MAP && k->below->name != NULL)
             for (int i = 0; i < n->count; i++)
                 check_value(n->item[i], k->below, n->key[i], m);
@@ -395,8 +396,8 @@ static void check_missing(const document_node *map, const known_keys *known,
 }
 
 /* Reports that a map is expected, for example "a map: {mass: ..., stiffness: ..., ratio: ...}". */
-static void tell_map(const document_node *n, const known_keys *known, const document_node *name,
-                     mistakes *m)
+static void report_map(const document_node *n, const known_keys *known, const document_node *name,
+                       mistakes *m)
 {
     enum { MOST_KEYS = 4 };
     char keys[160] = "key: value, ...";
@@ -408,14 +409,14 @@ static void tell_map(const document_node *n, const known_keys *known, const docu
                                      count > 1 ? ", " : "", k->name);
     char expected[200];
     snprintf(expected, sizeof expected, "a map: {%s%s}", keys, count > MOST_KEYS ? ", ..." : "");
-    tell_kind(n, name, expected, m);
+    report_kind(n, name, expected, m);
 }
 
 static void check_map(const document_node *map, const known_keys *known, const document_node *name,
                       mistakes *m)
 {
     if (map->kind != DOCUMENT_MAP) {
-        tell_map(map, known, name, m);
+        report_map(map, known, name, m);
         return;
     }
     for (int i = 0; i < map->count; i++) {

@@ -228,7 +228,7 @@ const char *scene_file_path(const case_type *type)
 /* A reference value at a point. */
 typedef struct file_truth {
     int holds; /* 1 if the reference value applies at the present point */
-    scene_truth says;
+    scene_truth truth_row;
 } file_truth;
 
 static const scene_quantity *quantity_of(const scene *s, const char *name)
@@ -370,7 +370,7 @@ static status give_at(const scene_file *file, const double point[], scene *s, ar
         m.out_of_memory |= a->failed;
         TRY(mistakes_status(&m, f));
         if (one.holds)
-            TRY(take(to, &one.says, f));
+            TRY(take(to, &one.truth_row, f));
     }
     m.out_of_memory |= a->failed;
     return mistakes_status(&m, f);

@@ -292,8 +292,9 @@ static void read_meshes(builder *b)
         usual[i] *= least;
     double *value;
     int mesh[SCENE_MESHES];
-    const document_node *said = document_find(b->root, "meshes"),
-                        *n = said != NULL ? choose_value(said, b->names, b->mistakes) : NULL;
+    const document_node *meshes_node = document_find(b->root, "meshes"),
+                        *n = meshes_node != NULL ? choose_value(meshes_node, b->names, b->mistakes)
+                                                 : NULL;
     const int count = n != NULL ? range_values(n, b->names, b->arena, b->mistakes, &value) : 0;
     if (count <= 0) {
         scene_meshes(b->scene, 4, usual);
@@ -312,7 +313,7 @@ static void read_meshes(builder *b)
 }
 
 /* Reports a rejection at the position of the entry that the message names ("node tip: ..."). */
-static void tell_refusal(const builder *b, const char *text)
+static void report_refusal(const builder *b, const char *text)
 {
     static const char *const word[SCENE_LISTS] = {
         "section ",  "node ",     "member ", "spring ",      "driver ",     "load ",
@@ -340,11 +341,11 @@ static int refuses(const builder *b)
     const document_node *all = document_find(b->root, "refuse");
     const int before = b->mistakes->count;
     for (int i = 0; all != NULL && i < all->count; i++) {
-        const document_node *say = document_find(all->item[i], "say");
+        const document_node *text_node = document_find(all->item[i], "say");
         if (!choose_holds(document_find(all->item[i], "if"), b->names, b->mistakes))
             continue;
-        const char *text = substitute_said(say, b->names, b->arena, b->mistakes);
-        document_mistake(b->mistakes, say, 0, "%s", text != NULL ? text : "");
+        const char *text = substitute_for_message(text_node, b->names, b->arena, b->mistakes);
+        document_mistake(b->mistakes, text_node, 0, "%s", text != NULL ? text : "");
     }
     return b->mistakes->count > before;
 }
@@ -362,7 +363,7 @@ static void to_si(const builder *b, int own)
     }
     scene_change_force(s, b->units.force);
     if (scene_change_unit(s, b->units.length, &f) != STATUS_OK)
-        tell_refusal(b, f.text);
+        report_refusal(b, f.text);
 }
 
 static void hold_warping(builder *b)
@@ -392,7 +393,7 @@ static int build_lists(builder *b)
 
 void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out)
 {
-    builder b = {.unsaid_warping = SCENE_WARP_BY_SUPPORT,
+    builder b = {.default_warping = SCENE_WARP_BY_SUPPORT,
                  .arena = a,
                  .mistakes = m,
                  .scene = out,
@@ -418,7 +419,7 @@ void build_scene(const document_node *root, const scope *names, arena *a, mistak
     scene_join_instants(out);
     m->out_of_memory |= out->out_of_memory;
     if (m->count == 0 && !m->out_of_memory && scene_validate(out, &f) != STATUS_OK)
-        tell_refusal(&b, f.text);
+        report_refusal(&b, f.text);
 }
 
 /* Returns the tree, which the arena owns, or NULL if out of memory. */

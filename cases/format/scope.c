@@ -120,10 +120,10 @@ int substitute_is_left(const char *text)
     return 0;
 }
 
-/* Writes the value of a name as text. If `said` is 1, the text is for messages. Returns 0 after an
- * error, which is reported. */
-static int value_text(const document_node *n, int at, size_t length, int said, const scope *names,
-                      mistakes *m, char out[64])
+/* Writes the value of a name as text. If `for_message` is 1, the text is for messages. Returns 0
+ * after an error, which is reported. */
+static int value_text(const document_node *n, int at, size_t length, int for_message,
+                      const scope *names, mistakes *m, char out[64])
 {
     const char *name = n->text + at + (n->text[at + 1] == '{' ? 2 : 1);
     const scope *known = scope_find(names, name, length);
@@ -132,7 +132,7 @@ static int value_text(const document_node *n, int at, size_t length, int said, c
         snprintf(out, 64, "%s", known->word);
         return 1;
     }
-    if (known != NULL && said) {
+    if (known != NULL && for_message) {
         snprintf(out, 64, "%g", known->number);
         return 1;
     }
@@ -154,8 +154,8 @@ static int value_text(const document_node *n, int at, size_t length, int said, c
     return 0;
 }
 
-static const char *substitute_text(const document_node *n, int said, const scope *names, arena *a,
-                                   mistakes *m)
+static const char *substitute_text(const document_node *n, int for_message, const scope *names,
+                                   arena *a, mistakes *m)
 {
     char text[LONGEST];
     size_t used = 0;
@@ -163,7 +163,8 @@ static const char *substitute_text(const document_node *n, int said, const scope
         int braces;
         const size_t length = substitute_name_at(at, &braces);
         char value[64];
-        if (length > 0 && value_text(n, (int)(at - n->text), length, said, names, m, value)) {
+        if (length > 0 &&
+            value_text(n, (int)(at - n->text), length, for_message, names, m, value)) {
             used += (size_t)snprintf(text + used, sizeof text - used, "%s", value);
             at += 1 + length + 2 * (size_t)braces;
         } else {
@@ -173,7 +174,8 @@ static const char *substitute_text(const document_node *n, int said, const scope
     return arena_copy(a, text, used);
 }
 
-const char *substitute_said(const document_node *n, const scope *names, arena *a, mistakes *m)
+const char *substitute_for_message(const document_node *n, const scope *names, arena *a,
+                                   mistakes *m)
 {
     return substitute_text(n, 1, names, a, m);
 }

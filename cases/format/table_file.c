@@ -7,7 +7,7 @@
 
 #include "cases/format/format_impl.h"
 
-enum { LINE_BYTES = 8192, COLUMNS = 256, NAME_BYTES = 64, COLUMNS_TOLD = 160 };
+enum { LINE_BYTES = 8192, COLUMNS = 256, NAME_BYTES = 64, COLUMNS_REPORTED = 160 };
 
 /* State of a file that is read for a table. */
 typedef struct table_file {
@@ -46,7 +46,7 @@ static int split(table_file *t, char *line)
  * column and returns -1. */
 static int column_of(const table_file *t, const document_node *of, int header)
 {
-    char known[COLUMNS_TOLD] = "";
+    char known[COLUMNS_REPORTED] = "";
     int found = -1;
     for (int i = 0; header && i < t->columns; i++) {
         if (strcmp(t->field[i], of->text) == 0) {

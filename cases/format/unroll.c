@@ -112,12 +112,12 @@ int unroll_entries(const document_node *collection, const scope *names, arena *a
 
 /* Reads NAME: EXPR, or a choice among expressions and words. After an error the name is still
  * defined, so the error is reported only once. */
-static const scope *add_let(const document_node *key, const document_node *said, const scope *names,
-                            arena *a, mistakes *m)
+static const scope *add_let(const document_node *key, const document_node *value_node,
+                            const scope *names, arena *a, mistakes *m)
 {
     double value;
-    const document_node *n = choose_value(said, names, m);
-    if (n != NULL && n != said && is_word(n, names))
+    const document_node *n = choose_value(value_node, names, m);
+    if (n != NULL && n != value_node && is_word(n, names))
         return scope_word(names, key->text, n->text, a);
     if (n == NULL || !expression_number(n, names, m, &value))
         value = NAN;

@@ -372,8 +372,8 @@ static void write_side(writer *w, const void *entry)
     const int stress = q->what.kind == SCENE_STRESS;
     const double place = stress ? scene_stress_of(q)->place : scene_internal_of(q)->place;
     const int before = stress ? scene_stress_of(q)->before : scene_internal_of(q)->before,
-              said = stress ? !scene_stress_of(q)->whole : place > 0 && place < 1;
-    if (said && before) {
+              is_given = stress ? !scene_stress_of(q)->whole : place > 0 && place < 1;
+    if (is_given && before) {
         write_values_key(w, "side");
         write_values_word(w, "from|to", 0);
     }

@@ -44,7 +44,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 
 /* Sets the component. turn_1 is the moment about the first axis of a sequence, which does not
  * rotate. */
-static const char *settle(const scene *s, scene_quantity *q, const char **key)
+static const char *complete(const scene *s, scene_quantity *q, const char **key)
 {
     enum { TURN_1 = SCENE_RZ + 1 };
     scene_component *what = &q->what.of.component;
@@ -78,4 +78,4 @@ const quantity_type quantity_reaction = {.key = "reaction",
                                          .unit = unit,
                                          .meaning = meaning,
                                          .read = read,
-                                         .settle = settle};
+                                         .complete = complete};

@@ -25,7 +25,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             component < SCENE_RX ? "displacement" : "rotation");
 }
 
-static const char *settle(const scene *s, scene_quantity *q, const char **key)
+static const char *complete(const scene *s, scene_quantity *q, const char **key)
 {
     (void)s;
     (void)key;
@@ -58,4 +58,4 @@ const quantity_type quantity_stiffness = {
     .meaning = meaning,
     .read = read,
     .turns = turns,
-    .settle = settle};
+    .complete = complete};

@@ -53,7 +53,7 @@ static int has_points(const scene *s, int member)
             s->section[profile].kind != SECTION_MATRICES);
 }
 
-static const char *settle(const scene *s, scene_quantity *q, const char **key)
+static const char *complete(const scene *s, scene_quantity *q, const char **key)
 {
     scene_stress *c = &q->what.of.stress;
     c->whole = isnan(c->place);
@@ -90,5 +90,5 @@ const quantity_type quantity_stress = {.key = "stress",
                                        .unit = unit,
                                        .meaning = meaning,
                                        .read = read,
-                                       .settle = settle,
+                                       .complete = complete,
                                        .check = check};

@@ -42,15 +42,15 @@ typedef struct changes {
     scene_words last; /* name of the entry that changes last */
 } changes;
 
-static void add_changes(int stations, const double path[], const double value[], scene_words who,
-                        changes *c)
+static void add_changes(int stations, const double path[], const double value[],
+                        scene_words owner_name, changes *c)
 {
     for (int i = 1; i < stations; i++) {
         if (value[i] == value[i - 1])
             continue;
         c->begin = fmin(c->begin, path[i - 1]);
         if (path[i] > c->end)
-            c->last = who;
+            c->last = owner_name;
         c->end = fmax(c->end, path[i]);
     }
 }
@@ -141,22 +141,22 @@ const char *const scene_column_name[SCENE_COLUMNS] = {"linear",
                                                       "harmonic about a path",
                                                       "harmonic about an instant"};
 
-static int called(const scene *s, scene_list list, int i, char *who, int size)
+static int called(const scene *s, scene_list list, int i, char *owner_name, int size)
 {
-    if (who != NULL)
-        snprintf(who, (size_t)size, "%s", scene_called(s, list, i).text);
+    if (owner_name != NULL)
+        snprintf(owner_name, (size_t)size, "%s", scene_called(s, list, i).text);
     return 1;
 }
 
 /* Returns 1 if `is` is true for a load that acts in the analysis, and writes the name of the first
- * such load to `who` (may be NULL). */
-static int load_that(const scene *s, int analysis, int (*is)(const scene_load *), char *who,
+ * such load to `owner_name` (may be NULL). */
+static int load_that(const scene *s, int analysis, int (*is)(const scene_load *), char *owner_name,
                      int size)
 {
     for (int i = 0; i < s->loads; i++)
         if (is(&s->load[i]) &&
             scene_acting_factor(s, scene_acting_of(s, analysis), s->load[i].load_case) != 0)
-            return called(s, SCENE_LOADS, i, who, size);
+            return called(s, SCENE_LOADS, i, owner_name, size);
     return 0;
 }
 
@@ -165,9 +165,9 @@ static int load_that(const scene *s, int analysis, int (*is)(const scene_load *)
     {                                                                                              \
         return condition;                                                                          \
     }                                                                                              \
-    static int has_##name(const scene *s, int analysis, char *who, int size)                       \
+    static int has_##name(const scene *s, int analysis, char *owner_name, int size)                \
     {                                                                                              \
-        return load_that(s, analysis, is_##name, who, size);                                       \
+        return load_that(s, analysis, is_##name, owner_name, size);                                \
     }
 LOAD(force,
      l->kind == SCENE_FORCE && l->towards == SCENE_NONE && !l->follower && vec3_norm(l->at) == 0)
@@ -200,24 +200,24 @@ static int is_fed_back(const scene_load *l)
 
 /* Returns 1 if a load has feedback that the analysis cannot include. Modal analyses include
  * feedback if their modes are damped, except about an instant. */
-static int has_feedback(const scene *s, int analysis, char *who, int size)
+static int has_feedback(const scene *s, int analysis, char *owner_name, int size)
 {
     const scene_analysis *a = &s->analysis[analysis];
     return (!a->damped || !isnan(scene_instant_of(s, analysis))) && !a->open_loops &&
-           load_that(s, analysis, is_fed_back, who, size);
+           load_that(s, analysis, is_fed_back, owner_name, size);
 }
 
 LOAD(staying, along_path_factor(l, 0) != 0)
 LOAD(of_case, l->load_case != SCENE_NONE)
 
 #define MEMBER(name, condition)                                                                    \
-    static int has_##name(const scene *s, int analysis, char *who, int size)                       \
+    static int has_##name(const scene *s, int analysis, char *owner_name, int size)                \
     {                                                                                              \
         (void)analysis;                                                                            \
         for (int i = 0; i < s->members; i++) {                                                     \
             const scene_member *m = &s->member[i];                                                 \
             if (condition)                                                                         \
-                return called(s, SCENE_MEMBERS, i, who, size);                                     \
+                return called(s, SCENE_MEMBERS, i, owner_name, size);                              \
         }                                                                                          \
         return 0;                                                                                  \
     }
@@ -236,13 +236,13 @@ MEMBER(matrices, s->section[m->section].kind == SECTION_MATRICES)
 MEMBER(held_warping, m->warp_p == SCENE_WARP_FIXED || m->warp_q == SCENE_WARP_FIXED)
 
 #define NODE(name, condition)                                                                      \
-    static int has_##name(const scene *s, int analysis, char *who, int size)                       \
+    static int has_##name(const scene *s, int analysis, char *owner_name, int size)                \
     {                                                                                              \
         (void)analysis;                                                                            \
         for (int i = 0; i < s->nodes; i++) {                                                       \
             const scene_node *n = &s->node[i];                                                     \
             if (condition)                                                                         \
-                return called(s, SCENE_NODES, i, who, size);                                       \
+                return called(s, SCENE_NODES, i, owner_name, size);                                \
         }                                                                                          \
         return 0;                                                                                  \
     }
@@ -252,80 +252,80 @@ NODE(tied, n->attached != SCENE_NONE)
 NODE(axes, vec3_norm(n->axes[0]) > 0)
 NODE(fork, n->rotation == SCENE_ROTATION_FORK)
 
-static int has_dashpot(const scene *s, int analysis, char *who, int size)
+static int has_dashpot(const scene *s, int analysis, char *owner_name, int size)
 {
     (void)analysis;
     for (int i = 0; i < s->springs; i++)
         if (scene_spring_damps(&s->spring[i]))
-            return called(s, SCENE_SPRINGS, i, who, size);
+            return called(s, SCENE_SPRINGS, i, owner_name, size);
     return 0;
 }
 
-static int has_unsymmetric_dashpot(const scene *s, int analysis, char *who, int size)
+static int has_unsymmetric_dashpot(const scene *s, int analysis, char *owner_name, int size)
 {
     (void)analysis;
     for (int i = 0; i < s->springs; i++)
         if (scene_spring_gyrates(&s->spring[i]))
-            return called(s, SCENE_SPRINGS, i, who, size);
+            return called(s, SCENE_SPRINGS, i, owner_name, size);
     return 0;
 }
 
 /* Returns 1 if the stiffness of a spring is unsymmetric and the analysis does not compute damped
  * modes, which use unsymmetric stiffness. */
-static int has_unsymmetric_spring(const scene *s, int analysis, char *who, int size)
+static int has_unsymmetric_spring(const scene *s, int analysis, char *owner_name, int size)
 {
     for (int i = 0; i < s->springs && !s->analysis[analysis].damped; i++)
         if (scene_spring_circulates(&s->spring[i]))
-            return called(s, SCENE_SPRINGS, i, who, size);
+            return called(s, SCENE_SPRINGS, i, owner_name, size);
     return 0;
 }
 
-static int has_spring(const scene *s, int analysis, char *who, int size)
+static int has_spring(const scene *s, int analysis, char *owner_name, int size)
 {
     (void)analysis;
     for (int i = 0; i < s->springs; i++)
         for (int k = 0; k < 36; k++)
             if (s->spring[i].stiffness[k] != 0)
-                return called(s, SCENE_SPRINGS, i, who, size);
+                return called(s, SCENE_SPRINGS, i, owner_name, size);
     return 0;
 }
 
-static int has_table(const scene *s, int analysis, char *who, int size)
+static int has_table(const scene *s, int analysis, char *owner_name, int size)
 {
     (void)analysis;
     for (int i = 0; i < s->springs; i++)
         for (int k = 0; k < 6; k++)
             if (s->spring[i].table[k].at.stations > 0)
-                return called(s, SCENE_SPRINGS, i, who, size);
+                return called(s, SCENE_SPRINGS, i, owner_name, size);
     return 0;
 }
 
-static int has_kink(const scene *s, int analysis, char *who, int size)
+static int has_kink(const scene *s, int analysis, char *owner_name, int size)
 {
     (void)analysis;
     for (int i = 0; i < s->springs; i++)
         if (scene_spring_kink(&s->spring[i]) != SCENE_NONE)
-            return called(s, SCENE_SPRINGS, i, who, size);
+            return called(s, SCENE_SPRINGS, i, owner_name, size);
     return 0;
 }
 
-static int has_constraint(const scene *s, int analysis, char *who, int size)
+static int has_constraint(const scene *s, int analysis, char *owner_name, int size)
 {
     (void)analysis;
-    return s->constraints > 0 && called(s, SCENE_CONSTRAINTS, 0, who, size);
+    return s->constraints > 0 && called(s, SCENE_CONSTRAINTS, 0, owner_name, size);
 }
 
-static int has_diaphragm(const scene *s, int analysis, char *who, int size)
+static int has_diaphragm(const scene *s, int analysis, char *owner_name, int size)
 {
     (void)analysis;
     for (int i = 0; i < s->constraints; i++)
         if (s->constraint[i].master != SCENE_NONE)
-            return called(s, SCENE_CONSTRAINTS, i, who, size);
+            return called(s, SCENE_CONSTRAINTS, i, owner_name, size);
     return 0;
 }
 
 /* Returns 1 if ends of two members share a warping coordinate. */
-static int has_shared_warping(const scene *s, int analysis, char *who, int size)
+static int has_shared_warping(const scene *s, int analysis, char *owner_name, int size)
 {
     (void)analysis;
     for (int i = 0; i < 2 * s->members; i++)
@@ -333,64 +333,64 @@ static int has_shared_warping(const scene *s, int analysis, char *who, int size)
             const scene_member *a = &s->member[i / 2], *b = &s->member[j / 2];
             const int one = i % 2 ? a->warp_q : a->warp_p, other = j % 2 ? b->warp_q : b->warp_p;
             if (one >= 0 && one == other)
-                return called(s, SCENE_MEMBERS, i / 2, who, size);
+                return called(s, SCENE_MEMBERS, i / 2, owner_name, size);
         }
     return 0;
 }
 
-static int has_start(const scene *s, int analysis, char *who, int size)
+static int has_start(const scene *s, int analysis, char *owner_name, int size)
 {
     (void)analysis;
     for (int i = 0; i < s->analyses; i++)
         if (s->analysis[i].kind == SCENE_MOTION) {
             const scene_start *b = &s->analysis[i].of.motion.start;
             if (vec3_norm(b->velocity) > 0 || vec3_norm(b->spin) > 0)
-                return called(s, SCENE_ANALYSES, i, who, size);
+                return called(s, SCENE_ANALYSES, i, owner_name, size);
         }
     return 0;
 }
 
-static int has_shape(const scene *s, int analysis, int by_mode, char *who, int size)
+static int has_shape(const scene *s, int analysis, int by_mode, char *owner_name, int size)
 {
     for (int i = 0; i < s->imperfections && !scene_is_perfect(s, analysis); i++)
         if ((s->imperfection[i].analysis != SCENE_NONE) == by_mode)
-            return called(s, SCENE_IMPERFECTIONS, i, who, size);
+            return called(s, SCENE_IMPERFECTIONS, i, owner_name, size);
     return 0;
 }
 
-static int has_mode(const scene *s, int analysis, char *who, int size)
+static int has_mode(const scene *s, int analysis, char *owner_name, int size)
 {
-    return has_shape(s, analysis, 1, who, size);
+    return has_shape(s, analysis, 1, owner_name, size);
 }
 
-static int has_shifts(const scene *s, int analysis, char *who, int size)
+static int has_shifts(const scene *s, int analysis, char *owner_name, int size)
 {
-    return has_shape(s, analysis, 0, who, size);
+    return has_shape(s, analysis, 0, owner_name, size);
 }
 
-static int has_drive(const scene *s, int analysis, char *who, int size)
+static int has_drive(const scene *s, int analysis, char *owner_name, int size)
 {
     (void)analysis;
-    return s->drivers > 0 && called(s, SCENE_DRIVERS, 0, who, size);
+    return s->drivers > 0 && called(s, SCENE_DRIVERS, 0, owner_name, size);
 }
 
-static int has_drive_of_case(const scene *s, int analysis, char *who, int size)
+static int has_drive_of_case(const scene *s, int analysis, char *owner_name, int size)
 {
     (void)analysis;
     for (int i = 0; i < s->drivers; i++)
         if (s->driver[i].load_case != SCENE_NONE)
-            return called(s, SCENE_DRIVERS, i, who, size);
+            return called(s, SCENE_DRIVERS, i, owner_name, size);
     return 0;
 }
 
-/* Returns 1 if the analysis, or the analysis that it follows, has a rotating frame. *`who` is the
- * name of the analysis with the frame. */
-static int has_spin(const scene *s, int analysis, char *who, int size)
+/* Returns 1 if the analysis, or the analysis that it follows, has a rotating frame. *`owner_name`
+ * is the name of the analysis with the frame. */
+static int has_spin(const scene *s, int analysis, char *owner_name, int size)
 {
     const int follows = s->analysis[analysis].follows;
     return scene_rotates(&s->analysis[analysis])
-               ? called(s, SCENE_ANALYSES, analysis, who, size)
-               : follows != SCENE_NONE && has_spin(s, follows, who, size);
+               ? called(s, SCENE_ANALYSES, analysis, owner_name, size)
+               : follows != SCENE_NONE && has_spin(s, follows, owner_name, size);
 }
 
 static const char *const
@@ -543,12 +543,13 @@ static status check_unknown(const scene *s, int analysis, scene_column column, f
 status scene_inputs_check(const scene *s, int analysis, fault *f)
 {
     const scene_column column = scene_column_of(s, analysis);
-    char who[SCENE_NAME + 32];
+    char owner_name[SCENE_NAME + 32];
     TRY(check_unknown(s, analysis, column, f));
     for (const scene_input *i = scene_inputs; i->name != NULL; i++)
-        if (i->part[column] == SCENE_PART_REFUSED && i->stands(s, analysis, who, sizeof who))
+        if (i->part[column] == SCENE_PART_REFUSED &&
+            i->stands(s, analysis, owner_name, sizeof owner_name))
             return fault_set(f, STATUS_REFUSED, "%s (%s): %s (%s) %s",
                              scene_called(s, SCENE_ANALYSES, analysis).text,
-                             scene_column_name[column], who, i->name, i->why);
+                             scene_column_name[column], owner_name, i->name, i->why);
     return STATUS_OK;
 }

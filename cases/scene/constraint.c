@@ -248,28 +248,28 @@ static status check_across(const scene *s, int i, int node, fault *f)
 {
     const scene_constraint *c = &s->constraint[i];
     const scene_node *n = &s->node[node];
-    const scene_words who = scene_called(s, SCENE_CONSTRAINTS, i),
-                      whose = scene_called(s, SCENE_NODES, node);
+    const scene_words owner_name = scene_called(s, SCENE_CONSTRAINTS, i),
+                      node_name = scene_called(s, SCENE_NODES, node);
     double R[9];
     if (s->plane != SCENE_SPACE)
         return fault_set(
             f, STATUS_REFUSED,
             "%s: a diaphragm requires a three-dimensional scene; connect the nodes by part_of",
-            who.text);
+            owner_name.text);
     if (n->attached != SCENE_NONE)
-        return fault_set(f, STATUS_REFUSED, "%s: %s moves with %s; name that node", who.text,
-                         whose.text, scene_called(s, SCENE_NODES, n->attached).text);
+        return fault_set(f, STATUS_REFUSED, "%s: %s moves with %s; name that node", owner_name.text,
+                         node_name.text, scene_called(s, SCENE_NODES, n->attached).text);
     if (scene_node_axes(n, R))
         return fault_set(f, STATUS_REFUSED,
                          "%s: %s has its own axes, but a diaphragm uses those of the "
                          "scene; remove the axes",
-                         who.text, whose.text);
+                         owner_name.text, node_name.text);
     if (n->rotation != SCENE_ROTATION_SEQUENCE || !(n->axis[0][c->normal] > 0) ||
         n->axis[0][(c->normal + 1) % 3] != 0 || n->axis[0][(c->normal + 2) % 3] != 0)
         return fault_set(f, STATUS_REFUSED,
                          "%s: the rotation of %s must be given by components, or by a sequence "
                          "that begins with the normal of the diaphragm; remove 'rotation' there",
-                         who.text, whose.text);
+                         owner_name.text, node_name.text);
     return STATUS_OK;
 }
 
@@ -302,34 +302,36 @@ static status check_names(const scene *s, int i, fault *f)
 {
     const scene_constraint *c = &s->constraint[i];
     const int diaphragm = c->master != SCENE_NONE || c->normal != SCENE_NONE;
-    const scene_words who = scene_called(s, SCENE_CONSTRAINTS, i);
+    const scene_words owner_name = scene_called(s, SCENE_CONSTRAINTS, i);
     int single = c->components != 0 && (c->components & (c->components - 1)) == 0;
     if (c->components == 0 || c->components >> ALL != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: no components are given; give ux, uy, uz, rx, ry, rz", who.text);
+                         "%s: no components are given; give ux, uy, uz, rx, ry, rz",
+                         owner_name.text);
     if (diaphragm && (c->master < 0 || c->master >= s->nodes || c->normal < 0 || c->normal > 2))
         return fault_set(f, STATUS_REFUSED, "%s: the master node does not exist; add it first",
-                         who.text);
+                         owner_name.text);
     if (c->nodes < (diaphragm ? 1 : 2))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the constraint has fewer than two nodes; name two or more", who.text);
+                         "%s: the constraint has fewer than two nodes; name two or more",
+                         owner_name.text);
     if (!isfinite(c->ratio) || !(fabs(c->ratio) >= 1e-6 && fabs(c->ratio) <= 1e6))
         return fault_set(f, STATUS_REFUSED,
                          "%s: ratio = %g; give a magnitude from 1e-6 to 1e6, or fix the component",
-                         who.text, c->ratio);
+                         owner_name.text, c->ratio);
     if (c->ratio != 1 && !(single && c->nodes == 2))
         return fault_set(
             f, STATUS_REFUSED,
             "%s: a ratio relates one component of two nodes; write one entry for each component",
-            who.text);
+            owner_name.text);
     for (int k = 0; k < c->nodes; k++) {
         if (c->node[k] < 0 || c->node[k] >= s->nodes)
             return fault_set(f, STATUS_REFUSED, "%s: one of the nodes does not exist; add it first",
-                             who.text);
+                             owner_name.text);
         for (int j = diaphragm ? -1 : 0; j < k; j++)
             if ((j < 0 ? c->master : c->node[j]) == c->node[k])
                 return fault_set(f, STATUS_REFUSED, "%s: %s is named twice; name another node",
-                                 who.text, scene_called(s, SCENE_NODES, c->node[k]).text);
+                                 owner_name.text, scene_called(s, SCENE_NODES, c->node[k]).text);
     }
     return STATUS_OK;
 }

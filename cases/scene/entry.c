@@ -11,7 +11,7 @@
 static int entry_stands(const entry_field *, const void *entry);
 
 /* Returns the member of the entry that the key sets. */
-static const void *place_of(const entry_field *k, const void *entry)
+static const void *frame_motion_of(const entry_field *k, const void *entry)
 {
     return (const char *)entry + k->at;
 }
@@ -19,7 +19,7 @@ static const void *place_of(const entry_field *k, const void *entry)
 static int whole_of(const entry_field *k, const void *entry)
 {
     int value;
-    memcpy(&value, place_of(k, entry), sizeof value);
+    memcpy(&value, frame_motion_of(k, entry), sizeof value);
     return value;
 }
 
@@ -27,8 +27,8 @@ static int whole_of(const entry_field *k, const void *entry)
  * numeric. */
 static int numbers_of(const entry_field *k, const void *entry, const double **out)
 {
-    const scene_path *path = place_of(k, entry);
-    *out = place_of(k, entry);
+    const scene_path *path = frame_motion_of(k, entry);
+    *out = frame_motion_of(k, entry);
     switch (k->size > 0 ? k->kind : ENTRY_LATER) {
     case ENTRY_NUMBER:
         return 1;
@@ -82,7 +82,7 @@ static int all_usual(const entry_field *table, const void *entry)
     return usual;
 }
 
-static int says_zero(const entry_field *k, const void *entry)
+static int is_stored_zero(const entry_field *k, const void *entry)
 {
     unsigned bits = 0;
     memcpy(&bits, (const char *)entry + k->zeros, sizeof bits);
@@ -95,7 +95,7 @@ int entry_is_usual(const entry_field *k, const void *entry)
     const int count = numbers_of(k, entry, &number);
     switch (k->kind) {
     case ENTRY_NUMBER:
-        return k->size == 0 || (same_number(*number, entry_usual(k)) && !says_zero(k, entry));
+        return k->size == 0 || (same_number(*number, entry_usual(k)) && !is_stored_zero(k, entry));
     case ENTRY_MAP:
         return k->size > 0 ? !entry_stands(k, entry) : all_usual(entry_below(k), entry);
     case ENTRY_NAME:
@@ -274,7 +274,7 @@ static int same_field(const entry_field *k, const void *a, const void *b)
         return entry_stands(k, a) == entry_stands(k, b) &&
                (!entry_stands(k, a) || entry_same(entry_below(k), a, b));
     if (k->size > 0 && k->kind != ENTRY_NUMBERS)
-        return memcmp(place_of(k, a), place_of(k, b), k->size) == 0;
+        return memcmp(frame_motion_of(k, a), frame_motion_of(k, b), k->size) == 0;
     return count == other && (count == 0 || memcmp(x, y, (size_t)count * sizeof *x) == 0);
 }
 

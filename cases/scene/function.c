@@ -68,7 +68,7 @@ void function_at(const scene_function *f, double t, double out[3])
 }
 
 /* A piece is checked at the ends of this number of equal intervals. */
-enum { LOOKS = 64 };
+enum { SAMPLES = 64 };
 
 static int is_finite(const double at[3], int derivatives)
 {
@@ -84,8 +84,8 @@ int function_finite(const scene_function *f, double end, int derivatives, double
     for (int i = 0; i < f->pieces && from <= end; i++) {
         const int last = i == f->pieces - 1;
         const double to = last ? end : fmin(end, f->piece[i].until);
-        for (int k = 0; k <= LOOKS && from <= to; k++) {
-            *time = k == LOOKS ? to : from + k * (to - from) / LOOKS;
+        for (int k = 0; k <= SAMPLES && from <= to; k++) {
+            *time = k == SAMPLES ? to : from + k * (to - from) / SAMPLES;
             formula_at(f->piece[i].is, *time, at);
             if (!is_finite(at, derivatives))
                 return 0;

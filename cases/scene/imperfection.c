@@ -64,22 +64,22 @@ static status check_shifts(const scene *s, int i, fault *f)
     const int normal = scene_normal(s);
     for (int k = 0; k < p->nodes; k++) {
         const scene_words called = scene_called(s, SCENE_IMPERFECTIONS, i);
-        const char *who = called.text;
+        const char *owner_name = called.text;
         const double *v = p->shift[k];
         if (p->node[k] < 0 || p->node[k] >= s->nodes)
             return fault_set(f, STATUS_REFUSED, "%s: a shifted node does not exist; add it first",
-                             who);
+                             owner_name);
         if (!isfinite(v[0]) || !isfinite(v[1]) || !isfinite(v[2]))
-            return fault_set(f, STATUS_REFUSED, "%s: the shift of %s is not finite", who,
+            return fault_set(f, STATUS_REFUSED, "%s: the shift of %s is not finite", owner_name,
                              scene_called(s, SCENE_NODES, p->node[k]).text);
         if (normal != SCENE_NONE && v[normal] != 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: the shift of %s leaves the plane; make that component 0", who,
-                             scene_called(s, SCENE_NODES, p->node[k]).text);
+                             "%s: the shift of %s leaves the plane; make that component 0",
+                             owner_name, scene_called(s, SCENE_NODES, p->node[k]).text);
         for (int other = 0; other < k; other++)
             if (p->node[other] == p->node[k])
                 return fault_set(f, STATUS_REFUSED, "%s: %s is shifted twice; give only one shift",
-                                 who, scene_called(s, SCENE_NODES, p->node[k]).text);
+                                 owner_name, scene_called(s, SCENE_NODES, p->node[k]).text);
     }
     return STATUS_OK;
 }

@@ -48,18 +48,18 @@ static int scene_member_is_free(const scene_member *m)
            m->free_curvature[1] != 0;
 }
 
-int scene_is_free(const scene *s, scene_words *who)
+int scene_is_free(const scene *s, scene_words *owner_name)
 {
     for (int i = 0; i < s->loads; i++)
         if (s->load[i].kind == SCENE_TEMPERATURE && scene_load_acts(&s->load[i])) {
-            if (who != NULL)
-                *who = scene_called(s, SCENE_LOADS, i);
+            if (owner_name != NULL)
+                *owner_name = scene_called(s, SCENE_LOADS, i);
             return 1;
         }
     for (int i = 0; i < s->members; i++)
         if (scene_member_is_free(&s->member[i])) {
-            if (who != NULL)
-                *who = scene_called(s, SCENE_MEMBERS, i);
+            if (owner_name != NULL)
+                *owner_name = scene_called(s, SCENE_MEMBERS, i);
             return 1;
         }
     return 0;

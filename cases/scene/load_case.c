@@ -105,29 +105,30 @@ static status check_loads(const scene *s, fault *f)
 static status check_combination(const scene *s, int i, fault *f)
 {
     const scene_combination *c = &s->combination[i];
-    const scene_words who = scene_called(s, SCENE_COMBINATIONS, i);
+    const scene_words owner_name = scene_called(s, SCENE_COMBINATIONS, i);
     if (c->terms == 0)
         return fault_set(
             f, STATUS_REFUSED,
             "%s: it contains no load case of this scene, so no load acts; give the combination "
             "{CASE: FACTOR}, or the same 'if' conditions as the loads have",
-            who.text);
+            owner_name.text);
     for (int k = 0; k < s->cases; k++)
         if (strcmp(s->load_case[k].name, c->name) == 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: a load case has the same name; rename one of them", who.text);
+                             "%s: a load case has the same name; rename one of them",
+                             owner_name.text);
     for (int k = 0; k < c->terms; k++) {
         if (c->term[k].load_case < 0 || c->term[k].load_case >= s->cases ||
             !isfinite(c->term[k].factor))
             return fault_set(f, STATUS_REFUSED,
                              "%s: term %d is not a load case with a finite factor; name a load "
                              "case and give a finite factor",
-                             who.text, k);
+                             owner_name.text, k);
         for (int j = 0; j < k; j++)
             if (c->term[j].load_case == c->term[k].load_case)
                 return fault_set(f, STATUS_REFUSED,
-                                 "%s: load case %s is listed twice; add up its factors", who.text,
-                                 s->load_case[c->term[k].load_case].name);
+                                 "%s: load case %s is listed twice; add up its factors",
+                                 owner_name.text, s->load_case[c->term[k].load_case].name);
     }
     return STATUS_OK;
 }
@@ -187,19 +188,20 @@ status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f)
     if (q->what.kind == SCENE_ENVELOPE_OF) /* specified by the quantities of the envelope */
         return STATUS_OK;
     const int all = scene_solves_all(s, q->analysis),
-              says = q->envelope != SCENE_ENVELOPE_NONE || scene_acting_number(s, q->acting) > 0;
+              has_envelope =
+                  q->envelope != SCENE_ENVELOPE_NONE || scene_acting_number(s, q->acting) > 0;
     const scene_words of = scene_name(s, SCENE_ANALYSES, q->analysis);
-    if (all && !says)
+    if (all && !has_envelope)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: %s solves every load case and combination; select one with "
                          "%s, or request an envelope: max, min or largest",
                          q->name, of.text, example(s).text);
-    if (!all && says && scene_acting_of(s, q->analysis) == 0)
+    if (!all && has_envelope && scene_acting_of(s, q->analysis) == 0)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: %s has no load cases or combinations; remove 'case', "
                          "'combination' and 'envelope'",
                          q->name, of.text);
-    if (!all && says)
+    if (!all && has_envelope)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: %s is solved only for %s; remove 'case', 'combination' and "
                          "'envelope', or name a linear analysis that selects no load case",

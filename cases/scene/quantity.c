@@ -227,7 +227,7 @@ const scene_relative *scene_relative_of(const scene_quantity *q)
     return &q->what.of.relative;
 }
 
-int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind)
+int scene_requests(const scene_quantity *q, int analysis, scene_quantity_kind kind)
 {
     return q->analysis == analysis && q->what.kind == kind;
 }

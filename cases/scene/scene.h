@@ -720,7 +720,7 @@ const scene_relative *scene_relative_of(const scene_quantity *q);
 const scene_internal *scene_internal_of(const scene_quantity *q);
 const scene_stress *scene_stress_of(const scene_quantity *q);
 /* Returns 1 if the quantity is of this kind and of this analysis. */
-int scene_asks(const scene_quantity *q, int analysis, scene_quantity_kind kind);
+int scene_requests(const scene_quantity *q, int analysis, scene_quantity_kind kind);
 /* Returns 1 if the quantity needs reactions, resultants or stresses. */
 int scene_reads_forces(const scene_quantity *q);
 /* Returns 1 if a quantity, an imperfection, or a used analysis that follows it uses the analysis.
@@ -1046,8 +1046,8 @@ int scene_add_member(scene *s, int p, int q, int profile,
  * pretension. */
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f);
 /* Returns 1 if the scene has a temperature load or a member with a stress-free elongation or
- * curvature. Writes the name of the load or member to `who`, which may be NULL. */
-int scene_is_free(const scene *s, scene_words *who);
+ * curvature. Writes the name of the load or member to `owner_name`, which may be NULL. */
+int scene_is_free(const scene *s, scene_words *owner_name);
 /* Return 1 if the member is tapered, or if any member of the scene is tapered. */
 int scene_member_tapers(const scene_member *m);
 int scene_tapers(const scene *s);
@@ -1316,7 +1316,7 @@ typedef enum entry_kind {
 
 /* How the components in a word change if the axes are rotated. */
 typedef enum entry_turns {
-    ENTRY_STAYS,
+    ENTRY_FIXED,
     ENTRY_COMPONENT, /* in the same way as a displacement or a rotation along the axes */
     ENTRY_AXIS,      /* in the same way as a direction */
     ENTRY_DIAGONAL   /* in the same way as a component, but without a change of sign */
@@ -1444,9 +1444,9 @@ typedef struct scene_input {
     const char part[SCENE_COLUMNS + 1]; /* a scene_part for each column */
     const char
         *why; /* reason for the rejection, and the remedy, or NULL if the entry is never rejected */
-    /* Returns 1 if the scene or this analysis has the entry, and sets `who` to the name of the
-     * entry, such as "load p". */
-    int (*stands)(const scene *, int analysis, char *who, int size);
+    /* Returns 1 if the scene or this analysis has the entry, and sets `owner_name` to the name of
+     * the entry, such as "load p". */
+    int (*stands)(const scene *, int analysis, char *owner_name, int size);
 } scene_input;
 
 /* The table, which ends with a NULL name. */
@@ -1560,10 +1560,10 @@ typedef struct quantity_type {
     double (*eigenvalue)(const scene_quantity *, const quantity_eigenvalue *, double *part);
     /* The following functions are NULL for most kinds. `turns` sets *out to the i-th rotation
      * component that the quantity needs and returns 1, or returns 0 if there are no more
-     * components. `settle` completes the data read from a file, and returns an error message for
+     * components. `complete` completes the data read from a file, and returns an error message for
      * *key, or NULL. `check` returns REFUSED for errors that the table does not cover. */
     int (*turns)(const scene *, const scene_quantity *, int i, scene_component *out);
-    const char *(*settle)(const scene *, scene_quantity *, const char **key);
+    const char *(*complete)(const scene *, scene_quantity *, const char **key);
     status (*check)(const scene *, const scene_quantity *, fault *);
 } quantity_type;
 

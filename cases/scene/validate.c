@@ -323,29 +323,30 @@ static status check_feedback(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
     const scene_feedback *b = &load->feedback;
-    const scene_words who = scene_called(s, SCENE_LOADS, i);
+    const scene_words owner_name = scene_called(s, SCENE_LOADS, i);
     if (b->node == SCENE_NONE)
         return STATUS_OK;
     if (load->kind != SCENE_FORCE && load->kind != SCENE_MOMENT)
         return fault_set(f, STATUS_REFUSED,
                          "%s: feedback is supported only for a force or a moment at a node; add a "
                          "node where the load acts",
-                         who.text);
+                         owner_name.text);
     if (b->proportional == 0 && b->derivative == 0 && b->integral == 0)
         return fault_set(f, STATUS_REFUSED,
                          "%s: the feedback has no gain; give proportional, derivative or integral",
-                         who.text);
-    return b->from != b->node ? STATUS_OK
-                              : fault_set(f, STATUS_REFUSED,
-                                          "%s: the component of %s minus itself is always 0; name "
-                                          "another node in 'from', or remove 'from'",
-                                          who.text, scene_called(s, SCENE_NODES, b->node).text);
+                         owner_name.text);
+    return b->from != b->node
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "%s: the component of %s minus itself is always 0; name "
+                           "another node in 'from', or remove 'from'",
+                           owner_name.text, scene_called(s, SCENE_NODES, b->node).text);
 }
 
 static status check_tension(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
-    const scene_words who = scene_called(s, SCENE_LOADS, i);
+    const scene_words owner_name = scene_called(s, SCENE_LOADS, i);
     double apart[3];
     if (load->towards == SCENE_NONE)
         return load->tension == 0
@@ -353,13 +354,13 @@ static status check_tension(const scene *s, int i, fault *f)
                    : fault_set(
                          f, STATUS_REFUSED,
                          "%s: a tension acts between two nodes; name the second one with 'towards'",
-                         who.text);
+                         owner_name.text);
     if (load->kind != SCENE_FORCE || vec3_norm(load->vector) > 0 || load->follower ||
         vec3_norm(load->at) > 0)
         return fault_set(f, STATUS_REFUSED,
                          "%s: 'towards' applies only to a tension, and a tension has no vector, "
                          "'where', 'at' or 'follower'; remove the keys that do not apply",
-                         who.text);
+                         owner_name.text);
     for (int k = 0; k < 3; k++)
         apart[k] = s->node[load->towards].position[k] - s->node[load->where].position[k];
     return vec3_norm(apart) > 0
@@ -367,7 +368,7 @@ static status check_tension(const scene *s, int i, fault *f)
                : fault_set(f, STATUS_REFUSED,
                            "%s: both nodes have the same position, so the tension has no "
                            "direction; move one of them",
-                           who.text);
+                           owner_name.text);
 }
 
 static status check_load(const scene *s, int i, fault *f)

@@ -352,18 +352,19 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
  * velocities in fixed axes that small motions do not contain. */
 static status check_about_rotation(const scene *s, const scene_analysis *a, int i, fault *f)
 {
-    const scene_words who = scene_called(s, SCENE_ANALYSES, i),
+    const scene_words owner_name = scene_called(s, SCENE_ANALYSES, i),
                       axes = scene_name(s, SCENE_ANALYSES, a->follows);
     if (a->by_modes || scene_has_ratios(a))
         return fault_set(f, STATUS_REFUSED,
                          "%s: modes without damping do not solve small motions in rotating axes "
                          "(%s); remove %s",
-                         who.text, axes.text, a->by_modes ? "'solution'" : "the damping ratios");
+                         owner_name.text, axes.text,
+                         a->by_modes ? "'solution'" : "the damping ratios");
     if (a->damping.mass > 0)
         return fault_set(f, STATUS_REFUSED,
                          "%s: damping in proportion to the mass acts in fixed axes, but %s has "
                          "rotating axes; remove mass, and give dashpots or damping: {stiffness: b}",
-                         who.text, axes.text);
+                         owner_name.text, axes.text);
     return STATUS_OK;
 }
 
@@ -399,7 +400,7 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
 }
 
 /* Returns 1 if a quantity belongs to this analysis. */
-static int is_asked(const scene *s, int analysis)
+static int is_requested(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++)
         if (s->quantity[i].analysis == analysis)
@@ -411,31 +412,32 @@ static int is_asked(const scene *s, int analysis)
  * only damped modes include. */
 static status check_about_motion(const scene *s, const scene_analysis *a, int i, fault *f)
 {
-    const scene_words who = scene_called(s, SCENE_ANALYSES, i);
+    const scene_words owner_name = scene_called(s, SCENE_ANALYSES, i);
     const scene_words motion = scene_name(s, SCENE_ANALYSES, a->follows);
     if (a->kind != SCENE_MODAL && a->kind != SCENE_HARMONIC)
         return fault_set(f, STATUS_REFUSED,
                          "%s: its base state belongs to a motion, whose forces are not in "
                          "equilibrium without inertia forces; follow a static path, or use modal: "
                          "{damped: yes} or a harmonic analysis, which include inertia forces",
-                         who.text);
+                         owner_name.text);
     if (a->kind == SCENE_MODAL && !a->damped)
         return fault_set(f, STATUS_REFUSED,
                          "%s: at an instant of a motion (%s), velocities cause forces that "
                          "undamped modes do not include; add damped: yes",
-                         who.text, motion.text);
+                         owner_name.text, motion.text);
     if (a->by_modes || scene_has_ratios(a))
         return fault_set(f, STATUS_REFUSED,
                          "%s: undamped modes do not describe small motions about an instant of a "
                          "motion (%s); remove %s",
-                         who.text, motion.text, a->by_modes ? "'solution'" : "the damping ratios");
+                         owner_name.text, motion.text,
+                         a->by_modes ? "'solution'" : "the damping ratios");
     if (a->damping.mass > 0 || a->damping.stiffness > 0)
         return fault_set(
             f, STATUS_REFUSED,
             "%s: small motions about an instant have the damping of the motion; remove "
             "'damping' here, and give damping: {mass: a} to %s, or 'damping' to "
             "members and springs",
-            who.text, motion.text);
+            owner_name.text, motion.text);
     return STATUS_OK;
 }
 
@@ -470,23 +472,23 @@ static status check_instant(const scene *s, const scene_analysis *a, int i, faul
 static status check_harmonic(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_path *ratios = &a->damping.ratios;
-    const scene_words who = scene_called(s, SCENE_ANALYSES, i);
+    const scene_words owner_name = scene_called(s, SCENE_ANALYSES, i);
     for (int k = 0; k < ratios->stations; k++)
         if (!(ratios->value[k] >= 0 && isfinite(ratios->value[k])))
             return fault_set(
                 f, STATUS_REFUSED,
-                "%s: a damping ratio is %g; give zero or a positive number, such as 0.02", who.text,
-                ratios->value[k]);
+                "%s: a damping ratio is %g; give zero or a positive number, such as 0.02",
+                owner_name.text, ratios->value[k]);
     if (a->modes > 0 && ratios->stations > a->modes)
         return fault_set(
             f, STATUS_REFUSED,
             "%s: there are %d damping ratios, but modes: %d; increase 'modes', or remove ratios",
-            who.text, ratios->stations, a->modes);
+            owner_name.text, ratios->stations, a->modes);
     if (a->modes > 0 && !a->by_modes && !scene_has_ratios(a))
         return fault_set(f, STATUS_REFUSED,
                          "%s: a direct solution without damping ratios does not use modes; add "
                          "solution: modal, or remove modes",
-                         who.text);
+                         owner_name.text);
     return STATUS_OK;
 }
 
@@ -525,7 +527,7 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
                          "%s: 'damping' is given, but the analysis computes undamped frequencies; "
                          "add damped: yes, or remove 'damping'",
                          scene_called(s, SCENE_ANALYSES, i).text);
-    if ((a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC) && is_asked(s, i))
+    if ((a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC) && is_requested(s, i))
         return scene_validate_mass(s, i, f);
     return a->kind == SCENE_COMPLIANCE ? check_compliance(s, a, i, f) : STATUS_OK;
 }
@@ -604,7 +606,7 @@ static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
 static status refuse_station(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_analysis *a = &s->analysis[q->analysis];
-    const scene_words who = scene_called(s, SCENE_ANALYSES, q->analysis);
+    const scene_words owner_name = scene_called(s, SCENE_ANALYSES, q->analysis);
     const int about = a->kind != SCENE_LINEAR && a->follows != SCENE_NONE &&
                               scene_path_of(&s->analysis[a->follows]) != NULL
                           ? a->follows
@@ -613,17 +615,17 @@ static status refuse_station(const scene *s, const scene_quantity *q, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: %s has one state and no stations; remove 'at' and 'take', "
                          "or use a static path",
-                         q->name, who.text);
+                         q->name, owner_name.text);
     if (s->analysis[about].kind == SCENE_MOTION)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: %s is about one instant of %s and has no stations; remove "
                          "'at' and 'take', and select the instant with 'time' of the analysis",
-                         q->name, who.text, scene_name(s, SCENE_ANALYSES, about).text);
+                         q->name, owner_name.text, scene_name(s, SCENE_ANALYSES, about).text);
     return fault_set(f, STATUS_REFUSED,
                      "quantity %s: %s is about the last state of %s and has no stations; remove "
                      "'at' and 'take'; for an earlier state, add a path that ends there and name "
                      "it with 'about'",
-                     q->name, who.text, scene_name(s, SCENE_ANALYSES, about).text);
+                     q->name, owner_name.text, scene_name(s, SCENE_ANALYSES, about).text);
 }
 
 /* Checks the stations or the window of a quantity. */

@@ -169,12 +169,12 @@ static int is_beside(const scene *s, const double v[3])
     return vec3_norm(in) > within * vec3_norm(v);
 }
 
-static status refuse(const scene *s, scene_words who, const char *what, fault *f)
+static status refuse(const scene *s, scene_words owner_name, const char *what, fault *f)
 {
     return fault_set(
         f, STATUS_REFUSED,
         "%s: %s, but the scene is confined to its plane; correct this, or remove plane: %s",
-        who.text, what, scene_plane_name(s));
+        owner_name.text, what, scene_plane_name(s));
 }
 
 static double size_of(const scene *s)
@@ -228,23 +228,23 @@ static status check_turns(const scene *s, int i, fault *f)
 static status check_node(const scene *s, int i, fault *f)
 {
     const scene_node *n = &s->node[i];
-    const scene_words who = scene_called(s, SCENE_NODES, i);
+    const scene_words owner_name = scene_called(s, SCENE_NODES, i);
     if (is_out(s, n->position))
-        return refuse(s, who, "its position is outside the plane through the first node", f);
+        return refuse(s, owner_name, "its position is outside the plane through the first node", f);
     double R[9];
     int along = scene_normal(s);
     scene_node_axes(n, R);
     for (int k = 0; k < 3; k++) {
         const double axis[3] = {R[k], R[3 + k], R[6 + k]};
         if (is_across(s, axis) && is_beside(s, axis))
-            return refuse(s, who,
+            return refuse(s, owner_name,
                           "an axis of its supports is neither in the plane nor normal to it", f);
         along = is_across(s, axis) ? k : along;
     }
     if (n->translation[along] >= 0)
-        return refuse(s, who, "it is prescribed out of the plane", f);
+        return refuse(s, owner_name, "it is prescribed out of the plane", f);
     if (scene_has_body(n) && is_across(s, n->body.centre))
-        return refuse(s, who, "the centre of its body is outside the plane", f);
+        return refuse(s, owner_name, "the centre of its body is outside the plane", f);
     return check_turns(s, i, f);
 }
 
@@ -284,7 +284,7 @@ static status check_release(const scene *s, int i, const double R[9], fault *f)
 static status check_member(const scene *s, int i, fault *f)
 {
     const scene_member *m = &s->member[i];
-    const scene_words who = scene_called(s, SCENE_MEMBERS, i);
+    const scene_words owner_name = scene_called(s, SCENE_MEMBERS, i);
     const double own[3] = {0, m->free_curvature[0], m->free_curvature[1]};
     double R[9], curvature[3], strain[3], bow[3], bent[3];
     axes_of(s, i, R);
@@ -293,29 +293,29 @@ static status check_member(const scene *s, int i, fault *f)
     to_fixed(R, m->strain, strain);
     to_fixed(R, own, bent);
     if (is_beside(s, curvature))
-        return refuse(s, who, "its initial curvature leaves the plane", f);
+        return refuse(s, owner_name, "its initial curvature leaves the plane", f);
     if (is_across(s, bow))
-        return refuse(s, who, "its imperfection leaves the plane", f);
+        return refuse(s, owner_name, "its imperfection leaves the plane", f);
     if (is_beside(s, bent))
-        return refuse(s, who, "its free curvature leaves the plane", f);
+        return refuse(s, owner_name, "its free curvature leaves the plane", f);
     if (is_across(s, strain))
-        return refuse(s, who, "its initial strain leaves the plane", f);
+        return refuse(s, owner_name, "its initial strain leaves the plane", f);
     if (is_across(s, m->offset[0]) || is_across(s, m->offset[1]))
-        return refuse(s, who, "one of its ends is outside the plane", f);
+        return refuse(s, owner_name, "one of its ends is outside the plane", f);
     return check_release(s, i, R, f);
 }
 
 static status check_load(const scene *s, int i, fault *f)
 {
     const scene_load *l = &s->load[i];
-    const scene_words who = scene_called(s, SCENE_LOADS, i);
+    const scene_words owner_name = scene_called(s, SCENE_LOADS, i);
     const int turns = scene_load_turns(l);
     double R[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1}, v[2][3], at[3];
     if (l->kind == SCENE_TEMPERATURE) {
         const double bends[3] = {0, l->gradient[1], -l->gradient[0]};
         axes_of(s, l->where, R);
         to_fixed(R, bends, at);
-        return is_beside(s, at) ? refuse(s, who, "its gradient bends out of the plane", f)
+        return is_beside(s, at) ? refuse(s, owner_name, "its gradient bends out of the plane", f)
                                 : STATUS_OK;
     }
     if (l->axes == SCENE_AXES_MEMBER && scene_load_along(l))
@@ -325,9 +325,9 @@ static status check_load(const scene *s, int i, fault *f)
     to_fixed(R, l->at, at);
     for (int k = 0; k < 2; k++)
         if (turns ? is_beside(s, v[k]) : is_across(s, v[k]))
-            return refuse(s, who,
+            return refuse(s, owner_name,
                           turns ? "it rotates out of the plane" : "it acts out of the plane", f);
-    return is_across(s, at) ? refuse(s, who, "it acts outside the plane", f) : STATUS_OK;
+    return is_across(s, at) ? refuse(s, owner_name, "it acts outside the plane", f) : STATUS_OK;
 }
 
 /* Checks the axis of rotation. An axis in the plane or normal to it causes forces in the plane,
@@ -347,14 +347,14 @@ static status check_frame(const scene *s, int i, fault *f)
 static status check_analysis(const scene *s, int i, fault *f)
 {
     const scene_analysis *a = &s->analysis[i];
-    const scene_words who = scene_called(s, SCENE_ANALYSES, i);
+    const scene_words owner_name = scene_called(s, SCENE_ANALYSES, i);
     if (a->kind == SCENE_CONTINUATION &&
         scene_continuation_of(a)->control.component == scene_normal(s))
-        return refuse(s, who, "the controlled component leaves the plane", f);
+        return refuse(s, owner_name, "the controlled component leaves the plane", f);
     if (a->kind == SCENE_MOTION) {
         const scene_start *start = &scene_motion_of(a)->start;
         if (is_across(s, start->velocity) || is_beside(s, start->spin))
-            return refuse(s, who, "it starts with a velocity out of the plane", f);
+            return refuse(s, owner_name, "it starts with a velocity out of the plane", f);
     }
     return check_frame(s, i, f);
 }

@@ -346,13 +346,13 @@ static int has_image(const section_spec *spec, const double centroid[2], const i
     for (int k = 0; k < spec->walls; k++)
         for (int turned = 0; turned < 2; turned++) {
             const int ours[2] = {spec->wall[i].from, spec->wall[i].to},
-                      theirs[2] = {turned ? spec->wall[k].to : spec->wall[k].from,
-                                   turned ? spec->wall[k].from : spec->wall[k].to};
+                      end_point[2] = {turned ? spec->wall[k].to : spec->wall[k].from,
+                                      turned ? spec->wall[k].from : spec->wall[k].to};
             double off = fabs(spec->wall[i].thickness - spec->wall[k].thickness);
             for (int e = 0; e < 2; e++)
                 for (int a = 0; a < 2; a++)
                     off = fmax(off, fabs(sign[a] * (spec->point[ours[e]][a] - centroid[a]) -
-                                         (spec->point[theirs[e]][a] - centroid[a])));
+                                         (spec->point[end_point[e]][a] - centroid[a])));
             if (off <= round_off * size)
                 return 1;
         }

@@ -210,7 +210,7 @@ static void unchanged(scene *s)
 static void refused(void)
 {
     static const struct {
-        spoil *how;
+        corrupt *how;
         scene_edit edit;
         const char *words;
     } row[] = {
@@ -224,7 +224,7 @@ static void refused(void)
     for (size_t i = 0; i < sizeof row / sizeof row[0]; i++) {
         scene s;
         fault f = {""};
-        refuse_sound(&s);
+        refuse_unchanged(&s);
         row[i].how(&s);
         gsl_test_int((int)scene_edit_apply(&s, &row[i].edit, &f), STATUS_REFUSED, "refused: %s",
                      row[i].words);
@@ -234,14 +234,14 @@ static void refused(void)
     }
 }
 
-static void stay_scenes(void)
+static void unchanged_scenes(void)
 {
     static const scene_edit edit[] = {
         {SCENE_EDIT_REVERSE, 0}, {SCENE_EDIT_SPLIT, 0.3}, {SCENE_EDIT_UNIT, 1000}};
     for (size_t i = 0; i < sizeof edit / sizeof edit[0]; i++) {
         scene s;
         fault f = {""};
-        refuse_sound(&s);
+        refuse_unchanged(&s);
         gsl_test(scene_edit_apply(&s, &edit[i], &f) != STATUS_OK, "edit %d: %s", (int)i, f.text);
         gsl_test(scene_validate(&s, &f) != STATUS_OK, "edit %d gives a scene: %s", (int)i, f.text);
         scene_free(&s);
@@ -259,7 +259,7 @@ static void in_millimetres(void)
     scene s;
     fault f = {""};
     double at[3];
-    refuse_sound(&s);
+    refuse_unchanged(&s);
     scene_drive_piece(&s, 0, 0, "t^2");
     const scene_motion how = {
         .step = 0.1, .start = {.velocity = {1, 0, 0}, .spin = {0, 2, 0}, .centre = {0, 0, 3}}};
@@ -328,7 +328,7 @@ static void edit_tests(void)
     is_split();
     parts();
     refused();
-    stay_scenes();
+    unchanged_scenes();
 }
 
 static void has_powers(void)

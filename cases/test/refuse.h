@@ -12,7 +12,7 @@ enum { ROOT, TIP, BODY };
 static const double y_axis[3] = {0, 1, 0};
 
 /* Makes a cantilever with a static path and with a body at its tip, which is driven along y. */
-static inline void refuse_sound(scene *s)
+static inline void refuse_unchanged(scene *s)
 {
     const double station[2] = {0, 1};
     section_spec spec;
@@ -29,11 +29,11 @@ static inline void refuse_sound(scene *s)
     scene_add_quantity(s, "u", "m", path, scene_coordinate(TIP, SCENE_UX));
 }
 
-typedef void spoil(scene *);
+typedef void corrupt(scene *);
 
 typedef struct refusal {
-    spoil *how;
-    const char *culprit, *words; /* start of the message, and words in the message */
+    corrupt *how;
+    const char *reported_name, *words; /* start of the message, and words in the message */
 } refusal;
 
 static inline void refuse_one_line(const char *what, const fault *f)
@@ -49,12 +49,12 @@ static inline void refuse_scene(const refusal *r)
 {
     scene s;
     fault f = {""};
-    refuse_sound(&s);
+    refuse_unchanged(&s);
     gsl_test(scene_validate(&s, &f) != STATUS_OK, "the scene is sound: %s", f.text);
     r->how(&s);
     gsl_test_int((int)scene_validate(&s, &f), STATUS_REFUSED, "refused: %s", r->words);
-    gsl_test(strncmp(f.text, r->culprit, strlen(r->culprit)) != 0, "%s is named: %s", r->culprit,
-             f.text);
+    gsl_test(strncmp(f.text, r->reported_name, strlen(r->reported_name)) != 0, "%s is named: %s",
+             r->reported_name, f.text);
     gsl_test(strstr(f.text, r->words) == NULL, "%s: %s", r->words, f.text);
     refuse_one_line(r->words, &f);
     scene_free(&s);

@@ -31,7 +31,7 @@ static void drives(scene *s, const char *first, const char *then)
         scene_drive_piece(s, 0, 0, then);
 }
 
-static void asks(scene *s, scene_extract what)
+static void requests(scene *s, scene_extract what)
 {
     moves(s);
     scene_add_quantity(s, "asked", "1", 1, what);
@@ -176,17 +176,17 @@ static void idle_function(scene *s)
 
 static void relative_to_itself(scene *s)
 {
-    asks(s, scene_relative_to(TIP, SCENE_UX, TIP));
+    requests(s, scene_relative_to(TIP, SCENE_UX, TIP));
 }
 
 static void orientation_of_nothing(scene *s)
 {
-    asks(s, scene_orientation_entry(TIP, 3, 0));
+    requests(s, scene_orientation_entry(TIP, 3, 0));
 }
 
 static void rate_of_nothing(scene *s)
 {
-    asks(s, scene_rate(9, SCENE_UX));
+    requests(s, scene_rate(9, SCENE_UX));
 }
 
 static void rate_at_rest(scene *s)
@@ -196,7 +196,7 @@ static void rate_at_rest(scene *s)
 
 static void frequency_of_motion(scene *s)
 {
-    asks(s, scene_frequency(0, SCENE_ANY));
+    requests(s, scene_frequency(0, SCENE_ANY));
 }
 
 static const refusal refusals[] = {
@@ -237,7 +237,7 @@ static void accepts(void (*how)(scene *), const char *what)
 {
     scene s;
     fault f = {""};
-    refuse_sound(&s);
+    refuse_unchanged(&s);
     how(&s);
     gsl_test(scene_validate(&s, &f) != STATUS_OK, "%s: %s", what, f.text);
     scene_free(&s);
@@ -248,7 +248,7 @@ static void held(scene *s)
     moves(s);
 }
 
-static void goes_on(scene *s)
+static void continues_another(scene *s)
 {
     drives(s, "1 + t^2", "2*t");
     scene_load_piece(s, 0, 1, "1");
@@ -280,7 +280,8 @@ static void validate_motion_tests(void)
 {
     refuse_all(sizeof refusals / sizeof refusals[0], refusals);
     accepts(held, "what no function moves stays at the end of the path");
-    accepts(goes_on, "a driver goes on where the path has left it, a load may do anything");
+    accepts(continues_another,
+            "a driver goes on where the path has left it, a load may do anything");
     accepts(without_alpha, "parameters of another integrator");
     accepts(turns_steadily, "a start from a stationary rotation");
     accepts(weighs_at_a_node, "a mass at a node only");
@@ -346,34 +347,34 @@ static void body_held(scene *s)
     scene_hold(s, BODY, SCENE_UZ, SCENE_UZ);
 }
 
-static void spoil_body(scene *s, scene_body b)
+static void corrupt_body(scene *s, scene_body b)
 {
     scene_set_body(s, 1, b);
 }
 
 static void negative_mass(scene *s)
 {
-    spoil_body(s, (scene_body){.mass = -1});
+    corrupt_body(s, (scene_body){.mass = -1});
 }
 
 static void endless_inertia(scene *s)
 {
-    spoil_body(s, (scene_body){.mass = 1, .inertia = {INFINITY, 1, 1}});
+    corrupt_body(s, (scene_body){.mass = 1, .inertia = {INFINITY, 1, 1}});
 }
 
 static void centre_of_nothing(scene *s)
 {
-    spoil_body(s, (scene_body){.centre = {0, 1, 0}});
+    corrupt_body(s, (scene_body){.centre = {0, 1, 0}});
 }
 
 static void no_triangle(scene *s)
 {
-    spoil_body(s, (scene_body){.mass = 1, .inertia = {1, 1, 2.1}});
+    corrupt_body(s, (scene_body){.mass = 1, .inertia = {1, 1, 2.1}});
 }
 
 static void products_too_large(scene *s)
 {
-    spoil_body(s, (scene_body){.mass = 1, .inertia = {1, 1, 1, 0.6, 0, 0}});
+    corrupt_body(s, (scene_body){.mass = 1, .inertia = {1, 1, 1, 0.6, 0, 0}});
 }
 
 static void loose_mass(scene *s)
@@ -575,7 +576,7 @@ static void accepts_continuation(void)
 {
     scene s;
     fault f = {""};
-    refuse_sound(&s);
+    refuse_unchanged(&s);
     continued(&s);
     gsl_test(scene_validate(&s, &f) != STATUS_OK, "a continued path is sound: %s", f.text);
     scene_free(&s);

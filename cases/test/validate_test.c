@@ -339,22 +339,22 @@ static const refusal refusals[] = {
     {body_weightless, "load 0: ", "no mass"},
 };
 
-static void says_that_memory_ran_out(void)
+static void reports_out_of_memory(void)
 {
     scene s;
     fault f = {""};
-    refuse_sound(&s);
+    refuse_unchanged(&s);
     s.out_of_memory = 1;
     gsl_test_int((int)scene_validate(&s, &f), STATUS_FAULT, "no memory: %s", f.text);
     gsl_test(strstr(f.text, "sound: out of memory") == NULL, "no memory: %s", f.text);
     scene_free(&s);
 }
 
-static void says_what_is_sought_along_paths(void)
+static void reports_what_paths_lack(void)
 {
     scene s;
     fault f = {""};
-    refuse_sound(&s);
+    refuse_unchanged(&s);
     scene_drive(&s, TIP, SCENE_UZ, scene_add_unknown_driver(&s, "sought", TIP, SCENE_UY, 0));
     gsl_test_int((int)scene_inputs_check(&s, 0, &f), STATUS_OK, "sought along a path: %s", f.text);
     const int other[] = {scene_add_linear(&s), scene_add_buckling(&s, SCENE_NONE)};
@@ -371,7 +371,7 @@ static void accepts(void)
     for (int i = 0; i < 12; i++) {
         scene s;
         fault f = {""};
-        refuse_sound(&s);
+        refuse_unchanged(&s);
         if (i < 6) {
             scene_load *l =
                 within(&s, i % 2 ? SCENE_MEMBER_FORCE : SCENE_MEMBER_MOMENT, place[i / 2]);
@@ -407,8 +407,8 @@ int main(void)
 {
     accepts();
     acts_where_it_ends();
-    says_what_is_sought_along_paths();
+    reports_what_paths_lack();
     refuse_all(sizeof refusals / sizeof refusals[0], refusals);
-    says_that_memory_ran_out();
+    reports_out_of_memory();
     return gsl_test_summary();
 }

@@ -297,7 +297,7 @@ static inline void beamw_equilibrium_step(const beamw_condensed *d, const beamw_
 
 /* Solves for z and q by Newton's method. Returns the lanes that have converged. Values of converged
  * lanes do not change further. */
-static inline real_truth beamw_equilibrium_settle(const beamw_condensed *d, beamw_internal *s)
+static inline real_truth beamw_equilibrium_solve(const beamw_condensed *d, beamw_internal *s)
 {
     enum { Z = BEAMW_INTERNAL_Z };
     const double close_enough = 1e-7; /* relative to z; the remaining error is about 1e-14 */
@@ -480,7 +480,7 @@ static inline real_truth beamw_equilibrium_stress(const beamw_condensed *d,
         s.q[i] = d->Ka[i] * s.y[E + i];
     }
     beamw_internal_evaluate(d, &s);
-    real_truth good = beamw_equilibrium_settle(d, &s);
+    real_truth good = beamw_equilibrium_solve(d, &s);
     if (!real_any(good))
         return good;
     beamw_internal_finish(d, &s);

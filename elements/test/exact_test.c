@@ -79,8 +79,8 @@ static void shear_elastica(const element_type *type, const double option[], doub
 }
 
 /* Checks the value of the finer mesh, and the order of convergence of both meshes. */
-static void judge(const element_type *type, const char *what, const double value[2], double exact,
-                  double error, double order)
+static void check_order(const element_type *type, const char *what, const double value[2],
+                        double exact, double error, double order)
 {
     const double before = fabs(value[0] / exact - 1), now = fabs(value[1] / exact - 1),
                  observed = log2(before / now);
@@ -94,10 +94,10 @@ static void shear_elastica_converges(const element_type *type, const double opti
     double coarse[2], fine[2];
     shear_elastica(type, option, 500, n, coarse);
     shear_elastica(type, option, 500, 2 * n, fine);
-    judge(type, "shear_elastica u", (const double[2]){coarse[0], fine[0]}, -0.061315655943, error,
-          order);
-    judge(type, "shear_elastica v", (const double[2]){coarse[1], fine[1]}, 0.317813875879, error,
-          order);
+    check_order(type, "shear_elastica u", (const double[2]){coarse[0], fine[0]}, -0.061315655943,
+                error, order);
+    check_order(type, "shear_elastica v", (const double[2]){coarse[1], fine[1]}, 0.317813875879,
+                error, order);
 }
 
 /* Solves the sheet flexure of N section 4.1. The tip is displaced transversely without rotation,
@@ -126,8 +126,10 @@ static void sheet_converges(const element_type *type, const double option[], int
     double coarse[2], fine[2];
     sheet(type, option, n, 0.015, coarse);
     sheet(type, option, 2 * n, 0.015, fine);
-    judge(type, "sheet C_xx", (const double[2]){coarse[0], fine[0]}, 3.972596107e-7, error, order);
-    judge(type, "sheet C_zz", (const double[2]){coarse[1], fine[1]}, 2.620413704e-8, error, order);
+    check_order(type, "sheet C_xx", (const double[2]){coarse[0], fine[0]}, 3.972596107e-7, error,
+                order);
+    check_order(type, "sheet C_zz", (const double[2]){coarse[1], fine[1]}, 2.620413704e-8, error,
+                order);
 }
 
 /* Rolls a cantilever up to a full circle by an end moment. Returns the distance of the tip from the

@@ -434,13 +434,13 @@ static void refusals(const element_type *type)
          .features = FEATURE_WAGNER_TORQUE | FEATURE_CURVATURE,
          .curvature = {0.1, 0, 0}},
     };
-    static const char *const culprit[] = {"length is 0 m", "length is nan m", "overflows",
-                                          "torsion"};
+    static const char *const reported_name[] = {"length is 0 m", "length is nan m", "overflows",
+                                                "torsion"};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         element_data *d = calloc(1, type->data_size(&bad[i]));
         fault f = {""};
         const status outcome = type->prepare(&bad[i], d, &f);
-        gsl_test(outcome != STATUS_REFUSED || strstr(f.text, culprit[i]) == NULL,
+        gsl_test(outcome != STATUS_REFUSED || strstr(f.text, reported_name[i]) == NULL,
                  "%s: refused (%s)", type->name, f.text);
         free(d);
     }

@@ -176,20 +176,20 @@ status flutter_search(newton_run *, double size, flutter_walk *, flutter_point *
  * motions decide, otherwise the number of eigenvalues of the tangent that have passed zero. */
 
 /* Work space of an analysis. All members are initially zero. */
-typedef struct flutter_judge {
+typedef struct flutter_check {
     int begun;
     /* run whose tangent has all coordinates, which the tangent of the path may not have */
     newton_run n;
     flutter_system of;
-} flutter_judge;
+} flutter_check;
 
 /* Stores the stability of the state in the record of the step that ended in the state; STEP_OPEN:
  * unknown. The work is not counted. */
-status flutter_judge_state(flutter_judge *, analysis_context *, const model_state *, step_record *,
+status flutter_check_state(flutter_check *, analysis_context *, const model_state *, step_record *,
                            fault *);
 /* Allocates j->n in the first call. Later calls have no effect. */
-status flutter_judge_begin(flutter_judge *, analysis_context *, fault *);
-void flutter_judge_free(flutter_judge *);
+status flutter_check_begin(flutter_check *, analysis_context *, fault *);
+void flutter_check_free(flutter_check *);
 
 /* Replaces the number of negative pivots for an unsymmetric tangent K: computes the eigenvalues of
  * D^-1 K nearest to zero, where D is the metric, and counts those to the left of the imaginary
@@ -249,10 +249,10 @@ typedef struct continuation {
     const scene_path *path;
     outcome_continuation *o;
     int analysis, room; /* room: number of points for which the outcome has memory */
-    int asks_critical;  /* 1: a quantity requests critical points */
+    int needs_critical; /* 1: a quantity requests critical points */
     int keeps_states;   /* 1: the outcome stores the state of every point */
     newton_run n;       /* Newton's method; n.backup is the state at the start of the step */
-    flutter_judge judge;
+    flutter_check flutter;
     model_state
         *end; /* state at the end of the step, while a critical point inside the step is sought */
     double *weight;   /* [free + driven] weights of the metric */
@@ -262,10 +262,10 @@ typedef struct continuation {
     double *mode;     /* [free + driven] null vector of K */
     path_goal goal;   /* goal of the current step */
     path_point here, next, trial;
-    int first;    /* number of negative pivots at the start of the path */
-    int narrow;   /* 1: a change of stability has been located as closely as possible */
-    int doubtful; /* 1: the step may have unknown critical points */
-    int looked;   /* 1: n.dx, response and the factors belong to the current state */
+    int first;        /* number of negative pivots at the start of the path */
+    int narrow;       /* 1: a change of stability has been located as closely as possible */
+    int is_uncertain; /* 1: the step may have unknown critical points */
+    int looked;       /* 1: n.dx, response and the factors belong to the current state */
 } continuation;
 
 status continuation_step_alloc(analysis_context *, int analysis, outcome_continuation *,
@@ -291,10 +291,10 @@ status continuation_step_end(continuation *, path_point *, const step_record *, 
 void continuation_step_go_back(continuation *);
 
 /* End of a step that may lie on another branch. */
-typedef struct rival {
+typedef struct other_branch {
     model_state *state; /* NULL: none */
     double factor;
-} rival;
+} other_branch;
 
 /* Stores the critical points between `here` and `next` as events (continuation_critical.c). goal:
  * goal with which the step was found. *jump: 1 if the step led to another branch. The number of
@@ -327,11 +327,11 @@ void spectrum_take(const scene_quantity *, int count, double step, const double 
                    quantity_result *);
 
 /* Returns 1 if a quantity that is not a curve is evaluated at this station of path[stations]. */
-int extract_path_asks(const analysis_context *, int analysis, int stations, const double path[],
-                      int station);
-/* Like extract_path_asks, but returns 1 for every station unless only values are requested
+int extract_path_has(const analysis_context *, int analysis, int stations, const double path[],
+                     int station);
+/* Like extract_path_has, but returns 1 for every station unless only values are requested
  * (solve_options.values_only). */
-int extract_path_wants(const analysis_context *, int analysis, int stations, const double path[],
+int extract_path_needs(const analysis_context *, int analysis, int stations, const double path[],
                        int station);
 /* Returns 1 if the station needs more than the motion of nodes: resultants, reactions, shapes,
  * matrices, or the initial state of a following analysis. Compliances that were already computed
@@ -343,7 +343,7 @@ int extract_path_whole(const analysis_context *, int analysis, int station);
 
 /* Examines the step between the two states. *found: a path value within the step at which stability
  * differs from that of both ends; INFINITY: none. The work is not counted. */
-status within_step(flutter_judge *, analysis_context *, const model_state *from,
+status within_step(flutter_check *, analysis_context *, const model_state *from,
                    const model_state *to, double *found, fault *);
 
 /* Small motions and stability about a loaded, deformed state: the last state of the static path
@@ -499,9 +499,10 @@ struct harmonic_modes {
     /* loops of feedback: [(count + loops)^2] factored matrix; work space */
     double complex *closed, *closing;
     int *closed_pivot;
-    double *loop_parts;        /* [loops x 2 x count] V^T P and V^T S */
-    double *balance;           /* [loops x 2] scales of rows and columns */
-    double *felt, *lag, damps; /* [loops] |P| and q; 1 minus the sum of |P| q (harmonic_closed.c) */
+    double *loop_parts; /* [loops x 2 x count] V^T P and V^T S */
+    double *balance;    /* [loops x 2] scales of rows and columns */
+    double *feedback_size, *lag,
+        damps; /* [loops] |P| and q; 1 minus the sum of |P| q (harmonic_closed.c) */
 };
 
 /* Extracts the free blocks of K, M, C and B. */
@@ -517,7 +518,7 @@ void harmonic_modes_free(harmonic_modes *);
 status harmonic_natural(vibration *, double below, int *count, double **hertz, fault *);
 /* Checks the growth of modes. REFUSED: a mode grows because of feedback loops or of springs without
  * a potential. */
-status harmonic_judge_growth(vibration *, double below, fault *f);
+status harmonic_check_growth(vibration *, double below, fault *f);
 /* Returns the number of modes with damping ratios, and sets U[count x free]. The damping matrix is
  * C + U U^T. */
 int harmonic_modes_damped(const harmonic_modes *, const double **U);
@@ -614,7 +615,7 @@ status damped_modal(analysis_context *, int analysis, analysis_outcome *, fault 
 
 status rotation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Sets the stability of the stations from their modes, after the steps have been evaluated. */
-void rotation_judge_stations(analysis_context *, int analysis, const analysis_outcome *);
+void rotation_evaluate_stations(analysis_context *, int analysis, const analysis_outcome *);
 
 /* Nonlinear equilibrium along a path. */
 

@@ -13,7 +13,7 @@ enum { FIRST = 16, MORE = 12, MAX_STARTS = 5, MAX_VECTORS = 400 };
 /* Limits of a residual relative to its eigenvalue. rounding_residual is relative to the largest
  * eigenvalue, whose rounding error affects all eigenvalues. */
 static const double good_residual = 1e-12, rounding_residual = 1e-14, stalled_residual = 1e-8,
-                    bearable_residual = 1e-5;
+                    acceptable_residual = 1e-5;
 /* Eigenvalues with a smaller relative difference count as equal. */
 static const double same = 1e-6;
 /* An orthogonalised vector counts as zero if its remainder, relative to its former length, is not
@@ -202,7 +202,7 @@ static status iterate(solver *s, int vectors, fault *f)
             grown++;
         TRY(ritz(s, f));
         if (converged(s, &worst) || grown == 0 || (worst > best / 2 && worst < stalled_residual))
-            return worst <= bearable_residual || s->count == s->p->n
+            return worst <= acceptable_residual || s->count == s->p->n
                        ? STATUS_OK
                        : fault_set(
                              f, STATUS_NOT_CONVERGED,
@@ -212,7 +212,7 @@ static status iterate(solver *s, int vectors, fault *f)
     }
 }
 
-static status hand_over(solver *s, fault *f)
+static status store_results(solver *s, fault *f)
 {
     arnoldi_result *r = s->out;
     const size_t n = (size_t)s->p->n, count = (size_t)s->found;
@@ -237,9 +237,9 @@ static status find(solver *s, fault *f)
         TRY(iterate(s, vectors, f));
         const int news = changed(s);
         if (start > 0 && !news)
-            return hand_over(s, f);
+            return store_results(s, f);
         if (s->count == s->p->n)
-            return hand_over(s, f);
+            return store_results(s, f);
         vectors = MORE + s->p->wanted;
     }
     return fault_set(f, STATUS_NOT_CONVERGED,

@@ -12,10 +12,10 @@
 /* Returns the reason why the step from `here` to `next` is too long or led to another branch; NULL:
  * the step is valid. *swing: rotation of the path relative to its limit. last_resort: 1 if the step
  * cannot be shorter, so it may contain several critical points. */
-static const char *continuation_sound_doubt(const continuation *, int last_resort, double *swing);
-/* Reports a jump: the step that started at the control coordinate `from` led to the rival, but the
- * path leads to `here`. If the steps are constant, the path ends at `here`. */
-static status continuation_sound_report_jump(continuation *, const rival *, double from, fault *);
+static const char *continuation_step_defect(const continuation *, int last_resort, double *swing);
+/* Reports a jump: the step that started at the control coordinate `from` led to another branch, but
+ * the path leads to `here`. If the steps are constant, the path ends at `here`. */
+static status continuation_report_jump(continuation *, const other_branch *, double from, fault *);
 
 enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
 /* Target rotation of the next step relative to its limit. This value gives the longest steps with a
@@ -25,8 +25,8 @@ static const double aim = 0.7;
 
 /* Result of an attempted step. */
 typedef struct attempt {
-    const char *doubt; /* reason why the step may be invalid; NULL: the step is valid */
-    double swing;      /* rotation of the path relative to its limit */
+    const char *reason; /* reason why the step may be invalid; NULL: the step is valid */
+    double swing;       /* rotation of the path relative to its limit */
     step_record record;
 } attempt;
 
@@ -60,10 +60,10 @@ static status add_point(continuation *p, fault *f)
 /* Records if the critical points of the step from `before` to `here` are known, and the number of
  * eigenvalues that have passed zero. This number decides the stability only if K is unsymmetric and
  * all critical points so far are known. */
-static void judge(continuation *p, const path_point *before, step_record *record)
+static void evaluate_step(continuation *p, const path_point *before, step_record *record)
 {
     outcome_continuation *o = p->o;
-    if ((p->here.negative < 0 || p->doubtful) && !o->undecided) {
+    if ((p->here.negative < 0 || p->is_uncertain) && !o->undecided) {
         o->undecided = 1;
         o->decided_events = p->c->result->events;
         o->undecided_from = before->factor;
@@ -87,9 +87,9 @@ static status accept(continuation *p, step_record *record, fault *f)
     record->path = p->here.factor;
     record->increment = p->here.factor - before.factor;
     record->negative_pivots = p->here.symmetric ? p->here.negative : -1;
-    judge(p, &before, record);
+    evaluate_step(p, &before, record);
     if (!p->here.symmetric && scene_has_mass(p->c->scene))
-        TRY(flutter_judge_state(&p->judge, p->c, p->n.state, record, f));
+        TRY(flutter_check_state(&p->flutter, p->c, p->n.state, record, f));
     p->c->run->counters.steps++;
     TRY(add_point(p, f));
     return history_add_step(p->c->result, record, f);
@@ -106,7 +106,7 @@ static void turn_start(continuation *p)
         p->here.tangent[k] = -p->here.tangent[k];
 }
 
-/* Corrects the state and evaluates the point. If the attempt is doubtful, the state may be on
+/* Corrects the state and evaluates the point. If the attempt is uncertain, the state may be on
  * another branch. A step along the arc that would pass the station ends at the station. */
 static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t,
                        fault *f)
@@ -124,21 +124,21 @@ static status try_step(continuation *p, path_goal goal, double station, int last
     if (!goal.by_arc)
         p->next.control = goal.value;
     turn_start(p);
-    t->doubt = continuation_sound_doubt(p, last_resort, &t->swing);
+    t->reason = continuation_step_defect(p, last_resort, &t->swing);
     int jump = 0, hidden = 0;
-    p->doubtful = 0;
-    if (t->doubt == NULL)
+    p->is_uncertain = 0;
+    if (t->reason == NULL)
         TRY(continuation_critical_within(p, goal, &hidden, f));
     if (last_resort && hidden) {
-        p->doubtful = 1;
+        p->is_uncertain = 1;
         hidden = 0;
     }
-    if (t->doubt == NULL && !hidden)
+    if (t->reason == NULL && !hidden)
         TRY(continuation_critical(p, goal, &jump, f));
     if (hidden)
-        t->doubt = "stability changes and changes back within the step";
+        t->reason = "stability changes and changes back within the step";
     if (jump)
-        t->doubt = "the pivots of the tangent stiffness change without a critical point";
+        t->reason = "the pivots of the tangent stiffness change without a critical point";
     return STATUS_OK;
 }
 
@@ -156,20 +156,21 @@ static double next_size(const continuation *p, double size, double length, const
     return fmin(p->by->step_max, wanted < length ? wanted : fmax(size, wanted));
 }
 
-static double length_left(const continuation *p, path_goal goal, double gone)
+static double length_left(const continuation *p, path_goal goal, double travelled)
 {
-    return goal.by_arc ? goal.value - gone : fabs(goal.value - p->here.control);
+    return goal.by_arc ? goal.value - travelled : fabs(goal.value - p->here.control);
 }
 
 /* Returns 1 if the goal has been reached. The arc length to a point depends on the steps, so a
- * rival that has not been reached may be farther along the arc. */
-static int arrived(const continuation *p, path_goal goal, double station, const rival *r,
-                   double gone, double nearest)
+ * point of the other branch that has not been reached may be farther along the arc. */
+static int arrived(const continuation *p, path_goal goal, double station, const other_branch *r,
+                   double travelled, double nearest)
 {
     if (p->here.control == station)
         return 1;
-    return length_left(p, goal, gone) <= 0 && (!goal.by_arc || r->state == NULL ||
-                                               nearest <= goal.value / 2 || gone >= 3 * goal.value);
+    return length_left(p, goal, travelled) <= 0 &&
+           (!goal.by_arc || r->state == NULL || nearest <= goal.value / 2 ||
+            travelled >= 3 * goal.value);
 }
 
 /* Returns the goal of the next part of the step that leads from the control coordinate `from` to
@@ -186,14 +187,14 @@ static path_goal part_of(const continuation *p, path_goal goal, double from, dou
 }
 
 /* Repeats the step from `here` to the goal in smaller steps. */
-static status retrace(continuation *p, path_goal goal, double station, const rival *r, double *size,
-                      fault *f)
+static status retrace(continuation *p, path_goal goal, double station, const other_branch *r,
+                      double *size, fault *f)
 {
     const double from = p->here.control, smallest = ldexp(p->by->step, -HALVINGS);
-    double gone = 0, nearest = INFINITY;
+    double travelled = 0, nearest = INFINITY;
     int rejected = 1;
-    while (!arrived(p, goal, station, r, gone, nearest)) {
-        const double left = length_left(p, goal, gone);
+    while (!arrived(p, goal, station, r, travelled, nearest)) {
+        const double left = length_left(p, goal, travelled);
         const int last = left > 0 && *size * (1 + 1e-9) >= left;
         const double longest = goal.by_arc ? fmin(*size, goal.value / 2) : *size;
         const double length = last ? left : longest;
@@ -203,19 +204,19 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
         const status outcome = try_step(p, part, station, length <= smallest, &t, &why);
         if (outcome == STATUS_FAULT)
             return fault_set(f, outcome, "%s", why.text);
-        if (outcome != STATUS_OK || t.doubt != NULL) {
+        if (outcome != STATUS_OK || t.reason != NULL) {
             reject(p, &t);
             rejected++;
             if (length <= smallest)
                 return fault_set(f, STATUS_NOT_CONVERGED,
                                  "the path cannot be followed beyond %g m at load factor %g: %s",
                                  p->here.control, p->here.factor,
-                                 t.doubt != NULL ? t.doubt : why.text);
+                                 t.reason != NULL ? t.reason : why.text);
             *size = length / 2;
             continue;
         }
         rejected = 0;
-        gone += length;
+        travelled += length;
         TRY(accept(p, &t.record, f));
         *size = next_size(p, *size, length, &t);
         const double distance =
@@ -223,13 +224,12 @@ static status retrace(continuation *p, path_goal goal, double station, const riv
         nearest = goal.by_arc ? fmin(nearest, distance) : distance;
     }
     const double same = goal.by_arc ? goal.value / 2 : 1e-5;
-    return r->state != NULL && nearest > same ? continuation_sound_report_jump(p, r, from, f)
-                                              : STATUS_OK;
+    return r->state != NULL && nearest > same ? continuation_report_jump(p, r, from, f) : STATUS_OK;
 }
 
-/* Stores the end of a step, which may be on another branch, as the rival. It is compared with the
- * end to which smaller steps lead. */
-static status rival_alloc(const continuation *p, rival *r, fault *f)
+/* Stores the end of a step, which may be on another branch, as `other_branch`. It is compared with
+ * the end to which smaller steps lead. */
+static status other_branch_alloc(const continuation *p, other_branch *r, fault *f)
 {
     TRY(kinematics_state_alloc(p->c->model, &r->state, f));
     r->factor = kinematics_state_path(p->n.state);
@@ -238,11 +238,11 @@ static status rival_alloc(const continuation *p, rival *r, fault *f)
 }
 
 /* Repeats a step in smaller steps if it failed, or if its end may be on another branch. This end is
- * then stored as the rival, which reach() frees. */
+ * then stored as `other_branch`, which reach() frees. */
 static status try_again(continuation *p, path_goal goal, double station, const attempt *t,
-                        int doubted, rival *r, double *size, fault *f)
+                        int is_uncertain, other_branch *r, double *size, fault *f)
 {
-    const status kept = doubted ? rival_alloc(p, r, f) : STATUS_OK;
+    const status kept = is_uncertain ? other_branch_alloc(p, r, f) : STATUS_OK;
     reject(p, t);
     TRY(kept);
     return retrace(p, goal, station, r, size, f);
@@ -252,10 +252,10 @@ static status try_again(continuation *p, path_goal goal, double station, const a
 static status reach(continuation *p, path_goal goal, double station, double *size, fault *f)
 {
     attempt t = {0};
-    rival r = {NULL, 0};
+    other_branch r = {NULL, 0};
     const double length = length_left(p, goal, 0);
     const status tried = try_step(p, goal, station, 0, &t, f);
-    if (tried == STATUS_OK && t.doubt == NULL) {
+    if (tried == STATUS_OK && t.reason == NULL) {
         *size = next_size(p, *size, length, &t);
         return accept(p, &t.record, f);
     }
@@ -339,7 +339,7 @@ static double angle_to_secant(const continuation *p, const double tangent[], dou
     return acos(fmin(1, fmax(-1, continuation_step_dot(p, tangent, p->moved) / length)));
 }
 
-static const char *continuation_sound_doubt(const continuation *p, int last_resort, double *swing)
+static const char *continuation_step_defect(const continuation *p, int last_resort, double *swing)
 {
     const path_point *a = &p->here, *b = &p->next;
     const double length = sqrt(continuation_step_dot(p, p->moved, p->moved));
@@ -361,7 +361,8 @@ static const char *continuation_sound_doubt(const continuation *p, int last_reso
     return NULL;
 }
 
-static status continuation_sound_report_jump(continuation *p, const rival *r, double from, fault *f)
+static status continuation_report_jump(continuation *p, const other_branch *r, double from,
+                                       fault *f)
 {
     const path_event event = {.kind = EVENT_BRANCH_JUMP,
                               .analysis = p->analysis,

@@ -135,8 +135,8 @@ static double next_part(const bound *low, const bound *high)
 
 /* Narrows the interval. The final state is the critical point, apart from rounding. *gone: 1 if the
  * test function has no zero. *behind: fraction of the step immediately after the point. */
-static status locate(continuation *p, path_goal goal, const sought *s, int *gone, double *behind,
-                     fault *f)
+static status locate(continuation *p, path_goal goal, const sought *s, int *is_absent,
+                     double *behind, fault *f)
 {
     const int by_rate = s->by_rate;
     bound low = {s->from, by_rate ? p->here.rate : NAN}, high = {1, by_rate ? p->next.rate : NAN};
@@ -168,10 +168,10 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *gone
         last = before;
         *(before ? &low : &high) = trial;
     }
-    *gone = best > near * scale;
+    *is_absent = best > near * scale;
     p->narrow = is_aside(&p->trial) || high.at - low.at <= closeness;
-    if (!by_rate && !*gone && is_aside(&p->trial) && value > one_point * scale)
-        p->doubtful = 1; /* a pair near zero, or a double eigenvalue at zero */
+    if (!by_rate && !*is_absent && is_aside(&p->trial) && value > one_point * scale)
+        p->is_uncertain = 1; /* a pair near zero, or a double eigenvalue at zero */
     *behind = fmax(high.at < 1 ? high.at : at, at);
     return STATUS_OK;
 }
@@ -303,7 +303,7 @@ static int dips(const double value[3])
 
 /* Returns 1 if an indicator of a critical point changes between a and b and changes back in the
  * step, which ends at c. */
-static int goes_back(const path_point *a, const path_point *b, const path_point *c)
+static int turns_back(const path_point *a, const path_point *b, const path_point *c)
 {
     const int of_rate = (a->rate < 0) == (c->rate < 0) && (b->rate < 0) != (c->rate < 0);
     if (a->negative < 0 || b->negative < 0 || c->negative < 0)
@@ -321,7 +321,7 @@ static status look_within(continuation *p, path_goal goal, int *hidden, fault *f
     for (int i = 1; i < PARTS && !*hidden; i++) {
         TRY(look_at(p, goal, (double)i / PARTS, i == 1, f));
         value[i] = p->trial.least;
-        *hidden = goes_back(&last, &p->trial, &p->next);
+        *hidden = turns_back(&last, &p->trial, &p->next);
         last = p->trial;
     }
     for (int i = 0; i + 2 <= PARTS && !*hidden && !p->next.symmetric; i++)
@@ -332,13 +332,14 @@ static status look_within(continuation *p, path_goal goal, int *hidden, fault *f
 status continuation_critical_within(continuation *p, path_goal goal, int *hidden, fault *f)
 {
     *hidden = 0;
-    if (!p->asks_critical)
+    if (!p->needs_critical)
         return STATUS_OK;
-    const arrival before = p->n.arrival;
+    const newton_convergence before = p->n.newton_convergence;
     kinematics_state_copy(p->c->model, p->n.state, p->end);
-    p->n.arrival.criterion = INFINITY; /* Newton's method then makes one correction at a time */
+    p->n.newton_convergence.criterion =
+        INFINITY; /* Newton's method then makes one correction at a time */
     const status outcome = look_within(p, goal, hidden, f);
-    p->n.arrival = before;
+    p->n.newton_convergence = before;
     kinematics_state_copy(p->c->model, p->end, p->n.state);
     p->looked = 0;
     *hidden |= outcome == STATUS_SINGULAR;

@@ -24,7 +24,7 @@ status continuation_step_alloc(analysis_context *c, int analysis, outcome_contin
     p->analysis = analysis;
     p->keeps_states = continuation_extract_keeps_states(c->scene, analysis);
     for (int i = 0; i < c->scene->quantities; i++)
-        p->asks_critical |= scene_asks(&c->scene->quantity[i], analysis, SCENE_CRITICAL_POINT);
+        p->needs_critical |= scene_requests(&c->scene->quantity[i], analysis, SCENE_CRITICAL_POINT);
     if (c->options->newton == NEWTON_DENSE)
         return fault_set(
             f, STATUS_REFUSED,
@@ -44,7 +44,7 @@ status continuation_step_alloc(analysis_context *c, int analysis, outcome_contin
 void continuation_step_free(continuation *p)
 {
     newton_free(&p->n);
-    flutter_judge_free(&p->judge);
+    flutter_check_free(&p->flutter);
     kinematics_state_free(p->end);
     free(p->weight);
     free(p->load);
@@ -140,7 +140,7 @@ status continuation_step_go_on(continuation *p, path_goal goal, step_record *rec
 {
     const newton_use use = newton_on_path(&p->n, p, correct);
     p->goal = goal;
-    return newton_iterate(p->c, &use, &p->n.arrival, record, f);
+    return newton_iterate(p->c, &use, &p->n.newton_convergence, record, f);
 }
 
 /* Counts the eigenvalues to the left of the imaginary axis for an unsymmetric tangent, to which
@@ -208,7 +208,7 @@ static int continuation_extract_keeps_states(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++) {
         const scene_quantity *q = &s->quantity[i];
-        if (scene_asks(q, analysis, SCENE_COORDINATE) && q->reduction == SCENE_CURVE)
+        if (scene_requests(q, analysis, SCENE_COORDINATE) && q->reduction == SCENE_CURVE)
             return 1;
     }
     return 0;

@@ -126,7 +126,7 @@ static int grows(const vibration *v, const unsymmetric_result *r, int i)
     return r->growth[i] > (v->about != NULL ? 1e-7 : 1e-9) * r->frequency[i];
 }
 
-status harmonic_judge_growth(vibration *v, double below, fault *f)
+status harmonic_check_growth(vibration *v, double below, fault *f)
 {
     const scene *s = v->c->scene;
     harmonic_modes *m = NULL;
@@ -230,7 +230,7 @@ static void note_growth(const vibration *v, const unsymmetric_result *r, outcome
                  out->growth);
 }
 
-static void say_instant(const vibration *v, size_t size, char out[])
+static void write_instant(const vibration *v, size_t size, char out[])
 {
     const scene_analysis *a = &v->c->scene->analysis[v->analysis];
     snprintf(out, size, "coefficients at %g s, %s%.40s", v->about->time,
@@ -338,7 +338,7 @@ status damped_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
         snprintf(out->meaning, sizeof out->meaning, "%s%s%s", v.damped ? "damped" : "",
                  v.damped && v.loops > 0 ? ", " : "", v.loops > 0 ? "loop closed" : "");
         if (v.about != NULL)
-            say_instant(&v, sizeof out->meaning, out->meaning);
+            write_instant(&v, sizeof out->meaning, out->meaning);
     }
     unsymmetric_free(&r);
     harmonic_release(&v);

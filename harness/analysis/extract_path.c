@@ -68,7 +68,7 @@ static double read_at(const analysis_context *c, const scene_quantity *q, const 
                       int i, quantity_result *r)
 {
     const outcome_instant *moving =
-        o->kind == SCENE_MOTION ? &outcome_motion_of(o)->instant[i] : NULL;
+        o->kind == SCENE_MOTION ? &outcome_motion_of(o)->at_station[i] : NULL;
     const outcome_path *path = outcome_path_of(o);
     reading from = {.eq = &c->eq, .state = path->state != NULL ? path->state[i] : NULL};
     fault f = {""};
@@ -156,7 +156,7 @@ static double relative(double error, double value)
 
 /* Rejects a rate of which rounding leaves no digit. size: magnitude of the rate, or the largest
  * magnitude of its curve. */
-static void judge_rate(const scene_quantity *q, double size, quantity_result *r)
+static void check_rate(const scene_quantity *q, double size, quantity_result *r)
 {
     const double most = 0.1;
     char why[FAULT_TEXT];
@@ -185,7 +185,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
     }
     r->rounding = fmax(r->rounding, relative(bound, largest)); /* known() sets it for modes */
     r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
-    judge_rate(q, largest, r);
+    check_rate(q, largest, r);
 }
 
 /* Computes the spectrum from the stations of a window. */
@@ -251,8 +251,8 @@ static int takes_station(const scene_quantity *q, int stations, const double pat
            is_taken_at(q, stations, path, station);
 }
 
-int extract_path_asks(const analysis_context *c, int analysis, int stations, const double path[],
-                      int station)
+int extract_path_has(const analysis_context *c, int analysis, int stations, const double path[],
+                     int station)
 {
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
@@ -263,10 +263,10 @@ int extract_path_asks(const analysis_context *c, int analysis, int stations, con
     return 0;
 }
 
-int extract_path_wants(const analysis_context *c, int analysis, int stations, const double path[],
+int extract_path_needs(const analysis_context *c, int analysis, int stations, const double path[],
                        int station)
 {
-    return !c->options->values_only || extract_path_asks(c, analysis, stations, path, station);
+    return !c->options->values_only || extract_path_has(c, analysis, stations, path, station);
 }
 
 extern const quantity_type quantity_hinge; /* angles of releases are stored with the elements */
@@ -282,7 +282,7 @@ static int begins_with(const analysis_context *c, int analysis, int path, int st
     const scene_path *along = scene_path_of(&c->scene->analysis[path]);
     const station_matrices *taken = c->outcomes[analysis].left.compliance.taken;
     return !(taken != NULL && taken[station].known) &&
-           extract_path_wants(c, analysis, along->stations, along->value, station);
+           extract_path_needs(c, analysis, along->stations, along->value, station);
 }
 
 int extract_path_whole(const analysis_context *c, int analysis, int station)
@@ -331,7 +331,7 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
         r->x = quantity_abscissa(q, found->time);
         r->rounding = r->value != 0 ? fabs(q->factor * found->error / r->value) : 0;
         if (!scene_is_timed(q->reduction) && q->reduction != SCENE_MEAN)
-            judge_rate(q, fabs(r->value), r);
+            check_rate(q, fabs(r->value), r);
     }
 }
 
@@ -394,7 +394,7 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
     if (q->reduction == SCENE_CURVE) {
         if (q->transform == SCENE_HISTORY) {
             take_curve(c, q, o, r);
-            judge_rate(q, fabs(r->value), r);
+            check_rate(q, fabs(r->value), r);
         }
         if (!complete)
             path_ends(c, q, o, r);
@@ -406,7 +406,7 @@ void extract_path(const analysis_context *c, const scene_quantity *q, const anal
     }
     r->value = at_station(c, q, o, chosen, r);
     r->rounding = fmax(r->rounding, relative(bound_at(c, q, o, chosen), r->value));
-    judge_rate(q, fabs(r->value), r);
+    check_rate(q, fabs(r->value), r);
     r->x = quantity_abscissa(q, p->value[chosen]);
     if (q->what.kind == SCENE_RESPONSE)
         extract_peak(q, &o->left.harmonic.peak[q - c->scene->quantity], r);

@@ -104,7 +104,7 @@ static const double most_error = 1e-2; /* if the error is larger, the mode is un
 static const double real_part =
     1e-6; /* smaller imaginary parts, relative to the magnitude, are rounding errors */
 
-status flutter_judge_begin(flutter_judge *j, analysis_context *c, fault *f)
+status flutter_check_begin(flutter_check *j, analysis_context *c, fault *f)
 {
     if (j->begun)
         return STATUS_OK;
@@ -114,7 +114,7 @@ status flutter_judge_begin(flutter_judge *j, analysis_context *c, fault *f)
 
 /* Returns the stability according to the modes. An odd number of negative eigenvalues of K always
  * means divergence. */
-static step_stability by_motions(const flutter_judge *j, const unsymmetric_result *r)
+static step_stability by_motions(const flutter_check *j, const unsymmetric_result *r)
 {
     int mode = 0;
     if (factor_count(j->n.factor).determinant < 0)
@@ -127,7 +127,7 @@ static step_stability by_motions(const flutter_judge *j, const unsymmetric_resul
     return flutter_of(&j->of, r, &mode) == FLUTTER_NONE ? STEP_STABLE : STEP_GROWS;
 }
 
-static status ask_motions(flutter_judge *j, step_record *record, fault *f)
+static status ask_motions(flutter_check *j, step_record *record, fault *f)
 {
     unsymmetric_result r = {0};
     fault why = {""};
@@ -140,7 +140,7 @@ static status ask_motions(flutter_judge *j, step_record *record, fault *f)
 
 /* Counts the eigenvalues that have passed zero. An even number decides only if the eigenvalues are
  * real, because a pair may have passed near zero. */
-static status count_passed(flutter_judge *j, step_record *record, fault *f)
+static status count_passed(flutter_check *j, step_record *record, fault *f)
 {
     left_of_axis left;
     int pairs = 0;
@@ -153,7 +153,7 @@ static status count_passed(flutter_judge *j, step_record *record, fault *f)
     return STATUS_OK;
 }
 
-static status flutter_judge_here(flutter_judge *j, step_record *record, fault *f)
+static status flutter_check_here(flutter_check *j, step_record *record, fault *f)
 {
     step_record at = {0};
     fault why = {""};
@@ -173,20 +173,20 @@ static status flutter_judge_here(flutter_judge *j, step_record *record, fault *f
     return record->by_eigenvalues ? STATUS_OK : count_passed(j, record, f);
 }
 
-status flutter_judge_state(flutter_judge *j, analysis_context *c, const model_state *state,
+status flutter_check_state(flutter_check *j, analysis_context *c, const model_state *state,
                            step_record *record, fault *f)
 {
     const counters work = c->run->counters;
     const int singular = c->work->singular;
-    TRY(flutter_judge_begin(j, c, f));
+    TRY(flutter_check_begin(j, c, f));
     kinematics_state_copy(c->model, state, j->n.state);
-    const status outcome = flutter_judge_here(j, record, f);
+    const status outcome = flutter_check_here(j, record, f);
     c->work->singular = singular;
     c->run->counters = work;
     return outcome;
 }
 
-void flutter_judge_free(flutter_judge *j)
+void flutter_check_free(flutter_check *j)
 {
     if (!j->begun)
         return;
@@ -200,10 +200,10 @@ static const double near_enough =
 
 /* Sets *unstable to the degree of instability of the current state: the number of negative
  * eigenvalues, or 1 if a mode grows; -1: unknown. */
-static status look(flutter_judge *j, int *unstable, fault *f)
+static status look(flutter_check *j, int *unstable, fault *f)
 {
     step_record record = {0};
-    TRY(flutter_judge_here(j, &record, f));
+    TRY(flutter_check_here(j, &record, f));
     *unstable = record.negative_pivots;
     if (record.by_eigenvalues)
         *unstable = record.passed;
@@ -224,7 +224,7 @@ static status go_to(newton_run *n, double path, int *reached, fault *f)
     return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
 }
 
-static status look_at_parts(flutter_judge *j, const model_state *from, const model_state *to,
+static status look_at_parts(flutter_check *j, const model_state *from, const model_state *to,
                             double *found, fault *f)
 {
     const model *m = j->n.c->model;
@@ -248,14 +248,14 @@ static status look_at_parts(flutter_judge *j, const model_state *from, const mod
     return STATUS_OK;
 }
 
-status within_step(flutter_judge *j, analysis_context *c, const model_state *from,
+status within_step(flutter_check *j, analysis_context *c, const model_state *from,
                    const model_state *to, double *found, fault *f)
 {
     const counters work = c->run->counters;
     const int singular = c->work->singular;
     *found = INFINITY;
-    TRY(flutter_judge_begin(j, c, f));
-    j->n.arrival.criterion = fmax(near_enough, c->options->criterion);
+    TRY(flutter_check_begin(j, c, f));
+    j->n.newton_convergence.criterion = fmax(near_enough, c->options->criterion);
     const status outcome = look_at_parts(j, from, to, found, f);
     c->work->singular = singular;
     c->run->counters = work;

@@ -10,18 +10,25 @@
 
 #include "harness/model/model.h"
 
-enum { MOTIONS = 8, WATCHED = 4, MAX_STATIONS = 400, MAX_LOOKS = 8, MAX_CLOSER = 60, POINTS = 3 };
+enum {
+    MOTIONS = 8,
+    COMPARED_MOTIONS = 4,
+    MAX_STATIONS = 400,
+    MAX_TRIALS = 8,
+    MAX_CLOSER = 60,
+    POINTS = 3
+};
 /* first step, relative to the path parameter of the followed state */
 static const double first_step = 1e-3;
 static const double wanted_change = 0.15,
                     largest_change = 0.5; /* relative change of the square of a frequency */
-static const double quickest = 10;        /* ratio of a step to the previous step */
+static const double fastest_growth = 10;  /* ratio of a step to the previous step */
 static const double farthest =
     1e3; /* end of the search, relative to the path parameter of the followed state */
 static const double farther =
     100; /* end of the search, relative to the path on which a square doubles at its initial rate */
 /* width of the interval at which interpolation starts, relative to the path parameter */
-static const double rough = 1e-2;
+static const double coarse_interval = 1e-2;
 static const double near_lost =
     1e-2; /* distance to a point without equilibrium, relative to the path parameter */
 static const double closer = 0.1;                         /* fraction of the remaining interval */
@@ -91,7 +98,7 @@ static status look_closely(search *s, double path, int significant, station *out
         TRY(s->walk(n, path, &increment, f));
     TRY(newton_direction(n, path, &unused, f));
     status outcome =
-        flutter_motions(n, &s->of, s->of.damped ? WATCHED : MOTIONS, significant, &r, f);
+        flutter_motions(n, &s->of, s->of.damped ? COMPARED_MOTIONS : MOTIONS, significant, &r, f);
     if (outcome == STATUS_OK)
         describe(s, &r, out);
     if (outcome == STATUS_OK && out->kind != FLUTTER_NONE) {
@@ -120,7 +127,7 @@ static void keep(search *s, const station *at)
 static double change(const station *a, const station *b, double lowest)
 {
     double largest = 0;
-    for (int i = 0; i < WATCHED && i < a->count && i < b->count; i++)
+    for (int i = 0; i < COMPARED_MOTIONS && i < a->count && i < b->count; i++)
         largest =
             fmax(largest, fabs(b->square[i] - a->square[i]) / fmax(fabs(a->square[i]), lowest));
     return largest;
@@ -153,7 +160,7 @@ static double vertex(const station *a, const station *b, const station *c, int i
  * station. */
 static status look_between(search *s, station a, station b, station c, int i, fault *f)
 {
-    for (int looks = 0; looks < MAX_LOOKS; looks++) {
+    for (int trials = 0; trials < MAX_TRIALS; trials++) {
         const double at = vertex(&a, &b, &c, i), span = c.path - a.path;
         station m;
         if (isnan(at) || fabs(at - b.path) < 1e-6 * span || at - a.path < 1e-6 * span ||
@@ -204,9 +211,9 @@ static status walk(search *s, fault *f)
     const double lowest = s->last.count > 0 ? s->last.square[0] : 0;
     double failed = INFINITY; /* smallest path parameter without an equilibrium */
     int stations = 0;
-    for (int looks = 0; looks < MAX_STATIONS; looks++) {
+    for (int trials = 0; trials < MAX_STATIONS; trials++) {
         const double path = s->last.path + step;
-        if (path > end && stations > WATCHED)
+        if (path > end && stations > COMPARED_MOTIONS)
             break;
         const status outcome = look(s, path, &s->next, f);
         if (outcome == STATUS_FAULT)
@@ -228,8 +235,8 @@ static status walk(search *s, fault *f)
         if (s->next.count < s->last.count)
             return is_lost(s, "slow modes are lost in the round-off of the tangent", f);
         const station c = s->next;
-        for (int i = 0; stations > 0 && !s->of.massless && !s->of.damped && i + 1 < WATCHED + 2 &&
-                        i + 1 < c.count;
+        for (int i = 0; stations > 0 && !s->of.massless && !s->of.damped &&
+                        i + 1 < COMPARED_MOTIONS + 2 && i + 1 < c.count;
              i++) {
             TRY(look_between(s, s->before, s->last, c, i, f));
             if (s->next.kind != FLUTTER_NONE && s->next.path < s->last.path) {
@@ -244,7 +251,7 @@ static status walk(search *s, fault *f)
         keep(s, &s->next);
         if (stations++ == 0)
             end = fmax(end, farther * path / changed);
-        step *= fmin(quickest, wanted_change / changed);
+        step *= fmin(fastest_growth, wanted_change / changed);
     }
     return fault_set(f, STATUS_NOT_CONVERGED,
                      "no critical load from path 0 to %g, because there is no divergence%s",
@@ -270,8 +277,8 @@ static status close_in(search *s, flutter_point *out, fault *f)
     station high = s->next;
     int points = 0;
     for (int i = 0; i < MAX_CLOSER; i++) {
-        const int is_rough = high.path - low > rough * fabs(high.path);
-        if (!is_rough && (points == 0 || high.path < p[0])) {
+        const int is_coarse = high.path - low > coarse_interval * fabs(high.path);
+        if (!is_coarse && (points == 0 || high.path < p[0])) {
             memmove(p + 1, p, (POINTS - 1) * sizeof *p);
             memmove(g + 1, g, (POINTS - 1) * sizeof *g);
             p[0] = high.path;

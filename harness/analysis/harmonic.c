@@ -109,7 +109,7 @@ static status solve_input(vibration *v, int quantity, double w, fault *f)
     double complex *x = v->found + (size_t)quantity * all,
                    *left = v->left + (size_t)quantity * (size_t)v->free;
     for (int i = 0; i < quantity; i++)
-        if (scene_asks(&s->quantity[i], v->analysis, SCENE_RESPONSE) &&
+        if (scene_requests(&s->quantity[i], v->analysis, SCENE_RESPONSE) &&
             same_input(&s->quantity[i].what.of.response, r)) {
             memcpy(x, v->found + (size_t)i * all, all * sizeof *x);
             memcpy(left, v->left + (size_t)i * (size_t)v->free, (size_t)v->free * sizeof *left);
@@ -203,7 +203,7 @@ static status respond(vibration *v, outcome_harmonic *o, fault *f)
         const double w = 2 * PI * path->value[i];
         TRY(factor_at(v, path->value[i], f));
         for (int k = 0; k < s->quantities; k++)
-            if (scene_asks(&s->quantity[k], v->analysis, SCENE_RESPONSE)) {
+            if (scene_requests(&s->quantity[k], v->analysis, SCENE_RESPONSE)) {
                 const size_t at = (size_t)k * stations + (size_t)i;
                 TRY(solve_input(v, k, w, f));
                 read_quantity(v, k, w, &o->response[at], &o->bound[at]);
@@ -244,7 +244,7 @@ static status check_outputs(const vibration *v, fault *f)
     const scene *s = v->c->scene;
     int c;
     for (int i = 0; i < s->quantities; i++) {
-        if (!scene_asks(&s->quantity[i], v->analysis, SCENE_RESPONSE))
+        if (!scene_requests(&s->quantity[i], v->analysis, SCENE_RESPONSE))
             continue;
         const scene_response *r = &s->quantity[i].what.of.response;
         TRY(harmonic_check_rates(v, r, f));
@@ -276,7 +276,7 @@ static status find_modes_of(vibration *v, fault *f)
         return no_memory(f);
     int count = 0;
     for (int i = 0; i < s->quantities; i++)
-        if (scene_asks(&s->quantity[i], v->analysis, SCENE_RESPONSE))
+        if (scene_requests(&s->quantity[i], v->analysis, SCENE_RESPONSE))
             count +=
                 harmonic_shapes(v, &s->quantity[i].what.of.response, loads + (size_t)count * n);
     for (int l = 0; l < v->loops; l++) {
@@ -317,7 +317,7 @@ static status solve(vibration *v, outcome_harmonic *o, fault *f)
     TRY(harmonic_pattern(v, f));
     TRY(check_outputs(v, f));
     TRY(find_modes_of(v, f));
-    TRY(harmonic_judge_growth(v, path->value[path->stations - 1], f));
+    TRY(harmonic_check_growth(v, path->value[path->stations - 1], f));
     if (!v->c->scene->analysis[v->analysis].by_modes)
         TRY(harmonic_matrix(v, f));
     return respond(v, o, f);
@@ -357,7 +357,7 @@ status harmonic_inside(analysis_context *c, int analysis, double *error, int *qu
     const status outcome = solve(&v, &o.left.harmonic, f);
     c->run->counters = before; /* this solution is not counted as work */
     for (int i = 0; outcome == STATUS_OK && i < c->scene->quantities; i++) {
-        if (!scene_asks(&c->scene->quantity[i], analysis, SCENE_RESPONSE))
+        if (!scene_requests(&c->scene->quantity[i], analysis, SCENE_RESPONSE))
             continue;
         const double one = apart(&v, i, &c->outcomes[analysis].left.harmonic, &o.left.harmonic);
         if (one > *error) {

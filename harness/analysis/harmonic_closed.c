@@ -36,8 +36,8 @@ status harmonic_closed_alloc(vibration *v, fault *f)
     if (m->closed == NULL || m->closing == NULL || m->closed_pivot == NULL || m->loop_parts == NULL)
         return no_memory(f);
     m->balance = m->loop_parts + 2 * loops * count;
-    m->felt = m->balance + 2 * loops;
-    m->lag = m->felt + loops;
+    m->feedback_size = m->balance + 2 * loops;
+    m->lag = m->feedback_size + loops;
     for (size_t l = 0; l < loops; l++)
         for (size_t i = 0; i < count; i++) {
             m->loop_parts[2 * l * count + i] = dense_dot(m->n, m->V + i * n, v->loop[l].push);
@@ -97,7 +97,7 @@ static status bound_loops(vibration *v, fault *f)
     double complex *x = m->closing + m->count + loops, *A = x + 2 * (ptrdiff_t)m->n;
     double part = 0;
     for (int k = 0; k < loops; k++) {
-        m->felt[k] = left_of(v, v->loop[k].push, x);
+        m->feedback_size[k] = left_of(v, v->loop[k].push, x);
         for (int l = 0; l < loops; l++) {
             double complex own, sum = 0;
             const double complex gain = loops_gain(&v->loop[l], m->w, &own);
@@ -118,7 +118,7 @@ static status bound_loops(vibration *v, fault *f)
             m->lag[l] += cabs(A[l * loops + k]) * sensed;
     }
     for (int l = 0; l < loops; l++)
-        part += m->felt[l] * m->lag[l];
+        part += m->feedback_size[l] * m->lag[l];
     m->damps = 1 - part;
     return m->damps > 0 ? STATUS_OK : harmonic_modes_few(v, f);
 }
@@ -183,12 +183,12 @@ double harmonic_closed_bound(vibration *v, const double complex left_of_f[],
     const double out = harmonic_modes_left(v, output) / m->positive;
     double size = harmonic_modes_left(v, left_of_f), bound = 0;
     for (int l = 0; l < v->loops; l++)
-        size += m->felt[l] * cabs(u[l]);
+        size += m->feedback_size[l] * cabs(u[l]);
     for (int l = 0; l < v->loops; l++) {
         double complex by_u = output[v->all + l];
         for (int k = 0; k < m->n; k++)
             by_u += v->loop[l].push[k] * dual[k];
-        bound += (cabs(by_u) + out * m->felt[l]) * m->lag[l] * size / m->damps;
+        bound += (cabs(by_u) + out * m->feedback_size[l]) * m->lag[l] * size / m->damps;
     }
     return bound + out * size;
 }

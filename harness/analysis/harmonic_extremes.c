@@ -208,7 +208,7 @@ status harmonic_extremes_refine(vibration *v, harmonic_value *respond, outcome_h
     status outcome = STATUS_OK;
     for (int k = 0; outcome == STATUS_OK && k < s->quantities; k++) {
         const scene_quantity *q = &s->quantity[k];
-        if (!scene_asks(q, v->analysis, SCENE_RESPONSE) ||
+        if (!scene_requests(q, v->analysis, SCENE_RESPONSE) ||
             (q->reduction != SCENE_MAX && q->reduction != SCENE_MIN) ||
             q->what.of.response.part == SCENE_PHASE)
             continue;

@@ -76,16 +76,17 @@ static status mode_of(const analysis_context *c, int index, double out[], fault 
 {
     const scene_imperfection *p = &c->scene->imperfection[index];
     const analysis_outcome *o = &c->outcomes[p->analysis];
-    const scene_words who = scene_called(c->scene, SCENE_IMPERFECTIONS, index);
+    const scene_words owner_name = scene_called(c->scene, SCENE_IMPERFECTIONS, index);
     const model_size size = model_sizes(c->model);
     const size_t n = (size_t)size.free;
     char mode[FAULT_TEXT];
     name_mode(c->scene, p, mode);
     if (o->status != STATUS_OK)
-        return fault_set(f, o->status, "%s: %s has failed: %.200s", who.text, mode, o->reason);
+        return fault_set(f, o->status, "%s: %s has failed: %.200s", owner_name.text, mode,
+                         o->reason);
     const outcome_side *side = &outcome_spectrum_of(o)->positive;
     if (p->order >= side->count || side->mode == NULL || isnan(side->value[p->order]))
-        return fault_set(f, STATUS_REFUSED, "%s: there is no %s%s%.150s", who.text, mode,
+        return fault_set(f, STATUS_REFUSED, "%s: there is no %s%s%.150s", owner_name.text, mode,
                          side->reason[0] != '\0' ? ": " : "", side->reason);
     const same_modes same = same_as(side, p->order);
     memcpy(out, side->mode + n * (size_t)p->order, n * sizeof *out);
@@ -93,7 +94,7 @@ static status mode_of(const analysis_context *c, int index, double out[], fault 
         return STATUS_OK;
     if (same.count > 2 || vec3_norm(p->direction) == 0)
         return fault_set(f, STATUS_REFUSED, "%s: %s is one of %d modes with the same value; %s",
-                         who.text, mode, same.count,
+                         owner_name.text, mode, same.count,
                          same.count > 2
                              ? "give shifts of nodes, or make the structure less symmetric"
                              : "give its direction as [x, y, z]");
@@ -116,7 +117,7 @@ static status mode_of(const analysis_context *c, int index, double out[], fault 
                  : fault_set(f, STATUS_REFUSED,
                              "%s: modes %d and %d have the same value, and the direction does not "
                              "choose between them; give another direction",
-                             who.text, same.mode[0], same.mode[1]);
+                             owner_name.text, same.mode[0], same.mode[1]);
 }
 
 /* Returns the sign, 1 or -1, for which the shift is along the requested direction; 0: the shift is

@@ -76,33 +76,33 @@ status linear_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
 /* Quadratic forms for the stresses due to loads that are scaled by the load factor (growing), and
  * for the stresses due to constant loads (staying). */
 typedef struct prestresses {
-    quadratic_forms growing, staying;
-    int stays;         /* 0: no constant stress */
-    sparse G, of_stay; /* geometric stiffness of the growing and of the constant stresses */
-    double *product;   /* [free] */
+    quadratic_forms growing, constant_part;
+    int has_constant;      /* 0: no constant stress */
+    sparse G, of_constant; /* geometric stiffness of the growing and of the constant stresses */
+    double *product;       /* [free] */
 } prestresses;
 
 static double stiffness_form(void *context, const double mode[])
 {
     prestresses *p = context;
     const double K = quadratic_forms_stiffness(&p->growing, mode);
-    return p->stays ? K + quadratic_forms_geometric(&p->staying, mode) : K;
+    return p->has_constant ? K + quadratic_forms_geometric(&p->constant_part, mode) : K;
 }
 
 static double stiffness_rounding(void *context, const double mode[])
 {
     prestresses *p = context;
     const double K = quadratic_forms_stiffness_rounding(&p->growing, mode);
-    return p->stays ? K + quadratic_forms_geometric_rounding(&p->staying, mode) : K;
+    return p->has_constant ? K + quadratic_forms_geometric_rounding(&p->constant_part, mode) : K;
 }
 
 static void stiffness_product(void *context, const double mode[], double y[])
 {
     prestresses *p = context;
     quadratic_forms_product(&p->growing, mode, y);
-    if (!p->stays)
+    if (!p->has_constant)
         return;
-    sparse_mul(&p->of_stay, mode, p->product);
+    sparse_mul(&p->of_constant, mode, p->product);
     for (int i = 0; i < p->growing.free; i++)
         y[i] += p->product[i];
 }
@@ -133,7 +133,7 @@ static void wanted_of(const analysis_context *c, int analysis, eigen_problem *p)
     p->largest = imperfection_modes(c->scene, analysis);
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if (!scene_asks(q, analysis, SCENE_CRITICAL_FACTOR))
+        if (!scene_requests(q, analysis, SCENE_CRITICAL_FACTOR))
             continue;
         const scene_critical_load *load = scene_critical_load_of(q);
         int *side = load->sign > 0 ? &p->largest : &p->smallest;
@@ -150,22 +150,22 @@ static void subtract(const sparse *from, sparse *a)
 
 /* Adds G of the constant stresses to K. The structure must be stable under these stresses. Only the
  * remaining stresses grow. */
-static status split_stays(analysis_context *c, linear_system *s, prestresses *p, fault *f)
+static status split_constant(analysis_context *c, linear_system *s, prestresses *p, fault *f)
 {
     const model_size size = model_sizes(c->model);
-    p->stays = 1;
+    p->has_constant = 1;
     p->product = calloc((size_t)size.free + 1, sizeof *p->product);
     if (p->product == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for constant loads");
-    TRY(quadratic_forms_alloc(&c->eq, &s->K, &p->staying, f));
-    TRY(linear_system_solve(c, s, 0, p->staying.load_x, f));
-    TRY(quadratic_forms_load(&c->eq, &p->staying, 0, 1, f));
-    TRY(sparse_alloc_like(&s->K, &p->of_stay, f));
-    TRY(linear_geometric_stiffness(&c->eq, p->staying.sigma, 0, &p->of_stay, f));
+    TRY(quadratic_forms_alloc(&c->eq, &s->K, &p->constant_part, f));
+    TRY(linear_system_solve(c, s, 0, p->constant_part.load_x, f));
+    TRY(quadratic_forms_load(&c->eq, &p->constant_part, 0, 1, f));
+    TRY(sparse_alloc_like(&s->K, &p->of_constant, f));
+    TRY(linear_geometric_stiffness(&c->eq, p->constant_part.sigma, 0, &p->of_constant, f));
     for (int i = 0; i < size.free + size.driven; i++)
-        p->growing.load_x[i] -= p->staying.load_x[i];
+        p->growing.load_x[i] -= p->constant_part.load_x[i];
     for (int i = 0; i < s->K.column[s->K.n]; i++)
-        s->K.value[i] += p->of_stay.value[i];
+        s->K.value[i] += p->of_constant.value[i];
     c->run->counters.factorisations++;
     const status factored = context_factor(c, s->factor, &s->K, f);
     if (factored == STATUS_SINGULAR ||
@@ -190,13 +190,13 @@ static status prestress(analysis_context *c, linear_system *s, prestresses *p, f
     TRY(quadratic_forms_alloc(&c->eq, &s->K, &p->growing, f));
     TRY(linear_system_solve(c, s, 1, p->growing.load_x, f));
     if (loads_begin(&c->eq) || linear_initial(c->model) > 0)
-        TRY(split_stays(c, s, p, f));
+        TRY(split_constant(c, s, p, f));
     TRY(quadratic_forms_load(&c->eq, &p->growing, 1, 0, f));
     TRY(sparse_alloc_like(&s->K, &p->G, f));
     TRY(linear_geometric_stiffness(&c->eq, p->growing.sigma, 1, &p->G, f));
-    if (p->stays) {
-        subtract(&p->staying.loads, &p->G);
-        subtract(&p->staying.loads, &p->growing.loads);
+    if (p->has_constant) {
+        subtract(&p->constant_part.loads, &p->G);
+        subtract(&p->constant_part.loads, &p->growing.loads);
     }
     return STATUS_OK;
 }
@@ -212,9 +212,9 @@ static void buckling_free(buckling *b)
 {
     linear_system_free(&b->system);
     sparse_free_values(&b->of.G);
-    sparse_free_values(&b->of.of_stay);
+    sparse_free_values(&b->of.of_constant);
     quadratic_forms_free(&b->of.growing);
-    quadratic_forms_free(&b->of.staying);
+    quadratic_forms_free(&b->of.constant_part);
     free(b->of.product);
 }
 
@@ -298,7 +298,7 @@ static void drop_of_mesh(eigen_side *side, const eigen_side *finer, int i)
     side->count = i;
 }
 
-static void judge_side(const analysis_context *c, int analysis, int positive, eigen_result *r)
+static void evaluate_side(const analysis_context *c, int analysis, int positive, eigen_result *r)
 {
     eigen_side *side = positive ? &r->positive : &r->negative;
     eigen_result finer = {0};
@@ -317,7 +317,7 @@ status buckling_analysis(analysis_context *c, int analysis, analysis_outcome *o,
     buckling b = {0};
     const status result = solve(c, analysis, &b, f);
     for (int positive = 0; positive < 2; positive++)
-        judge_side(c, analysis, positive, &b.found);
+        evaluate_side(c, analysis, positive, &b.found);
     keep(&b.found.positive, &o->left.spectrum.positive);
     keep(&b.found.negative, &o->left.spectrum.negative);
     eigen_free(&b.found);

@@ -63,10 +63,10 @@ static status start(analysis_context *c, int analysis, const char *what, newton_
     return newton_direction(n, kinematics_state_path(n->state), &unused, f);
 }
 
-static int asks_for_growth(const analysis_context *c, int analysis)
+static int needs_growth(const analysis_context *c, int analysis)
 {
     for (int i = 0; i < c->scene->quantities; i++)
-        if (scene_asks(&c->scene->quantity[i], analysis, SCENE_GROWTH))
+        if (scene_requests(&c->scene->quantity[i], analysis, SCENE_GROWTH))
             return 1;
     return 0;
 }
@@ -113,7 +113,7 @@ static status frequencies(analysis_context *c, int analysis, newton_run *n, spar
     const sparse *pattern;
     TRY(start(c, analysis, "frequencies", n, f));
     const int negative = factor_count(n->factor).negative_pivots;
-    if (negative < 0 || (negative > 0 && asks_for_growth(c, analysis)))
+    if (negative < 0 || (negative > 0 && needs_growth(c, analysis)))
         return unsymmetric_frequencies(c, analysis, n, out, f);
     TRY(assemble_pattern(c->model, c->run->patterns, 0, &pattern, f));
     TRY(sparse_alloc_like(pattern, M, f));
@@ -194,8 +194,8 @@ static int loads_wanted(const analysis_context *c, int analysis)
     int wanted = 1 + imperfection_modes(c->scene, analysis);
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if (scene_asks(q, analysis, SCENE_CRITICAL_FACTOR) && scene_critical_load_of(q)->sign > 0 &&
-            scene_critical_load_of(q)->order >= wanted)
+        if (scene_requests(q, analysis, SCENE_CRITICAL_FACTOR) &&
+            scene_critical_load_of(q)->sign > 0 && scene_critical_load_of(q)->order >= wanted)
             wanted = scene_critical_load_of(q)->order + 1;
     }
     return wanted;
@@ -214,7 +214,7 @@ static status search_alloc(analysis_context *c, int analysis, loaded_search *s, 
     TRY(sparse_alloc_like(&s->n.K, &s->scale, f));
     TRY(kinematics_state_alloc(c->model, &s->stable, f));
     TRY(predictor_alloc(c->model, &s->guess, f));
-    predictor_forget(&s->guess);
+    predictor_reset(&s->guess);
     TRY(predictor_add(&c->eq, s->n.state, 0, &s->guess, f));
     s->n.predictor = &s->guess;
     s->begin = kinematics_state_path(s->n.state);
@@ -266,8 +266,9 @@ static status tangent_at_path(loaded_search *s, double path, fault *f)
     double increment = path - s->p[0];
     kinematics_state_copy(s->n.c->model, s->stable, s->n.state);
     TRY(static_walk(&s->n, path, &increment, f));
-    return arrival_tangent_stands(&s->n.arrival) ? STATUS_OK
-                                                 : newton_direction(&s->n, path, &unused, f);
+    return newton_convergence_tangent_stands(&s->n.newton_convergence)
+               ? STATUS_OK
+               : newton_direction(&s->n, path, &unused, f);
 }
 
 /* Returns the rate of change of the structure from the stored state to Newton's current state. */
@@ -300,7 +301,7 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
     }
     if (*stable)
         return take_state(s, f);
-    predictor_forget(&s->guess);
+    predictor_reset(&s->guess);
     return predictor_add(&s->n.c->eq, s->stable, 0, &s->guess, f);
 }
 
@@ -335,7 +336,7 @@ static status predict(loaded_search *s, double step, sparse *A, fault *f)
         s->rate = rate_to(s, s->begin + step);
     memcpy(A->value, n->K.value, (size_t)A->column[A->n] * sizeof *A->value);
     kinematics_state_copy(n->c->model, s->stable, n->state);
-    predictor_forget(&s->guess);
+    predictor_reset(&s->guess);
     TRY(predictor_add(&n->c->eq, n->state, 0, &s->guess, f));
     TRY(newton_direction(n, s->begin, &unused, f));
     if (step == 0)
@@ -433,7 +434,7 @@ static status count_at(loaded_search *s, double path, int *negative, fault *f)
     s->p[0] = kinematics_state_path(s->stable);
     TRY(tangent_at_path(s, path, f));
     *negative = factor_count(s->n.factor).negative_pivots;
-    predictor_forget(&s->guess);
+    predictor_reset(&s->guess);
     return STATUS_OK;
 }
 
@@ -550,7 +551,7 @@ static status find_more(loaded_search *s, loads_found *out, fault *f)
 }
 
 /* Moves the loads, and the modes of the first load, to the outcome. */
-static status hand_over(loaded_search *s, outcome_side *out, fault *f)
+static status store_results(loaded_search *s, outcome_side *out, fault *f)
 {
     const size_t n = (size_t)s->n.free, wanted = (size_t)s->wanted;
     double *mode = calloc(wanted * n + 1, sizeof *mode);
@@ -603,7 +604,7 @@ static double thrust_of_elements(const newton_run *n)
 
 /* Checks a divergence of a structure without mass. NOT_CONVERGED: the divergence is an artefact of
  * the mesh. Without mass, there is no search for flutter. */
-static status judge_massless(const newton_run *n, const flutter_point *first, fault *f)
+static status check_has_mass(const newton_run *n, const flutter_point *first, fault *f)
 {
     const double most = first->massless ? thrust_of_elements(n) : 0;
     return most < 1 ? STATUS_OK
@@ -622,7 +623,7 @@ static status find_without_potential(analysis_context *c, loaded_search *s, outc
     flutter_point first;
     char how[64] = "";
     TRY(flutter_search(&s->n, s->size, static_walk, &first, f));
-    const status right = judge_massless(&s->n, &first, f);
+    const status right = check_has_mass(&s->n, &first, f);
     if (right != STATUS_OK) {
         free(first.mode);
         return right;
@@ -666,7 +667,7 @@ static status run(analysis_context *c, int analysis, loaded_search *s, outcome_s
     if (!factor_is_symmetric(s->n.factor))
         return find_without_potential(c, s, out, f);
     TRY(find_critical(s, f));
-    return hand_over(s, &out->positive, f);
+    return store_results(s, &out->positive, f);
 }
 
 status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, fault *f)

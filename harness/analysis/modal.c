@@ -18,8 +18,8 @@ int modal_wanted(const analysis_context *c, int analysis)
     int wanted = imperfection_modes(c->scene, analysis);
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if ((scene_asks(q, analysis, SCENE_FREQUENCY) ||
-             scene_asks(q, analysis, SCENE_DAMPING_RATIO)) &&
+        if ((scene_requests(q, analysis, SCENE_FREQUENCY) ||
+             scene_requests(q, analysis, SCENE_DAMPING_RATIO)) &&
             wanted < scene_mode_of(q)->order + 1)
             wanted = scene_mode_of(q)->order + 1;
     }

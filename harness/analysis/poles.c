@@ -74,11 +74,11 @@ static const double small = 1e-3;
 /* Returns 1 if the slow pole of an integral hides other modes in rounding errors. */
 static int hides(const unsymmetric_problem *p, const unsymmetric_result *r)
 {
-    const double digits = 1e-10, some = 1e-7, bearable = 1e-6;
+    const double digits = 1e-10, some = 1e-7, acceptable = 1e-6;
     int hidden = r->count == 0 || size_of(r, 0) < digits * highest(p) ||
                  size_of(r, 0) < some * size_of(r, r->count - 1);
     for (int i = 0; i < r->count; i++)
-        hidden |= !(r->error[i] <= bearable);
+        hidden |= !(r->error[i] <= acceptable);
     return hidden;
 }
 

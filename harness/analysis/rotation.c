@@ -144,11 +144,12 @@ static status take_modes(analysis_context *c, const gyroscopic_result *r, rotati
 
 /* Returns 1 if quantities of this analysis need modes at any station. elsewhere 1: at a station
  * other than the last. */
-static int asks_for_modes(const analysis_context *c, int analysis, int elsewhere)
+static int needs_modes(const analysis_context *c, int analysis, int elsewhere)
 {
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if ((scene_asks(q, analysis, SCENE_FREQUENCY) || scene_asks(q, analysis, SCENE_GROWTH)) &&
+        if ((scene_requests(q, analysis, SCENE_FREQUENCY) ||
+             scene_requests(q, analysis, SCENE_GROWTH)) &&
             (!elsewhere || q->reduction != SCENE_LAST))
             return 1;
     }
@@ -162,8 +163,8 @@ static int are_wanted_at(const analysis_context *c, int analysis, const outcome_
                          int station)
 {
     if (c->options->values_only)
-        return extract_path_asks(c, analysis, path->stations, path->value, station);
-    return station == path->stations - 1 || asks_for_modes(c, analysis, 1);
+        return extract_path_has(c, analysis, path->stations, path->value, station);
+    return station == path->stations - 1 || needs_modes(c, analysis, 1);
 }
 
 /* Returns the initial number of modes to be computed. */
@@ -172,7 +173,7 @@ static int modes_wanted(const analysis_context *c, int analysis)
     int wanted = scene_walk_of(&c->scene->analysis[analysis])->modes;
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if (scene_asks(q, analysis, SCENE_FREQUENCY) && wanted < scene_mode_of(q)->order + 1)
+        if (scene_requests(q, analysis, SCENE_FREQUENCY) && wanted < scene_mode_of(q)->order + 1)
             wanted = scene_mode_of(q)->order + 1;
     }
     return wanted + OTHERS;
@@ -184,7 +185,7 @@ static int is_enough(const analysis_context *c, int analysis, const rotation_mod
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
         int found = 0;
-        if (!scene_asks(q, analysis, SCENE_FREQUENCY))
+        if (!scene_requests(q, analysis, SCENE_FREQUENCY))
             continue;
         for (int k = 0; k < modes->count; k++)
             found += modes->growth[k] == 0 && modes_in_family(scene_mode_of(q), &modes->shape[k]);
@@ -302,20 +303,20 @@ static step_stability stability_of(const rotation_modes *modes)
     return modes->negative == 0 ? STEP_STABLE : known ? STEP_HELD : STEP_OPEN;
 }
 
-void rotation_judge_stations(analysis_context *c, int analysis, const analysis_outcome *o)
+void rotation_evaluate_stations(analysis_context *c, int analysis, const analysis_outcome *o)
 {
     const outcome_rotation *r = outcome_rotation_of(o);
     for (int i = 0; r->modes != NULL && i < r->path.stations; i++)
         if (r->modes[i].count > 0)
-            history_judge_station(c->result, analysis, r->path.value[i],
-                                  stability_of(&r->modes[i]));
+            history_evaluate_station(c->result, analysis, r->path.value[i],
+                                     stability_of(&r->modes[i]));
 }
 
 status rotation_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     matrices a = {0};
     TRY(static_analysis(c, analysis, o, f));
-    if (!asks_for_modes(c, analysis, 0))
+    if (!needs_modes(c, analysis, 0))
         return STATUS_OK;
     const status outcome = modes_of(c, analysis, &a, &o->left.rotation, f);
     matrices_free(&a);

@@ -85,12 +85,13 @@ static int has_negative(const solve_result *r, int from)
 
 /* Detects a path that starts from a structure whose stiffness is indefinite at rest. The function
  * is called if the path was unstable or failed. The work is not counted. */
-static status judge_rest(analysis_context *c, const analysis_outcome *o, int first_step, fault *f)
+static status check_undeformed_state(analysis_context *c, const analysis_outcome *o, int first_step,
+                                     fault *f)
 {
     if (!outcome_has_path(o) || o->kind == SCENE_COMPLIANCE || o->kind == SCENE_MOTION ||
         o->kind == SCENE_HARMONIC ||
         (o->status == STATUS_OK && !has_negative(c->result, first_step)) ||
-        newton_judge_rest(c->model, NULL) != STATUS_OK) /* already reported */
+        newton_check_rest(c->model, NULL) != STATUS_OK) /* already reported */
         return o->status;
     fault why = {""};
     linear_system s = {0};
@@ -131,16 +132,16 @@ static void run_analyses(analysis_context *c, int perfect)
         const int first_step = c->result->steps;
         o->status = scene_inputs_check(c->scene, i, &f);
         if (o->status == STATUS_OK)
-            o->status = newton_judge_rest(c->model, &f);
+            o->status = newton_check_rest(c->model, &f);
         if (o->status == STATUS_OK)
             o->status = check_base(c, i, &f);
         if (o->status == STATUS_OK)
             o->status = run(&own, i, o, &f);
-        history_judge_steps(c->result, c->scene, i, first_step);
+        history_evaluate_steps(c->result, c->scene, i, first_step);
         if (a->kind == SCENE_ROTATION)
-            rotation_judge_stations(&own, i, o);
+            rotation_evaluate_stations(&own, i, o);
         explain(&own, i, o, &f);
-        o->status = judge_rest(&own, o, first_step, &f);
+        o->status = check_undeformed_state(&own, o, first_step, &f);
         snprintf(o->reason, sizeof o->reason, "%s", f.text);
         if (o->status != STATUS_OK && c->result->status == STATUS_OK) {
             c->result->status = o->status;
@@ -151,7 +152,7 @@ static void run_analyses(analysis_context *c, int perfect)
 
 /* Gives the solution the status of a later stage that failed, unless the solution has failed
  * before. */
-static void spoil(solve_result *r, status outcome, const fault *f)
+static void corrupt(solve_result *r, status outcome, const fault *f)
 {
     if (outcome == STATUS_OK || r->status != STATUS_OK)
         return;
@@ -165,9 +166,9 @@ static void keep_states(analysis_context *c)
     fault f = {""};
     solve_result *r = c->result;
     if (c->options->shapes > 0)
-        spoil(r, collect_shapes(c, c->options->shapes, &r->shapes, &f), &f);
+        corrupt(r, collect_shapes(c, c->options->shapes, &r->shapes, &f), &f);
     if (c->options->systems)
-        spoil(r, collect_systems(c, &r->systems, &f), &f);
+        corrupt(r, collect_systems(c, &r->systems, &f), &f);
 }
 
 /* Sets the value of an envelope of quantities to that of the governing quantity, and adds its name.
@@ -284,7 +285,7 @@ static void run_imperfect(analysis_context *c, imperfect *p)
         o->status = ready;
         snprintf(o->reason, sizeof o->reason, "%s", f.text);
     }
-    spoil(c->result, ready, &f);
+    corrupt(c->result, ready, &f);
 }
 
 status solve_scene(const scene *s, const model *m, const solve_options *options,
@@ -302,7 +303,7 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
                           .work = &work};
     memset(result, 0, sizeof *result);
     TRY(run_state_begin(&run, m, c.options->threads, f));
-    phases_want(&run.phases, c.options->phases);
+    phases_request(&run.phases, c.options->phases);
     const double start = clock_processor_seconds();
     result->quantity = calloc((size_t)s->quantities + 1, sizeof *result->quantity);
     c.outcomes = calloc((size_t)s->analyses + 1, sizeof *c.outcomes);

@@ -21,17 +21,17 @@ enum { EASY_ITERATIONS = 6, MAX_HALVINGS = 14, SINGULAR_STARTS = 3 };
 /* Determines the stability at the end of a step if the pivots do not decide it. *found: path
  * parameter within the step at which stability differs from that of both ends; INFINITY: none.
  * last_resort: 1 if the step cannot be shorter. */
-static status judge_step(newton_run *n, flutter_judge *judge, int last_resort, step_record *record,
-                         double *found, fault *f)
+static status check_flutter(newton_run *n, flutter_check *flutter, int last_resort,
+                            step_record *record, double *found, fault *f)
 {
     *found = INFINITY;
-    if (judge == NULL)
+    if (flutter == NULL)
         return STATUS_OK;
     if (!last_resort)
-        TRY(within_step(judge, n->c, n->backup, n->state, found, f));
+        TRY(within_step(flutter, n->c, n->backup, n->state, found, f));
     return record->negative_pivots >= 0 || isfinite(*found)
                ? STATUS_OK
-               : flutter_judge_state(judge, n->c, n->state, record, f);
+               : flutter_check_state(flutter, n->c, n->state, record, f);
 }
 
 /* Reverses the step, so that it can be repeated in shorter steps. */
@@ -40,11 +40,11 @@ static void take_back(newton_run *n, const step_record *record)
     history_drop_step(n->c->result, record);
     kinematics_state_copy(n->c->model, n->backup, n->state);
     if (n->predictor != NULL)
-        predictor_forget(n->predictor);
+        predictor_reset(n->predictor);
     n->c->run->counters.rejected_steps++;
 }
 
-static status walk_to(newton_run *n, double target, flutter_judge *judge, double *increment,
+static status walk_to(newton_run *n, double target, flutter_check *flutter, double *increment,
                       fault *f)
 {
     counters *count = &n->c->run->counters;
@@ -62,7 +62,7 @@ static status walk_to(newton_run *n, double target, flutter_judge *judge, double
         const status outcome = newton_to(n, to, &record, f);
         double found = INFINITY;
         if (outcome == STATUS_OK)
-            TRY(judge_step(n, judge, to - from <= least, &record, &found, f));
+            TRY(check_flutter(n, flutter, to - from <= least, &record, &found, f));
         if (isfinite(found)) {
             take_back(n, &record);
             rejected++;
@@ -84,10 +84,10 @@ static status walk_to(newton_run *n, double target, flutter_judge *judge, double
             continue;
         }
         /* shorter steps have the same matrix, except for the load stiffness */
-        const int hopeless =
+        const int cannot_converge =
             outcome == STATUS_SINGULAR && record.iterations == 0 && rejected >= SINGULAR_STARTS;
         if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least ||
-            hopeless) {
+            cannot_converge) {
             history_drop_step(n->c->result, &record);
             return outcome;
         }
@@ -128,13 +128,13 @@ static int begins_loaded(const analysis_context *c)
 }
 
 /* Computes the equilibrium at path 0. */
-static status equilibrate(newton_run *n, flutter_judge *judge, fault *f)
+static status equilibrate(newton_run *n, flutter_check *flutter, fault *f)
 {
     step_record record = {.path = 0};
     double found = INFINITY;
     status outcome = newton_to(n, 0, &record, f);
     if (outcome == STATUS_OK)
-        outcome = judge_step(n, judge, 1, &record, &found, f);
+        outcome = check_flutter(n, flutter, 1, &record, &found, f);
     if (outcome != STATUS_OK) {
         history_drop_step(n->c->result, &record);
         return outcome;
@@ -145,7 +145,7 @@ static status equilibrate(newton_run *n, flutter_judge *judge, fault *f)
 }
 
 /* Advances to every station and stores its state. Steps are shortened only if this is necessary. */
-static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance_walk *on_the_way,
+static status walk(newton_run *n, int analysis, flutter_check *flutter, compliance_walk *on_the_way,
                    outcome_path *o, fault *f)
 {
     analysis_context *c = n->c;
@@ -158,8 +158,8 @@ static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance
         const double from = i > 0 ? a->path.value[i - 1] : 0;
         increment = fmax(increment, (a->path.value[i] - from) / steps);
         if (i == 0 && a->path.value[0] <= kinematics_state_path(n->state) && begins_loaded(c))
-            TRY(equilibrate(n, judge, f));
-        TRY(walk_to(n, a->path.value[i], judge, &increment, f));
+            TRY(equilibrate(n, flutter, f));
+        TRY(walk_to(n, a->path.value[i], flutter, &increment, f));
         if (c->options->newton != NEWTON_DENSE && n->condensed == NULL)
             context_count_condition(c, n->factor, &n->K);
         TRY(compliance_walk_take(on_the_way, n, i, f));
@@ -171,7 +171,7 @@ static status walk(newton_run *n, int analysis, flutter_judge *judge, compliance
 
 /* Solves the path. The caller static_analysis() frees the workspace, even after a failure. */
 static status solve(analysis_context *c, int analysis, newton_run *n, predictor *t,
-                    flutter_judge *judge, compliance_walk **on_the_way, outcome_path *o, fault *f)
+                    flutter_check *flutter, compliance_walk **on_the_way, outcome_path *o, fault *f)
 {
     const scene_walk *a = scene_walk_of(&c->scene->analysis[analysis]);
     TRY(newton_alloc(c, 1, n, f));
@@ -181,7 +181,7 @@ static status solve(analysis_context *c, int analysis, newton_run *n, predictor 
     if (c->options->sample > 0)
         return sample(n, a->path.value[0], f);
     TRY(compliance_walk_begin(n, analysis, on_the_way, f));
-    return walk(n, analysis, judge, *on_the_way, o, f);
+    return walk(n, analysis, flutter, *on_the_way, o, f);
 }
 
 status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
@@ -189,12 +189,13 @@ status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     newton_run n;
     predictor t = {0};
     compliance_walk *on_the_way = NULL;
-    flutter_judge judge = {0};
+    flutter_check flutter = {0};
     const scene_analysis *a = &c->scene->analysis[analysis];
-    const int looks = c->options->looks && a->kind != SCENE_ROTATION && !scene_rotates(a);
-    const status result =
-        solve(c, analysis, &n, &t, looks ? &judge : NULL, &on_the_way, outcome_walk(o), f);
-    flutter_judge_free(&judge);
+    const int checks_flutter =
+        c->options->checks_flutter && a->kind != SCENE_ROTATION && !scene_rotates(a);
+    const status result = solve(c, analysis, &n, &t, checks_flutter ? &flutter : NULL, &on_the_way,
+                                outcome_walk(o), f);
+    flutter_check_free(&flutter);
     compliance_walk_end(on_the_way);
     predictor_free(&t);
     newton_free(&n);
@@ -210,14 +211,14 @@ static unsigned wanted_columns(const analysis_context *c, int analysis)
     unsigned wanted = 0;
     for (int i = 0; i < c->scene->quantities; i++) {
         const scene_quantity *q = &c->scene->quantity[i];
-        if (scene_asks(q, analysis, SCENE_COMPLIANCE_ENTRY) ||
-            scene_asks(q, analysis, SCENE_STIFFNESS_ENTRY))
+        if (scene_requests(q, analysis, SCENE_COMPLIANCE_ENTRY) ||
+            scene_requests(q, analysis, SCENE_STIFFNESS_ENTRY))
             wanted |= 1u << scene_entry_of(q)->column;
     }
     return wanted;
 }
 
-static void forget_columns(unsigned known, double C[36])
+static void clear_columns(unsigned known, double C[36])
 {
     for (int i = 0; i < 36; i++)
         if (!(known >> i % 6 & 1u))
@@ -254,8 +255,8 @@ static status matrices_of(analysis_context *c, const scene_compliance *what, dou
     TRY(tangent_compliance(c, t, wanted, motions.components, out->C, f));
     if (motions.count > 0 && (wanted | held) == 0x3f)
         return convention_apply(own, what->moments, &motions, reaction + 3, out->C, out->K, f);
-    forget_columns(wanted | held, out->C);
-    forget_columns(0, out->K);
+    clear_columns(wanted | held, out->C);
+    clear_columns(0, out->K);
     return STATUS_OK;
 }
 
@@ -276,7 +277,7 @@ static status compliance_take(analysis_context *c, int analysis, const newton_ru
     const scene_compliance *what = scene_compliance_of(&c->scene->analysis[analysis]);
     double reaction[6];
     TRY(reaction_of(c, what, n->state, t, reaction, f));
-    if (!arrival_tangent_stands(&n->arrival))
+    if (!newton_convergence_tangent_stands(&n->newton_convergence))
         TRY(tangent_at(c, what, n->state, reaction, t, f));
     else if (n->condensed != NULL)
         TRY(tangent_take_condensed(c, what, n->state, reaction, n->condensed, t, f));
@@ -343,7 +344,7 @@ static status compliance_solve(analysis_context *c, int analysis, node_tangent *
         station_matrices at = {0};
         if (out->taken != NULL && out->taken[i].known)
             at = out->taken[i];
-        else if (path == NULL || extract_path_wants(c, analysis, path->stations, path->value, i))
+        else if (path == NULL || extract_path_needs(c, analysis, path->stations, path->value, i))
             TRY(compliance_at(c, what, s, t, wanted, &at, f));
         memcpy(m->compliance + 36 * (size_t)i, at.C, sizeof at.C);
         memcpy(m->stiffness + 36 * (size_t)i, at.K, sizeof at.K);
@@ -422,11 +423,12 @@ status compliance_walk_take(compliance_walk *w, const newton_run *n, int station
 {
     analysis_context *c = n->c;
     /* the states of many elements are not stored for later use */
-    if (w == NULL || (n->condensed == NULL && !arrival_tangent_stands(&n->arrival)))
+    if (w == NULL ||
+        (n->condensed == NULL && !newton_convergence_tangent_stands(&n->newton_convergence)))
         return STATUS_OK;
     for (int i = 0; i < w->count; i++) {
         follower *of = &w->of[i];
-        if (!extract_path_wants(c, of->analysis, w->path->stations, w->path->value, station))
+        if (!extract_path_needs(c, of->analysis, w->path->stations, w->path->value, station))
             continue;
         station_matrices *out = &c->outcomes[of->analysis].left.compliance.taken[station];
         fault why = {""};

@@ -431,7 +431,7 @@ static void sort(unsymmetric_solver *s)
         }
 }
 
-static status hand_over(unsymmetric_solver *s, fault *f)
+static status store_results(unsymmetric_solver *s, fault *f)
 {
     unsymmetric_result *r = s->out;
     const size_t count = (size_t)s->right.count;
@@ -473,7 +473,7 @@ status unsymmetric_solve(const unsymmetric_problem *p, unsymmetric_result *r, fa
         if (outcome == STATUS_OK && p->shift > 0)
             sort(&s);
         if (outcome == STATUS_OK)
-            outcome = hand_over(&s, f);
+            outcome = store_results(&s, f);
     }
     free(s.scale);
     free(s.of);

@@ -14,25 +14,26 @@ static int is_named(const bench_options *r)
 /* Measures the times. The caller answer() frees *b, even after a failure. */
 static status measure(bench_options *r, bench *b, fault *f)
 {
-    const bench_request asked = {.cases = r->of.line->argument,
-                                 .scene = r->of.scene != NULL ? scene_file_case(r->of.scene) : NULL,
-                                 .count = r->of.line->arguments,
-                                 .assignment = r->of.set.text,
-                                 .assignments = r->of.set.count,
-                                 .mesh = r->meshes.elements,
-                                 .meshes = r->meshes.count,
-                                 .cells = {.select = r->select,
-                                           .jobs = r->jobs,
-                                           .whole_only = 1,
-                                           .formulations = r->chosen.formulations,
-                                           .formulation = r->chosen.formulation,
-                                           .progress = isatty(STDERR_FILENO) ? stderr : NULL},
-                                 .threads = r->solver.threads,
-                                 .dense = r->dense};
+    const bench_request requested = {.cases = r->of.line->argument,
+                                     .scene =
+                                         r->of.scene != NULL ? scene_file_case(r->of.scene) : NULL,
+                                     .count = r->of.line->arguments,
+                                     .assignment = r->of.set.text,
+                                     .assignments = r->of.set.count,
+                                     .mesh = r->meshes.elements,
+                                     .meshes = r->meshes.count,
+                                     .cells = {.select = r->select,
+                                               .jobs = r->jobs,
+                                               .whole_only = 1,
+                                               .formulations = r->chosen.formulations,
+                                               .formulation = r->chosen.formulation,
+                                               .progress = isatty(STDERR_FILENO) ? stderr : NULL},
+                                     .threads = r->solver.threads,
+                                     .dense = r->dense};
     const experiment_output to = {.results = r->output, .format = r->format};
-    TRY(files_check_results(r->of.line, 1, own_tables_packed(&r->truths), f));
+    TRY(files_check_results(r->of.line, 1, user_tables_packed(&r->truths), f));
     TRY(case_input_truths(&r->of, &r->truths, &b->truths, f));
-    return experiment_do(&experiment_bench, &asked, &to, b, f);
+    return experiment_do(&experiment_bench, &requested, &to, b, f);
 }
 
 static int answer(const command_line *l, void *request)
@@ -42,7 +43,7 @@ static int answer(const command_line *l, void *request)
     bench b = {.named = 0};
     fault f = {""};
     if (r->against != NULL)
-        return contest_run(r);
+        return bench_against_run(r);
     if (r->of.scene_path != NULL && case_input_find(&r->of) == NULL)
         return r->of.refusal;
     if (r->error != NULL || r->solver.keep_all)
@@ -84,7 +85,7 @@ static const verb_option own[] = {
     {0}};
 static const verb_group shared[] = {
     SHARED(case, of),       SHARED(formulations, chosen), SHARED(meshes, meshes),
-    SHARED(select, select), SHARED(solver, solver),       SHARED(own_truths, truths),
+    SHARED(select, select), SHARED(solver, solver),       SHARED(user_truths, truths),
     SHARED(format, format), SHARED(jobs, jobs),           {NULL, 0}};
 const verb verb_bench = {
     "bench",
@@ -105,6 +106,6 @@ const verb verb_bench = {
     shared,
     own,
     sizeof(bench_options),
-    .place = VERB_JUDGE + 20,
+    .place = VERB_EVALUATE + 20,
     .answer = answer,
     .before = before};

@@ -32,16 +32,16 @@ static const verb_option packed_truths[] = {
      "file of reference values (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program)",
      .traits = OPTION_INPUT},
     {0}};
-static const verb_option own_truths[] = {
+static const verb_option user_truths[] = {
     {"truths", 0, "FILE",
      "file of reference values (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program); "
      "FILE.csv adds your own reference values; may be repeated",
      .traits = OPTION_REPEATS | OPTION_INPUT, .read = read_either},
     {0}};
 const option_group options_truths = {packed_truths, NULL, NULL, NULL};
-const option_group options_own_truths = {own_truths, NULL, NULL, NULL};
+const option_group options_user_truths = {user_truths, NULL, NULL, NULL};
 
-const char *own_tables_packed(const truths_options *o)
+const char *user_tables_packed(const truths_options *o)
 {
     static char found[PATH_MAX];
     if (o->packed != NULL)
@@ -60,30 +60,31 @@ static status refuse(const mistakes *m, fault *f)
     return fault_set(f, outcome, "%.330s (and %d more)", first.text, others);
 }
 
-status own_tables_truths(const truths_options *o, const case_type *const run[],
-                         const case_type *only, truths *t, fault *f)
+status user_tables_truths(const truths_options *o, const case_type *const run[],
+                          const case_type *only, truths *t, fault *f)
 {
     mistakes m;
     for (int i = 0; i < o->own.count; i++) {
-        TRY(own_truths_read(o->own.text[i], run, only, t, &m, f));
+        TRY(user_truths_read(o->own.text[i], run, only, t, &m, f));
         TRY(refuse(&m, f));
     }
     return STATUS_OK;
 }
 
-status own_tables_findings(const text_list *tables, const case_type *const run[], truths *t,
-                           fault *f)
+status user_tables_deviations(const text_list *tables, const case_type *const run[], truths *t,
+                              fault *f)
 {
     mistakes m;
     for (int i = 0; i < tables->count; i++) {
-        TRY(own_findings_read(tables->text[i], run, t, &m, f));
+        TRY(user_deviations_read(tables->text[i], run, t, &m, f));
         TRY(refuse(&m, f));
     }
     return STATUS_OK;
 }
 
 /* Prints all errors, in one line each, or as JSON if this is the output format. */
-static void tell_mistakes(const command_line *l, const mistakes *m, status outcome, const fault *f)
+static void report_mistakes(const command_line *l, const mistakes *m, status outcome,
+                            const fault *f)
 {
     const char *format = given_value(l, "format");
     fault unwritten;
@@ -96,7 +97,7 @@ static void tell_mistakes(const command_line *l, const mistakes *m, status outco
 }
 
 /* Prints the keys `omit` and `shear_theory` that replace the key `needs` of earlier versions. */
-static void tell_needs(const char *path, const case_type *type)
+static void report_needs(const char *path, const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS];
     char words[SCENE_OMISSION_WORDS], omit[SCENE_OMISSION_WORDS + 20] = "", theory[40] = "";
@@ -117,11 +118,11 @@ static void tell_needs(const char *path, const case_type *type)
     scene_free(&s);
 }
 
-static int tell_reading(const command_line *l, const mistakes *m, status outcome, const fault *f)
+static int report_reading(const command_line *l, const mistakes *m, status outcome, const fault *f)
 {
     if (outcome == STATUS_OK)
         return EXIT_AS_EXPECTED;
-    tell_mistakes(l, m, outcome, f);
+    report_mistakes(l, m, outcome, f);
     return outcome == STATUS_FAULT ? EXIT_FAULT : EXIT_REFUSED;
 }
 
@@ -133,8 +134,8 @@ static int read_by(scene_reader *read, const command_line *l, const char *path, 
     fault f = {""};
     const status outcome = read(path, out, &m, &f);
     if (outcome == STATUS_OK && scene_file_states(*out, "needs"))
-        tell_needs(path, scene_file_case(*out));
-    return tell_reading(l, &m, outcome, &f);
+        report_needs(path, scene_file_case(*out));
+    return report_reading(l, &m, outcome, &f);
 }
 
 int case_input_read(const command_line *l, const char *path, scene_file **out)
@@ -147,7 +148,7 @@ static int check_values(const case_options *r)
     mistakes m;
     fault f = {""};
     const status outcome = scene_file_check(r->scene, r->parameter, &m, &f);
-    return tell_reading(r->line, &m, outcome, &f);
+    return report_reading(r->line, &m, outcome, &f);
 }
 
 const case_type *case_input_scene(case_options *r)
@@ -165,7 +166,7 @@ const case_type *case_input_scene(case_options *r)
     return NULL;
 }
 
-void case_input_tell_units(const scene_file *file, const double parameter[])
+void case_input_report_units(const scene_file *file, const double parameter[])
 {
     char words[FAULT_TEXT];
     scene s;
@@ -241,7 +242,7 @@ const case_type *case_input_find(case_options *r)
         }
     const int code = r->scene != NULL && r->set.count > 0 ? check_values(r) : EXIT_AS_EXPECTED;
     if (code == EXIT_AS_EXPECTED) {
-        case_input_tell_units(r->scene, r->parameter);
+        case_input_report_units(r->scene, r->parameter);
         return type;
     }
     r->refusal = code;
@@ -250,7 +251,7 @@ const case_type *case_input_find(case_options *r)
 
 static status add_truths(const case_options *r, const truths_options *of, truths *t, fault *f)
 {
-    const char *packed = own_tables_packed(of);
+    const char *packed = user_tables_packed(of);
     const case_type *type = r->scene != NULL          ? scene_file_case(r->scene)
                             : r->line->arguments == 1 ? case_find(r->name, f)
                                                       : NULL;
@@ -260,7 +261,7 @@ static status add_truths(const case_options *r, const truths_options *of, truths
         TRY(scene_truths_add(r->scene, r->parameter, t, f));
     else
         TRY(truths_read_case(packed, type, t, f));
-    return own_tables_truths(of, (const case_type *const[]){type, NULL}, type, t, f);
+    return user_tables_truths(of, (const case_type *const[]){type, NULL}, type, t, f);
 }
 
 status case_input_truths(const case_options *r, const truths_options *of, truths *t, fault *f)
@@ -272,7 +273,7 @@ status case_input_truths(const case_options *r, const truths_options *of, truths
     return outcome;
 }
 
-void case_input_tell_analysis(const case_options *r, const scene *s)
+void case_input_report_analysis(const case_options *r, const scene *s)
 {
     if (r->scene == NULL || scene_file_states(r->scene, "analyses"))
         return;

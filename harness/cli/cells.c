@@ -17,7 +17,7 @@ static double cells_expense(const sweep *s, int index)
 {
     double all = 0;
     for (int k = 0; k < s->series[index].meshes; k++)
-        all += expense_of_cell(s, index, k);
+        all += run_cost_of_cell(s, index, k);
     return all;
 }
 
@@ -115,7 +115,7 @@ status cells_read(FILE *from, sweep *s, int index, fault *f)
     return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "a batch is incomplete");
 }
 
-void cells_forget(series *one)
+void cells_free_results(series *one)
 {
     for (int k = 0; k < one->meshes; k++)
         cell_result_free(&one->cell[k]);
@@ -188,7 +188,7 @@ static status compute(void *context, int batch, FILE *to, digest *content, fault
         if (!cells_runs(c->s, i))
             continue;
         TRY(cells_write(to, c->s, i, content, f));
-        cells_forget(&c->s->series[i]);
+        cells_free_results(&c->s->series[i]);
     }
     return STATUS_OK;
 }
@@ -223,15 +223,15 @@ static void sum_costs(int batches, const int first[], const double each[], doubl
     }
 }
 
-/* Divides the items into batches. Sets the first item of each batch (deal_cut) and the cost of each
- * batch. Returns the number of batches. */
+/* Divides the items into batches. Sets the first item of each batch (batches_cut) and the cost of
+ * each batch. Returns the number of batches. */
 static int cut_items(int items, const double each[], int first[], double cost[])
 {
     double all = 0;
     for (int i = 0; i < items; i++)
         all += each[i];
     const double most = fmin(fmax(batch_share * all, batch_least), batch_most);
-    const int batches = deal_cut(items, each, most, first);
+    const int batches = batches_cut(items, each, most, first);
     sum_costs(batches, first, each, cost);
     return batches;
 }

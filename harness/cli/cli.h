@@ -52,7 +52,7 @@ struct verb_option {
 };
 
 /* Headings of the help. */
-enum { VERB_LOOK = 100, VERB_COMPUTE = 200, VERB_JUDGE = 300, VERB_EXCHANGE = 400 };
+enum { VERB_LOOK = 100, VERB_COMPUTE = 200, VERB_EVALUATE = 300, VERB_EXCHANGE = 400 };
 
 typedef struct verb verb;
 typedef struct experiment_type experiment_type; /* harness/experiments/experiments.h */
@@ -184,21 +184,21 @@ typedef struct truths_options {
     const char *packed; /* file of --truths FILE; NULL: not given */
     text_list own;      /* --truths FILE.csv */
 } truths_options;
-extern const option_group options_truths;     /* --truths FILE */
-extern const option_group options_own_truths; /* also accepts FILE.csv */
+extern const option_group options_truths;      /* --truths FILE */
+extern const option_group options_user_truths; /* also accepts FILE.csv */
 
 /* Returns the path of the packed reference values, from --truths or by default
  * (harness/study/study.h). */
-const char *own_tables_packed(const truths_options *);
+const char *user_tables_packed(const truths_options *);
 /* Adds the reference values of --truths FILE.csv. only: the case to which values are added; NULL:
  * all cases. run: cases of the run, NULL-terminated. REFUSED: reports the first error as
  * file:line:column, and the number of errors. */
-status own_tables_truths(const truths_options *, const case_type *const run[],
-                         const case_type *only, truths *t, fault *f);
+status user_tables_truths(const truths_options *, const case_type *const run[],
+                          const case_type *only, truths *t, fault *f);
 /* Adds the rules of tables. If a table is given, verdicts on new formulations affect the exit
  * status. */
-status own_tables_findings(const text_list *tables, const case_type *const run[], truths *t,
-                           fault *f);
+status user_tables_deviations(const text_list *tables, const case_type *const run[], truths *t,
+                              fault *f);
 
 typedef struct case_options {
     const char *name;                      /* name of the case; NULL: none */
@@ -227,9 +227,9 @@ int case_input_read(const command_line *, const char *path, scene_file **out);
 status case_input_truths(const case_options *, const truths_options *, truths *t, fault *f);
 /* Prints one line on stderr if the numbers of a scene file suggest other units. Does nothing if
  * `file` is NULL. */
-void case_input_tell_units(const scene_file *, const double parameter[]);
+void case_input_report_units(const scene_file *, const double parameter[]);
 /* Prints one line on stderr that names the default analysis if the scene file has none. */
-void case_input_tell_analysis(const case_options *, const scene *s);
+void case_input_report_analysis(const case_options *, const scene *s);
 
 enum { SCENES_MOST = 64 };
 
@@ -237,7 +237,7 @@ typedef struct scenes_options {
     text_list scene; /* files, folders */
     int built_in;    /* 1: built-in cases are requested as well */
     truths_options truths;
-    text_list findings; /* tables to be added to the list of known deviations */
+    text_list deviations; /* tables to be added to the list of known deviations */
 } scenes_options;
 
 typedef struct scenes {
@@ -309,7 +309,7 @@ int message_exit(status s, const fault *f);
 /* Protects against a formulation that is loaded into this process. If the formulation crashes or
  * exceeds `seconds` (0: no limit), the program ends with one line that names it. Does nothing for
  * built-in formulations. */
-void guard_formulation(const formulation *chosen, int seconds);
+void formulation_start_guard(const formulation *chosen, int seconds);
 /* Prepares for abnormal ends. Call this function once, before any file is opened. Closed standard
  * streams are opened on /dev/null without write permission, so no other file takes their place.
  * After signals that end the program (SIGTERM, SIGHUP, SIGINT) and after crashes, unfinished output

@@ -19,7 +19,7 @@
 status cells_write(FILE *to, const sweep *s, int series, digest *content, fault *f);
 status cells_read(FILE *from, sweep *s, int series, fault *f);
 /* Resets the series to its planned state, without results. */
-void cells_forget(series *one);
+void cells_free_results(series *one);
 /* Removes the series for which keep[seriess] is not 1. The cells of these series count as
  * unfinished. */
 void cells_keep(sweep *s, const char keep[]);
@@ -41,11 +41,11 @@ typedef struct bench_options {
 } bench_options;
 
 /* Compares the two cells and returns the exit status. */
-int contest_run(bench_options *r);
+int bench_against_run(bench_options *r);
 
 enum { CONTESTANT_ARGUMENTS = 12 + 2 * CASE_MAX_PARAMETERS };
 
-typedef struct contestant {
+typedef struct compared_run {
     char name[FORMULATION_KEY + 512];
     cell_request request;
     const char *program;                        /* NULL: in this process */
@@ -57,25 +57,25 @@ typedef struct contestant {
     const schema_field
         *counted[SCHEMA_MOST_FIELDS]; /* fields for the size and the work of a cell */
     double count[SCHEMA_MOST_FIELDS];
-} contestant;
+} compared_run;
 
 /* Returns the request for the default choice of -f or -n. */
-defaults contestant_defaults(bench_options *r, const case_type *type);
+defaults compared_run_defaults(bench_options *r, const case_type *type);
 /* Prepares a cell of the scene, and keeps a pointer to the scene. */
-void contestant_here(contestant *, const bench_options *r, const scene *s,
-                     const formulation *chosen, int elements);
+void compared_run_here(compared_run *, const bench_options *r, const scene *s,
+                       const formulation *chosen, int elements);
 /* Prepares the cell of the request for another program. The structure contains pointers to its
  * members and must not be copied. */
-void contestant_elsewhere(contestant *, const bench_options *r, const char *program);
+void compared_run_elsewhere(compared_run *, const bench_options *r, const char *program);
 /* Runs both cells alternately on one processor for a few seconds, and compares their counts of
  * work. */
-status contestant_compete(contestant *a, contestant *b, contest_clock *out, fault *f);
-/* contestant_show prints both times, the faster cell, and the difference of work. contestant_json
- * returns these data as JSON, which the caller owns. */
-void contestant_show(const contestant *a, const contestant *b, const contest_clock *v);
-json_t *contestant_json(const contestant *a, const contestant *b, const contest_clock *v);
+status compared_run_measure(compared_run *a, compared_run *b, against_times *out, fault *f);
+/* compared_run_show prints both times, the faster cell, and the difference of work.
+ * compared_run_json returns these data as JSON, which the caller owns. */
+void compared_run_show(const compared_run *a, const compared_run *b, const against_times *v);
+json_t *compared_run_json(const compared_run *a, const compared_run *b, const against_times *v);
 /* Prints a line for each cell whose times are not ranked, with the reason. */
-void contestant_unranked(const contestant *a, const contestant *b);
+void compared_run_unranked(const compared_run *a, const compared_run *b);
 
 /* Pages of the manual, generated from the tables of the program. */
 
@@ -151,7 +151,7 @@ extern const option_group options_shards; /* all options except jobs and quiet *
 
 /* Returns 1 if --into, --shard or --from was given. REFUSED: the combination of options is invalid.
  * */
-status spread_asked(const shard_options *, int *asked, fault *f);
+status shards_requested(const shard_options *, int *requested, fault *f);
 /* Computes the shard and reports its outcome, or reads the batches. */
 status spread_work(const shard_options *, const shard_work *w, spread_end *out, fault *f);
 void spread_free(spread_end *);

@@ -212,5 +212,5 @@ const verb verb_compare = {
     shared,
     own,
     sizeof(compare_request),
-    .place = VERB_JUDGE + 70,
+    .place = VERB_EVALUATE + 70,
     .answer = answer};

@@ -114,48 +114,48 @@ static void names_numbers(const offer *o, const case_type *type)
 }
 
 /* Offers the next word of a term that starts with the words that have been typed. */
-static void offer_term(const offer *o, const char *said, const char *term, const char *summary)
+static void offer_term(const offer *o, const char *typed, const char *term, const char *summary)
 {
-    const size_t length = strlen(said);
+    const size_t length = strlen(typed);
     char word[GLOSSARY_WORD];
-    if (strncasecmp(term, said, length) != 0)
+    if (strncasecmp(term, typed, length) != 0)
         return;
     snprintf(word, sizeof word, "%.*s", (int)strcspn(term + length, " "), term + length);
     offer_text(o, word, summary);
 }
 
-static void offer_terms(const offer *o, const char *said, const glossary *g)
+static void offer_terms(const offer *o, const char *typed, const glossary *g)
 {
     char other[GLOSSARY_WORD];
     for (int i = 0; i < g->entries; i++) {
-        offer_term(o, said, g->entry[i].term, g->entry[i].group);
+        offer_term(o, typed, g->entry[i].term, g->entry[i].group);
         for (int k = 0; glossary_part(g->entry[i].also, k, other); k++)
-            offer_term(o, said, other, g->entry[i].group);
+            offer_term(o, typed, other, g->entry[i].group);
     }
 }
 
-/* Offers the terms of `beamwork explain`. said: words before the cursor, joined; they may be the
+/* Offers the terms of `beamwork explain`. typed: words before the cursor, joined; they may be the
  * start of a term that consists of several words. */
-static void names_words(const offer *o, const char *said)
+static void names_words(const offer *o, const char *typed)
 {
     const truths_options usual = {.packed = NULL};
-    const char *path = own_tables_packed(&usual);
+    const char *path = user_tables_packed(&usual);
     glossary g = {0};
-    truths ledger = {0};
+    truths deviations = {0};
     if (glossary_read(path, &g, NULL) == STATUS_OK)
-        offer_terms(o, said, &g);
+        offer_terms(o, typed, &g);
     glossary_free(&g);
-    if (said[0] != '\0')
+    if (typed[0] != '\0')
         return;
     names_cases(o);
     names_formulations(o);
-    if (truths_read_rules(path, &ledger, NULL) == STATUS_OK)
-        for (int i = 0; i < ledger.rules; i++)
-            offer_text(o, ledger.rule[i].name, "known deviation");
-    truths_free(&ledger);
+    if (truths_read_rules(path, &deviations, NULL) == STATUS_OK)
+        for (int i = 0; i < deviations.rules; i++)
+            offer_text(o, deviations.rule[i].name, "known deviation");
+    truths_free(&deviations);
 }
 
-enum { SAID = 400 };
+enum { TYPED = 400 };
 
 /* Information from the words before the cursor. */
 typedef struct completion_reading {
@@ -165,7 +165,7 @@ typedef struct completion_reading {
     const char *last;        /* last argument; NULL: none yet */
     int arguments;
     const char *scene; /* value of --scene */
-    char said[SAID];   /* arguments, each followed by a blank */
+    char typed[TYPED]; /* arguments, each followed by a blank */
 } completion_reading;
 
 static void keep_value(completion_reading *r, const verb_option *o, const char *value)
@@ -187,10 +187,10 @@ static void read_option(completion_reading *r, const char *word)
 
 static void read_argument(completion_reading *r, const char *word)
 {
-    const size_t used = strlen(r->said);
+    const size_t used = strlen(r->typed);
     r->last = word;
     r->arguments++;
-    snprintf(r->said + used, sizeof r->said - used, "%s ", word);
+    snprintf(r->typed + used, sizeof r->typed - used, "%s ", word);
 }
 
 static void read_word(completion_reading *r, const char *word)
@@ -212,9 +212,9 @@ static void offer_words(const offer *o, const completion_reading *r)
 {
     const offer word = offer_behind(o, " ");
     const int here = (int)(word.begun - o->begun);
-    char said[2 * SAID];
-    snprintf(said, sizeof said, "%s%.*s", r->said, here < SAID ? here : 0, o->begun);
-    names_words(&word, said);
+    char typed[2 * TYPED];
+    snprintf(typed, sizeof typed, "%s%.*s", r->typed, here < TYPED ? here : 0, o->begun);
+    names_words(&word, typed);
 }
 
 /* Offers part of a description. Words in upper case are kinds of arguments. Other words are offered

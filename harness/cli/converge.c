@@ -15,17 +15,17 @@ typedef struct converge_request {
     int jobs, verbose;
 } converge_request;
 
-static void tell(const converge_request *r, const sweep *s)
+static void report(const converge_request *r, const sweep *s)
 {
     if (s->points == 0)
         return;
-    case_input_tell_analysis(&r->of, &s->point[0].scene);
+    case_input_report_analysis(&r->of, &s->point[0].scene);
 }
 
 /* Plans and runs the convergence study. The caller answer() frees *c, even after a failure. */
 static status converge(converge_request *r, const case_type *type, convergence *c, fault *f)
 {
-    const convergence_request asked = {
+    const convergence_request requested = {
         .type = type,
         .parameter = r->of.parameter,
         .mesh = r->meshes.elements,
@@ -38,11 +38,11 @@ static status converge(converge_request *r, const case_type *type, convergence *
                   .formulation = r->chosen.formulation,
                   .progress = isatty(STDERR_FILENO) ? stderr : NULL}};
     const experiment_output to = experiment_output_of(r->output, r->format, NULL);
-    TRY(files_check_results(r->of.line, to.results != NULL, own_tables_packed(&r->truths), f));
+    TRY(files_check_results(r->of.line, to.results != NULL, user_tables_packed(&r->truths), f));
     TRY(case_input_truths(&r->of, &r->truths, &c->truths, f));
-    TRY(experiment_plan(&experiment_converge, &asked, c, f));
-    tell(r, &c->sweep);
-    return experiment_run(&experiment_converge, &asked, &to, c, f);
+    TRY(experiment_plan(&experiment_converge, &requested, c, f));
+    report(r, &c->sweep);
+    return experiment_run(&experiment_converge, &requested, &to, c, f);
 }
 
 /* Returns 1 if at least one cell has a solution. */
@@ -83,7 +83,7 @@ static const verb_option own[] = {
     {0}};
 static const verb_group shared[] = {
     SHARED(case, of),       SHARED(formulations, chosen), SHARED(meshes, meshes),
-    SHARED(select, select), SHARED(own_truths, truths),   SHARED(results, output),
+    SHARED(select, select), SHARED(user_truths, truths),  SHARED(results, output),
     SHARED(format, format), SHARED(jobs, jobs),           {NULL, 0}};
 const verb verb_converge = {
     "converge",

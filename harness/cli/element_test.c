@@ -135,6 +135,6 @@ const verb verb_element_test = {
     shared,
     own,
     sizeof(element_test_request),
-    .place = VERB_JUDGE + 50,
+    .place = VERB_EVALUATE + 50,
     .answer = answer,
     .experiment = &experiment_element_test};

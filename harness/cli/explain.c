@@ -21,7 +21,7 @@ enum { INDENT = 2, LONGEST = 200, QUANTITY_PLACES = 4, RELATED = 3 };
 
 typedef struct dictionary {
     glossary words;
-    truths ledger;
+    truths deviations;
 } dictionary;
 
 /* Prints a list such as "see also: a; b". */
@@ -102,24 +102,24 @@ static int explain_inputs(const char *word)
 }
 
 /* Returns rule i. If its cause is "the same", returns the last previous rule with another cause. */
-static const rule *said_before(const truths *ledger, int i)
+static const rule *listed_before(const truths *deviations, int i)
 {
-    while (i > 0 && strncmp(ledger->rule[i].cause, "the same", 8) == 0)
+    while (i > 0 && strncmp(deviations->rule[i].cause, "the same", 8) == 0)
         i--;
-    return &ledger->rule[i];
+    return &deviations->rule[i];
 }
 
 static int explain_rule(const dictionary *d, const char *word)
 {
-    for (int i = 0; i < d->ledger.rules; i++) {
-        const rule *r = &d->ledger.rule[i];
+    for (int i = 0; i < d->deviations.rules; i++) {
+        const rule *r = &d->deviations.rule[i];
         if (!glossary_same(r->name, word))
             continue;
         printf("%s (known deviation)\n", r->name);
         paragraph_write(stdout, printf("  cause: "), INDENT, r->cause);
-        const rule *said = said_before(&d->ledger, i);
-        if (said != r)
-            paragraph_write(stdout, printf("    as %s: ", said->name), 4, said->cause);
+        const rule *listed = listed_before(&d->deviations, i);
+        if (listed != r)
+            paragraph_write(stdout, printf("    as %s: ", listed->name), 4, listed->cause);
         paragraph_write(stdout, printf("  formulations: "), INDENT, r->formulations);
         paragraph_write(stdout, printf("  cases: "), INDENT, r->cases);
         if (r->condition[0] != '\0')
@@ -204,8 +204,8 @@ static void add_names(const dictionary *d, name_list *l)
         add_name(l, registry_formulations[k]->name);
     for (int k = 0; registry_cases[k] != NULL; k++)
         add_name(l, registry_cases[k]->name);
-    for (int k = 0; k < d->ledger.rules; k++)
-        add_name(l, d->ledger.rule[k].name);
+    for (int k = 0; k < d->deviations.rules; k++)
+        add_name(l, d->deviations.rule[k].name);
 }
 
 /* Returns a name that differs from `word` in at most two letters (one letter for short words);
@@ -342,13 +342,13 @@ static int answer(const command_line *l, void *request)
     const explain_request *r = request;
     dictionary d = {.words = {0}};
     fault f = {""};
-    const char *path = own_tables_packed(&r->truths);
+    const char *path = user_tables_packed(&r->truths);
     status outcome = glossary_read(path, &d.words, &f);
     if (outcome == STATUS_OK)
-        outcome = truths_read_rules(path, &d.ledger, &f);
+        outcome = truths_read_rules(path, &d.deviations, &f);
     const int code = outcome == STATUS_OK ? explain_words(l, &d) : message_fail(outcome, f.text);
     glossary_free(&d.words);
-    truths_free(&d.ledger);
+    truths_free(&d.deviations);
     return code;
 }
 

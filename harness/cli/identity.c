@@ -100,7 +100,7 @@ static status add_files(digest *plan, const command_line *l, fault *f)
     const int built_in = given_value(l, "scene") == NULL || given_value(l, "built-in") != NULL;
     const given_option *g;
     if (built_in && given_value(l, "truths") == NULL)
-        TRY(add_file(&plan, own_tables_packed(&usual), f));
+        TRY(add_file(&plan, user_tables_packed(&usual), f));
     for (int i = 0; (g = given_next(l, OPTION_INPUT, &i)) != NULL;)
         if ((g->option->traits & OPTION_VERDICT) == 0)
             TRY(files_named(g->value, add_file, &plan, f));

@@ -59,7 +59,7 @@ static status read_files(const command_line *l, const import_request *r, import_
     return outcome;
 }
 
-static void tell(const sweep *s)
+static void report(const sweep *s)
 {
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
@@ -98,7 +98,7 @@ static status import(const command_line *l, const import_request *r, import_set 
     const environment e = environment_now(1);
     TRY(store_write(r->output, NULL, &set->sweep, NULL, &e, f));
     if (!as_json(r))
-        tell(&set->sweep);
+        report(&set->sweep);
     return STATUS_OK;
 }
 

@@ -115,7 +115,7 @@ static void show_rules(const formulation *chosen, const rule *rules, int count)
     int found = 0;
     for (int i = 0; i < count; i++) {
         const rule *r = &rules[i];
-        if (!rules_speak_of(r, chosen->key))
+        if (!rules_apply_to(r, chosen->key))
             continue;
         if (found++ == 0)
             printf("known deviations ('beamwork explain RULE' shows the proof)\n");
@@ -224,8 +224,8 @@ static void list_offer(const scene *s, const element_type *type)
     if (!here.runs)
         paragraph_write(stdout, at + printf("does not support "), at, here.words);
     else if (here.words[0] != '\0')
-        paragraph_say(stdout, at + printf("runs without "), at, "%s%s", here.words,
-                      here.other ? " (another model)" : "");
+        paragraph_printf(stdout, at + printf("runs without "), at, "%s%s", here.words,
+                         here.other ? " (another model)" : "");
     else
         printf("runs\n");
 }
@@ -284,18 +284,18 @@ static int list_case(const case_type *type)
 }
 
 /* Reads the list of known deviations if it exists. */
-static void read_ledger(const list_request *r, truths *ledger)
+static void read_deviations(const list_request *r, truths *deviations)
 {
-    memset(ledger, 0, sizeof *ledger);
-    truths_read_rules(own_tables_packed(&r->truths), ledger, NULL);
+    memset(deviations, 0, sizeof *deviations);
+    truths_read_rules(user_tables_packed(&r->truths), deviations, NULL);
 }
 
 static void show_formulation(const list_request *r, const formulation *chosen)
 {
-    truths ledger;
-    read_ledger(r, &ledger);
-    list_formulation(chosen, ledger.rule, ledger.rules);
-    truths_free(&ledger);
+    truths deviations;
+    read_deviations(r, &deviations);
+    list_formulation(chosen, deviations.rule, deviations.rules);
+    truths_free(&deviations);
 }
 
 static int show(const list_request *r, const list_subject *what)
@@ -313,7 +313,7 @@ static int show(const list_request *r, const list_subject *what)
     return EXIT_AS_EXPECTED;
 }
 
-static status write_json(const list_subject *what, const truths *ledger, fault *f)
+static status write_json(const list_subject *what, const truths *deviations, fault *f)
 {
     if (what->type != NULL) {
         double value[CASE_MAX_PARAMETERS] = {0};
@@ -321,7 +321,7 @@ static status write_json(const list_subject *what, const truths *ledger, fault *
         return list_json_case(stdout, what->type, value, f);
     }
     if (what->chosen.type != NULL)
-        return list_json_formulation(stdout, &what->chosen, ledger->rule, ledger->rules, f);
+        return list_json_formulation(stdout, &what->chosen, deviations->rule, deviations->rules, f);
     return list_json_all(stdout, what->cases, what->formulations, f);
 }
 
@@ -329,11 +329,11 @@ static status write_json(const list_subject *what, const truths *ledger, fault *
  * the exit status. */
 static int show_json(const list_request *r, const list_subject *what)
 {
-    truths ledger;
+    truths deviations;
     fault f = {""};
-    read_ledger(r, &ledger);
-    const status written = write_json(what, &ledger, &f);
-    truths_free(&ledger);
+    read_deviations(r, &deviations);
+    const status written = write_json(what, &deviations, &f);
+    truths_free(&deviations);
     return message_exit(written, &f);
 }
 

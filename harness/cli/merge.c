@@ -83,7 +83,7 @@ static status add_all(const batch_label *label, const command_line *l, again *ou
 static status again_make(const command_line *l, again *out, fault *f)
 {
     batch_label label;
-    TRY(stock_first(l->argument[0], &label, f));
+    TRY(batch_store_first(l->argument[0], &label, f));
     const status outcome = add_all(&label, l, out, f);
     batch_label_free(&label);
     return outcome;
@@ -156,5 +156,5 @@ const verb verb_merge = {
     shared,
     own,
     sizeof(merge_request),
-    .place = VERB_JUDGE + 60,
+    .place = VERB_EVALUATE + 60,
     .answer = answer};

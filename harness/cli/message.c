@@ -13,9 +13,9 @@
 
 int message_finish(int code)
 {
-    const int told =
+    const int reported =
         code == EXIT_REFUSED || code == EXIT_FAULT; /* these statuses have already been explained */
-    if ((fflush(stdout) == 0 && !ferror(stdout)) || told)
+    if ((fflush(stdout) == 0 && !ferror(stdout)) || reported)
         return code;
     return message_fail(STATUS_FAULT, "standard output cannot be written");
 }
@@ -52,7 +52,7 @@ void message_refuse(const char *text)
 /* process to which the handlers apply; child processes end without these handlers */
 static pid_t program;
 
-static void say(const char *text)
+static void write_error(const char *text)
 {
     if (write(STDERR_FILENO, text, strlen(text)) < 0) {
         /* the exit status still reports the error */
@@ -66,7 +66,7 @@ static void end_by(int number)
     raise(number);
 }
 
-static void asked(int number)
+static void stop_requested(int number)
 {
     if (getpid() == program)
         output_abandon();
@@ -76,7 +76,8 @@ static void asked(int number)
 static void crashed(int number)
 {
     if (getpid() == program) {
-        say("beamwork: the program crashed; check your own element with 'beamwork element-test'; "
+        write_error(
+            "beamwork: the program crashed; check your own element with 'beamwork element-test'; "
             "in the source tree, run valgrind on a program built with 'make DEBUG=1'; libraries "
             "can also crash if memory runs out\n");
         output_abandon();
@@ -90,7 +91,8 @@ static void ended(int code, void *unused)
     (void)unused;
     if (getpid() != program || (code >= EXIT_AS_EXPECTED && code <= EXIT_INTERRUPTED))
         return;
-    say("beamwork: a library or an element ended the program; libraries do so if memory runs "
+    write_error(
+        "beamwork: a library or an element ended the program; libraries do so if memory runs "
         "out\n");
     output_abandon();
     _exit(EXIT_FAULT);
@@ -98,7 +100,7 @@ static void ended(int code, void *unused)
 
 /* Replaces only the default handler. A sanitizer, or a parent process that ignores the signal, may
  * have set another handler. */
-static void attend(int number, void (*handler)(int))
+static void handle_signal(int number, void (*handler)(int))
 {
     struct sigaction action, before;
     if (sigaction(number, NULL, &before) != 0 || before.sa_handler != SIG_DFL)
@@ -127,9 +129,9 @@ void ending_begin(void)
     fill_streams();
     sigaltstack(&other, NULL);
     for (size_t i = 0; i < sizeof asking / sizeof asking[0]; i++)
-        attend(asking[i], asked);
+        handle_signal(asking[i], stop_requested);
     for (size_t i = 0; i < sizeof crashing / sizeof crashing[0]; i++)
-        attend(crashing[i], crashed);
+        handle_signal(crashing[i], crashed);
     on_exit(ended, NULL);
 }
 
@@ -147,7 +149,7 @@ static struct {
 
 enum { MISHAPS = sizeof mishap / sizeof mishap[0] };
 
-static void tell(int which)
+static void report(int which)
 {
     for (int i = 0; i < MISHAPS; i++)
         if (mishap[i].signal == which &&
@@ -165,11 +167,11 @@ static void stand_on_another_stack(void)
     sigaltstack(&other, NULL);
 }
 
-void guard_formulation(const formulation *chosen, int seconds)
+void formulation_start_guard(const formulation *chosen, int seconds)
 {
     if (!formulations_is_loaded(chosen->type))
         return;
-    struct sigaction action = {.sa_handler = tell, .sa_flags = SA_ONSTACK | SA_RESETHAND};
+    struct sigaction action = {.sa_handler = report, .sa_flags = SA_ONSTACK | SA_RESETHAND};
     stand_on_another_stack();
     for (int i = 0; i < MISHAPS; i++) {
         snprintf(mishap[i].line, sizeof mishap[i].line, "beamwork: formulation %.60s %s\n",

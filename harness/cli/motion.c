@@ -36,28 +36,28 @@ static status ask(motion_options *r, motion_request *out, fault *f)
 
 static status run(motion_options *r, motions *m, fault *f)
 {
-    motion_request asked = {.expected = r->expected,
-                            .parameter = r->of.parameter,
-                            .vary = r->vary.count > 0 ? r->vary.text[0] : NULL,
-                            .elements = r->meshes.count > 0 ? r->meshes.elements[0] : 0,
-                            .integrators = r->integrators,
-                            .steps = r->step_lengths,
-                            .tolerances = r->tolerances,
-                            .conservation_only = r->conservation_only,
-                            .each = r->expected == NULL || r->verbose,
-                            .cells = {.jobs = r->jobs,
-                                      .time_limit = r->chosen.time_limit,
-                                      .progress = isatty(STDERR_FILENO) ? stderr : NULL,
-                                      .things = "motions"}};
+    motion_request requested = {.expected = r->expected,
+                                .parameter = r->of.parameter,
+                                .vary = r->vary.count > 0 ? r->vary.text[0] : NULL,
+                                .elements = r->meshes.count > 0 ? r->meshes.elements[0] : 0,
+                                .integrators = r->integrators,
+                                .steps = r->step_lengths,
+                                .tolerances = r->tolerances,
+                                .conservation_only = r->conservation_only,
+                                .each = r->expected == NULL || r->verbose,
+                                .cells = {.jobs = r->jobs,
+                                          .time_limit = r->chosen.time_limit,
+                                          .progress = isatty(STDERR_FILENO) ? stderr : NULL,
+                                          .things = "motions"}};
     const experiment_output to = experiment_output_of(r->output, r->format, r->json);
     TRY(files_check_results(r->of.line, to.results != NULL, NULL, f));
     if (r->expected == NULL)
-        TRY(ask(r, &asked, f));
-    return experiment_do(&experiment_motion, &asked, &to, m, f);
+        TRY(ask(r, &requested, f));
+    return experiment_do(&experiment_motion, &requested, &to, m, f);
 }
 
 /* Returns 1 if at least one motion has reached its end time. */
-static int has_any(const pace *p)
+static int has_any(const integrators *p)
 {
     int found = 0;
     for (int i = 0; i < p->runs; i++)
@@ -75,9 +75,9 @@ static int answer(const command_line *l, void *request)
     int code = f.text[0] == '\0' && outcome == STATUS_REFUSED ? r->of.refusal : 0;
     if (code == 0)
         code = message_exit(outcome, &f);
-    if (code == EXIT_AS_EXPECTED && m.pace.runs == 0)
+    if (code == EXIT_AS_EXPECTED && m.integrators.runs == 0)
         code = EXIT_NOTHING;
-    else if (code == EXIT_AS_EXPECTED && (m.verdicts.unexpected > 0 || !has_any(&m.pace)))
+    else if (code == EXIT_AS_EXPECTED && (m.verdicts.unexpected > 0 || !has_any(&m.integrators)))
         code = EXIT_DIFFERS;
     motions_free(&m);
     return code;
@@ -129,6 +129,6 @@ const verb verb_motion = {
     shared,
     own,
     sizeof(motion_options),
-    .place = VERB_JUDGE + 40,
+    .place = VERB_EVALUATE + 40,
     .answer = answer,
     .experiment = &experiment_motion};

@@ -360,7 +360,7 @@ static const verb_option solver[] = {
     {"threads", 0, "N",
      "number of threads that share the loop over elements (default 1); it does not affect the "
      "results",
-     .member = offsetof(solver_options, threads), .least = 1, .most = TEAM_MOST},
+     .member = offsetof(solver_options, threads), .least = 1, .most = THREAD_POOL_MOST},
     {0}};
 
 const option_group options_output = {output_option, NULL, NULL, NULL};

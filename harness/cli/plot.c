@@ -187,7 +187,7 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
     TRY(solution_plan(&what, s, f));
     TRY(make_curves(&s->point[0].scene, f));
     fputs(note, stderr);
-    guard_formulation(&what.formulation, r->chosen.time_limit);
+    formulation_start_guard(&what.formulation, r->chosen.time_limit);
     const status solved = solution_run(&what, why, s, f);
     const cell_result *cell = &s->series[0].cell[0];
     if (solved == STATUS_FAULT || cell_values(cell) == 0)

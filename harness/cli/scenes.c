@@ -76,13 +76,13 @@ void scenes_free(scenes *s)
 static status add_truths(const scenes *s, const scenes_options *r, truths *t, fault *f)
 {
     if (r->built_in || r->scene.count == 0)
-        TRY(truths_read(own_tables_packed(&r->truths), t, f));
+        TRY(truths_read(user_tables_packed(&r->truths), t, f));
     else
-        TRY(truths_read_rules(own_tables_packed(&r->truths), t, f));
+        TRY(truths_read_rules(user_tables_packed(&r->truths), t, f));
     for (int i = 0; i < s->count; i++)
         TRY(scene_truths_add_all(s->file[i], t, f));
-    TRY(own_tables_truths(&r->truths, s->type, NULL, t, f));
-    return own_tables_findings(&r->findings, s->type, t, f);
+    TRY(user_tables_truths(&r->truths, s->type, NULL, t, f));
+    return user_tables_deviations(&r->deviations, s->type, t, f);
 }
 
 status scenes_truths(const scenes *s, const scenes_options *r, truths *t, fault *f)

@@ -96,7 +96,7 @@ static status write_out(const solve_request *r, const char *note, const sweep *s
 
 /* Reports the error of the state-space form of a harmonic analysis, which omits the mass inside
  * elements. */
-static void tell_apart(const scene *s, const state_matrices *m)
+static void report_close_frequencies(const scene *s, const state_matrices *m)
 {
     if (m->model.apart > 0)
         fprintf(stderr,
@@ -107,7 +107,7 @@ static void tell_apart(const scene *s, const state_matrices *m)
                 s->quantity[m->model.farthest].name);
 }
 
-static void tell_reduced_transfer(const system_matrices *all, const reduced_model *r)
+static void report_reduced_transfer(const system_matrices *all, const reduced_model *r)
 {
     double apart = 0;
     int largest = 0, zeros = 0;
@@ -130,7 +130,7 @@ static void tell_reduced_transfer(const system_matrices *all, const reduced_mode
 }
 
 /* Reports the errors of a reduced model. */
-static void tell_reduced(const scene *s, const system_matrices *all, const state_matrices *m)
+static void report_reduced(const scene *s, const system_matrices *all, const state_matrices *m)
 {
     const reduced_model *r = &m->reduced;
     double frequency = 0;
@@ -154,13 +154,13 @@ static void tell_reduced(const scene *s, const system_matrices *all, const state
         fputs("natural frequencies were not compared, because there are no modes or the structure "
               "is free to move",
               stderr);
-    tell_reduced_transfer(all, r);
+    report_reduced_transfer(all, r);
     fprintf(stderr, "\n");
 }
 
 /* Reports that only the state-space forms of harmonic analyses include feedback. In other matrices,
  * the loads with feedback are inputs. */
-static void tell_loops(const scene *s, const system_matrices *of)
+static void report_loops(const scene *s, const system_matrices *of)
 {
     int closed = 0;
     for (int i = 0; i < of->states; i++)
@@ -183,11 +183,11 @@ static status write_matrices(const solve_request *r, const sweep *s, fault *f)
         return STATUS_OK;
     snprintf(title, sizeof title, "%s, %s, %d elements per member", s->point[0].scene.name,
              r->chosen.formulation[0].key, r->meshes.elements[0]);
-    tell_loops(&s->point[0].scene, &cell->solve.systems);
+    report_loops(&s->point[0].scene, &cell->solve.systems);
     TRY(system_folder_write(r->matrices, title, &s->point[0].scene, &cell->solve.systems, f));
     for (int i = 0; i < cell->solve.systems.states; i++) {
-        tell_apart(&s->point[0].scene, &cell->solve.systems.state[i]);
-        tell_reduced(&s->point[0].scene, &cell->solve.systems, &cell->solve.systems.state[i]);
+        report_close_frequencies(&s->point[0].scene, &cell->solve.systems.state[i]);
+        report_reduced(&s->point[0].scene, &cell->solve.systems, &cell->solve.systems.state[i]);
     }
     return STATUS_OK;
 }
@@ -253,7 +253,7 @@ static status follow_modes(solve_request *r, const case_type *type, fault *f)
                          "--save-state and --restart");
     TRY(range_of(r, type, &what, f));
     snprintf(name, sizeof name, "%.*s", (int)strcspn(r->follow, "="), r->follow);
-    TRY(files_check(r->of.line, 0, own_tables_packed(&r->truths), f));
+    TRY(files_check(r->of.line, 0, user_tables_packed(&r->truths), f));
     const defaults missing = defaults_of(r, type);
     TRY(defaults_fill(&missing, note, NULL, f));
     cell_formulation(&what.cell, &r->chosen.formulation[0]);
@@ -300,7 +300,7 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
             "--state-space adds to the matrices written by --matrices; add --matrices FOLDER");
     if (r->reduce != NULL && !r->state_space)
         return fault_set(f, STATUS_REFUSED, "--reduce requires --state-space; add it");
-    TRY(files_check(r->of.line, r->shapes > 0, own_tables_packed(&r->truths), f));
+    TRY(files_check(r->of.line, r->shapes > 0, user_tables_packed(&r->truths), f));
     const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
     if (known != STATUS_OK && r->truths.packed == NULL && r->of.scene == NULL)
         fprintf(stderr, "beamwork: no reference values are used: %s\n",
@@ -339,7 +339,7 @@ static status write_all(const solve_request *r, const solve_work *w, fault *f)
 /* Reports the first quantity without a value, and returns the exit status. Other quantities are
  * still computed. If the mesh has no such mode or the path has no such point, the missing value
  * counts as a result. */
-static int tell_missing(status solved, const cell_result *cell, const fault *f)
+static int report_missing(status solved, const cell_result *cell, const fault *f)
 {
     const int refused = cell_values(cell) > 0 && solved == STATUS_REFUSED;
     for (int i = 0; solved == STATUS_OK && i < cell->solve.quantities; i++) {
@@ -352,7 +352,7 @@ static int tell_missing(status solved, const cell_result *cell, const fault *f)
 }
 
 /* Warns of a linear displacement that is larger than the structure. */
-static void tell_large(const scene *s, const solve_result *r)
+static void report_large(const scene *s, const solve_result *r)
 {
     const double size = change_size(s);
     for (int i = 0; i < r->quantities; i++) {
@@ -375,16 +375,16 @@ static int solve_and_write(const solve_request *r, solve_work *w)
 {
     fault f = {""}, unwritten = {""};
     const scene *s = &w->s.point[0].scene;
-    case_input_tell_analysis(&r->of, s);
-    guard_formulation(&w->what.formulation, r->chosen.time_limit);
+    case_input_report_analysis(&r->of, s);
+    formulation_start_guard(&w->what.formulation, r->chosen.time_limit);
     const status solved = solution_run(&w->what, &w->why, &w->s, &f);
     const cell_result *cell = &w->s.series[0].cell[0];
     if (solved == STATUS_FAULT || (solved == STATUS_REFUSED && cell_values(cell) == 0))
         return message_fail(solved, f.text);
-    tell_large(s, &cell->solve);
+    report_large(s, &cell->solve);
     const status written = write_all(r, w, &unwritten);
     return written != STATUS_OK ? message_fail(written, unwritten.text)
-                                : tell_missing(solved, cell, &f);
+                                : report_missing(solved, cell, &f);
 }
 
 static int answer(const command_line *l, void *request)
@@ -449,11 +449,16 @@ static const verb_option own[] = {
      "steps are the same; windows must begin at the saved state or later",
      IN(restart), .traits = OPTION_INPUT},
     {0}};
-static const verb_group shared[] = {SHARED(case, of),           SHARED(formulations, chosen),
-                                    SHARED(meshes, meshes),     SHARED(select, select),
-                                    SHARED(time_limit, chosen), SHARED(solver, solver),
-                                    SHARED(own_truths, truths), SHARED(output, output),
-                                    SHARED(format, format),     {NULL, 0}};
+static const verb_group shared[] = {SHARED(case, of),
+                                    SHARED(formulations, chosen),
+                                    SHARED(meshes, meshes),
+                                    SHARED(select, select),
+                                    SHARED(time_limit, chosen),
+                                    SHARED(solver, solver),
+                                    SHARED(user_truths, truths),
+                                    SHARED(output, output),
+                                    SHARED(format, format),
+                                    {NULL, 0}};
 const verb verb_solve = {
     "solve",
     "CASE",

@@ -14,7 +14,7 @@ typedef struct stress_request {
 /* Runs the cases. The caller answer() frees *s, even after a failure. */
 static status run(const command_line *l, const stress_request *r, extreme_sweep *s, fault *f)
 {
-    const extreme_request request = {.truths = own_tables_packed(&r->truths),
+    const extreme_request request = {.truths = user_tables_packed(&r->truths),
                                      .select = r->select,
                                      .jobs = r->jobs,
                                      .formulations = r->chosen.formulations,
@@ -61,6 +61,6 @@ const verb verb_stress = {
     shared,
     NULL,
     sizeof(stress_request),
-    .place = VERB_JUDGE + 30,
+    .place = VERB_EVALUATE + 30,
     .answer = answer,
     .experiment = &experiment_stress};

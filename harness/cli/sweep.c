@@ -24,7 +24,7 @@ typedef struct sweep_options {
 
 /* A sweep, and the data that are used while it runs. */
 typedef struct sweeping {
-    range_sweep_request asked;
+    range_sweep_request requested;
     range_sweep sweep;
     char script[PATH_MAX]; /* script of --compute-references */
     identity_texts texts;
@@ -85,7 +85,7 @@ static status take_given(void *context, const shard_work *w, fault *f)
 
 static status prepare(sweep_options *r, const case_type *type, sweeping *s, fault *f)
 {
-    ranges_request *q = &s->asked.of;
+    ranges_request *q = &s->requested.of;
     *q = (ranges_request){.type = type,
                           .file = r->of.scene,
                           .base = r->of.parameter,
@@ -99,7 +99,7 @@ static status prepare(sweep_options *r, const case_type *type, sweeping *s, faul
                           .tolerance = r->error > 0 ? r->error : 0.01,
                           .time_limit = r->chosen.time_limit};
     TRY(read_design(r, q, f));
-    TRY(files_check_results(r->of.line, 1, own_tables_packed(&r->truths), f));
+    TRY(files_check_results(r->of.line, 1, user_tables_packed(&r->truths), f));
     if (r->of.scene == NULL) {
         TRY(case_input_truths(&r->of, &r->truths, &s->sweep.truths, f));
         q->truths = &s->sweep.truths;
@@ -108,7 +108,7 @@ static status prepare(sweep_options *r, const case_type *type, sweeping *s, faul
         TRY(derive_script(r->of.scene != NULL ? "of_scene.py" : "at.py", s->script, f));
         q->derive = s->script;
     }
-    TRY(experiment_plan(&experiment_sweep, &s->asked, &s->sweep, f));
+    TRY(experiment_plan(&experiment_sweep, &s->requested, &s->sweep, f));
     TRY(check_set(r, &s->sweep.ranges, f));
     return identify(r, s, f);
 }
@@ -117,30 +117,31 @@ static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f
 {
     const experiment_output to = {.format = r->format};
     const int csv = strcmp(r->format, "csv") == 0, quiet = r->shards.quiet;
-    TRY(spread_asked(&r->shards, &s->spread, f));
+    TRY(shards_requested(&r->shards, &s->spread, f));
     s->shards = &r->shards;
-    s->asked = (range_sweep_request){.output = r->output,
-                                     .partial = r->shards.partial,
-                                     .jobs = r->shards.jobs,
-                                     .verbose = r->verbose,
-                                     .quiet = quiet,
-                                     .progress = isatty(STDERR_FILENO) && !quiet ? stderr : NULL,
-                                     .csv = csv ? stdout : NULL,
-                                     .take = r->shards.from.count > 0 ? take_given : NULL,
-                                     .context = s};
+    s->requested =
+        (range_sweep_request){.output = r->output,
+                              .partial = r->shards.partial,
+                              .jobs = r->shards.jobs,
+                              .verbose = r->verbose,
+                              .quiet = quiet,
+                              .progress = isatty(STDERR_FILENO) && !quiet ? stderr : NULL,
+                              .csv = csv ? stdout : NULL,
+                              .take = r->shards.from.count > 0 ? take_given : NULL,
+                              .context = s};
     TRY(prepare(r, type, s, f));
     if (!csv && !quiet)
         ranges_table_head(stdout, &s->sweep.ranges);
     if (r->output == NULL) /* the results follow on standard output */
         TRY(output_flush(f));
-    if (s->spread && s->asked.take == NULL)
+    if (s->spread && s->requested.take == NULL)
         return spread_work(&r->shards, &s->sweep.all, &s->end, f);
-    return experiment_run(&experiment_sweep, &s->asked, &to, &s->sweep, f);
+    return experiment_run(&experiment_sweep, &s->requested, &to, &s->sweep, f);
 }
 
 /* Reports missing batches, which are computed if the command is repeated. Returns the exit
  * status. */
-static int tell(const sweep_options *r, const sweeping *s)
+static int report(const sweep_options *r, const sweeping *s)
 {
     if (s->spread)
         return s->end.code;
@@ -165,7 +166,7 @@ static int answer(const command_line *l, void *request)
     if (type == NULL)
         return r->of.refusal;
     const status outcome = run(r, type, &s, &f);
-    const int code = outcome == STATUS_OK ? tell(r, &s) : message_fail(outcome, f.text);
+    const int code = outcome == STATUS_OK ? report(r, &s) : message_fail(outcome, f.text);
     spread_free(&s.end);
     identity_free(&s.texts);
     range_sweep_free(&s.sweep);
@@ -238,12 +239,12 @@ static void begin(void *group, command_line *l)
     ((shard_options *)group)->line = l;
 }
 
-status spread_asked(const shard_options *r, int *asked, fault *f)
+status shards_requested(const shard_options *r, int *requested, fault *f)
 {
     char folder[2 * FAULT_TEXT];
     int index, count, first = 0;
     const int writes = given_next(r->line, OPTION_OUTPUT, &first) != NULL;
-    *asked = r->into != NULL || r->shard != NULL || r->from.count > 0;
+    *requested = r->into != NULL || r->shard != NULL || r->from.count > 0;
     if (r->from.count > 0 && (r->into != NULL || r->shard != NULL))
         return fault_set(
             f, STATUS_REFUSED,
@@ -263,7 +264,7 @@ status spread_asked(const shard_options *r, int *asked, fault *f)
 }
 
 /* Reports the outcome of the shard in one line, and returns the exit status. */
-static int tell_shard(const shard_options *r, const shard_request *q, const shard_outcome *o)
+static int report_shard(const shard_options *r, const shard_request *q, const shard_outcome *o)
 {
     const int left = o->mine - o->before - o->done;
     if (left > 0) {
@@ -285,18 +286,18 @@ static status compute(const shard_options *r, const shard_work *w, spread_end *o
                        .into = r->into,
                        .jobs = r->jobs,
                        .progress = isatty(STDERR_FILENO) && !r->quiet ? stderr : NULL,
-                       .tell = stderr};
+                       .messages = stderr};
     shard_outcome done;
     if (r->shard != NULL)
         TRY(shard_parse(r->shard, &q.index, &q.count, f));
     out->ended = 1;
     TRY(shard_run(w, &q, &done, f));
-    out->code = tell_shard(r, &q, &done);
+    out->code = report_shard(r, &q, &done);
     return output_flush(f);
 }
 
 /* Lists the types of processors that computed the batches, each with a host. */
-static void name_processors(const stock *s, spread_end *out)
+static void name_processors(const batch_store *s, spread_end *out)
 {
     size_t at = 0;
     for (int i = 0; i < s->kinds && at < sizeof out->processor; i++)
@@ -304,11 +305,11 @@ static void name_processors(const stock *s, spread_end *out)
                                i > 0 ? "; " : "", s->kind[i].node.processor, s->kind[i].node.host);
 }
 
-static status take(const shard_options *r, const shard_work *w, const stock *s, spread_end *out,
-                   fault *f)
+static status take(const shard_options *r, const shard_work *w, const batch_store *s,
+                   spread_end *out, fault *f)
 {
     char missing[600];
-    stock_missing(s, w, missing, sizeof missing);
+    batch_store_missing(s, w, missing, sizeof missing);
     if (s->there < s->batches) {
         fprintf(stderr, "beamwork: incomplete: %s%s\n", missing,
                 r->partial ? "" : "; compute them, or use the existing batches with --partial");
@@ -317,24 +318,24 @@ static status take(const shard_options *r, const shard_work *w, const stock *s, 
         if (out->ended)
             return STATUS_OK;
     }
-    stock_tell_kinds(s, stderr);
+    batch_store_print_kinds(s, stderr);
     name_processors(s, out);
     for (int i = 0; i < s->batches; i++)
         out->taken[i] = s->where[i] >= 0;
-    return merge_take(w, s, f);
+    return merge_read(w, s, f);
 }
 
 static status merge(const shard_options *r, const shard_work *w, spread_end *out, fault *f)
 {
-    stock s = {0};
+    batch_store s = {0};
     out->batches = w->batches;
     out->taken = calloc((size_t)w->batches + 1, 1);
     if (out->taken == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for batches");
-    status outcome = stock_take(w, r->from.text, r->from.count, NULL, stderr, &s, f);
+    status outcome = batch_store_read(w, r->from.text, r->from.count, NULL, stderr, &s, f);
     if (outcome == STATUS_OK)
         outcome = take(r, w, &s, out, f);
-    stock_free(&s);
+    batch_store_free(&s);
     return outcome;
 }
 

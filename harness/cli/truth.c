@@ -40,17 +40,18 @@ static void digits_of(double value, double uncertainty, char text[32])
 /* Prints two lines: the value, and its source. */
 static void print_value(const shown_value *v)
 {
-    char title[SCENE_NAME + FORMULATION_KEY + 16], digits[32], whose[2 * SCENE_NAME];
+    char title[SCENE_NAME + FORMULATION_KEY + 16], digits[32], valid_for[2 * SCENE_NAME];
     snprintf(title, sizeof title, v->elements > 0 ? "%s%s%s n=%d" : "%s%s%s", v->quantity,
              v->formulation[0] != '\0' ? ", " : "", v->formulation, v->elements);
-    snprintf(whose, sizeof whose, "%s%s%s", v->model, v->theory[0] != '\0' ? ", " : "", v->theory);
+    snprintf(valid_for, sizeof valid_for, "%s%s%s", v->model, v->theory[0] != '\0' ? ", " : "",
+             v->theory);
     const int name = printf("  %-*s", NAME, title);
     if (name > NAME + 2)
         printf("\n%*s", NAME + 2, "");
     digits_of(v->value, v->uncertainty, digits);
-    printf(" %24s +- %-8.1e %-8s %-13s %s\n", digits, v->uncertainty, v->unit, v->kind, whose);
-    paragraph_say(stdout, 0, INDENT, "%s%s%s", v->source, v->convention[0] != '\0' ? "; " : "",
-                  v->convention);
+    printf(" %24s +- %-8.1e %-8s %-13s %s\n", digits, v->uncertainty, v->unit, v->kind, valid_for);
+    paragraph_printf(stdout, 0, INDENT, "%s%s%s", v->source, v->convention[0] != '\0' ? "; " : "",
+                     v->convention);
 }
 
 /* Prints the value or, if there is a list, appends it to the list. */
@@ -283,7 +284,7 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(truth_request, at)
 static const verb_group shared[] = {
-    SHARED(case, of), SHARED(own_truths, truths), SHARED(format, format), {NULL, 0}};
+    SHARED(case, of), SHARED(user_truths, truths), SHARED(format, format), {NULL, 0}};
 const verb verb_truth = {
     "truth",
     "CASE",

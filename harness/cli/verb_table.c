@@ -13,11 +13,11 @@ VERB_TYPES(VERB_DECLARED)
 
 static const verb look = {.name = "look", .place = VERB_LOOK};
 static const verb compute = {.name = "compute", .place = VERB_COMPUTE};
-static const verb judge = {.name = "evaluate and compare", .place = VERB_JUDGE};
+static const verb evaluate = {.name = "evaluate and compare", .place = VERB_EVALUATE};
 static const verb exchange = {.name = "exchange", .place = VERB_EXCHANGE};
 #define VERB_OF(name) &verb_##name,
 /* verbs.h contains the identifiers of all verbs in cli/, in any order. */
-static const verb *verbs[] = {&look, &compute, &judge, &exchange, VERB_TYPES(VERB_OF) NULL};
+static const verb *verbs[] = {&look, &compute, &evaluate, &exchange, VERB_TYPES(VERB_OF) NULL};
 enum { COUNT = sizeof verbs / sizeof verbs[0] - 1 };
 
 /* Sorts the verbs in the order of the help. */
@@ -134,7 +134,7 @@ static void (*file_page(const char *name))(FILE *)
     return strcmp(name, "beamwork-results.5") == 0 ? write_results : NULL;
 }
 
-static int list_pages(void)
+static int list_manual_pages(void)
 {
     printf("beamwork.1\nbeamwork-scene.5\nbeamwork-results.5\n");
     for (int i = 0; name_at(NULL, i) != NULL; i++)
@@ -197,7 +197,7 @@ int verb_table_run(int count, char **arguments)
     const char *first = count > 1 ? arguments[1] : "help";
     arrange();
     if (strcmp(first, "help") == 0 && count > 2 && strcmp(arguments[2], "--man") == 0)
-        return count > 3 ? write_page(arguments[3]) : list_pages();
+        return count > 3 ? write_page(arguments[3]) : list_manual_pages();
     if (strcmp(first, "help") == 0 && count > 3 && strcmp(arguments[2], "--complete") == 0)
         return complete(count - 3, arguments + 3);
     if (strcmp(first, "help") == 0 && count > 2)

@@ -25,7 +25,7 @@ typedef struct verify_request {
 enum { PICTURED_STATES = 5 };
 
 /* Reports cells that were not run, or that there is no verdict. Returns the exit status. */
-static int tell(const verify_request *r, const sweep *s, const judgement *j, const spread_end *e)
+static int report(const verify_request *r, const sweep *s, const evaluation *j, const spread_end *e)
 {
     int first = 0;
     const given_option *file = given_next(r->shards.line, OPTION_OUTPUT, &first);
@@ -41,7 +41,7 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
             fprintf(stderr, "above\n");
         return EXIT_INTERRUPTED;
     }
-    const int code = judgement_exit(j);
+    const int code = evaluation_exit(j);
     if (code == EXIT_NOTHING)
         fprintf(stderr, "beamwork: no verdict, because there is no reference value; see %s\n",
                 r->scenes.scene.count > 0 ? "'truths' in 'beamwork scene --keys'"
@@ -50,36 +50,37 @@ static int tell(const verify_request *r, const sweep *s, const judgement *j, con
 }
 
 /* Warns about scene files whose numbers suggest other units. */
-static void tell_units(const scenes *own, const sweep *s)
+static void report_units(const scenes *own, const sweep *s)
 {
     for (int k = 0; k < own->count; k++)
         for (int i = 0; i < s->seriess; i++) {
             const sweep_point *p = &s->point[s->series[i].point];
             if (p->type != scene_file_case(own->file[k]) || s->series[i].missing[0] != '\0')
                 continue;
-            case_input_tell_units(own->file[k], p->parameter);
+            case_input_report_units(own->file[k], p->parameter);
             break;
         }
 }
 
 /* Runs the sweep in this process, or as batches of shards, which are evaluated when all of them
  * exist. */
-static status compute(const verify_request *r, const scenes *own, verification_request *asked,
+static status compute(const verify_request *r, const scenes *own, verification_request *requested,
                       verification *v, spread_end *end, fault *f)
 {
-    TRY(spread_asked(&r->shards, &asked->taken, f));
-    TRY(experiment_plan(&experiment_verify, asked, v, f));
-    tell_units(own, &v->sweep);
-    if (asked->taken)
-        TRY(verification_work_run(&r->shards, &asked->cells, &v->truths, &v->sweep, end, f));
-    return end->ended ? STATUS_OK
-                      : experiment_run(&experiment_verify, asked, &(experiment_output){0}, v, f);
+    TRY(shards_requested(&r->shards, &requested->taken, f));
+    TRY(experiment_plan(&experiment_verify, requested, v, f));
+    report_units(own, &v->sweep);
+    if (requested->taken)
+        TRY(verification_work_run(&r->shards, &requested->cells, &v->truths, &v->sweep, end, f));
+    return end->ended
+               ? STATUS_OK
+               : experiment_run(&experiment_verify, requested, &(experiment_output){0}, v, f);
 }
 
 static status run(const verify_request *r, const scenes *own, verification *v, spread_end *end,
                   fault *f)
 {
-    verification_request asked = {
+    verification_request requested = {
         .cells = {.cases = own->type,
                   .select = r->select,
                   .jobs = r->shards.jobs,
@@ -103,11 +104,11 @@ static status run(const verify_request *r, const scenes *own, verification *v, s
         .exit_zero = r->exit_zero,
         .verbose = r->verbose,
         .quiet = r->shards.quiet};
-    TRY(files_check_results(r->shards.line, 1, own_tables_packed(&r->scenes.truths), f));
+    TRY(files_check_results(r->shards.line, 1, user_tables_packed(&r->scenes.truths), f));
     if (r->former != NULL)
         TRY(results_read(r->former, &v->former, f));
     TRY(scenes_truths(own, &r->scenes, &v->truths, f));
-    return compute(r, own, &asked, v, end, f);
+    return compute(r, own, &requested, v, end, f);
 }
 
 static int verify_scenes(const verify_request *r, const scenes *own)
@@ -122,7 +123,7 @@ static int verify_scenes(const verify_request *r, const scenes *own)
     fault f = {""};
     const status outcome = run(r, own, &v, &end, &f);
     const int code = outcome != STATUS_OK ? message_fail(outcome, f.text)
-                                          : tell(r, &v.sweep, &v.judgement, &end);
+                                          : report(r, &v.sweep, &v.evaluation, &end);
     verification_free(&v);
     spread_free(&end);
     return code;
@@ -156,7 +157,7 @@ static const verb_option own[] = {
      IN(scenes.built_in)},
     {"deviations", 0, "FILE.csv",
      "table of your known deviations, in addition to the built-in ones; may be repeated",
-     IN(scenes.findings), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
+     IN(scenes.deviations), .traits = OPTION_REPEATS | OPTION_INPUT | OPTION_VERDICT},
     {"imported", 0, "FILE",
      "results of other programs, stored by 'beamwork import'; they are shown but do not affect the "
      "exit status; may be repeated",
@@ -190,9 +191,9 @@ static const verb_option own[] = {
      IN(shards.quiet), .traits = OPTION_ASIDE},
     {0}};
 static const verb_group shared[] = {
-    SHARED(formulations, chosen),      SHARED(select, select),     SHARED(time_limit, chosen),
-    SHARED(own_truths, scenes.truths), SHARED(json, reports.json), SHARED(reports, reports),
-    SHARED(jobs, shards.jobs),         SHARED(shards, shards),     {NULL, 0}};
+    SHARED(formulations, chosen),       SHARED(select, select),     SHARED(time_limit, chosen),
+    SHARED(user_truths, scenes.truths), SHARED(json, reports.json), SHARED(reports, reports),
+    SHARED(jobs, shards.jobs),          SHARED(shards, shards),     {NULL, 0}};
 const verb verb_verify = {
     "verify",
     "",
@@ -215,5 +216,5 @@ const verb verb_verify = {
     shared,
     own,
     sizeof(verify_request),
-    .place = VERB_JUDGE + 10,
+    .place = VERB_EVALUATE + 10,
     .answer = answer};

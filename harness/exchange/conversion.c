@@ -144,18 +144,18 @@ const axes axes_same = {{0, 1, 2}, {1, 1, 1}};
 static const char *read_one(const char *at, axes *out, int *seen)
 {
     at += strspn(at, " ");
-    const int theirs = at[0] - 'x';
-    if (theirs < 0 || theirs > 2 || at[1] != '=')
+    const int imported_axis = at[0] - 'x';
+    if (imported_axis < 0 || imported_axis > 2 || at[1] != '=')
         return NULL;
     at += 2;
     const int sign = *at == '-' ? -1 : 1;
     at += *at == '-' || *at == '+';
-    const int ours = *at - 'x';
-    if (ours < 0 || ours > 2 || (*seen & (1 << theirs | 8 << ours)) != 0)
+    const int own_axis = *at - 'x';
+    if (own_axis < 0 || own_axis > 2 || (*seen & (1 << imported_axis | 8 << own_axis)) != 0)
         return NULL;
-    *seen |= 1 << theirs | 8 << ours;
-    out->ours[theirs] = ours;
-    out->sign[theirs] = sign;
+    *seen |= 1 << imported_axis | 8 << own_axis;
+    out->own_axis[imported_axis] = own_axis;
+    out->sign[imported_axis] = sign;
     return at + 1;
 }
 
@@ -170,17 +170,18 @@ int axes_parse(const char *text, axes *out)
 /* Returns 1, or -1 if the permutation is a reflection. */
 static int determinant(const axes *a)
 {
-    const int even = (a->ours[1] - a->ours[0] + 3) % 3 == 1;
+    const int even = (a->own_axis[1] - a->own_axis[0] + 3) % 3 == 1;
     return (even ? 1 : -1) * a->sign[0] * a->sign[1] * a->sign[2];
 }
 
 /* Returns a component of the other program in the axes of beamwork. In a reflection, rotations and
  * moments also change their sign. */
-static int component_of(const axes *a, int theirs, int *sign)
+static int component_of(const axes *a, int imported_axis, int *sign)
 {
-    const int turns = theirs >= SCENE_RX, axis = turns ? theirs - SCENE_RX : theirs - SCENE_UX;
+    const int turns = imported_axis >= SCENE_RX,
+              axis = turns ? imported_axis - SCENE_RX : imported_axis - SCENE_UX;
     *sign *= a->sign[axis] * (turns ? determinant(a) : 1);
-    return a->ours[axis] + (turns ? SCENE_RX : SCENE_UX);
+    return a->own_axis[axis] + (turns ? SCENE_RX : SCENE_UX);
 }
 
 static int *word_in(const entry_field *k, scene_quantity *q)
@@ -195,13 +196,14 @@ static int turn_extract(const axes *a, scene_quantity *q, int *sign)
     int turns = 0;
     for (const entry_field *k = quantity_type_of(q)->field; k->name != NULL; k++) {
         int *word = word_in(k, q), both = 1;
-        const int theirs = *word - k->first;
+        const int imported_axis = *word - k->first;
         if (k->turns == ENTRY_AXIS) {
-            *sign *= a->sign[theirs];
-            *word = k->first + a->ours[theirs];
-        } else if (k->turns != ENTRY_STAYS)
-            *word = k->first + component_of(a, theirs, k->turns == ENTRY_DIAGONAL ? &both : sign);
-        turns |= k->turns != ENTRY_STAYS;
+            *sign *= a->sign[imported_axis];
+            *word = k->first + a->own_axis[imported_axis];
+        } else if (k->turns != ENTRY_FIXED)
+            *word = k->first +
+                    component_of(a, imported_axis, k->turns == ENTRY_DIAGONAL ? &both : sign);
+        turns |= k->turns != ENTRY_FIXED;
     }
     return turns;
 }
@@ -243,15 +245,15 @@ const scene_quantity *axes_quantity(const axes *a, const scene *s, const scene_q
                                     int *sign)
 {
     *sign = 1;
-    scene_quantity ours = *q;
-    if (memcmp(a, &axes_same, sizeof *a) == 0 || !turn_extract(a, &ours, sign))
+    scene_quantity converted = *q;
+    if (memcmp(a, &axes_same, sizeof *a) == 0 || !turn_extract(a, &converted, sign))
         return q;
-    turn_reduction(&ours, sign);
+    turn_reduction(&converted, sign);
     for (int i = 0; i < s->quantities; i++) {
         const scene_quantity *one = &s->quantity[i];
-        if (same_reduction(one, &ours) && one->factor == q->factor && one->offset == q->offset &&
-            one->what.kind == ours.what.kind &&
-            entry_same(quantity_type_of(&ours)->field, one, &ours))
+        if (same_reduction(one, &converted) && one->factor == q->factor &&
+            one->offset == q->offset && one->what.kind == converted.what.kind &&
+            entry_same(quantity_type_of(&converted)->field, one, &converted))
             return one;
     }
     return NULL;

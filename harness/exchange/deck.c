@@ -21,7 +21,8 @@ static status answers_write(const scene *s, const body_numbers *bodies, FILE *to
 static status path_points_of(const scene *s, int analysis, path_points *out, fault *f);
 /* Returns 1 if a quantity of the path, or of an analysis about the path, needs its value at the
  * point. */
-static int path_points_asked(const scene *s, int analysis, const scene_quantity *q, double point);
+static int path_points_requested(const scene *s, int analysis, const scene_quantity *q,
+                                 double point);
 
 status deck_check(const deck_request *r, fault *f)
 {
@@ -33,8 +34,8 @@ status deck_check(const deck_request *r, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "scene %.60s is confined to a plane, but solids are not; remove plane: %s",
                          r->scene->name, scene_plane_name(r->scene));
-    TRY(carried_check(r->scene, f));
-    return carried_asked_check(r->scene, f);
+    TRY(export_support_check(r->scene, f));
+    return export_support_requests(r->scene, f);
 }
 
 /* Makes the bricks of all members. The numbers of bodies follow those of the bricks. */
@@ -261,18 +262,18 @@ static void write_point(answers_writer *w, int analysis, double point)
     write_state(w, scene_acting_of(w->s, analysis), point, increments);
     for (int k = 0; k < w->s->quantities; k++)
         if (w->s->quantity[k].analysis == analysis &&
-            path_points_asked(w->s, analysis, &w->s->quantity[k], point))
+            path_points_requested(w->s, analysis, &w->s->quantity[k], point))
             answer_component(w, &w->s->quantity[k], point);
     for (int k = 0; k < w->s->quantities; k++)
         if (w->s->quantity[k].analysis != analysis &&
-            path_points_asked(w->s, analysis, &w->s->quantity[k], point))
+            path_points_requested(w->s, analysis, &w->s->quantity[k], point))
             answer_entry(w, &w->s->quantity[k], point);
 }
 
 static status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f)
 {
     answers_writer w = {.s = s, .bodies = bodies, .to = to};
-    const int path = carried_static(s);
+    const int path = export_is_static(s);
     path_points points;
     write_undeformed(&w);
     if (path == SCENE_NONE)
@@ -434,7 +435,8 @@ void path_points_free(path_points *p)
     p->value = NULL;
 }
 
-static int path_points_asked(const scene *s, int analysis, const scene_quantity *q, double point)
+static int path_points_requested(const scene *s, int analysis, const scene_quantity *q,
+                                 double point)
 {
     const scene_path *stations = scene_path_of(&s->analysis[analysis]);
     int is_station = 0;

@@ -11,8 +11,9 @@
 /* Axes of another program relative to beamwork's: a signed permutation. */
 
 typedef struct axes {
-    int ours[3]; /* indices 0..2 of the axes of beamwork that are x, y, z of the other program */
-    int sign[3]; /* 1 or -1 */
+    int own_axis[3]; /* indices 0..2 of the axes of beamwork that are x, y, z of the other program
+                      */
+    int sign[3];     /* 1 or -1 */
 } axes;
 
 extern const axes axes_same;

@@ -87,12 +87,12 @@ int body_direction(int component);
  * none is omitted without notice. */
 
 /* Returns the index of the static analysis if there is exactly one, otherwise SCENE_NONE. */
-int carried_static(const scene *s);
+int export_is_static(const scene *s);
 /* Checks the scene. REFUSED: the message names the part of the structure or of its analyses that a
  * deck cannot express, and the remedy. */
-status carried_check(const scene *s, fault *f);
-/* Like carried_check, for the quantities. */
-status carried_asked_check(const scene *s, fault *f);
+status export_support_check(const scene *s, fault *f);
+/* Like export_support_check, for the quantities. */
+status export_support_requests(const scene *s, fault *f);
 
 /* Conversion of units of other programs. Values are converted only by these functions. A unit is a
  * product of powers with at most one '/': "N mm", "mm/N", "rad/(N m)", "1/s", "kg/m^3", "%".

@@ -128,12 +128,12 @@ static void check_convention(const import_block *b, const import_header *h)
     const int moments = scene_of(b) != NULL ? moments_of(scene_of(b)) : -1;
     if (h->convention[0] == '\0' || moments < 0)
         return;
-    const char *ours = scene_moments_name((scene_moments)moments);
-    if (strcmp(ours, h->convention) != 0)
+    const char *own_axis = scene_moments_name((scene_moments)moments);
+    if (strcmp(own_axis, h->convention) != 0)
         mistakes_add(b->m, h->convention_line, 1,
                      "convention '%.40s': the moments of the case are %s; give the parameter that "
                      "changes the convention, or convert the values",
-                     h->convention, ours);
+                     h->convention, own_axis);
 }
 
 static void name_series(import_block *b, const import_header *h, int line)
@@ -227,20 +227,20 @@ static int convert(const import_block *b, const scene_quantity *q, imported_row 
 {
     int sign = 1;
     fault f = {""};
-    const scene_quantity *ours = axes_quantity(&b->axes, scene_of(b), q, &sign);
-    if (ours == NULL) {
+    const scene_quantity *own_axis = axes_quantity(&b->axes, scene_of(b), q, &sign);
+    if (own_axis == NULL) {
         mistakes_add(b->m, line_of(b, row), 1, "the case has no quantity '%s' in these axes",
                      q->name);
         return 0;
     }
-    if (conversion_factor(row->unit, ours->unit, &row->factor, &f) != STATUS_OK) {
+    if (conversion_factor(row->unit, own_axis->unit, &row->factor, &f) != STATUS_OK) {
         mistakes_add(b->m, line_of(b, row), 4, "%s: %.300s", q->name, f.text);
         return 0;
     }
     row->factor *= sign;
     row->value *= row->factor;
     row->uncertainty *= fabs(row->factor);
-    snprintf(row->quantity, sizeof row->quantity, "%s", ours->name);
+    snprintf(row->quantity, sizeof row->quantity, "%s", own_axis->name);
     return 1;
 }
 
@@ -427,7 +427,7 @@ static status fill(const scene *s, series *one, fault *f)
 }
 
 /* Returns the position after the last series of the point. */
-static int place_of(const sweep *s, int point_index)
+static int frame_motion_of(const sweep *s, int point_index)
 {
     int place = s->seriess;
     while (place > 0 && s->series[place - 1].point > point_index)
@@ -443,7 +443,7 @@ status import_cells_add(sweep *s, int point_index, imported *found, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for series");
     }
     s->series = more;
-    const int place = place_of(s, point_index);
+    const int place = frame_motion_of(s, point_index);
     memmove(&more[place + 1], &more[place], (size_t)(s->seriess - place) * sizeof *more);
     s->seriess++;
     series *one = &more[place];

@@ -210,35 +210,37 @@ static double size_of(const softness *soft, int component, int reaction)
 }
 
 static void compare(const formulation *chosen, support of, const softness *soft,
-                    const double q[SIX], claim *one)
+                    const double q[SIX], check_result *one)
 {
     ends found;
     fault f = {""};
     const ends right = exact_ends(of, soft, q);
     if (found_ends(chosen, of, q, &found, &f) != STATUS_OK) {
-        claims_asks(one, 0, "one element %s under distributed loads: %s", support_name[of], f.text);
+        checks_require(one, 0, "one element %s under distributed loads: %s", support_name[of],
+                       f.text);
         return;
     }
     for (int i = 0; i < 2 * SIX; i++) {
         const int node = i / SIX, c = i % SIX, reaction = held[of][node] >> c & 1;
         const double a = found.of[node][c], b = right.of[node][c];
-        char words[SPECIMEN_WORDS];
-        claims_departs(
+        char words[TEST_ELEMENT_WORDS];
+        checks_deviation(
             one, fabs(a - b) / size_of(soft, c, reaction),
             "distributed loads: one element %s gives %.9g instead of %.9g as %s%s; if 'measured' "
             "names a stiffness, correct that stiffness first; otherwise correct the strains, which "
             "must use r and R of node_state, with the x axis along the undeformed element",
             support_name[of], a, b, reaction ? "reaction to the " : "",
-            specimen_coordinate(&(const specimen){.nodes = 2}, NODE_COORDINATES * node + c, words));
+            test_element_coordinate(&(const test_element){.nodes = 2}, NODE_COORDINATES * node + c,
+                                    words));
     }
 }
 
 /* Checks of `along`, the function of types that include the load in the equilibrium of the
  * element. */
-enum { X = ELEMENT_ALONG_COORDINATES, M = SPECIMEN_STRAINS, SETTLING = 40, FINER = 50 };
+enum { X = ELEMENT_ALONG_COORDINATES, M = TEST_ELEMENT_STRAINS, RELAXATIONS = 40, FINER = 50 };
 
 typedef struct taken {
-    const specimen *s;
+    const test_element *s;
     const node_state *x;
     double q[3 * ELEMENT_ALONG_POINTS];
     /* inner unknowns of the state x, from which the iteration for a neighbouring state starts */
@@ -249,11 +251,11 @@ typedef struct taken {
  * stiffness, and stores the inner unknowns in of->inner. */
 static status forces_under(const taken *of, const node_state x[], double F[X], double K[X * X])
 {
-    const specimen *s = of->s;
+    const test_element *s = of->s;
     const element_data *data = s->data;
     const double none[M] = {0};
     double e[M], J[M * X], sigma[M], C[M * M], mixed[3 * M], H[X * X], cross[M * X], both[X * X],
-        inner[SPECIMEN_INNER], memory[SPECIMEN_MEMORY], work[M * X];
+        inner[TEST_ELEMENT_INNER], memory[TEST_ELEMENT_MEMORY], work[M * X];
     along_output out = {.force = of->q,
                         .e = e,
                         .inner = inner,
@@ -265,7 +267,7 @@ static status forces_under(const taken *of, const node_state x[], double F[X], d
     status outcome = STATUS_OK;
     s->type.strain(data, x, &(strain_output){.e = e, .J = J, .history = s->history});
     memcpy(inner, of->inner, (size_t)s->inner * sizeof *inner);
-    for (int i = 0; i < SETTLING; i++) {
+    for (int i = 0; i < RELAXATIONS; i++) {
         s->type.along(1, &data, x, &out, &outcome);
         if (outcome != STATUS_OK || s->inner == 0 || s->type.update == NULL ||
             s->type.update(data, none, memory, inner) < 1e-15)
@@ -297,50 +299,51 @@ static int forces_of(const void *context, int i, double si, int j, double sj, do
 {
     const taken *of = context;
     node_state x[ELEMENT_MAX_NODES];
-    specimen_moved(&(specimen_place){of->s, of->x}, i, si / FINER, j, sj / FINER, x);
+    test_element_moved(&(test_element_stencil){of->s, of->x}, i, si / FINER, j, sj / FINER, x);
     return (int)forces_under(of, x, values, NULL);
 }
 
-static void check_taken(const specimen *s, claims *c)
+static void check_taken(const test_element *s, check_results *c)
 {
     static const double turn[3] = {0.5, -0.6, 0.7};
     const double l = s->request.length;
-    double K[X * X], F[X], found[X][X], none[M] = {0}, inner[SPECIMEN_INNER], C[M * M], size = 0;
+    double K[X * X], F[X], found[X][X], none[M] = {0}, inner[TEST_ELEMENT_INNER], C[M * M],
+                                        size = 0;
     node_state bent[ELEMENT_MAX_NODES], x[ELEMENT_MAX_NODES];
     taken of = {.s = s, .x = x, .inner = inner};
     if (s->type.along == NULL || s->nodes != 2)
         return;
-    claims_doing(c, "along%s", s->words);
-    specimen_rest(s, inner);
-    if (specimen_settled(s, none, inner, &(stress_output){.C = C}) != STATUS_OK)
+    checks_current(c, "along%s", s->words);
+    test_element_rest(s, inner);
+    if (test_element_converged(s, none, inner, &(stress_output){.C = C}) != STATUS_OK)
         return;
     for (int i = 0; i < s->strains && i < SIX; i++)
         size = size > 0 ? fmin(size, C[i * (s->strains + 1)]) : C[i * (s->strains + 1)];
     for (int i = 0; i < 3 * ELEMENT_ALONG_POINTS; i++)
         of.q[i] = 0.01 * size * cos(1 + 2.3 * i);
-    specimen_state(s, 0.0002, 5, bent);
-    specimen_carry(s, turn, bent, x);
-    claim *derives =
-              claims_open(c, "K is the derivative of the forces under a distributed load", 1e-7),
-          *sums = claims_open(c, "the forces add up to the distributed load", 1e-9);
-    specimen_rest(s, inner);
+    test_element_state(s, 0.0002, 5, bent);
+    test_element_rigid_motion(s, turn, bent, x);
+    check_result *derives = checks_open(
+                     c, "K is the derivative of the forces under a distributed load", 1e-7),
+                 *sums = checks_open(c, "the forces add up to the distributed load", 1e-9);
+    test_element_rest(s, inner);
     status outcome = forces_under(&of, x, F, K);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
         outcome = stencil_first(forces_of, &of, X, a, found[a]) ? STATUS_NOT_CONVERGED : STATUS_OK;
-    claims_asks(derives, outcome == STATUS_OK,
-                "along: the element cannot evaluate a state under a small load%s", s->words);
+    checks_require(derives, outcome == STATUS_OK,
+                   "along: the element cannot evaluate a state under a small load%s", s->words);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
         for (int b = 0; b < X;
              b++) { /* differences along the exponential chart give the symmetric part of K */
-            const double ua = specimen_unit(s, a), ub = specimen_unit(s, b),
+            const double ua = test_element_unit(s, a), ub = test_element_unit(s, b),
                          change = (found[a][b] * ub + found[b][a] * ua) * FINER / 2,
                          scale = sqrt(fabs(K[a * (X + 1)] * K[b * (X + 1)]));
-            claims_departs(derives,
-                           fabs(K[a * X + b] - change / (ua * ub)) / fmax(scale, size * l * l),
-                           "along: the derivative of force %d with respect to coordinate %d is "
-                           "%.6g, but finite "
-                           "differences give %.6g%s",
-                           a + 1, b + 1, K[a * X + b], change / (ua * ub), s->words);
+            checks_deviation(derives,
+                             fabs(K[a * X + b] - change / (ua * ub)) / fmax(scale, size * l * l),
+                             "along: the derivative of force %d with respect to coordinate %d is "
+                             "%.6g, but finite "
+                             "differences give %.6g%s",
+                             a + 1, b + 1, K[a * X + b], change / (ua * ub), s->words);
         }
     double point[ELEMENT_ALONG_POINTS], weight[ELEMENT_ALONG_POINTS];
     quadrature_points(ELEMENT_ALONG_POINTS, point, weight);
@@ -348,16 +351,16 @@ static void check_taken(const specimen *s, claims *c)
         double load = 0;
         for (int j = 0; j < ELEMENT_ALONG_POINTS; j++)
             load += l * weight[j] * of.q[3 * j + i];
-        claims_departs(sums, fabs(F[i] + F[NODE_COORDINATES + i] + load) / (size * l),
-                       "along: the sum of the nodal forces is %.6g for a load of %.6g%s",
-                       -F[i] - F[NODE_COORDINATES + i], load, s->words);
+        checks_deviation(sums, fabs(F[i] + F[NODE_COORDINATES + i] + load) / (size * l),
+                         "along: the sum of the nodal forces is %.6g for a load of %.6g%s",
+                         -F[i] - F[NODE_COORDINATES + i], load, s->words);
     }
 }
 
-void checks_along(const formulation *chosen, claims *out)
+void checks_along(const formulation *chosen, check_results *out)
 {
-    specimens_each(chosen, out, check_taken);
-    specimens_each(chosen, out, own_line_check);
+    test_elements_each(chosen, out, check_taken);
+    test_elements_each(chosen, out, own_line_check);
     static const struct {
         const char *name;
         double q[SIX];
@@ -365,19 +368,19 @@ void checks_along(const formulation *chosen, claims *out)
                 {"a uniform moment along one element", {0, 0, 0, 0, moment, moment}}};
     softness soft;
     fault f = {""};
-    claims_doing(out, "one element as a cantilever");
+    checks_current(out, "one element as a cantilever");
     const status outcome =
         chosen->type->line != NULL
             ? fault_set(&f, STATUS_REFUSED, "the element has its own motion between its nodes")
             : measure(chosen, &soft, &f);
     for (size_t i = 0; i < sizeof load / sizeof load[0]; i++) {
         if (outcome != STATUS_OK) {
-            claims_not_made(out, load[i].name, f.text);
+            checks_not_made(out, load[i].name, f.text);
             continue;
         }
         for (support of = 0; of < SUPPORTS; of++) {
-            claims_doing(out, "one element %s under distributed loads", support_name[of]);
-            compare(chosen, of, &soft, load[i].q, claims_open(out, load[i].name, rounding));
+            checks_current(out, "one element %s under distributed loads", support_name[of]);
+            compare(chosen, of, &soft, load[i].q, checks_open(out, load[i].name, rounding));
         }
     }
 }

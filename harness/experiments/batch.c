@@ -129,9 +129,9 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
 }
 
 /* Returns 1 if the writer of a temporary file has ended, which means that the file is not locked.
- * An empty file may not be locked yet. For such a file, returns 1 only if gone_for_sure is 1 or the
- * file is older than OLD. */
-static int is_orphan(const char *path, int gone_for_sure)
+ * An empty file may not be locked yet. For such a file, returns 1 only if certainly_ended is 1 or
+ * the file is older than OLD. */
+static int is_orphan(const char *path, int certainly_ended)
 {
     enum { OLD = 60 }; /* [s] */
     struct stat there;
@@ -139,13 +139,13 @@ static int is_orphan(const char *path, int gone_for_sure)
     if (file < 0)
         return 0;
     const int settled = fstat(file, &there) == 0 &&
-                        (gone_for_sure || there.st_size > 0 || time(NULL) - there.st_mtime > OLD);
-    const int gone = settled && flock(file, LOCK_EX | LOCK_NB) == 0;
+                        (certainly_ended || there.st_size > 0 || time(NULL) - there.st_mtime > OLD);
+    const int ended = settled && flock(file, LOCK_EX | LOCK_NB) == 0;
     close(file);
-    return gone;
+    return ended;
 }
 
-void batch_clean(const char *folder, const char *name, int gone)
+void batch_clean(const char *folder, const char *name, int ended)
 {
     char path[PATH_MAX];
     const size_t length = strlen(name);
@@ -154,7 +154,7 @@ void batch_clean(const char *folder, const char *name, int gone)
         if (strncmp(e->d_name, name, length) == 0 &&
             strncmp(e->d_name + length, ".part-", 6) == 0 &&
             snprintf(path, sizeof path, "%s/%s", folder, e->d_name) < (int)sizeof path &&
-            is_orphan(path, gone))
+            is_orphan(path, ended))
             unlink(path);
     if (d != NULL)
         closedir(d);
@@ -316,7 +316,7 @@ static double processor_seconds(void)
     return all;
 }
 
-static status compute(const labour *c, int batch, double *seconds, fault *f)
+static status compute(const batch_worker *c, int batch, double *seconds, fault *f)
 {
     const shard_work *w = c->w;
     char *bytes = NULL;
@@ -351,24 +351,24 @@ static status compute(const labour *c, int batch, double *seconds, fault *f)
     return outcome;
 }
 
-void labour_work(const labour *c, int self, int to)
+void batch_worker_run(const batch_worker *c, int self, int to)
 {
-    labour_shelf *s = c->shelf;
+    batch_queue *s = c->queue;
     for (;;) {
         const int i = atomic_fetch_add(&s->next, 1);
         if (i >= c->count)
             break;
-        labour_notice said;
+        batch_report report;
         fault f = {""};
-        memset(&said, 0, sizeof said);
-        said.batch = c->list[i];
-        s->at[self] = said.batch;
-        said.status = compute(c, said.batch, &said.seconds, &f);
-        memcpy(said.text, f.text, sizeof said.text);
-        if (write(to, &said, sizeof said) != (ssize_t)sizeof said)
+        memset(&report, 0, sizeof report);
+        report.batch = c->list[i];
+        s->at[self] = report.batch;
+        report.status = compute(c, report.batch, &report.seconds, &f);
+        memcpy(report.text, f.text, sizeof report.text);
+        if (write(to, &report, sizeof report) != (ssize_t)sizeof report)
             break;
         s->at[self] = -1;
-        if (said.status != STATUS_OK)
+        if (report.status != STATUS_OK)
             break;
     }
     _exit(0);

@@ -71,9 +71,9 @@ static status plan_named(const bench_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-static status plan(const void *asked, void *found, fault *f)
+static status plan(const void *requested, void *found, fault *f)
 {
-    const bench_request *r = asked;
+    const bench_request *r = requested;
     bench *b = found;
     b->named = r->count > 0 || r->scene != NULL;
     TRY(b->named ? plan_named(r, &b->sweep, f) : plan_sweep(&r->cells, &b->truths, &b->sweep, f));
@@ -82,22 +82,22 @@ static status plan(const void *asked, void *found, fault *f)
     return STATUS_OK;
 }
 
-static status run(const void *asked, void *found, fault *f)
+static status run(const void *requested, void *found, fault *f)
 {
-    const bench_request *r = asked;
+    const bench_request *r = requested;
     bench *b = found;
     return run_sweep(&r->cells, &b->sweep, f);
 }
 
 /* Adds the derived reference values of named cases, determines the verdicts, and measures the
  * times. */
-static status judge(const void *asked, void *found, fault *f)
+static status evaluate(const void *requested, void *found, fault *f)
 {
-    const bench_request *r = asked;
+    const bench_request *r = requested;
     bench *b = found;
     if (b->named)
         TRY(families_add_truths(&b->sweep, 0, &b->truths, f));
-    TRY(judgement_make(&b->sweep, &b->truths, 0, &b->judgement, f));
+    TRY(evaluation_make(&b->sweep, &b->truths, 0, &b->evaluation, f));
     if (r->threads <= 1)
         rounds_pin();
     return timing_run(&b->sweep, floor_seconds, r->dense, r->cells.progress, f);
@@ -106,12 +106,12 @@ static status judge(const void *asked, void *found, fault *f)
 static experiment_cells cells(const void *found)
 {
     const bench *b = found;
-    return (experiment_cells){&b->sweep, &b->judgement, &b->made};
+    return (experiment_cells){&b->sweep, &b->evaluation, &b->made};
 }
 
 static status write_table(FILE *to, const bench *b, fault *f)
 {
-    judgement shown = {.verdicts = 0};
+    evaluation shown = {.verdicts = 0};
     shown.verdict = reach_verdicts(&b->sweep, &b->truths, &shown.verdicts);
     if (shown.verdict == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for verdicts");
@@ -125,19 +125,23 @@ static status write_form(FILE *to, const char *format, const void *found, fault 
     const bench *b = found;
     if (format[0] != 'c')
         return write_table(to, b, f);
-    csv_timing(to, &b->sweep, &b->judgement);
+    csv_timing(to, &b->sweep, &b->evaluation);
     return STATUS_OK;
 }
 
 void bench_free(bench *b)
 {
-    judgement_free(&b->judgement);
+    evaluation_free(&b->evaluation);
     sweep_free(&b->sweep);
     truths_free(&b->truths);
 }
 
-const experiment_type experiment_bench = {
-    .name = "bench", .plan = plan, .run = run, .judge = judge, .cells = cells, .write = write_form};
+const experiment_type experiment_bench = {.name = "bench",
+                                          .plan = plan,
+                                          .run = run,
+                                          .evaluate = evaluate,
+                                          .cells = cells,
+                                          .write = write_form};
 
 void rounds_run(const cell_request *request, double floor, rounds_reading *out)
 {
@@ -374,9 +378,9 @@ static int rank_of_interval(int pairs)
     return k;
 }
 
-contest_clock against_judge(int pairs, const double a[], const double b[])
+against_times against_evaluate(int pairs, const double a[], const double b[])
 {
-    contest_clock out = {
+    against_times out = {
         .pairs = pairs, .a = INFINITY, .b = INFINITY, .ratio = NAN, .low = 0, .high = INFINITY};
     double *ratio = malloc(((size_t)pairs + 1) * sizeof *ratio);
     for (int i = 0; i < pairs; i++) {
@@ -411,7 +415,7 @@ static status lap_pair(against_lap *lap, void *a, void *b, int b_first, double *
     return b_first ? lap(a, seconds_a, f) : lap(b, seconds_b, f);
 }
 
-status against_run(against_lap *lap, void *a, void *b, double budget, contest_clock *out, fault *f)
+status against_run(against_lap *lap, void *a, void *b, double budget, against_times *out, fault *f)
 {
     double seconds_a[MOST_PAIRS], seconds_b[MOST_PAIRS], least = INFINITY;
     for (int i = 0; i < WARM_UP; i++) {
@@ -422,7 +426,7 @@ status against_run(against_lap *lap, void *a, void *b, double budget, contest_cl
     const int pairs = (int)fmax(LEAST_PAIRS, fmin(MOST_PAIRS, budget / least));
     for (int i = 0; i < pairs; i++)
         TRY(lap_pair(lap, a, b, i % 2, &seconds_a[i], &seconds_b[i], f));
-    *out = against_judge(pairs, seconds_a, seconds_b);
+    *out = against_evaluate(pairs, seconds_a, seconds_b);
     return STATUS_OK;
 }
 

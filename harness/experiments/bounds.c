@@ -13,7 +13,7 @@
 
 #include "harness/formulations/adapted.h"
 
-enum { GUARD = 64, M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
+enum { GUARD = 64, M = TEST_ELEMENT_STRAINS, N = TEST_ELEMENT_COORDINATES };
 
 /* a signalling NaN that no computation produces */
 static const uint64_t mark = 0x7ff4beadfacade01ULL;
@@ -43,26 +43,26 @@ static int untouched(const double *word)
 }
 
 /* Checks an output and frees the guarded memory. must 1: the output must be filled completely. */
-static void look(guarded *g, int must, const specimen *s, claims *c)
+static void look(guarded *g, int must, const test_element *s, check_results *c)
 {
-    claim *beside = claims_open(c, "no memory outside an output changes", 0),
-          *filled = claims_open(c, "outputs are filled completely", 0);
+    check_result *beside = checks_open(c, "no memory outside an output changes", 0),
+                 *filled = checks_open(c, "outputs are filled completely", 0);
     for (int i = 0; i < GUARD; i++) {
-        claims_asks(beside, untouched(&g->words[GUARD - 1 - i]),
-                    "%s: entry %d, before the first entry, is written%s", g->name, -i - 1 + 1,
-                    s->words);
-        claims_asks(beside, untouched(&g->words[GUARD + g->size + i]),
-                    "%s: there are %d entries, but entry %d is written%s", g->name, g->size,
-                    g->size + i + 1, s->words);
+        checks_require(beside, untouched(&g->words[GUARD - 1 - i]),
+                       "%s: entry %d, before the first entry, is written%s", g->name, -i - 1 + 1,
+                       s->words);
+        checks_require(beside, untouched(&g->words[GUARD + g->size + i]),
+                       "%s: there are %d entries, but entry %d is written%s", g->name, g->size,
+                       g->size + i + 1, s->words);
     }
     for (int i = 0; i < g->size && must; i++)
-        claims_asks(filled, !untouched(&g->words[GUARD + i]),
-                    "%s: entry %d of %d is never written%s", g->name, i + 1, g->size, s->words);
+        checks_require(filled, !untouched(&g->words[GUARD + i]),
+                       "%s: entry %d of %d is never written%s", g->name, i + 1, g->size, s->words);
     free(g->words);
     g->words = NULL;
 }
 
-static void strains(const specimen *s, const node_state x[], claims *c)
+static void strains(const test_element *s, const node_state x[], check_results *c)
 {
     guarded e, J, H;
     double weight[M];
@@ -73,20 +73,20 @@ static void strains(const specimen *s, const node_state x[], claims *c)
                          .s = weight,
                          .H = guard(&H, "strain: H", s->coordinates * s->coordinates),
                          .history = s->history};
-    claims_doing(c, "strain%s", s->words);
+    checks_current(c, "strain%s", s->words);
     s->type.strain(s->data, x, &out);
     look(&e, 1, s, c);
     look(&J, 1, s, c);
     look(&H, 1, s, c);
 }
 
-static void stresses(const specimen *s, const double e[], claims *c)
+static void stresses(const test_element *s, const double e[], check_results *c)
 {
     const int m = s->strains;
     guarded energy, sigma, C, residual, memory, inner, G;
     double *own = guard(&inner, "rest: the internal unknowns", s->inner);
-    claims_doing(c, "rest and stress%s", s->words);
-    specimen_rest(s, own);
+    checks_current(c, "rest and stress%s", s->words);
+    test_element_rest(s, own);
     stress_output out = {.energy = guard(&energy, "stress: energy", 1),
                          .sigma = guard(&sigma, "stress: sigma", m),
                          .C = guard(&C, "stress: C", m * m),
@@ -98,7 +98,7 @@ static void stresses(const specimen *s, const double e[], claims *c)
     const int filled = s->type.stress(s->data, e, own, &out) == STATUS_OK;
     if (s->inner > 0 && s->type.update != NULL && filled) {
         const double none[M] = {0};
-        claims_doing(c, "update%s", s->words);
+        checks_current(c, "update%s", s->words);
         s->type.update(s->data, none, out.memory, own);
     }
     look(&energy, filled, s, c);
@@ -110,23 +110,23 @@ static void stresses(const specimen *s, const double e[], claims *c)
     if (s->type.geometric == NULL)
         return;
     double *stiffness = guard(&G, "geometric: G", m * m);
-    claims_doing(c, "geometric%s", s->words);
+    checks_current(c, "geometric%s", s->words);
     s->type.geometric(s->data, e, stiffness);
     look(&G, 1, s, c);
 }
 
-static void dampings(const specimen *s, claims *c)
+static void dampings(const test_element *s, check_results *c)
 {
     guarded V;
     if (s->type.damping == NULL)
         return;
     double *matrix = guard(&V, "damping: V", s->strains * s->strains);
-    claims_doing(c, "damping%s", s->words);
+    checks_current(c, "damping%s", s->words);
     s->type.damping(s->data, matrix);
     look(&V, 1, s, c);
 }
 
-static void sections(const specimen *s, const node_state x[], claims *c)
+static void sections(const test_element *s, const node_state x[], check_results *c)
 {
     const int n = s->coordinates;
     guarded P, T, H;
@@ -138,14 +138,14 @@ static void sections(const specimen *s, const node_state x[], claims *c)
                        .P = guard(&P, "line: P", 3 * n),
                        .T = guard(&T, "line: T", 3 * n),
                        .H = guard(&H, "line: H", n * n)};
-    claims_doing(c, "line%s", s->words);
+    checks_current(c, "line%s", s->words);
     s->type.line(s->data, x, 1, &out);
     look(&P, 1, s, c);
     look(&T, 1, s, c);
     look(&H, 1, s, c);
 }
 
-static void masses(const specimen *s, const node_state x[], claims *c)
+static void masses(const test_element *s, const node_state x[], check_results *c)
 {
     static const element_rotating_frame turning = {.omega = {31.3, -17.9, 23.7}};
     const int n = s->coordinates;
@@ -157,7 +157,7 @@ static void masses(const specimen *s, const node_state x[], claims *c)
                           .force = guard(&force, "inertia: force", n),
                           .N = guard(&stiffness, "inertia: N", n * n),
                           .G = guard(&gyroscopic, "inertia: G", n * n)};
-    claims_doing(c, "inertia%s", s->words);
+    checks_current(c, "inertia%s", s->words);
     const int filled = s->type.inertia(s->data, x, &turning, &out) == STATUS_OK;
     look(&mass, filled, s, c);
     look(&potential, filled, s, c);
@@ -166,7 +166,7 @@ static void masses(const specimen *s, const node_state x[], claims *c)
     look(&gyroscopic, filled, s, c);
 }
 
-static void in_time(const specimen *s, const node_state x[], claims *c)
+static void in_time(const test_element *s, const node_state x[], check_results *c)
 {
     const int n = s->coordinates;
     guarded taken, rates, places;
@@ -180,14 +180,14 @@ static void in_time(const specimen *s, const node_state x[], claims *c)
                           .taken = guard(&taken, "inertia: taken", n),
                           .C = guard(&rates, "inertia: C", n * n),
                           .K = guard(&places, "inertia: K", n * n)};
-    claims_doing(c, "inertia in time%s", s->words);
+    checks_current(c, "inertia in time%s", s->words);
     const int filled = s->type.inertia(s->data, x, NULL, &out) == STATUS_OK;
     look(&taken, filled, s, c);
     look(&rates, filled, s, c);
     look(&places, filled, s, c);
 }
 
-static void forces(const specimen *s, const node_state x[], claims *c)
+static void forces(const test_element *s, const node_state x[], check_results *c)
 {
     const int n = s->coordinates;
     const unsigned leaves = s->made.given->leaves;
@@ -198,13 +198,13 @@ static void forces(const specimen *s, const node_state x[], claims *c)
                         .F = guard(&force, "force: F", n),
                         .K = guard(&stiffness, "force: K", n * n)};
     out.history = s->history;
-    if (specimen_lacks_energy(s))
+    if (test_element_lacks_energy(s))
         out.energy = NULL;
     if (leaves & LEAVES_FORCE)
         out.F = NULL;
     if (leaves)
         out.K = NULL;
-    claims_doing(c, "force%s", s->words);
+    checks_current(c, "force%s", s->words);
     const int filled = s->made.given->force(adapted_own(s->data), x, &out) == STATUS_OK;
     look(&energy, filled && out.energy != NULL, s, c);
     look(&force, filled && out.F != NULL, s, c);
@@ -212,24 +212,24 @@ static void forces(const specimen *s, const node_state x[], claims *c)
 }
 
 /* Checks that prepare writes only data_size bytes. */
-static void data(const specimen *s, claims *c)
+static void data(const test_element *s, check_results *c)
 {
     guarded bytes;
     const size_t own = s->made.given->data_size != NULL ? s->made.given->data_size(&s->request) : 0;
     double *place = guard(&bytes, "prepare: its data", (int)((own + 7) / 8));
     element_request request = s->request;
-    claims_doing(c, "prepare%s", s->words);
+    checks_current(c, "prepare%s", s->words);
     memset(place, 0, own);
     s->made.given->prepare(&request, (element_data *)place, NULL);
     look(&bytes, 0, s, c);
 }
 
-static void check(const specimen *s, claims *c)
+static void check(const test_element *s, check_results *c)
 {
     double room[GUARD + M + GUARD], kept[M], *e = room + GUARD;
     node_state x[ELEMENT_MAX_NODES], given[ELEMENT_MAX_NODES];
-    claim *inputs = claims_open(c, "inputs are not changed", 0);
-    specimen_state(s, 0.02, 53, x);
+    check_result *inputs = checks_open(c, "inputs are not changed", 0);
+    test_element_state(s, 0.02, 53, x);
     memcpy(given, x, sizeof given);
     strains(s, x, c);
     s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
@@ -241,22 +241,22 @@ static void check(const specimen *s, claims *c)
     in_time(s, x, c);
     forces(s, x, c);
     data(s, c);
-    claims_asks(
+    checks_require(
         inputs, memcmp(given, x, (size_t)s->nodes * sizeof *x) == 0,
         "strain, inertia: the element changes the states of the nodes, which are read-only%s",
         s->words);
-    claims_asks(inputs, memcmp(kept, e, (size_t)s->strains * sizeof *e) == 0,
-                "stress: the element changes the strains, which are read-only%s", s->words);
+    checks_require(inputs, memcmp(kept, e, (size_t)s->strains * sizeof *e) == 0,
+                   "stress: the element changes the strains, which are read-only%s", s->words);
 }
 
-void checks_bounds(const formulation *chosen, claims *out)
+void checks_bounds(const formulation *chosen, check_results *out)
 {
-    specimens_each(chosen, out, check);
+    test_elements_each(chosen, out, check);
 }
 
 /* Checks for hidden states: the results of a call must depend only on its arguments. */
 
-enum { STATELESS_M = SPECIMEN_STRAINS, STATELESS_N = SPECIMEN_COORDINATES };
+enum { STATELESS_M = TEST_ELEMENT_STRAINS, STATELESS_N = TEST_ELEMENT_COORDINATES };
 
 static const double longer = 1.7 * 0.2385; /* [m] length of the second element */
 
@@ -265,18 +265,18 @@ typedef struct call_account {
     status stress, inertia;
     double e[STATELESS_M], J[STATELESS_M * STATELESS_N], H[STATELESS_N * STATELESS_N], energy,
         sigma[STATELESS_M], C[STATELESS_M * STATELESS_M], residual, mass[STATELESS_N * STATELESS_N];
-    double inner[SPECIMEN_INNER];
+    double inner[TEST_ELEMENT_INNER];
 } call_account;
 
-static void tell(const specimen *s, const node_state x[], call_account *out)
+static void record_calls(const test_element *s, const node_state x[], call_account *out)
 {
     double weight[STATELESS_M];
     memset(out, 0, sizeof *out);
     for (int i = 0; i < s->strains; i++)
         weight[i] = cos(3.7 * i + 0.3);
     s->type.strain(s->data, x, &(strain_output){out->e, out->J, weight, out->H, s->history});
-    specimen_rest(s, out->inner);
-    out->stress = specimen_settled(
+    test_element_rest(s, out->inner);
+    out->stress = test_element_converged(
         s, out->e, out->inner,
         &(stress_output){
             .energy = &out->energy, .sigma = out->sigma, .C = out->C, .residual = &out->residual});
@@ -316,40 +316,41 @@ static const char *apart(const call_account *a, const call_account *b)
     return a->stress != b->stress ? "stress: the status" : NULL;
 }
 
-static void same(const call_account *a, const call_account *b, const char *after, const specimen *s,
-                 claim *one)
+static void same(const call_account *a, const call_account *b, const char *after,
+                 const test_element *s, check_result *one)
 {
     const char *other = apart(a, b);
-    claims_asks(one, other == NULL,
-                "%s differs after %s; do not store anything between calls in static variables or "
-                "in 'data'%s",
-                other, after, s->words);
+    checks_require(
+        one, other == NULL,
+        "%s differs after %s; do not store anything between calls in static variables or "
+        "in 'data'%s",
+        other, after, s->words);
 }
 
 /* Checks that calls of a second, longer element do not change the results of the first element. The
  * second element must give the same results as in a new process. */
-static void other_element(const specimen *s, const call_account *before, const node_state x[],
-                          const call_account *first, claim *one)
+static void other_element(const test_element *s, const call_account *before, const node_state x[],
+                          const call_account *first, check_result *one)
 {
-    specimen_request what = s->made;
-    specimen other;
+    test_element_request what = s->made;
+    test_element other;
     call_account between, after;
     fault f = {""};
     what.length = longer;
-    if (specimen_make(&what, &other, &f) == STATUS_OK) {
-        tell(&other, x, &between);
+    if (test_element_make(&what, &other, &f) == STATUS_OK) {
+        record_calls(&other, x, &between);
         same(first, &between, "calls of another element, compared with a new process", s, one);
-        tell(s, x, &after);
+        record_calls(s, x, &after);
         same(before, &after, "calls of another element", s, one);
     }
-    specimen_free(&other);
+    test_element_free(&other);
 }
 
 /* Prepares a longer element in the memory of the element, then prepares the element again, and
  * checks that its results are unchanged. Returns 0 if memory is exhausted or if the second
  * preparation fails. A failed preparation is recorded as a violation. */
-static int in_its_place(const specimen *s, const call_account *before, const node_state x[],
-                        claim *one)
+static int in_its_place(const test_element *s, const call_account *before, const node_state x[],
+                        check_result *one)
 {
     element_request request = s->request;
     call_account after;
@@ -362,15 +363,15 @@ static int in_its_place(const specimen *s, const call_account *before, const nod
     memset(s->data, 0, s->size);
     if (s->type.data_size(&request) == s->size &&
         s->type.prepare(&request, s->data, NULL) == STATUS_OK)
-        tell(s, x, &after);
+        record_calls(s, x, &after);
     memset(s->data, 0, s->size);
     const int again = s->type.prepare(&s->request, s->data, &f) == STATUS_OK;
     if (!again) {
         memcpy(s->data, kept, s->size);
-        claims_asks(one, 0, "prepare: rejects the same element when it is prepared again: %s%s",
-                    f.text, s->words);
+        checks_require(one, 0, "prepare: rejects the same element when it is prepared again: %s%s",
+                       f.text, s->words);
     } else {
-        tell(s, x, &after);
+        record_calls(s, x, &after);
         same(before, &after, "another element was in its memory", s, one);
     }
     free(kept);
@@ -379,10 +380,11 @@ static int in_its_place(const specimen *s, const call_account *before, const nod
 
 /* Checks that each output has the same value when it is requested alone as when it is requested
  * together with the others. */
-static void alone(const specimen *s, const call_account *before, const node_state x[], claim *one)
+static void alone(const test_element *s, const call_account *before, const node_state x[],
+                  check_result *one)
 {
     call_account a = *before;
-    double weight[STATELESS_M], inner[SPECIMEN_INNER];
+    double weight[STATELESS_M], inner[TEST_ELEMENT_INNER];
     for (int i = 0; i < s->strains; i++)
         weight[i] = cos(3.7 * i + 0.3);
     s->type.strain(s->data, x, &(strain_output){.s = weight, .H = a.H, .history = s->history});
@@ -404,37 +406,37 @@ static void alone(const specimen *s, const call_account *before, const node_stat
 
 /* Checks that the energy of an element with inner unknowns does not depend on the path: the same
  * state is reached from the undeformed state and from another state. */
-static void two_ways(const specimen *s, const call_account *before, const node_state x[],
-                     claim *one)
+static void two_ways(const test_element *s, const call_account *before, const node_state x[],
+                     check_result *one)
 {
-    double e[STATELESS_M], inner[SPECIMEN_INNER], energy = NAN;
+    double e[STATELESS_M], inner[TEST_ELEMENT_INNER], energy = NAN;
     node_state y[ELEMENT_MAX_NODES];
-    specimen_state(s, 0.04, 77, y);
+    test_element_state(s, 0.04, 77, y);
     s->type.strain(s->data, y, &(strain_output){.e = e, .history = s->history});
-    specimen_rest(s, inner);
-    if (specimen_settled(s, e, inner, &(stress_output){.energy = &energy}) != STATUS_OK)
+    test_element_rest(s, inner);
+    if (test_element_converged(s, e, inner, &(stress_output){.energy = &energy}) != STATUS_OK)
         return;
     s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
-    specimen_settled(s, e, inner, &(stress_output){.energy = &energy});
-    claims_departs(one, fabs(energy / before->energy - 1),
-                   "stress, update: the same strains give an energy of %.9g J, but %.9g J when "
-                   "evaluated after other strains; the energy must not depend on the path%s",
-                   before->energy, energy, s->words);
+    test_element_converged(s, e, inner, &(stress_output){.energy = &energy});
+    checks_deviation(one, fabs(energy / before->energy - 1),
+                     "stress, update: the same strains give an energy of %.9g J, but %.9g J when "
+                     "evaluated after other strains; the energy must not depend on the path%s",
+                     before->energy, energy, s->words);
 }
 
-static void make_longer(const specimen *s, const node_state x[], call_account *out)
+static void make_longer(const test_element *s, const node_state x[], call_account *out)
 {
-    specimen_request what = s->made;
-    specimen other;
+    test_element_request what = s->made;
+    test_element other;
     fault f = {""};
     what.length = longer;
-    if (specimen_make(&what, &other, &f) == STATUS_OK)
-        tell(&other, x, out);
-    specimen_free(&other);
+    if (test_element_make(&what, &other, &f) == STATUS_OK)
+        record_calls(&other, x, out);
+    test_element_free(&other);
 }
 
 /* Computes the results of the longer element in a new process, before any other call. */
-static void tell_first(const specimen *s, const node_state x[], call_account *out)
+static void record_first_calls(const test_element *s, const node_state x[], call_account *out)
 {
     const pid_t parent = getpid();
     call_account *there =
@@ -455,35 +457,35 @@ static void tell_first(const specimen *s, const node_state x[], call_account *ou
     munmap(there, sizeof *there);
 }
 
-static void stateless_check(const specimen *s, claims *c)
+static void stateless_check(const test_element *s, check_results *c)
 {
     call_account first = {0}, before, between, after;
     node_state x[ELEMENT_MAX_NODES], y[ELEMENT_MAX_NODES];
-    claim *one = claims_open(c, "the same call gives bit-for-bit equal results", 0);
-    specimen_state(s, 0.04, 41, x);
-    specimen_state(s, 0.06, 43, y);
-    tell_first(s, x, &first);
-    claims_doing(c, "the same state again%s", s->words);
-    tell(s, x, &before);
-    tell(s, x, &after);
+    check_result *one = checks_open(c, "the same call gives bit-for-bit equal results", 0);
+    test_element_state(s, 0.04, 41, x);
+    test_element_state(s, 0.06, 43, y);
+    record_first_calls(s, x, &first);
+    checks_current(c, "the same state again%s", s->words);
+    record_calls(s, x, &before);
+    record_calls(s, x, &after);
     same(&before, &after, "the same call", s, one);
-    tell(s, y, &between);
-    tell(s, x, &after);
+    record_calls(s, y, &between);
+    record_calls(s, x, &after);
     same(&before, &after, "calls of another state", s, one);
-    claims_doing(c, "another element between%s", s->words);
+    checks_current(c, "another element between%s", s->words);
     other_element(s, &before, x, &first, one);
     if (!in_its_place(s, &before, x, one))
         return;
-    claims_doing(c, "outputs one by one%s", s->words);
-    alone(s, &before, x, claims_open(c, "outputs do not depend on each other", 0));
+    checks_current(c, "outputs one by one%s", s->words);
+    alone(s, &before, x, checks_open(c, "outputs do not depend on each other", 0));
     if (s->inner > 0)
-        two_ways(s, &before, x, claims_open(c, "the result does not depend on the path", 1e-9));
+        two_ways(s, &before, x, checks_open(c, "the result does not depend on the path", 1e-9));
 }
 
-void checks_stateless(const formulation *chosen, claims *out)
+void checks_stateless(const formulation *chosen, check_results *out)
 {
-    specimens_each(chosen, out, stateless_check);
+    test_elements_each(chosen, out, stateless_check);
     if (element_inner(chosen->type, chosen->option) == 0)
-        claims_not_made(out, "the result does not depend on the path",
+        checks_not_made(out, "the result does not depend on the path",
                         "the element has no internal unknowns");
 }

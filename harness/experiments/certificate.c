@@ -41,11 +41,11 @@ const char *certificate_part_words(int part)
                                   : measured_groups[part - CHECKS_FAMILIES].what;
 }
 
-int certificate_counted(const certificate *c, claim_outcome outcome)
+int certificate_counted(const certificate *c, check_outcome outcome)
 {
     int count = 0;
     for (int i = 0; i < CERTIFICATE_PARTS; i++)
-        count += claims_counted(&c->part[i].claims, outcome);
+        count += checks_counted(&c->part[i].check_results, outcome);
     return count;
 }
 
@@ -53,21 +53,21 @@ int certificate_compared(const certificate *c)
 {
     int count = 0;
     for (int i = 0; i < CERTIFICATE_PARTS; i++)
-        count += claims_compared(&c->part[i].claims);
+        count += checks_compared(&c->part[i].check_results);
     return count;
 }
 
 int certificate_holds(const certificate *c)
 {
-    return certificate_counted(c, CLAIM_BROKEN) == 0;
+    return certificate_counted(c, CHECK_FAILED) == 0;
 }
 
-const claim *certificate_broken(const certificate *c)
+const check_result *certificate_broken(const certificate *c)
 {
     for (int i = 0; i < CERTIFICATE_PARTS; i++)
-        for (int k = 0; k < c->part[i].claims.count; k++)
-            if (c->part[i].claims.claim[k].outcome == CLAIM_BROKEN)
-                return &c->part[i].claims.claim[k];
+        for (int k = 0; k < c->part[i].check_results.count; k++)
+            if (c->part[i].check_results.check_result[k].outcome == CHECK_FAILED)
+                return &c->part[i].check_results.check_result[k];
     return NULL;
 }
 
@@ -75,10 +75,10 @@ static void run_part(certificate *of, int part)
 {
     certificate_part *p = &of->part[part];
     if (part < CHECKS_FAMILIES)
-        checks_families[part].run(&of->chosen, &p->claims);
+        checks_families[part].run(&of->chosen, &p->check_results);
     else
-        measured_groups[part - CHECKS_FAMILIES].run(&of->chosen, &p->claims, &p->measures);
-    p->claims.complete = 1;
+        measured_groups[part - CHECKS_FAMILIES].run(&of->chosen, &p->check_results, &p->measures);
+    p->check_results.complete = 1;
 }
 
 static status start(tester *t, certificate *of, int part, int time_limit, fault *f)
@@ -107,21 +107,21 @@ static status start(tester *t, certificate *of, int part, int time_limit, fault 
 
 /* Records that the process of a part has ended. An incomplete part is recorded as a violated
  * requirement. */
-static void bury(tester *t, int time_limit)
+static void handle_end(tester *t, int time_limit)
 {
     char words[100];
-    claims *c = &t->of->part[t->part].claims;
+    check_results *c = &t->of->part[t->part].check_results;
     close(t->end);
     t->end = -1;
     const int how = child_reap(t->process);
-    c->count = c->count < 0 || c->count >= CLAIMS_MOST ? 0 : c->count; /* may be corrupted */
+    c->count = c->count < 0 || c->count >= CHECKS_MOST ? 0 : c->count; /* may be corrupted */
     c->doing[sizeof c->doing - 1] = '\0';
     if (c->complete && WIFEXITED(how) && WEXITSTATUS(how) == 0)
         return;
     if (child_ended(how, t->late, time_limit, words, sizeof words))
         t->of->late = certificate_part_name(t->part);
-    claims_asks(claims_open(c, "every call returns", 0), 0, "%s: %.250s", words,
-                c->doing[0] != '\0' ? c->doing : "before the first call");
+    checks_require(checks_open(c, "every call returns", 0), 0, "%s: %.250s", words,
+                   c->doing[0] != '\0' ? c->doing : "before the first call");
 }
 
 static void stop_late(tester *t, int time_limit)
@@ -135,14 +135,14 @@ static void stop_late(tester *t, int time_limit)
 /* Records that a part is not checked, because another part has exceeded the time limit. */
 static void pass_over(certificate *of, int part)
 {
-    char why[CLAIM_SENTENCE];
+    char why[CHECK_TEXT];
     snprintf(why, sizeof why, "not checked: '%s' exceeded the time limit", of->late);
-    claims_not_made(&of->part[part].claims, certificate_part_name(part), why);
+    checks_not_made(&of->part[part].check_results, certificate_part_name(part), why);
 }
 
 /* Waits at most LOOK for the end of a process, and stops processes that exceed the time limit.
  * Returns the number of processes that have ended. */
-static int attend(tester all[], int jobs, int time_limit)
+static int handle_process(tester all[], int jobs, int time_limit)
 {
     struct pollfd ends[MOST_CHILDREN];
     int ended = 0;
@@ -153,8 +153,8 @@ static int attend(tester all[], int jobs, int time_limit)
     for (int i = 0; i < jobs; i++) {
         if (all[i].end < 0)
             continue;
-        if (ends[i].revents != 0 || child_is_gone(all[i].process)) {
-            bury(&all[i], time_limit);
+        if (ends[i].revents != 0 || child_has_ended(all[i].process)) {
+            handle_end(&all[i], time_limit);
             ended++;
         } else {
             stop_late(&all[i], time_limit);
@@ -171,24 +171,24 @@ static int idle(const tester all[], int jobs)
     return -1;
 }
 
-static status run_all(const certificate_request *r, certificate *all, tester team[], int jobs,
+static status run_all(const certificate_request *r, certificate *all, tester testers[], int jobs,
                       fault *f)
 {
-    const int parts = r->contract_only ? CHECKS_FAMILIES : CERTIFICATE_PARTS,
+    const int parts = r->checks_only ? CHECKS_FAMILIES : CERTIFICATE_PARTS,
               tasks = r->count * parts;
     int next = 0, running = 0;
     while (next < tasks || running > 0) {
-        const int free_one = idle(team, jobs);
+        const int free_one = idle(testers, jobs);
         certificate *of = next < tasks ? &all[next / parts] : NULL;
         if (of != NULL && of->late != NULL) {
             pass_over(of, next % parts);
             next++;
         } else if (of != NULL && free_one >= 0) {
-            TRY(start(&team[free_one], of, next % parts, r->time_limit, f));
+            TRY(start(&testers[free_one], of, next % parts, r->time_limit, f));
             next++;
             running++;
         } else {
-            running -= attend(team, jobs, r->time_limit);
+            running -= handle_process(testers, jobs, r->time_limit);
         }
     }
     return STATUS_OK;
@@ -196,7 +196,7 @@ static status run_all(const certificate_request *r, certificate *all, tester tea
 
 status certificate_find(const certificate_request *r, certificate **out, fault *f)
 {
-    tester team[MOST_CHILDREN];
+    tester testers[MOST_CHILDREN];
     const int jobs = r->jobs < MOST_CHILDREN ? r->jobs : MOST_CHILDREN;
     certificate *all = mmap(NULL, (size_t)r->count * sizeof *all, PROT_READ | PROT_WRITE,
                             MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -207,12 +207,12 @@ status certificate_find(const certificate_request *r, certificate **out, fault *
     for (int i = 0; i < r->count; i++)
         all[i].chosen = r->chosen[i];
     for (int i = 0; i < jobs; i++)
-        team[i].end = -1;
-    const status outcome = run_all(r, all, team, jobs, f);
+        testers[i].end = -1;
+    const status outcome = run_all(r, all, testers, jobs, f);
     for (int i = 0; i < jobs; i++)
-        if (team[i].end >= 0) {
-            kill(team[i].process, SIGKILL);
-            bury(&team[i], 0);
+        if (testers[i].end >= 0) {
+            kill(testers[i].process, SIGKILL);
+            handle_end(&testers[i], 0);
         }
     for (int i = 0; i < r->count;
          i++) { /* the table is restored, because a part may have corrupted it */
@@ -231,7 +231,7 @@ void certificate_free(certificate *all, int count)
 
 enum { NAME = 14, INDENT = 18, MEASURE = 36, COLUMN = 8 };
 
-static void put_mark(FILE *to, screen look, claim_outcome outcome)
+static void put_mark(FILE *to, screen look, check_outcome outcome)
 {
     static const char *const utf8[] = {"✔", "✘", "·"}, *const ascii[] = {"+", "X", "."};
     static const screen_ink ink[] = {SCREEN_GOOD, SCREEN_BAD, SCREEN_FAINT};
@@ -240,55 +240,57 @@ static void put_mark(FILE *to, screen look, claim_outcome outcome)
     fputc(' ', to);
 }
 
-claim_outcome claims_outcome(const claims *c)
+check_outcome checks_outcome(const check_results *c)
 {
     int held = 0;
-    if (claims_counted(c, CLAIM_BROKEN) > 0)
-        return CLAIM_BROKEN;
+    if (checks_counted(c, CHECK_FAILED) > 0)
+        return CHECK_FAILED;
     for (int i = 0; i < c->count;
          i++) /* at least one requirement other than "prepare" must be satisfied */
-        held |= c->claim[i].outcome == CLAIM_HOLDS && strcmp(c->claim[i].name, "prepare") != 0;
-    return held ? CLAIM_HOLDS : CLAIM_NOT_CLAIMED;
+        held |= c->check_result[i].outcome == CHECK_PASSED &&
+                strcmp(c->check_result[i].name, "prepare") != 0;
+    return held ? CHECK_PASSED : CHECK_NOT_MADE;
 }
 
 /* Prints the violated requirements or, if verbose, all requirements, in one line each. */
-static void write_claims(FILE *to, screen look, const claims *c, int verbose)
+static void write_checks(FILE *to, screen look, const check_results *c, int verbose)
 {
     for (int i = 0; i < c->count; i++) {
-        const claim *one = &c->claim[i];
-        if (!verbose && one->outcome != CLAIM_BROKEN)
+        const check_result *one = &c->check_result[i];
+        if (!verbose && one->outcome != CHECK_FAILED)
             continue;
         fputs("    ", to);
         put_mark(to, look, one->outcome);
-        if (one->outcome == CLAIM_HOLDS)
-            paragraph_say(to, 8, 8, "%s: %d compared, at most %.1e (allowed %.1e)", one->name,
-                          one->compared, one->worst, one->allowed);
-        else if (one->outcome == CLAIM_BROKEN && isfinite(one->worst) && one->allowed > 0)
-            paragraph_say(to, 8, 8, "%s (difference %.1e, allowed %.1e)", one->sentence, one->worst,
-                          one->allowed);
-        else if (one->outcome == CLAIM_BROKEN)
+        if (one->outcome == CHECK_PASSED)
+            paragraph_printf(to, 8, 8, "%s: %d compared, at most %.1e (allowed %.1e)", one->name,
+                             one->compared, one->worst, one->allowed);
+        else if (one->outcome == CHECK_FAILED && isfinite(one->worst) && one->allowed > 0)
+            paragraph_printf(to, 8, 8, "%s (difference %.1e, allowed %.1e)", one->sentence,
+                             one->worst, one->allowed);
+        else if (one->outcome == CHECK_FAILED)
             paragraph_write(to, 8, 8, one->sentence);
         else
-            paragraph_say(to, 8, 8, "%s: not applicable; %s", one->name, one->sentence);
+            paragraph_printf(to, 8, 8, "%s: not applicable; %s", one->name, one->sentence);
     }
 }
 
 static void write_family(FILE *to, screen look, const certificate *c, int part, int verbose)
 {
-    const claims *own = &c->part[part].claims;
-    const claim_outcome outcome = claims_outcome(own);
+    const check_results *own = &c->part[part].check_results;
+    const check_outcome outcome = checks_outcome(own);
     put_mark(to, look, outcome);
     fprintf(to, "%-*s", NAME, certificate_part_name(part));
-    if (outcome == CLAIM_NOT_CLAIMED && c->late != NULL && own->count == 1 &&
-        strncmp(own->claim[0].sentence, "not checked", 11) == 0)
-        paragraph_write(to, INDENT, INDENT, own->claim[0].sentence);
-    else if (outcome == CLAIM_NOT_CLAIMED)
-        paragraph_say(to, INDENT, INDENT, "not applicable: %s",
-                      own->count > 0 ? own->claim[own->count - 1].sentence : "nothing to check");
+    if (outcome == CHECK_NOT_MADE && c->late != NULL && own->count == 1 &&
+        strncmp(own->check_result[0].sentence, "not checked", 11) == 0)
+        paragraph_write(to, INDENT, INDENT, own->check_result[0].sentence);
+    else if (outcome == CHECK_NOT_MADE)
+        paragraph_printf(to, INDENT, INDENT, "not applicable: %s",
+                         own->count > 0 ? own->check_result[own->count - 1].sentence
+                                        : "nothing to check");
     else
-        paragraph_say(to, INDENT, INDENT, "%s (%d compared)", certificate_part_words(part),
-                      claims_compared(own));
-    write_claims(to, look, own, verbose);
+        paragraph_printf(to, INDENT, INDENT, "%s (%d compared)", certificate_part_words(part),
+                         checks_compared(own));
+    write_checks(to, look, own, verbose);
 }
 
 /* Writes an error as "exact", "0.35 %" or "3e-05 %". */
@@ -336,7 +338,7 @@ static void write_measure(FILE *to, const element_measure *one, int path, int ve
     if (path && one->words[0] != '\0')
         fprintf(to, "  %s", one->words);
     fputs(one->locks ? "  locks\n" : "\n", to);
-    if (verbose && !path && !one->astray && one->words[0] != '\0')
+    if (verbose && !path && !one->wrong_limit && one->words[0] != '\0')
         paragraph_write(to, fprintf(to, "      "), 6, one->words);
 }
 
@@ -351,21 +353,21 @@ static void write_measures(FILE *to, screen look, const certificate *c, int part
     for (int i = 0; i < first->points; i++)
         fprintf(to, part == CHECKS_FAMILIES + 1 ? " %*.0e" : " %*.0f", COLUMN - 1, first->at[i]);
     fprintf(to, "%s\n", part == CHECKS_FAMILIES + 2 ? "  order (decl.)" : "");
-    if (own->measures.count == 0 && own->claims.count == 1 && c->late != NULL)
-        paragraph_write(to, fprintf(to, "    "), 4, own->claims.claim[0].sentence);
+    if (own->measures.count == 0 && own->check_results.count == 1 && c->late != NULL)
+        paragraph_write(to, fprintf(to, "    "), 4, own->check_results.check_result[0].sentence);
     for (int i = 0; i < own->measures.count; i++)
         write_measure(to, &own->measures.measure[i], part == CHECKS_FAMILIES + 3, verbose);
     if (part == CHECKS_FAMILIES + 2 && c->chosen.type->inertia == NULL)
         fputs("    vibration: with the mass computed by beamwork, because the element has no "
               "'inertia'\n",
               to);
-    write_claims(to, look, &own->claims, verbose);
+    write_checks(to, look, &own->check_results, verbose);
 }
 
 static void write_verdict(FILE *to, screen look, const certificate *c)
 {
-    const int broken = certificate_counted(c, CLAIM_BROKEN),
-              kept = certificate_counted(c, CLAIM_HOLDS);
+    const int broken = certificate_counted(c, CHECK_FAILED),
+              kept = certificate_counted(c, CHECK_PASSED);
     fputs("interface requirements: ", to);
     screen_put(to, look, broken == 0 ? SCREEN_GOOD : SCREEN_BAD,
                broken == 0 ? "SATISFIED" : "VIOLATED");
@@ -374,10 +376,11 @@ static void write_verdict(FILE *to, screen look, const certificate *c)
     else
         fprintf(to, ", %d checks", kept);
     fprintf(to, " on %d numbers; %d not applicable\n", certificate_compared(c),
-            certificate_counted(c, CLAIM_NOT_CLAIMED));
-    const int astray = measures_astray(&c->part[CHECKS_FAMILIES].measures);
-    if (astray > 0)
-        fprintf(to, "measured: %d state%s with a wrong limit\n", astray, astray > 1 ? "s" : "");
+            certificate_counted(c, CHECK_NOT_MADE));
+    const int wrong_limit = measures_wrong_limits(&c->part[CHECKS_FAMILIES].measures);
+    if (wrong_limit > 0)
+        fprintf(to, "measured: %d state%s with a wrong limit\n", wrong_limit,
+                wrong_limit > 1 ? "s" : "");
 }
 
 static void write_one(FILE *to, screen look, const certificate *c, int verbose, int quiet)
@@ -385,10 +388,10 @@ static void write_one(FILE *to, screen look, const certificate *c, int verbose, 
     const char *left = adapters_words(c->chosen.type);
     paragraph_write(to, fprintf(to, "%s: ", c->chosen.key), 2, c->chosen.type->summary);
     if (left[0] != '\0')
-        paragraph_say(to, 0, 2, "computed by beamwork: %s", left);
+        paragraph_printf(to, 0, 2, "computed by beamwork: %s", left);
     write_verdict(to, look, c);
     for (int i = 0; i < CHECKS_FAMILIES; i++)
-        if (!quiet || claims_outcome(&c->part[i].claims) == CLAIM_BROKEN)
+        if (!quiet || checks_outcome(&c->part[i].check_results) == CHECK_FAILED)
             write_family(to, look, c, i, verbose);
     if (!quiet)
         fputs("measured: errors over elements (states: 1 and 4 unequal elements) with orders, and "
@@ -398,7 +401,7 @@ static void write_one(FILE *to, screen look, const certificate *c, int verbose, 
         if (!quiet)
             write_measures(to, look, c, i, verbose);
         else
-            write_claims(to, look, &c->part[i].claims, verbose);
+            write_checks(to, look, &c->part[i].check_results, verbose);
 }
 
 void certificate_text(FILE *to, screen look, const certificate *all, int count, int verbose,

@@ -90,12 +90,12 @@ static void head(paper_table *t, int column, const char *text)
 
 /* Returns the check with the largest ratio of the deviation to the allowed deviation; NULL: no
  * finite deviation is compared with an allowed deviation. */
-static const claim *worst_of(const claims *c)
+static const check_result *worst_of(const check_results *c)
 {
-    const claim *found = NULL;
+    const check_result *found = NULL;
     for (int i = 0; i < c->count; i++) {
-        const claim *one = &c->claim[i];
-        if (one->allowed > 0 && isfinite(one->worst) && one->outcome != CLAIM_NOT_CLAIMED &&
+        const check_result *one = &c->check_result[i];
+        if (one->allowed > 0 && isfinite(one->worst) && one->outcome != CHECK_NOT_MADE &&
             (found == NULL || one->worst / one->allowed > found->worst / found->allowed))
             found = one;
     }
@@ -109,27 +109,28 @@ static void fill_requirements(paper_table *t, const certificate *c)
     for (int i = 0; i < 5; i++)
         head(t, i, names[i]);
     for (int i = 0; i < CHECKS_FAMILIES; i++) {
-        const claims *own = &c->part[i].claims;
-        const claim *worst = worst_of(own);
+        const check_results *own = &c->part[i].check_results;
+        const check_result *worst = worst_of(own);
         char(*cell)[CELL] = t->cell[t->rows];
-        const claim_outcome outcome = claims_outcome(own);
+        const check_outcome outcome = checks_outcome(own);
         put_text(t, cell[0], certificate_part_words(i));
-        if (outcome == CLAIM_NOT_CLAIMED) {
-            char words[CLAIM_SENTENCE + 20];
-            const char *why = own->count > 0 ? own->claim[own->count - 1].sentence : "no check";
+        if (outcome == CHECK_NOT_MADE) {
+            char words[CHECK_TEXT + 20];
+            const char *why =
+                own->count > 0 ? own->check_result[own->count - 1].sentence : "no check";
             snprintf(words, sizeof words, "%s%s",
                      strncmp(why, "not checked", 11) == 0 ? "" : "not applicable: ", why);
             put_text(t, cell[1], words);
             t->words[t->rows] = 1;
         } else {
-            snprintf(cell[1], CELL, "%d", claims_compared(own));
+            snprintf(cell[1], CELL, "%d", checks_compared(own));
             put_error(t, cell[2], NAN);
             put_error(t, cell[3], NAN);
             if (worst != NULL) {
                 put_number(t, cell[2], -1, worst->worst, "");
                 put_number(t, cell[3], -1, worst->allowed, "");
             }
-            snprintf(cell[4], CELL, outcome == CLAIM_HOLDS ? "satisfied" : "violated");
+            snprintf(cell[4], CELL, outcome == CHECK_PASSED ? "satisfied" : "violated");
         }
         t->rows++;
     }
@@ -137,13 +138,13 @@ static void fill_requirements(paper_table *t, const certificate *c)
 
 /* Returns "correct" or "wrong" for a linear state, according to the check of its limit. Returns
  * `none` if the limit was not checked. */
-static const char *state_limit(const claims *c, const char *state, const char *none)
+static const char *state_limit(const check_results *c, const char *state, const char *none)
 {
-    char name[CLAIM_NAME];
+    char name[CHECK_NAME];
     snprintf(name, sizeof name, "limit of %.50s", state);
     for (int i = 0; i < c->count; i++)
-        if (strcmp(c->claim[i].name, name) == 0)
-            return c->claim[i].outcome == CLAIM_HOLDS ? "correct" : "wrong";
+        if (strcmp(c->check_result[i].name, name) == 0)
+            return c->check_result[i].outcome == CHECK_PASSED ? "correct" : "wrong";
     return none;
 }
 
@@ -165,7 +166,7 @@ static void fill_measure(paper_table *t, const certificate_part *of, int index, 
     }
     if (group == 0)
         snprintf(cell[1 + points], CELL, "%s",
-                 state_limit(&of->claims, one->name, t->latex ? "--" : "-"));
+                 state_limit(&of->check_results, one->name, t->latex ? "--" : "-"));
     else if (group == 1)
         snprintf(cell[1 + points], CELL, one->locks ? "yes" : "no");
     else if (group == 3)
@@ -200,9 +201,9 @@ static void fill_measures(paper_table *t, const certificate *c, int group)
         head(t, points + 2, "declared");
     for (int i = 0; i < own->measures.count && t->rows < ROWS; i++)
         fill_measure(t, own, i, points, group);
-    if (own->measures.count == 0 && own->claims.count > 0) {
+    if (own->measures.count == 0 && own->check_results.count > 0) {
         put_text(t, t->cell[1][0], certificate_part_name(CHECKS_FAMILIES + group));
-        put_text(t, t->cell[1][1], own->claims.claim[0].sentence);
+        put_text(t, t->cell[1][1], own->check_results.check_result[0].sentence);
         t->words[t->rows++] = 1;
     }
 }
@@ -304,10 +305,10 @@ static void write_violations(FILE *to, int latex, const certificate *c)
 {
     int count = 0;
     for (int i = 0; i < CERTIFICATE_PARTS; i++)
-        for (int k = 0; k < c->part[i].claims.count; k++)
-            if (c->part[i].claims.claim[k].outcome == CLAIM_BROKEN) {
+        for (int k = 0; k < c->part[i].check_results.count; k++)
+            if (c->part[i].check_results.check_result[k].outcome == CHECK_FAILED) {
                 fprintf(to, "%sviolated: %s\n", latex ? "% " : "* ",
-                        c->part[i].claims.claim[k].sentence);
+                        c->part[i].check_results.check_result[k].sentence);
                 count++;
             }
     if (count > 0)
@@ -328,7 +329,7 @@ static void write_one(FILE *to, int latex, const certificate *c)
     snprintf(words, sizeof words,
              "interface requirements %s, %d checks on %d numbers (beamwork %s, SHA-256 %.12s)",
              certificate_holds(c) ? "satisfied" : "violated",
-             certificate_counted(c, CLAIM_HOLDS) + certificate_counted(c, CLAIM_BROKEN),
+             certificate_counted(c, CHECK_PASSED) + certificate_counted(c, CHECK_FAILED),
              certificate_compared(c), environment_version(), c->hash);
     begin(&t, latex, c, "requirements", words);
     fill_requirements(&t, c);
@@ -378,9 +379,9 @@ static void csv_begin(FILE *to, const certificate *c, int part, const char *name
     put_quoted(to, name);
 }
 
-static void csv_claim(FILE *to, const certificate *c, int part, const claim *one)
+static void csv_check(FILE *to, const certificate *c, int part, const check_result *one)
 {
-    static const char *const word[CLAIM_OUTCOMES] = {"holds", "broken", "not claimed"};
+    static const char *const word[CHECK_OUTCOMES] = {"holds", "broken", "not claimed"};
     csv_begin(to, c, part, one->name);
     fprintf(to, ",%s,%d", word[one->outcome], one->compared);
     put_value(to, one->worst);
@@ -415,8 +416,8 @@ void certificate_csv(FILE *to, const certificate *all, int count)
     for (int i = 0; i < count; i++)
         for (int part = 0; part < CERTIFICATE_PARTS; part++) {
             const certificate_part *own = &all[i].part[part];
-            for (int k = 0; k < own->claims.count; k++)
-                csv_claim(to, &all[i], part, &own->claims.claim[k]);
+            for (int k = 0; k < own->check_results.count; k++)
+                csv_check(to, &all[i], part, &own->check_results.check_result[k]);
             for (int k = 0; k < own->measures.count; k++)
                 csv_measure(to, &all[i], part, &own->measures.measure[k]);
         }

@@ -4,27 +4,27 @@
 #include <math.h>
 #include <string.h>
 
-enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
+enum { M = TEST_ELEMENT_STRAINS, N = TEST_ELEMENT_COORDINATES };
 
 /* allowed error, relative to the largest entry for the same strain */
 static const double allowed = 1e-9;
-static const char *const claim_J = "J is the derivative of the strains",
-                         *const claim_H = "H is the second derivative of the strains";
+static const char *const J_name = "J is the derivative of the strains",
+                         *const H_name = "H is the second derivative of the strains";
 
 static int strains_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const specimen_place *at = context;
+    const test_element_stencil *at = context;
     node_state x[ELEMENT_MAX_NODES];
-    specimen_moved(at, i, si, j, sj, x);
+    test_element_moved(at, i, si, j, sj, x);
     at->s->type.strain(at->s->data, x, &(strain_output){.e = values, .history = at->s->history});
     return 0;
 }
 
 static int jacobian_at(const void *context, int i, double si, int j, double sj, double values[])
 {
-    const specimen_place *at = context;
+    const test_element_stencil *at = context;
     node_state x[ELEMENT_MAX_NODES];
-    specimen_moved(at, i, si, j, sj, x);
+    test_element_moved(at, i, si, j, sj, x);
     at->s->type.strain(at->s->data, x, &(strain_output){.J = values, .history = at->s->history});
     return 0;
 }
@@ -39,23 +39,24 @@ static double largest(int n, const double a[])
 
 /* Compares an entry with its finite-difference value. Both are multiplied by the unit of the
  * coordinate. size: largest entry for the same strain. */
-static void compare_J(const specimen *s, int strain, int c, double given, double found, double size,
-                      claim *one)
+static void compare_J(const test_element *s, int strain, int c, double given, double found,
+                      double size, check_result *one)
 {
-    char where[SPECIMEN_WORDS];
-    const double unit = specimen_unit(s, c);
-    claims_departs(one, size > 0 ? fabs(given - found) / size : fabs(given - found),
-                   "J: the derivative of strain %d with respect to coordinate %d (%s) is %.6g, but "
-                   "finite differences give %.6g%s",
-                   strain + 1, c + 1, specimen_coordinate(s, c, where), given / unit, found / unit,
-                   s->words);
+    char where[TEST_ELEMENT_WORDS];
+    const double unit = test_element_unit(s, c);
+    checks_deviation(
+        one, size > 0 ? fabs(given - found) / size : fabs(given - found),
+        "J: the derivative of strain %d with respect to coordinate %d (%s) is %.6g, but "
+        "finite differences give %.6g%s",
+        strain + 1, c + 1, test_element_coordinate(s, c, where), given / unit, found / unit,
+        s->words);
 }
 
 /* Compares J row by row with finite differences of the strains. The entries are multiplied by the
  * units of the coordinates. */
-static void check_J(const specimen *s, const node_state x[], claim *one)
+static void check_J(const test_element *s, const node_state x[], check_result *one)
 {
-    const specimen_place at = {s, x};
+    const test_element_stencil at = {s, x};
     const int n = s->coordinates;
     double J[M * N], found[N][M];
     for (int c = 0; c < n; c++)
@@ -64,7 +65,7 @@ static void check_J(const specimen *s, const node_state x[], claim *one)
     for (int i = 0; i < s->strains; i++) {
         double row[N], differences[N];
         for (int c = 0; c < n; c++) {
-            row[c] = J[i * n + c] * specimen_unit(s, c);
+            row[c] = J[i * n + c] * test_element_unit(s, c);
             differences[c] = found[c][i];
         }
         const double size = fmax(largest(n, row), largest(n, differences));
@@ -75,31 +76,31 @@ static void check_J(const specimen *s, const node_state x[], claim *one)
 
 /* Compares H with the symmetric part of the derivative of J. The symmetric part corresponds to the
  * exponential chart. change[c]: change of J along coordinate c, per unit of the coordinate. */
-static void compare_H(const specimen *s, int strain, const double H[], const double change[][M * N],
-                      double size, claim *one)
+static void compare_H(const test_element *s, int strain, const double H[],
+                      const double change[][M * N], double size, check_result *one)
 {
     const int n = s->coordinates;
-    char first[SPECIMEN_WORDS], other[SPECIMEN_WORDS];
+    char first[TEST_ELEMENT_WORDS], other[TEST_ELEMENT_WORDS];
     for (int a = 0; a < n; a++)
         for (int b = 0; b < n; b++) {
-            const double ub = specimen_unit(s, b), ua = specimen_unit(s, a);
+            const double ub = test_element_unit(s, b), ua = test_element_unit(s, a);
             const double found =
                 (change[a][strain * n + b] * ub + change[b][strain * n + a] * ua) / 2;
             const double given = H[a * n + b] * ua * ub;
-            claims_departs(one, claims_share(fabs(given - found), size),
-                           "H: the second derivative of strain %d with respect to coordinates %d "
-                           "and %d (%s, %s) is %.6g, but finite differences of J give %.6g, a "
-                           "relative difference of %.1e%s",
-                           strain + 1, a + 1, b + 1, specimen_coordinate(s, a, first),
-                           specimen_coordinate(s, b, other), H[a * n + b], found / (ua * ub),
-                           claims_share(fabs(given - found), size), s->words);
+            checks_deviation(one, checks_relative(fabs(given - found), size),
+                             "H: the second derivative of strain %d with respect to coordinates %d "
+                             "and %d (%s, %s) is %.6g, but finite differences of J give %.6g, a "
+                             "relative difference of %.1e%s",
+                             strain + 1, a + 1, b + 1, test_element_coordinate(s, a, first),
+                             test_element_coordinate(s, b, other), H[a * n + b], found / (ua * ub),
+                             checks_relative(fabs(given - found), size), s->words);
         }
 }
 
-static void check_H(const specimen *s, const node_state x[], claim *one)
+static void check_H(const test_element *s, const node_state x[], check_result *one)
 {
     double change[N][M * N];
-    const specimen_place at = {s, x};
+    const test_element_stencil at = {s, x};
     const int n = s->coordinates;
     double J[M * N], H[N * N], weight[M] = {0}, size = 0;
     s->type.strain(s->data, x, &(strain_output){.J = J, .history = s->history});
@@ -107,7 +108,7 @@ static void check_H(const specimen *s, const node_state x[], claim *one)
         stencil_first(jacobian_at, &at, s->strains * n, c, change[c]);
     for (int i = 0; i < s->strains; i++)
         for (int c = 0; c < n; c++)
-            size = fmax(size, fabs(J[i * n + c]) * specimen_unit(s, c));
+            size = fmax(size, fabs(J[i * n + c]) * test_element_unit(s, c));
     for (int i = 0; i < s->strains; i++) {
         memset(weight, 0, sizeof weight);
         weight[i] = 1;
@@ -116,52 +117,52 @@ static void check_H(const specimen *s, const node_state x[], claim *one)
     }
 }
 
-static void check(const specimen *s, claims *c)
+static void check(const test_element *s, check_results *c)
 {
     static const double sizes[] = {0, 0.3, 0.3};
     const unsigned leaves = s->made.given->leaves;
     for (unsigned k = 0; k < sizeof sizes / sizeof sizes[0]; k++) {
         static const double turn[3] = {0.71, -1.93, 1.37};
         node_state x[ELEMENT_MAX_NODES], carried[ELEMENT_MAX_NODES];
-        specimen_state(s, sizes[k], 7 + k, x);
-        specimen_carry(s, turn, x, carried);
+        test_element_state(s, sizes[k], 7 + k, x);
+        test_element_rigid_motion(s, turn, x, carried);
         const node_state *at = k == 1 ? carried : x;
         if (!(leaves & LEAVES_J)) {
-            claims_doing(c, "strain with J%s", s->words);
-            check_J(s, at, claims_open(c, claim_J, allowed));
+            checks_current(c, "strain with J%s", s->words);
+            check_J(s, at, checks_open(c, J_name, allowed));
         }
         if (!(leaves & (LEAVES_J | LEAVES_H)) &&
-            claims_open(c, claim_J, allowed)->outcome == CLAIM_HOLDS) {
-            claims_doing(c, "strain with H%s", s->words);
-            check_H(s, at, claims_open(c, claim_H, allowed));
+            checks_open(c, J_name, allowed)->outcome == CHECK_PASSED) {
+            checks_current(c, "strain with H%s", s->words);
+            check_H(s, at, checks_open(c, H_name, allowed));
         }
     }
 }
 
-void checks_derivatives(const formulation *chosen, claims *out)
+void checks_derivatives(const formulation *chosen, check_results *out)
 {
     const element_type *t = chosen->type;
     if (t->force != NULL) {
-        claims_not_made(out, claim_J, "the element provides forces and has no strains");
+        checks_not_made(out, J_name, "the element provides forces and has no strains");
         return;
     }
     if (t->leaves & LEAVES_J)
-        claims_not_made(out, claim_J, "computed by differences");
+        checks_not_made(out, J_name, "computed by differences");
     if (t->leaves & (LEAVES_J | LEAVES_H))
-        claims_not_made(out, claim_H, "computed by differences");
+        checks_not_made(out, H_name, "computed by differences");
     if (!(t->leaves & LEAVES_J))
-        specimens_each(chosen, out, check);
-    if (claims_open(out, claim_J, allowed)->outcome == CLAIM_BROKEN)
-        claims_not_made(out, claim_H, "not checked until J is correct");
+        test_elements_each(chosen, out, check);
+    if (checks_open(out, J_name, allowed)->outcome == CHECK_FAILED)
+        checks_not_made(out, H_name, "not checked until J is correct");
 }
 
 /* Checks that many elements evaluated in one call give the same results as single calls. Elements
  * of two kinds alternate, and their states differ. */
 
-enum { MANY_M = SPECIMEN_STRAINS, MANY_N = SPECIMEN_COORDINATES, MANY = 5 };
+enum { MANY_M = TEST_ELEMENT_STRAINS, MANY_N = TEST_ELEMENT_COORDINATES, MANY = 5 };
 
 static const double longer = 1.7 * 0.2385; /* [m] length of an element of the second kind */
-static const char *const claim_name =
+static const char *const check_name =
     "results for many elements at once equal those for each alone";
 
 /* Results of one element. They exclude values that would be computed by finite differences. */
@@ -173,25 +174,25 @@ typedef struct many_answers {
 
 /* Elements of two kinds, evaluated one by one and in one call. */
 typedef struct many_batch {
-    const specimen *of[MANY];
+    const test_element *of[MANY];
     const element_data *data[MANY];
     node_state x[MANY * ELEMENT_MAX_NODES];
-    double weight[MANY_M], inner[SPECIMEN_INNER];
+    double weight[MANY_M], inner[TEST_ELEMENT_INNER];
     many_answers alone[MANY], together[MANY];
 } many_batch;
 
-static void gather(const specimen *s, const specimen *other, many_batch *b)
+static void gather(const test_element *s, const test_element *other, many_batch *b)
 {
-    const specimen *const order[MANY] = {s, s, other, s, other};
+    const test_element *const order[MANY] = {s, s, other, s, other};
     memset(b, 0, sizeof *b);
     for (int k = 0; k < MANY; k++) {
         b->of[k] = order[k];
         b->data[k] = order[k]->data;
-        specimen_state(order[k], 0.04, 91 + (unsigned)k, b->x + (ptrdiff_t)k * s->nodes);
+        test_element_state(order[k], 0.04, 91 + (unsigned)k, b->x + (ptrdiff_t)k * s->nodes);
     }
     for (int i = 0; i < s->strains; i++)
         b->weight[i] = cos(3.7 * i + 0.3);
-    specimen_rest(s, b->inner);
+    test_element_rest(s, b->inner);
 }
 
 static strain_output strain_of(const many_batch *b, int k, many_answers *a)
@@ -211,7 +212,7 @@ static stress_output many_stress_of(const many_batch *b, int k, many_answers *a)
 {
     const unsigned leaves = b->of[0]->made.given->leaves;
     stress_output out = {.history = b->of[k]->history};
-    if (!specimen_lacks_energy(b->of[k]))
+    if (!test_element_lacks_energy(b->of[k]))
         out.energy = &a->energy;
     if (!(leaves & LEAVES_FORCE))
         out.sigma = a->sigma;
@@ -223,12 +224,12 @@ static stress_output many_stress_of(const many_batch *b, int k, many_answers *a)
 /* Records the difference between a value from a single call and the value from a call for many
  * elements, relative to `size`. */
 static void differ(const many_batch *b, int k, const char *what, const char *entry, double alone,
-                   double together, double size, claim *one)
+                   double together, double size, check_result *one)
 {
-    claims_departs(one, fabs(together - alone) / (size > 0 ? size : 1),
-                   "many at once: the %s differ from those of single evaluations (element %d of "
-                   "%d, %s: %.9g instead of %.9g); compute separate values for each element%s",
-                   what, k + 1, MANY, entry, together, alone, b->of[k]->words);
+    checks_deviation(one, fabs(together - alone) / (size > 0 ? size : 1),
+                     "many at once: the %s differ from those of single evaluations (element %d of "
+                     "%d, %s: %.9g instead of %.9g); compute separate values for each element%s",
+                     what, k + 1, MANY, entry, together, alone, b->of[k]->words);
 }
 
 static double many_largest(int count, const double v[])
@@ -239,27 +240,27 @@ static double many_largest(int count, const double v[])
     return out;
 }
 
-static void compare_strains(const many_batch *b, int k, claim *one)
+static void compare_strains(const many_batch *b, int k, check_result *one)
 {
     const many_answers *a = &b->alone[k], *t = &b->together[k];
     const int n = b->of[k]->coordinates;
     const double l = b->of[k]->request.length;
-    char what[SPECIMEN_WORDS];
+    char what[TEST_ELEMENT_WORDS];
     for (int i = 0; i < b->of[k]->strains; i++) {
         snprintf(what, sizeof what, "strain %d", i + 1);
         differ(b, k, "strains", what, a->e[i], t->e[i], l, one);
         snprintf(what, sizeof what, "J of strain %d", i + 1);
         for (int j = 0; j < n; j++)
             differ(b, k, "strains", what, a->J[i * n + j], t->J[i * n + j],
-                   l / specimen_unit(b->of[k], j), one);
+                   l / test_element_unit(b->of[k], j), one);
     }
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
             differ(b, k, "strains", "H", a->H[i * n + j], t->H[i * n + j],
-                   l / (specimen_unit(b->of[k], i) * specimen_unit(b->of[k], j)), one);
+                   l / (test_element_unit(b->of[k], i) * test_element_unit(b->of[k], j)), one);
 }
 
-static void strains(const specimen *s, many_batch *b, claim *one)
+static void strains(const test_element *s, many_batch *b, check_result *one)
 {
     strain_output out[MANY];
     for (int k = 0; k < MANY; k++) {
@@ -275,16 +276,17 @@ static void strains(const specimen *s, many_batch *b, claim *one)
         compare_strains(b, k, one);
 }
 
-static void compare_stresses(const many_batch *b, int k, claim *one)
+static void compare_stresses(const many_batch *b, int k, check_result *one)
 {
     const many_answers *a = &b->alone[k], *t = &b->together[k];
     const int m = b->of[k]->strains;
     const double sigma = many_largest(m, a->sigma), C = many_largest(m * m, a->C);
-    char what[SPECIMEN_WORDS];
-    claims_asks(one, a->outcome == t->outcome,
-                "many at once: the status of element %d of %d is '%s', but '%s' if the element is "
-                "evaluated alone%s",
-                k + 1, MANY, status_name(t->outcome), status_name(a->outcome), b->of[k]->words);
+    char what[TEST_ELEMENT_WORDS];
+    checks_require(
+        one, a->outcome == t->outcome,
+        "many at once: the status of element %d of %d is '%s', but '%s' if the element is "
+        "evaluated alone%s",
+        k + 1, MANY, status_name(t->outcome), status_name(a->outcome), b->of[k]->words);
     if (a->outcome != STATUS_OK || t->outcome != STATUS_OK)
         return;
     differ(b, k, "energies", "energy", a->energy, t->energy, fabs(a->energy), one);
@@ -296,7 +298,7 @@ static void compare_stresses(const many_batch *b, int k, claim *one)
         differ(b, k, "stresses", "C", a->C[i], t->C[i], C, one);
 }
 
-static void stresses(const specimen *s, many_batch *b, claim *one)
+static void stresses(const test_element *s, many_batch *b, check_result *one)
 {
     stress_output out[MANY];
     const double *e[MANY], *inner[MANY];
@@ -316,33 +318,33 @@ static void stresses(const specimen *s, many_batch *b, claim *one)
     }
 }
 
-static void many_check(const specimen *s, claims *c)
+static void many_check(const test_element *s, check_results *c)
 {
     static many_batch b;
-    specimen other;
-    specimen_request what = s->made;
+    test_element other;
+    test_element_request what = s->made;
     fault f = {""};
     if (s->type.strain_many == NULL && s->type.stress_many == NULL)
         return;
-    claim *one = claims_open(c, claim_name, 1e-12);
+    check_result *one = checks_open(c, check_name, 1e-12);
     what.length = longer;
-    if (specimen_make(&what, &other, &f) == STATUS_OK) {
+    if (test_element_make(&what, &other, &f) == STATUS_OK) {
         snprintf(other.words, sizeof other.words, "%s", s->words);
         gather(s, &other, &b);
-        claims_doing(c, "strain, one by one and many at once%s", s->words);
+        checks_current(c, "strain, one by one and many at once%s", s->words);
         strains(s, &b, one);
-        claims_doing(c, "stress, one by one and many at once%s", s->words);
+        checks_current(c, "stress, one by one and many at once%s", s->words);
         if (s->type.stress_many != NULL)
             stresses(s, &b, one);
     }
-    specimen_free(&other);
+    test_element_free(&other);
 }
 
-void checks_many(const formulation *chosen, claims *out)
+void checks_many(const formulation *chosen, check_results *out)
 {
     const element_type *t = chosen->type;
     if (t->strain_many == NULL && t->stress_many == NULL && t->force_many == NULL)
-        claims_not_made(out, claim_name, "the formulation evaluates one element at a time");
+        checks_not_made(out, check_name, "the formulation evaluates one element at a time");
     else
-        specimens_each(chosen, out, many_check);
+        test_elements_each(chosen, out, many_check);
 }

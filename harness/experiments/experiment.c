@@ -137,7 +137,7 @@ static status store_found(const experiment_type *e, const void *found, const cha
     if (e->cells == NULL)
         return write_group(e, found, path, f);
     const experiment_cells c = e->cells(found);
-    return store_write(path, e->name, c.sweep, c.judged, c.made, f);
+    return store_write(path, e->name, c.sweep, c.evaluated, c.made, f);
 }
 
 /* Writes the files before the table, because writing the table fails if the program that reads it
@@ -152,30 +152,30 @@ static status leave(const experiment_type *e, const experiment_output *to, const
     return write_file(e, to->text, to->format, found, f);
 }
 
-static status step(status (*what)(const void *asked, void *found, fault *f), const void *asked,
-                   void *found, fault *f)
+static status step(status (*what)(const void *requested, void *found, fault *f),
+                   const void *requested, void *found, fault *f)
 {
-    return what != NULL ? what(asked, found, f) : STATUS_OK;
+    return what != NULL ? what(requested, found, f) : STATUS_OK;
 }
 
-status experiment_plan(const experiment_type *e, const void *asked, void *found, fault *f)
+status experiment_plan(const experiment_type *e, const void *requested, void *found, fault *f)
 {
-    return step(e->plan, asked, found, f);
+    return step(e->plan, requested, found, f);
 }
 
-status experiment_run(const experiment_type *e, const void *asked, const experiment_output *to,
+status experiment_run(const experiment_type *e, const void *requested, const experiment_output *to,
                       void *found, fault *f)
 {
-    TRY(step(e->run, asked, found, f));
-    TRY(step(e->judge, asked, found, f));
+    TRY(step(e->run, requested, found, f));
+    TRY(step(e->evaluate, requested, found, f));
     return leave(e, to, found, f);
 }
 
-status experiment_do(const experiment_type *e, const void *asked, const experiment_output *to,
+status experiment_do(const experiment_type *e, const void *requested, const experiment_output *to,
                      void *found, fault *f)
 {
-    TRY(experiment_plan(e, asked, found, f));
-    return experiment_run(e, asked, to, found, f);
+    TRY(experiment_plan(e, requested, found, f));
+    return experiment_run(e, requested, to, found, f);
 }
 
 /* Returns the certificate to which the part of a record belongs. The index of the subject is the
@@ -258,28 +258,28 @@ static const schema_field fields_of_part[] = {
 static const record_type record_part = {
     "part", "parts", "a group of checks or measurements", {key_of_family, fields_of_part}};
 
-static const char *word_of_claim(int outcome)
+static const char *word_of_check(int outcome)
 {
-    static const char *const word[CLAIM_OUTCOMES] = {"holds", "broken", "not claimed"};
+    static const char *const word[CHECK_OUTCOMES] = {"holds", "broken", "not claimed"};
     return word[outcome];
 }
 
-static const schema_field fields_of_claim[] = {
-    {"claim", "", FIELD_TEXT, "name of the requirement", AT(claim, name), .key = KEY},
-    {"outcome", "", FIELD_ENUM, "outcome of the check", AT(claim, outcome), .word = word_of_claim,
-     .words = CLAIM_OUTCOMES},
+static const schema_field fields_of_check[] = {
+    {"claim", "", FIELD_TEXT, "name of the requirement", AT(check_result, name), .key = KEY},
+    {"outcome", "", FIELD_ENUM, "outcome of the check", AT(check_result, outcome),
+     .word = word_of_check, .words = CHECK_OUTCOMES},
     {"compared", "1", FIELD_INT, "number of compared numbers, or of yes/no checks",
-     AT(claim, compared)},
+     AT(check_result, compared)},
     {"worst", "1", FIELD_DOUBLE, "largest deviation; infinite if a yes/no check failed",
-     AT(claim, worst)},
-    {"allowed", "1", FIELD_DOUBLE, "allowed deviation", AT(claim, allowed)},
-    {"sentence", "", FIELD_TEXT, "description of the worst violation", AT(claim, sentence)},
+     AT(check_result, worst)},
+    {"allowed", "1", FIELD_DOUBLE, "allowed deviation", AT(check_result, allowed)},
+    {"sentence", "", FIELD_TEXT, "description of the worst violation", AT(check_result, sentence)},
     {0}};
-static const record_type record_claim = {
+static const record_type record_check = {
     "claim",
     "claims",
     "a requirement of the interface and the deviation of a formulation from this requirement",
-    {key_of_formulation, key_of_family, fields_of_claim}};
+    {key_of_formulation, key_of_family, fields_of_check}};
 
 static const schema_field key_of_measure[] = {
     {"name", "", FIELD_TEXT, "name of the measurement", AT(element_measure, name), .key = KEY},
@@ -293,7 +293,7 @@ static const schema_field fields_of_measure[] = {
     {"locks", "", FIELD_FLAG, "true if the errors increase as the structure becomes thinner",
      AT(element_measure, locks)},
     {"wrong_limit", "", FIELD_FLAG, "true if a linear state has the same error on every mesh",
-     AT(element_measure, astray)},
+     AT(element_measure, wrong_limit)},
     {"words", "", FIELD_TEXT, "reason for a missing value, or description of the value",
      AT(element_measure, words)},
     {0}};
@@ -336,8 +336,8 @@ static void gather_points(const element_measure *m, subject one, subjects *out)
 static void gather_part(const certificate_part *part, const record_type *type, subject one,
                         subjects *out)
 {
-    for (int i = 0; type == &record_claim && i < part->claims.count; i++) {
-        one.record = &part->claims.claim[i];
+    for (int i = 0; type == &record_check && i < part->check_results.count; i++) {
+        one.record = &part->check_results.check_result[i];
         gather_add(out, &one);
     }
     for (int i = 0; type == &record_measure && i < part->measures.count; i++) {
@@ -363,7 +363,7 @@ static void gather_element_test(const void *found, const record_type *type, subj
 }
 
 static const record_type *const records_of_element_test[] = {
-    &record_certificate, &record_part,           &record_claim,
+    &record_certificate, &record_part,           &record_check,
     &record_measure,     &record_measured_point, NULL};
 static void print_element_test(FILE *to, const void *found)
 {
@@ -385,9 +385,9 @@ static status write_element_test(FILE *to, const char *format, const void *found
     return STATUS_OK;
 }
 
-static status run(const void *asked, void *found, fault *f)
+static status run(const void *requested, void *found, fault *f)
 {
-    const certificate_request *r = asked;
+    const certificate_request *r = requested;
     certificates *c = found;
     c->count = r->count;
     return certificate_find(r, &c->all, f);

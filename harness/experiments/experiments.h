@@ -2,9 +2,9 @@
  * elements, shards.
  *
  * Sections, in this order: against (two in alternation); batches; measures; experiment;
- * bench; checks of elements and certificates; convergence; design; extremes; integrators
- * (pace); sweeps (ranges); shard; list; stock; merge; meshes; tally; sweep files and tables;
- * regressions; solution; restart; runs_on; timing; verification. */
+ * bench; checks of elements and certificates; convergence; design; extremes; integrators; sweeps
+ * (ranges); shard; list; batch store; merge; meshes; tally; sweep files and tables; regressions;
+ * solution; restart; runs_on; timing; verification. */
 #ifndef BEAMWORK_EXPERIMENTS_H
 #define BEAMWORK_EXPERIMENTS_H
 
@@ -33,7 +33,7 @@
 
 typedef enum against_outcome { AGAINST_UNDECIDED, AGAINST_FASTER, AGAINST_SLOWER } against_outcome;
 
-typedef struct contest_clock {
+typedef struct against_times {
     int pairs;
     double a, b; /* [s] shortest laps of a and of b */
     /* median of b/a over the pairs, and its distribution-free 99.9 % confidence interval */
@@ -41,15 +41,15 @@ typedef struct contest_clock {
     /* result for b relative to a; ratios within 2 % of 1 are undecided, because a different code
      * layout can cause differences of this size */
     against_outcome outcome;
-} contest_clock;
+} against_times;
 
 const char *against_name(against_outcome);
 
 /* Runs one lap of a program or formulation and writes its time [s] to *seconds. */
-typedef status against_lap(void *contestant, double *seconds, fault *f);
+typedef status against_lap(void *compared_run, double *seconds, fault *f);
 /* Runs as many pairs of laps as fit into `budget` [s], but at least 51. The number of pairs is
  * fixed before the first counted pair. */
-status against_run(against_lap *lap, void *a, void *b, double budget, contest_clock *out, fault *f);
+status against_run(against_lap *lap, void *a, void *b, double budget, against_times *out, fault *f);
 
 typedef enum axis_kind { AXIS_LINEAR, AXIS_LOG, AXIS_LIST, AXIS_WORDS } axis_kind;
 
@@ -127,7 +127,7 @@ typedef struct element_measure {
     /* 1: shear or membrane locking (the errors increase as the element becomes thinner) */
     int locks;
     /* 1: wrong limit (in a linear state, all meshes have the same error as one element) */
-    int astray;
+    int wrong_limit;
     char words[MEASURE_WORDS]; /* reason why there are no values, or a conclusion */
 } element_measure;
 
@@ -144,17 +144,17 @@ typedef struct measures {
 
 typedef struct experiment_cells {
     const sweep *sweep;
-    const judgement *judged;
+    const evaluation *evaluated;
     const environment *made;
 } experiment_cells;
 
 typedef struct experiment_type {
     const char *name; /* name of the group in the results file */
-    /* Steps of the experiment, called in this order; NULL: no such step. asked: the request; found:
-     * the results, which each step changes. */
-    status (*plan)(const void *asked, void *found, fault *f);
-    status (*run)(const void *asked, void *found, fault *f);
-    status (*judge)(const void *asked, void *found, fault *f);
+    /* Steps of the experiment, called in this order; NULL: no such step. requested: the request;
+     * found: the results, which each step changes. */
+    status (*plan)(const void *requested, void *found, fault *f);
+    status (*run)(const void *requested, void *found, fault *f);
+    status (*evaluate)(const void *requested, void *found, fault *f);
     /* Tables of results, NULL-terminated. NULL: the results are cells. */
     const record_type *const *records;
     const record_type *about; /* one record for the whole run; NULL: none */
@@ -180,12 +180,12 @@ typedef struct experiment_output {
  * is a results file. */
 experiment_output experiment_output_of(const char *path, const char *format, const char *json);
 
-status experiment_plan(const experiment_type *, const void *asked, void *found, fault *f);
+status experiment_plan(const experiment_type *, const void *requested, void *found, fault *f);
 /* Runs an experiment that has been planned. */
-status experiment_run(const experiment_type *, const void *asked, const experiment_output *,
+status experiment_run(const experiment_type *, const void *requested, const experiment_output *,
                       void *found, fault *f);
 /* Plans and runs the experiment. */
-status experiment_do(const experiment_type *, const void *asked, const experiment_output *,
+status experiment_do(const experiment_type *, const void *requested, const experiment_output *,
                      void *found, fault *f);
 
 /* Error against run time for every formulation and mesh of the cases, timed in rounds on one
@@ -206,7 +206,7 @@ typedef struct bench_request {
 typedef struct bench {
     truths truths; /* read before planning */
     sweep sweep;
-    judgement judgement;
+    evaluation evaluation;
     environment made;
     int named; /* 1: the user named the cases, so the output has more details */
 } bench;
@@ -217,35 +217,35 @@ void bench_free(bench *);
 /* A check of a formulation: its deviation from a requirement, and the remedy. The structure has a
  * fixed size and no pointers, because processes share it. */
 
-enum { CLAIM_NAME = 64, CLAIM_SENTENCE = 400, CLAIMS_MOST = 48 };
+enum { CHECK_NAME = 64, CHECK_TEXT = 400, CHECKS_MOST = 48 };
 
-typedef enum claim_outcome {
-    CLAIM_HOLDS,
-    CLAIM_BROKEN,
+typedef enum check_outcome {
+    CHECK_PASSED,
+    CHECK_FAILED,
     /* the type does not declare the property, or leaves the calculation to other functions;
      * `sentence` gives the reason */
-    CLAIM_NOT_CLAIMED,
-    CLAIM_OUTCOMES
-} claim_outcome;
+    CHECK_NOT_MADE,
+    CHECK_OUTCOMES
+} check_outcome;
 
-typedef struct claim {
-    char name[CLAIM_NAME];
-    claim_outcome outcome;
+typedef struct check_result {
+    char name[CHECK_NAME];
+    check_outcome outcome;
     int compared; /* number of comparisons or yes/no questions */
     /* largest deviation (dimensionless; INFINITY: a question was answered with no), and allowed
      * deviation */
     double worst, allowed;
-    char sentence[CLAIM_SENTENCE]; /* describes the worst deviation that is not allowed */
-} claim;
+    char sentence[CHECK_TEXT]; /* describes the worst deviation that is not allowed */
+} check_result;
 
 /* Checks of one family. */
-typedef struct claims {
+typedef struct check_results {
     int count;
-    claim claim[CLAIMS_MOST];
+    check_result check_result[CHECKS_MOST];
     /* description of the current call, for reports of crashes and time limits */
-    char doing[CLAIM_SENTENCE];
+    char doing[CHECK_TEXT];
     int complete; /* 1: all checks have been made */
-} claims;
+} check_results;
 
 /* Sections of the elements under test. */
 
@@ -259,15 +259,16 @@ typedef enum profiles_form {
  * its functions. */
 
 enum {
-    SPECIMEN_STRAINS = ELEMENT_MAX_STRAINS,
-    SPECIMEN_COORDINATES = ELEMENT_MAX_COORDINATES,
-    SPECIMEN_INNER = 1 << 10, /* largest number of inner unknowns for which an element is checked */
-    SPECIMEN_MEMORY = 1 << 13, /* number of doubles that stress passes to update */
-    SPECIMEN_WORDS = 160
+    TEST_ELEMENT_STRAINS = ELEMENT_MAX_STRAINS,
+    TEST_ELEMENT_COORDINATES = ELEMENT_MAX_COORDINATES,
+    TEST_ELEMENT_INNER =
+        1 << 10, /* largest number of inner unknowns for which an element is checked */
+    TEST_ELEMENT_MEMORY = 1 << 13, /* number of doubles that stress passes to update */
+    TEST_ELEMENT_WORDS = 160
 };
 
 /* Lengths in units of `unit` metres, and forces in newtons. */
-typedef struct specimen_request {
+typedef struct test_element_request {
     const element_type *given;
     const double *options;
     unsigned features;
@@ -275,11 +276,11 @@ typedef struct specimen_request {
     double unit;
     double curvature[3]; /* [1/length] */
     double length;       /* 0: default length */
-} specimen_request;
+} test_element_request;
 
-typedef struct specimen {
+typedef struct test_element {
     element_type type; /* type completed by the adapters */
-    specimen_request made;
+    test_element_request made;
     double options[FORMULATION_OPTIONS];
     section section;
     element_request request;
@@ -289,23 +290,23 @@ typedef struct specimen {
     int values;
     int nodes, scalars, strains, coordinates, inner, memory;
     double place[ELEMENT_MAX_NODES]; /* positions of the nodes, from 0 to 1 */
-    char words[SPECIMEN_WORDS];      /* text for messages: "" or ", with option=value, section" */
-} specimen;
+    char words[TEST_ELEMENT_WORDS];  /* text for messages: "" or ", with option=value, section" */
+} test_element;
 
-/* Returns the status of the type's functions, for example STATUS_REFUSED. Call specimen_free in any
- * case. */
-status specimen_make(const specimen_request *, specimen *out, fault *f);
-void specimen_free(specimen *s);
+/* Returns the status of the type's functions, for example STATUS_REFUSED. Call test_element_free in
+ * any case. */
+status test_element_make(const test_element_request *, test_element *out, fault *f);
+void test_element_free(test_element *s);
 /* Returns 1 if the type computes forces with a history, which need not derive from an energy. */
-int specimen_lacks_energy(const specimen *s);
+int test_element_lacks_energy(const test_element *s);
 
 /* Computes the nodes of the undeformed element, displaced by random numbers times `size`, in units
  * of length, radians and 1/length. */
-void specimen_state(const specimen *s, double size, unsigned seed, node_state x[]);
+void test_element_state(const test_element *s, double size, unsigned seed, node_state x[]);
 /* Returns the unit of coordinate c (chart_unit). */
-double specimen_unit(const specimen *s, int c);
+double test_element_unit(const test_element *s, int c);
 
-typedef void checks_run(const formulation *chosen, claims *out);
+typedef void checks_run(const formulation *chosen, check_results *out);
 
 typedef struct checks_family {
     const char *name, *what; /* name: one word; what: the requirement, in one line */
@@ -317,7 +318,7 @@ extern const checks_family checks_families[CHECKS_FAMILIES];
 
 /* Measurements made for every formulation, in groups. */
 
-typedef void measured_run(const formulation *chosen, claims *, measures *out);
+typedef void measured_run(const formulation *chosen, check_results *, measures *out);
 
 typedef struct measured_group {
     const char *name, *what; /* name: one word; what: an explanation of the numbers, in one line */
@@ -335,7 +336,7 @@ enum { CERTIFICATE_PARTS = CHECKS_FAMILIES + MEASURED_GROUPS };
 
 /* One part of a certificate: its checks and its measures. */
 typedef struct certificate_part {
-    claims claims;
+    check_results check_results;
     measures measures;
 } certificate_part;
 
@@ -350,7 +351,7 @@ typedef struct certificate {
 typedef struct certificate_request {
     const formulation *chosen;   /* [count] */
     int count, jobs, time_limit; /* time_limit [s]: limit for a part; 0: none */
-    int contract_only;           /* 1: no measurements */
+    int checks_only;             /* 1: no measurements */
     /* computes the hash; NULL: no hash */
     void (*hash)(const element_type *, char out[DIGEST_TEXT]);
 } certificate_request;
@@ -389,7 +390,7 @@ typedef struct convergence_request {
 typedef struct convergence {
     truths truths; /* read before planning */
     sweep sweep;
-    judgement judgement;
+    evaluation evaluation;
     environment made;
     double level;
     int verbose;
@@ -401,7 +402,7 @@ void convergence_free(convergence *);
 /* Groups consecutive items into batches with a total cost of at most `most`. A more expensive item
  * forms a batch alone. first[items + 1]: first item of each batch, followed by `items`. Returns the
  * number of batches. */
-int deal_cut(int items, const double cost[], double most, int first[]);
+int batches_cut(int items, const double cost[], double most, int first[]);
 
 /* Choice of parameter points: a grid over all axes, or points that fill the ranges of the axes. */
 
@@ -447,12 +448,12 @@ typedef enum outcome_kind {
 
 /* Expected outcomes that are neither accurate nor under-resolved (reference/extreme_findings.csv).
  */
-typedef struct extreme_finding {
+typedef struct extreme_deviation {
     char *extreme, *formulation, *quantity, *outcome,
         *proof;      /* texts; the first three may contain the wildcards * and ? */
     double from, to; /* range of x, including both ends */
     int observed;
-} extreme_finding;
+} extreme_deviation;
 
 typedef struct extreme_outcome {
     int extreme, value, formulation, quantity;
@@ -462,7 +463,7 @@ typedef struct extreme_outcome {
     double x, result, reference, error; /* the error is relative; NAN: none */
     /* Errors on the other meshes; NAN: the error is not needed, or there is no value. */
     double neighbour_error[OUTCOME_NEIGHBOURS];
-    const extreme_finding *finding;
+    const extreme_deviation *deviation;
     int as_expected;
     const char *reason;
 } extreme_outcome;
@@ -479,7 +480,7 @@ typedef struct extreme_count {
 } extreme_count;
 
 typedef struct extreme_sweep {
-    int formulations, outcomes, findings, unexpected, unobserved;
+    int formulations, outcomes, deviations, unexpected, unobserved;
     /* number of outcomes of new formulations that are not expected; these outcomes do not affect
      * the exit status */
     int is_new;
@@ -487,7 +488,7 @@ typedef struct extreme_sweep {
     truths truths; /* exact values */
     sweep first, neighbours;
     extreme_outcome *outcome;
-    extreme_finding *finding;
+    extreme_deviation *deviation;
     extreme_count *count; /* [formulations] */
 } extreme_sweep;
 
@@ -514,38 +515,39 @@ typedef struct extreme_request {
  * frees. */
 extern const experiment_type experiment_stress;
 
-enum { PACE_LIST_MOST = 16 };
+enum { INTEGRATORS_LIST_MOST = 16 };
 
 /* Names of integrators on a command line. */
 
 /* order of radau, which computes the reference */
-enum { PACE_METHOD_NAME = 32, PACE_REFERENCE_ORDER = 5 };
+enum { INTEGRATORS_METHOD_NAME = 32, INTEGRATORS_REFERENCE_ORDER = 5 };
 
-typedef struct pace_method {
-    char name[PACE_METHOD_NAME]; /* name of the method as given on the command line */
+typedef struct integrators_method {
+    char name[INTEGRATORS_METHOD_NAME]; /* name of the method as given on the command line */
     scene_scheme scheme;
     scene_alpha alpha;
     int order;    /* order with respect to the time step, if all frequencies are resolved */
     int estimate; /* 1: the integrator estimates the error of every step */
-} pace_method;
+} integrators_method;
 
 /* Comparison of integrators for transient analysis: cost and accuracy. The reference uses the same
  * mesh, so all errors are due to time integration. */
 
 /* Classification of a motion. Without loads, energy and momenta must be conserved. */
-typedef enum pace_fate {
-    PACE_UNJUDGED, /* loads act, so the motion is not classified */
-    PACE_GROWS,    /* the energy grows by more than pace_growth */
-    PACE_STOPS,    /* the equations of a step of this size have no solution */
-    PACE_BOUNDED,
-    PACE_EXACT, /* energy and momenta are conserved within pace_energy and pace_momentum */
-    PACE_FATES
-} pace_fate;
+typedef enum integrators_class {
+    INTEGRATORS_UNCLASSIFIED, /* loads act, so the motion is not classified */
+    INTEGRATORS_GROWS,        /* the energy grows by more than integrators_growth */
+    INTEGRATORS_STOPS,        /* the equations of a step of this size have no solution */
+    INTEGRATORS_BOUNDED,
+    INTEGRATORS_EXACT, /* energy and momenta are conserved within integrators_energy and
+                          integrators_momentum */
+    INTEGRATORS_CLASSES
+} integrators_class;
 
 /* One motion, computed by an integrator with a step size or a tolerance. */
-typedef struct pace_run {
+typedef struct integrators_run {
     int group, series; /* indices of the group, and of the series in the sweep */
-    pace_method method;
+    integrators_method method;
     double step, tolerance; /* [s] size of the first step, or of all steps if tolerance is 0 */
     /* outcome of the motion; after a failure, the values below are NAN */
     status status;
@@ -562,11 +564,11 @@ typedef struct pace_run {
     /* largest and last value of E/E0, where E is the energy and E0 the initial energy */
     double largest, last;
     double stopped; /* [s] time at which the motion ended prematurely */
-    pace_fate fate;
-} pace_run;
+    integrators_class motion_class;
+} integrators_run;
 
 /* All motions of one structure with one mesh and formulation. */
-typedef struct pace_group {
+typedef struct integrators_group {
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
     formulation formulation;
@@ -580,14 +582,14 @@ typedef struct pace_group {
     double uncertainty; /* uncertainty of the reference; NAN: none */
     double order; /* observed order of the reference, from the errors of its checks; NAN: none */
     char reason[FAULT_TEXT]; /* reason why there is no reference */
-} pace_group;
+} integrators_group;
 
-typedef struct pace {
+typedef struct integrators {
     sweep sweep;
     int groups, runs;
-    pace_group *group;
-    pace_run *run;
-} pace;
+    integrators_group *group;
+    integrators_run *run;
+} integrators;
 
 /* Verdicts on integrators, compared with a table of expected ones (expected.csv):
  *
@@ -596,34 +598,35 @@ typedef struct pace {
  *   momentum   conserved, or "order P" of its drift at halved steps, or drifts
  *   tolerance  decimal logarithm of error/tolerance for each tolerance; the verdict allows
  *              a factor of two
- *   fate       fate of each step: grows, stops, bounded or exact (pace_fate) */
+ *   fate       fate of each step: grows, stops, bounded or exact (integrators_class) */
 
-enum { PACE_FOUND = 128 };
+enum { INTEGRATORS_FOUND = 128 };
 
-typedef enum pace_judged {
-    PACE_ORDER,
-    PACE_ENERGY_KEPT,
-    PACE_MOMENTUM_KEPT,
-    PACE_TOLERANCE,
-    PACE_FATE,
-    PACE_JUDGED
-} pace_judged;
+typedef enum integrators_criterion {
+    INTEGRATORS_ORDER,
+    INTEGRATORS_ENERGY_CONSERVED,
+    INTEGRATORS_MOMENTUM_CONSERVED,
+    INTEGRATORS_TOLERANCE,
+    INTEGRATORS_CLASS,
+    INTEGRATORS_CRITERIA
+} integrators_criterion;
 
 /* A row of the table, which owns its strings. */
-typedef struct pace_verdict {
-    pace_judged kind;
-    const char *judged, *case_name, *parameters, *formulation, *integrator, *steps, *expected, *why;
+typedef struct integrators_verdict {
+    integrators_criterion kind;
+    const char *criterion, *case_name, *parameters, *formulation, *integrator, *steps, *expected,
+        *why;
     int elements;
     int group, first, count; /* indices of the runs to which the verdict applies */
-    char found[PACE_FOUND];
+    char found[INTEGRATORS_FOUND];
     int as_expected;
-} pace_verdict;
+} integrators_verdict;
 
-typedef struct pace_verdicts {
-    own_table table;
+typedef struct integrators_verdicts {
+    user_table table;
     int count, unexpected;
-    pace_verdict *verdict;
-} pace_verdicts;
+    integrators_verdict *verdict;
+} integrators_verdicts;
 
 /* Comparison of integrators for transient analysis: request and result. */
 
@@ -642,10 +645,10 @@ typedef struct motion_request {
 } motion_request;
 
 typedef struct motions {
-    pace pace;
-    pace_verdicts verdicts;
+    integrators integrators;
+    integrators_verdicts verdicts;
     int each, methods;
-    pace_method method[PACE_LIST_MOST]; /* methods of all rows of the table */
+    integrators_method method[INTEGRATORS_LIST_MOST]; /* methods of all rows of the table */
 } motions;
 
 extern const experiment_type experiment_motion;
@@ -676,7 +679,7 @@ typedef struct rows {
     size_t size;   /* size of the block [bytes] */
     double *first; /* the block; owned */
     /* [points, quantities] reference value and its relative uncertainty; NAN: none */
-    double *reference, *doubt;
+    double *reference, *uncertainty;
     double *value,
         *error; /* [points, formulations, meshes, quantities] relative error; NAN: none */
     /* [points, formulations, meshes] cost of the counted work, and measured time [s] */
@@ -758,7 +761,7 @@ typedef struct shard_request {
     int stop; /* descriptor that becomes readable to stop the run; 0: SIGINT, SIGTERM, SIGHUP stop
                  it */
     FILE *progress; /* NULL: quiet */
-    FILE *tell;     /* receives messages about damaged or lost batches; NULL: none */
+    FILE *messages; /* receives messages about damaged or lost batches; NULL: none */
 } shard_request;
 
 typedef struct shard_outcome {
@@ -805,12 +808,12 @@ status list_subject_find(const char *name, list_subject *out, fault *f);
 
 /* Existing batches of a work, in one or several folders. */
 
-typedef struct stock_kind {
+typedef struct batch_store_kind {
     machine node; /* machine: the first machine of this kind */
     int batches;
-} stock_kind;
+} batch_store_kind;
 
-typedef struct stock {
+typedef struct batch_store {
     int batches;
     const char *const *folder; /* owned by the caller */
     int folders;
@@ -821,31 +824,32 @@ typedef struct stock {
     int shards;
     double seconds;
     int kinds; /* number of kinds of machines */
-    stock_kind *kind;
-} stock;
+    batch_store_kind *kind;
+} batch_store;
 
 /* Reads and checks every byte of the requested batches (wanted NULL: all). If two folders contain
  * the same batch, the first folder is used. A damaged batch counts as missing, and a line about the
  * batch is written to the stream (may be NULL). REFUSED: a batch belongs to another build, request
  * or plan, a file has the name of a batch but is not a batch, or two versions of a batch differ.
- * FAULT: a folder cannot be read. Call stock_free even after a failure. */
-status stock_take(const shard_work *w, const char *const folder[], int folders, const char *wanted,
-                  FILE *tell, stock *out, fault *f);
-void stock_free(stock *);
+ * FAULT: a folder cannot be read. Call batch_store_free even after a failure. */
+status batch_store_read(const shard_work *w, const char *const folder[], int folders,
+                        const char *wanted, FILE *messages, batch_store *out, fault *f);
+void batch_store_free(batch_store *);
 /* Writes "3 of 149 batches are missing: 3, 7-12 (shards 2/4, 3/4)", or an empty text if none is
  * missing. */
-void stock_missing(const stock *, const shard_work *, char *out, size_t size);
+void batch_store_missing(const batch_store *, const shard_work *, char *out, size_t size);
 /* Writes a line for each kind of machine if there are several. */
-void stock_tell_kinds(const stock *, FILE *to);
+void batch_store_print_kinds(const batch_store *, FILE *to);
 /* Reads the label of the first readable batch of a folder, in the order of names. merge repeats the
  * request of this batch. REFUSED: the folder has no readable batch. */
-status stock_first(const char *folder, batch_label *out, fault *f);
+status batch_store_first(const char *folder, batch_label *out, fault *f);
 
 /* Reads the batches of one or several folders in canonical order, with only one batch in memory
  * at a time. */
 
-/* Reads every existing batch. s: result of stock_take. FAULT: a batch can no longer be read. */
-status merge_take(const shard_work *w, const stock *s, fault *f);
+/* Reads every existing batch. s: result of batch_store_read. FAULT: a batch can no longer be read.
+ */
+status merge_read(const shard_work *w, const batch_store *s, fault *f);
 
 /* Numbers of elements, from the option -n. */
 
@@ -870,25 +874,25 @@ typedef struct tally_worst {
 } tally_worst;
 
 /* Counts of a formulation for one quantity, or for all quantities together. For all quantities
- * together, a point with an undecided quantity is counted in `asked` only if another quantity is
- * never within the tolerance. */
+ * together, a point with an undecided quantity is counted in `requested` only if another quantity
+ * is never within the tolerance. */
 typedef struct tally_series {
-    long asked;  /* number of points with a reference */
-    long proven; /* number of points whose reference is a reference value */
-    long open;   /* number of points with a value but without a reference */
-    /* number of points of `asked` that are within the tolerance, for each mesh */
+    long requested; /* number of points with a reference */
+    long proven;    /* number of points whose reference is a reference value */
+    long open;      /* number of points with a value but without a reference */
+    /* number of points of `requested` that are within the tolerance, for each mesh */
     long within[SERIES_MAX_MESHES];
-    /* number of points of `asked` where even the finest mesh is not within the tolerance */
+    /* number of points of `requested` where even the finest mesh is not within the tolerance */
     long never;
     /* smallest number of elements such that this mesh and all finer meshes are within the tolerance
-     * at all points of `asked` */
+     * at all points of `requested` */
     int everywhere;
 } tally_series;
 
 /* A field of the map, which covers a range of each axis. */
 typedef struct tally_place {
-    long points, other, asked, never; /* other: number of points with another model */
-    long proven; /* number of points of `asked` whose reference is a reference value */
+    long points, other, requested, never; /* other: number of points with another model */
+    long proven; /* number of points of `requested` whose reference is a reference value */
     /* smallest number of elements such that this mesh and all finer meshes are within the tolerance
      * at all points of the field */
     int least;
@@ -899,7 +903,7 @@ typedef struct tally {
     long points, without_scene,
         first_without; /* first_without: index of the first point without a scene */
     long kind[RANGES_QUANTITIES][ROWS_REFERENCES];
-    double doubt[RANGES_QUANTITIES]; /* largest relative uncertainty of a reference */
+    double uncertainty[RANGES_QUANTITIES]; /* largest relative uncertainty of a reference */
     /* numbers of columns and lines of the map; 0: there are more than two axes */
     int columns, lines;
     /* [formulations x (quantities + 1)]; the last entry of a formulation is for all quantities
@@ -960,7 +964,7 @@ typedef struct range_sweep_request {
 } range_sweep_request;
 
 typedef struct range_sweep {
-    const range_sweep_request *asked;
+    const range_sweep_request *requested;
     truths truths; /* read before planning */
     parameter_ranges ranges;
     ranges_work work;
@@ -990,13 +994,13 @@ void ranges_table_head(FILE *to, const parameter_ranges *r);
 
 /* Results of a verification that are worse than in a previous run. */
 
-/* Adds three kinds of findings to the judgement. First, meshes whose error is larger than in the
+/* Adds three kinds of deviations to the evaluation. First, meshes whose error is larger than in the
  * previous run (by more than 2 % and RESULTS_FLOOR), or whose value or solution is now missing.
  * Second, series of the previous run that are missing although this run should contain them. Third,
  * limits of default points that changed by more than 1e-5, relatively, unless an exact reference
  * value checks them as closely. If only the short table of the previous run is known, errors are
  * compared by series. Work is not compared. REFUSED: the two runs have nothing in common. */
-status regressions_find(const stored_results *former, const char *name, const sweep *, judgement *,
+status regressions_find(const stored_results *former, const char *name, const sweep *, evaluation *,
                         fault *);
 
 /* A cell of a case. The request is completed by default choices and solved. The command line and
@@ -1100,16 +1104,16 @@ typedef struct verification_reader {
     void *context;
     /* Called once per case, after its last series has been evaluated. If the run is interrupted,
      * the function is called only for the cases before the interruption. */
-    void (*judged)(void *context, const case_type *);
+    void (*evaluated)(void *context, const case_type *);
 } verification_reader;
 
 /* Checks the interface requirements for formulations that the user named or loaded. Then runs a
  * planned sweep (study.h) and evaluates its series in order, as soon as all series of their point
  * are complete. Finest meshes are run again if verdicts may depend on their scatter. Agreements of
  * formulations become reference values of scene files. whole 1: no selection was made; this has no
- * effect in an interrupted run. reader NULL: none. Call judgement_free even after a failure. */
+ * effect in an interrupted run. reader NULL: none. Call evaluation_free even after a failure. */
 status verification_run(const sweep_request *, int whole, const verification_reader *reader,
-                        truths *, sweep *, judgement *out, fault *);
+                        truths *, sweep *, evaluation *out, fault *);
 
 /* Runs all cells of a planned sweep, or of some series, and measures the scatter. Nothing is
  * evaluated. */
@@ -1122,7 +1126,7 @@ typedef struct verification_files {
     const char *output, *json, *junit, *markdown, *propose; /* paths, set by the caller; NULL:
                                                                none */
     const sweep *sweep;
-    const judgement *judged;
+    const evaluation *evaluated;
     store store;    /* results file, open if it was requested */
     json_part part; /* JSON written so far, if it was requested */
     int open;
@@ -1142,14 +1146,14 @@ typedef struct verification_request {
 } verification_request;
 
 typedef struct verification {
-    const verification_request *asked;
+    const verification_request *requested;
     truths truths; /* read before planning */
     /* results of the previous run; the results of this run must not be worse */
     stored_results former;
     verification_files *files; /* owned by the caller */
     double begun;              /* [s] clock_wall_seconds at the start */
     sweep sweep;
-    judgement judgement;
+    evaluation evaluation;
     overview overview;
 } verification;
 

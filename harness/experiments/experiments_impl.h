@@ -13,7 +13,7 @@
 #include "harness/terminal/terminal.h"
 
 /* Compares the times [s] of `pairs` pairs of laps. */
-contest_clock against_judge(int pairs, const double a[], const double b[]);
+against_times against_evaluate(int pairs, const double a[], const double b[]);
 
 /* Varied parameter: a parameter of a case, and its values. */
 
@@ -56,7 +56,7 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
                    fault *f);
 /* Removes temporary files of a batch that killed processes have left. gone 1: the writer has
  * certainly ended. */
-void batch_clean(const char *folder, const char *name, int gone);
+void batch_clean(const char *folder, const char *name, int ended);
 /* Reads the label. *from (may be NULL) is then at the first byte of the results, and *end is the
  * position after the last byte of the results. FAULT: the file is truncated, damaged, or not a
  * batch. */
@@ -70,69 +70,72 @@ element_measure *measures_add(measures *m, const char *name);
 /* Appends a point to a measure. */
 void measures_point(element_measure *one, double at, double error);
 /* Returns the number of measures with a wrong limit. */
-int measures_astray(const measures *m);
+int measures_wrong_limits(const measures *m);
 
 /* Returns the check with the given name, and adds it if necessary. allowed: largest allowed
  * deviation. A new check passes until a larger deviation is added. */
-claim *claims_open(claims *c, const char *name, double allowed);
+check_result *checks_open(check_results *c, const char *name, double allowed);
 /* Records that a requirement is not checked, and the reason. */
-void claims_not_made(claims *c, const char *name, const char *why);
+void checks_not_made(check_results *c, const char *name, const char *why);
 /* Adds a comparison with its deviation; NaN counts as the largest deviation. */
-void claims_departs(claim *one, double departure, const char *format, ...)
+void checks_deviation(check_result *one, double departure, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* Adds a yes/no question. holds 0: no; `format` then describes the error. */
-void claims_asks(claim *one, int holds, const char *format, ...)
+void checks_require(check_result *one, int holds, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 /* Names the next call or check. Reports of crashes contain this name. */
-void claims_doing(claims *c, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void checks_current(check_results *c, const char *format, ...)
+    __attribute__((format(printf, 2, 3)));
 /* Returns the difference relative to `size`, or 0 if the difference is 0, even if `size` is 0. */
-static inline double claims_share(double apart, double size)
+static inline double checks_relative(double apart, double size)
 {
     return apart == 0 ? 0 : apart / size;
 }
 /* Return the number of checks with this outcome, and the number of comparisons in all checks. */
-int claims_counted(const claims *c, claim_outcome outcome);
-int claims_compared(const claims *c);
+int checks_counted(const check_results *c, check_outcome outcome);
+int checks_compared(const check_results *c);
 
 /* Computes a section. Lengths are in units of `unit` metres, forces in newtons, and masses in
  * kilograms. */
 status profiles_section(profiles_form form, double unit, section *out, fault *f);
 
 /* Returns the features for a straight element: all features of the type, except `without`. */
-unsigned specimen_features(const element_type *t, unsigned without);
+unsigned test_element_features(const element_type *t, unsigned without);
 
 /* Computes pseudo-random numbers in (-1/2, 1/2) that are determined by the seed. */
-void specimen_numbers(int count, unsigned seed, double out[]);
+void test_element_numbers(int count, unsigned seed, double out[]);
 /* Rotates the whole element about the origin by a rotation vector, then shifts it by a fixed
  * multiple of its length. */
-void specimen_carry(const specimen *s, const double turn[3], const node_state x[],
-                    node_state out[]);
+void test_element_rigid_motion(const test_element *s, const double turn[3], const node_state x[],
+                               node_state out[]);
 
 /* State at which finite differences are computed. */
-typedef struct specimen_place {
-    const specimen *s;
+typedef struct test_element_stencil {
+    const test_element *s;
     const node_state *x;
-} specimen_place;
+} test_element_stencil;
 
 /* Computes the nodes with coordinate i moved by si difference steps and coordinate j moved by sj
  * difference steps. */
-void specimen_moved(const specimen_place *at, int i, double si, int j, double sj, node_state out[]);
+void test_element_moved(const test_element_stencil *at, int i, double si, int j, double sj,
+                        node_state out[]);
 
 /* Computes the inner unknowns [inner] of the undeformed state. */
-void specimen_rest(const specimen *s, double inner[]);
+void test_element_rest(const test_element *s, double inner[]);
 /* Computes the stress with converged inner unknowns of the element. */
-status specimen_settled(const specimen *s, const double e[], double inner[], stress_output *out);
+status test_element_converged(const test_element *s, const double e[], double inner[],
+                              stress_output *out);
 
 /* Checks that the damping matrix is symmetric and dissipates energy. Does nothing without
  * `damping`.
  */
-void own_damping_check(const specimen *s, const double C[], claims *c);
+void own_damping_check(const test_element *s, const double C[], check_results *c);
 /* Checks the motion of the sections, and that nodal forces are in equilibrium with loads along the
  * element. Does nothing without `line`. */
-void own_line_check(const specimen *s, claims *c);
+void own_line_check(const test_element *s, check_results *c);
 
 /* Returns a description such as "rotation about y of node 2". */
-const char *specimen_coordinate(const specimen *s, int c, char words[SPECIMEN_WORDS]);
+const char *test_element_coordinate(const test_element *s, int c, char words[TEST_ELEMENT_WORDS]);
 
 /* Families of checks, one for each group of requirements of element.h. Each family checks all
  * elements that the formulation supports, and adds its results. */
@@ -149,7 +152,7 @@ checks_run checks_motion;
 checks_run checks_stateless; /* equal calls give equal results, regardless of earlier calls */
 checks_run checks_many;      /* one call for many elements gives the same results as single calls */
 checks_run checks_bounds;    /* outputs are filled completely, and no other memory is changed */
-checks_run checks_unsound;   /* NaN and Inf in the input are reported */
+checks_run checks_nonfinite; /* NaN and Inf in the input are reported */
 checks_run checks_mass;      /* the mass matrix is symmetric and positive definite, with the mass of
                                 the beam */
 checks_run checks_rotating;  /* effects of a rotating frame */
@@ -166,20 +169,20 @@ const char *certificate_part_name(int part);
 /* Returns a description of a part in one line. */
 const char *certificate_part_words(int part);
 /* Return the number of checks with this outcome, and the number of comparisons in all parts. */
-int certificate_counted(const certificate *, claim_outcome);
+int certificate_counted(const certificate *, check_outcome);
 int certificate_compared(const certificate *);
 /* Returns the first failed check; NULL: none. */
-const claim *certificate_broken(const certificate *);
+const check_result *certificate_broken(const certificate *);
 
 /* Cuts work into batches and assigns batches to shards. The result depends only on the costs. */
 
 /* Assigns each batch to a shard: shard[batches] contains 0..shards-1. The most expensive batch is
  * assigned first, and each batch goes to the shard with the lowest cost so far. Returns 0, or -1 if
  * out of memory. */
-int deal_out(int batches, const double cost[], int shards, int shard[]);
+int batches_assign(int batches, const double cost[], int shards, int shard[]);
 /* Sorts the batches in decreasing order of cost into order[batches]. Batches with equal costs keep
  * their order. */
-void deal_order(int batches, const double cost[], int order[]);
+void batches_order(int batches, const double cost[], int order[]);
 
 /* Smallest stride, and largest number of stored states (a few kilobytes each). */
 enum { DESIGN_STRIDE = 16384, DESIGN_MARKS = 1024, DESIGN_MOST_POINTS = 1000000000 };
@@ -212,44 +215,46 @@ void extreme_table(FILE *to, const void *found); /* found: an extreme_sweep */
 
 /* Lists of steps and tolerances in an option. */
 
-typedef struct pace_list {
+typedef struct integrators_list {
     int count;
-    double value[PACE_LIST_MOST];
-} pace_list;
+    double value[INTEGRATORS_LIST_MOST];
+} integrators_list;
 
 /* Reads "0.1,0.05" or "0.1..0.0125". In the second form, the first number is divided by `ratio`
  * repeatedly until the last number is reached. All numbers must be positive. option: name of the
  * option, for messages. */
-status pace_list_read(const char *option, const char *text, double ratio, pace_list *out, fault *f);
+status integrators_list_read(const char *option, const char *text, double ratio,
+                             integrators_list *out, fault *f);
 
-#define PACE_METHODS                                                                               \
+#define INTEGRATORS_METHODS                                                                        \
     "alpha, alpha:rho=R, hht, hht:alpha=A, trapezoidal, conserving, radau, explicit"
 
 /* Default list of methods. */
-extern const char pace_method_all[];
-/* Reads one of PACE_METHODS, with its parameters R in [0, 1] or A in [0, 1/3]. REFUSED: the message
- * names the invalid part. */
-status pace_method_read(const char *text, int length, pace_method *out, fault *f);
+extern const char integrators_method_all[];
+/* Reads one of INTEGRATORS_METHODS, with its parameters R in [0, 1] or A in [0, 1/3]. REFUSED: the
+ * message names the invalid part. */
+status integrators_method_read(const char *text, int length, integrators_method *out, fault *f);
 /* Appends the methods of a list "NAME,NAME,...". Each method may occur once. */
-status pace_method_read_list(const char *text, int most, pace_method list[], int *count, fault *f);
+status integrators_method_read_list(const char *text, int most, integrators_method list[],
+                                    int *count, fault *f);
 
 /* Tolerances of the reference and of its checks. All are computed with radau on the same mesh. */
-enum { PACE_CHECKS = 2 };
-extern const double pace_reference[1 + PACE_CHECKS];
+enum { INTEGRATORS_CHECKS = 2 };
+extern const double integrators_reference[1 + INTEGRATORS_CHECKS];
 /* Limits of E/E0 - 1, of the relative change of energy, and of the relative change of momenta. */
-extern const double pace_growth, pace_energy, pace_momentum;
+extern const double integrators_growth, integrators_energy, integrators_momentum;
 
-void pace_free(pace *);
-const char *pace_fate_name(pace_fate);
-const sweep_point *pace_point_of(const pace *, const pace_run *);
-const cell_result *pace_cell_of(const pace *, int index);
+void integrators_free(integrators *);
+const char *integrators_class_name(integrators_class);
+const sweep_point *integrators_point_of(const integrators *, const integrators_run *);
+const cell_result *integrators_cell_of(const integrators *, int index);
 
 /* Reads the table and plans its motions. REFUSED: the table is invalid; the message gives the first
  * error with its line. */
-status pace_verdict_plan(const char *path, pace *, pace_verdicts *, fault *);
-/* Sets the observed verdicts and compares them with the table. Call after pace_judge. */
-void pace_verdict_reach(const pace *, pace_verdicts *);
-void pace_verdict_free(pace_verdicts *);
+status integrators_verdict_plan(const char *path, integrators *, integrators_verdicts *, fault *);
+/* Sets the observed verdicts and compares them with the table. Call after integrators_evaluate. */
+void integrators_verdict_reach(const integrators *, integrators_verdicts *);
+void integrators_verdict_free(integrators_verdicts *);
 
 /* Status of a cell: a value of `status`, or one of the following larger values. */
 enum {
@@ -278,7 +283,7 @@ const char *rows_status_name(int status);
 enum { SHARD_MOST_JOBS = 64, SHARD_MOST = 100000 };
 
 /* Writes the path of a batch that exists. */
-status stock_path(const stock *, int batch, char out[PATH_MAX], fault *f);
+status batch_store_path(const batch_store *, int batch, char out[PATH_MAX], fault *f);
 
 /* Adds the results of points from `first` on. Call the function in the order of the points, once
  * for every point. */
@@ -342,9 +347,9 @@ status beam_section(const beam_request *, section *out);
  * first three points has a value. */
 int beam_point(const beam_request *, double at, double exact, element_measure *one);
 
-/* Returns the outcome of a family of checks: CLAIM_BROKEN if a requirement is violated, CLAIM_HOLDS
- * if a requirement other than "prepare" is satisfied, and otherwise CLAIM_NOT_CLAIMED. */
-claim_outcome claims_outcome(const claims *);
+/* Returns the outcome of a family of checks: CHECK_FAILED if a requirement is violated,
+ * CHECK_PASSED if a requirement other than "prepare" is satisfied, and otherwise CHECK_NOT_MADE. */
+check_outcome checks_outcome(const check_results *);
 
 /* Prints certificates as text. Each certificate fits on one screen. */
 
@@ -360,16 +365,17 @@ void certificate_csv(FILE *to, const certificate *all, int count);
 
 /* Expected outcomes of a sweep of extremes (reference/extreme_findings.csv), and their counts. */
 
-/* Sets finding and as_expected of every outcome, and the counts. whole: 1 if no selection was made;
- * an unobserved deviation is then a failure. */
+/* Sets deviation and as_expected of every outcome, and the counts. whole: 1 if no selection was
+ * made; an unobserved deviation is then a failure. */
 void extreme_expect(extreme_sweep *s, int whole);
 
 /* Classifies an outcome from the first mesh: as accurate, as a failure, or as wrong until other
  * meshes are known. */
-status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outcome *o, fault *f);
+status extreme_evaluate_first(const extreme_sweep *s, const truths *t, extreme_outcome *o,
+                              fault *f);
 /* Classifies a wrong outcome as under-resolved if its error decreases towards the finest mesh with
  * an order of at least 0.5, as a discretisation error does. */
-void extreme_judge_neighbours(const extreme_sweep *s, const truths *t, extreme_outcome *o);
+void extreme_evaluate_neighbours(const extreme_sweep *s, const truths *t, extreme_outcome *o);
 
 /* Record types of extremes, of outcomes, and of the counts of a formulation. */
 
@@ -394,135 +400,136 @@ void known_free(known_truths *);
 /* A process that computes batches one after the other, and reports every result. */
 
 /* Data shared by all processes. */
-typedef struct labour_shelf {
+typedef struct batch_queue {
     atomic_int next;                /* next entry of `list` to be computed */
     atomic_int at[SHARD_MOST_JOBS]; /* batch that a process is computing, or -1 */
-} labour_shelf;
+} batch_queue;
 
-typedef struct labour {
+typedef struct batch_worker {
     const shard_work *w;
     const shard_request *request;
     int count; /* number of batches to be computed */
     int *list; /* [count] batches in the order in which they are started */
-    labour_shelf *shelf;
+    batch_queue *queue;
     machine here;
-} labour;
+} batch_worker;
 
 /* Message about a batch. Its size allows it to be written to a pipe in a single write. */
-typedef struct labour_notice {
+typedef struct batch_report {
     int batch;
     status status;
     double seconds;
     char text[FAULT_TEXT];
-} labour_notice;
+} batch_report;
 
 /* Computes batches until none is left or a batch fails. to: pipe for the messages. */
-_Noreturn void labour_work(const labour *, int self, int to);
+_Noreturn void batch_worker_run(const batch_worker *, int self, int to);
 
 /* Returns the largest distance between two motions over all stations, nodes and centre lines: the
  * larger of the distance between positions, relative to the size of the structure, and the angle
  * between sections [rad]. NAN: a station is missing. */
-double pace_distance(const cell_result *, const cell_result *other, int analysis);
+double integrators_distance(const cell_result *, const cell_result *other, int analysis);
 /* Returns the distance between two values of a quantity, relative to the value of `other` or to
  * near_zero. NAN: a value is missing. */
-double pace_distance_of(const scene_quantity *, const quantity_result *,
-                        const quantity_result *other);
+double integrators_distance_of(const scene_quantity *, const quantity_result *,
+                               const quantity_result *other);
 
 /* Evaluates the energy and the momenta of a motion. */
 
 /* Computes the energy drift, the momentum drift, E/E0 and the classification of a completed run. E:
  * energy; E0: energy after the loads have ended. */
-void pace_drift(const pace *, pace_run *);
+void integrators_drift(const integrators *, integrators_run *);
 
 /* Runs all planned motions and evaluates them. A motion that fails counts as a result. */
-status pace_judge(pace *, const sweep_request *, fault *);
+status integrators_evaluate(integrators *, const sweep_request *, fault *);
 
 /* Observed orders of an integrator, from runs in which the step is repeatedly halved. */
 
-typedef enum pace_order_kind {
-    PACE_ORDER_PASS,
-    PACE_ORDER_LOW, /* significantly below the nominal order */
+typedef enum integrators_order_kind {
+    INTEGRATORS_ORDER_PASS,
+    INTEGRATORS_ORDER_LOW, /* significantly below the nominal order */
     /* there are fewer than three errors above the floor, or the orders differ */
-    PACE_ORDER_UNDECIDED,
-    PACE_ORDER_KINDS
-} pace_order_kind;
+    INTEGRATORS_ORDER_UNDECIDED,
+    INTEGRATORS_ORDER_KINDS
+} integrators_order_kind;
 
 /* Runs of an integrator in a group with fixed steps, in decreasing order of step size. */
-typedef struct pace_ladder {
+typedef struct integrators_ladder {
     int group;
-    const pace_method *method;
+    const integrators_method *method;
     int first, count; /* range in the list of runs */
     /* orders from the last three errors above the floor: the last and the previous order */
     double order, before;
     double floor; /* errors below this value are due to the reference or to rounding */
-    pace_order_kind kind;
-} pace_ladder;
+    integrators_order_kind kind;
+} integrators_ladder;
 
 /* Allowed difference between an observed order and the nominal order, as for meshes
  * (harness/study). */
-extern const double pace_order_slack;
+extern const double integrators_order_slack;
 
 /* Returns 1 if unresolved frequencies limit the order of the reference. */
-int pace_order_is_stopped(const pace_group *);
+int integrators_order_is_stopped(const integrators_group *);
 
 /* Returns the ladder that starts with run number `first`. */
-pace_ladder pace_order_of(const pace *, int first);
+integrators_ladder integrators_order_of(const integrators *, int first);
 /* Returns 1 if the relative error of a quantity does not decrease with the step size, as for a
  * force that depends on unresolved frequencies. */
-int pace_order_stands(const pace *, const pace_ladder *, int quantity);
+int integrators_order_stagnates(const integrators *, const integrators_ladder *, int quantity);
 /* Sets the order of each run, which is computed from this run and the previous run with a larger
  * step. */
-void pace_order_fill(pace *);
-const char *pace_order_name(pace_order_kind);
+void integrators_order_fill(integrators *);
+const char *integrators_order_name(integrators_order_kind);
 
 /* Plans which motions are run. */
 
 /* Request for the runs of one structure. */
-typedef struct pace_plan_request {
+typedef struct integrators_plan_request {
     const case_type *type;
     const double *parameter;
     formulation formulation;
     int elements; /* 0: as in the second mesh of the case */
     int methods;
-    const pace_method *method;
-    pace_list steps, tolerances; /* count 0: none */
-    int errors;                  /* 1: errors are computed; they require a reference */
+    const integrators_method *method;
+    integrators_list steps, tolerances; /* count 0: none */
+    int errors;                         /* 1: errors are computed; they require a reference */
     int whole; /* 1: a step without a solution ends the motion; 0: such a step is halved */
-} pace_plan_request;
+} integrators_plan_request;
 
 /* If neither steps nor tolerances are given, sets default values based on the step of the scene. */
-status pace_plan_usual(pace_plan_request *, fault *);
+status integrators_plan_default(integrators_plan_request *, fault *);
 /* Appends a group of runs. REFUSED: the scene has no motion, or there is nothing to run. */
-status pace_plan_add(pace *, const pace_plan_request *, fault *);
+status integrators_plan_add(integrators *, const integrators_plan_request *, fault *);
 
 /* Cost at equal error: finds the step size or tolerance for which an integrator reaches a given
  * error at the lowest cost. */
 
-enum { PACE_LEVELS = 3 };
-extern const double pace_levels[PACE_LEVELS];
+enum { INTEGRATORS_LEVELS = 3 };
+extern const double integrators_levels[INTEGRATORS_LEVELS];
 
-typedef struct pace_reach {
+typedef struct integrators_reach {
     /* a run within the error, for which all runs with smaller steps or tolerances are also within
      * the error; NULL: none */
-    const pace_run *run;
+    const integrators_run *run;
     /* [s] cost at the error level, interpolated between this run and the previous run */
     double cost;
-} pace_reach;
+} integrators_reach;
 
 /* Finds the run of an integrator in a group, and its cost, for an error level. */
-pace_reach pace_reach_of(const pace *, int group, const char *method, double level);
+integrators_reach integrators_reach_of(const integrators *, int group, const char *method,
+                                       double level);
 /* Lists the names of the integrators of all groups without repetition, and returns their number. */
-enum { PACE_METHODS_MOST = 32 };
-int pace_reach_methods(const pace *, const char *name[PACE_METHODS_MOST]);
+enum { INTEGRATORS_METHODS_MOST = 32 };
+int integrators_reach_methods(const integrators *, const char *name[INTEGRATORS_METHODS_MOST]);
 
 /* Records of motions and their evaluation. */
 
-extern const record_type record_pace_all, record_pace_run;
-extern const record_type *const pace_records[]; /* all record types except the first;
+extern const record_type record_integrators_all, record_integrators_run;
+extern const record_type *const integrators_records[]; /* all record types except the first;
                                                    NULL-terminated */
 
 /* Prints the verdicts on motions. runs 1: also prints a line for each motion. */
-void pace_table(FILE *to, const pace *, const pace_verdicts *, int runs);
+void integrators_table(FILE *to, const integrators *, const integrators_verdicts *, int runs);
 
 /* Data that the group of a sweep contains once. */
 
@@ -565,7 +572,7 @@ void ranges_table_map(FILE *to, const tally *t, int every);
 
 typedef struct point_reference {
     rows_reference kind;
-    double value, doubt; /* value and its relative uncertainty */
+    double value, uncertainty; /* value and its relative uncertainty */
 } point_reference;
 
 /* Returns the reference of a quantity for a series of the sweep. stored, derived: reference values
@@ -577,10 +584,10 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
  * supports. The other elements vary the section, the choices of the options, and the initial
  * curvature. */
 
-typedef void specimens_check(const specimen *s, claims *c);
+typedef void test_elements_check(const test_element *s, check_results *c);
 /* Calls `check` for every test element. An element that the formulation rejects with a reason is
  * skipped, except the default element, which must be accepted (check "prepare"). */
-void specimens_each(const formulation *chosen, claims *c, specimens_check *check);
+void test_elements_each(const formulation *chosen, check_results *c, test_elements_check *check);
 
 /* Sets formulations, meshes, quantities, left_out and point_cost from the scenes of the first
  * point, the last point and some intermediate points. REFUSED: no scene can be built at these

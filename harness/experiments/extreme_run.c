@@ -57,14 +57,14 @@ static status look_closer(const extreme_request *request, extreme_sweep *s, cons
             continue;
         TRY(refine(s, o, f));
         extreme_outcome *base = extreme_sweep_base(s, o);
-        if (extremes[o->extreme].judge == EXTREME_SAME && base != NULL)
+        if (extremes[o->extreme].criterion == EXTREME_SAME && base != NULL)
             TRY(refine(s, base, f));
     }
     if (s->neighbours.seriess > 0)
         TRY(run_cells(request, &s->neighbours, f));
     for (int i = 0; i < s->outcomes; i++)
         if (is_open(&s->outcome[i]))
-            extreme_judge_neighbours(s, t, &s->outcome[i]);
+            extreme_evaluate_neighbours(s, t, &s->outcome[i]);
     return STATUS_OK;
 }
 
@@ -75,27 +75,27 @@ static status read_all(const char *path, truths *t, extreme_sweep *out, fault *f
     return extreme_expect_read(path, out, f);
 }
 
-static status plan(const void *asked, void *found, fault *f)
+static status plan(const void *requested, void *found, fault *f)
 {
-    const extreme_request *request = asked;
+    const extreme_request *request = requested;
     extreme_sweep *s = found;
     TRY(read_all(request->truths, &s->truths, s, f));
     return extreme_plan(request, s, f);
 }
 
-static status run(const void *asked, void *found, fault *f)
+static status run(const void *requested, void *found, fault *f)
 {
     extreme_sweep *s = found;
-    return s->outcomes > 0 ? run_cells(asked, &s->first, f) : STATUS_OK;
+    return s->outcomes > 0 ? run_cells(requested, &s->first, f) : STATUS_OK;
 }
 
 /* Evaluates all outcomes. Outcomes that may be under-resolved are also computed on other meshes. */
-static status judge(const void *asked, void *found, fault *f)
+static status evaluate(const void *requested, void *found, fault *f)
 {
-    const extreme_request *request = asked;
+    const extreme_request *request = requested;
     extreme_sweep *s = found;
     for (int i = 0; i < s->outcomes; i++)
-        TRY(extreme_judge_first(s, &s->truths, &s->outcome[i], f));
+        TRY(extreme_evaluate_first(s, &s->truths, &s->outcome[i], f));
     TRY(look_closer(request, s, &s->truths, f));
     extreme_expect(s, request->select == NULL && request->formulations == 0);
     return STATUS_OK;
@@ -104,7 +104,7 @@ static status judge(const void *asked, void *found, fault *f)
 const experiment_type experiment_stress = {.name = "stress",
                                            .plan = plan,
                                            .run = run,
-                                           .judge = judge,
+                                           .evaluate = evaluate,
                                            .records = extreme_records,
                                            .about = &record_extremes_all,
                                            .rows = &record_outcome,
@@ -114,22 +114,22 @@ const experiment_type experiment_stress = {.name = "stress",
 static status read_rows(table_columns *r, extreme_sweep *out)
 {
     static const columns_field field[] = {
-        {"extreme", 1, offsetof(extreme_finding, extreme)},
-        {"formulation", 1, offsetof(extreme_finding, formulation)},
-        {"quantity", 1, offsetof(extreme_finding, quantity)},
-        {"outcome", 1, offsetof(extreme_finding, outcome)},
-        {"proof", 1, offsetof(extreme_finding, proof)},
-        {"from", 0, offsetof(extreme_finding, from)},
-        {"to", 0, offsetof(extreme_finding, to)}};
+        {"extreme", 1, offsetof(extreme_deviation, extreme)},
+        {"formulation", 1, offsetof(extreme_deviation, formulation)},
+        {"quantity", 1, offsetof(extreme_deviation, quantity)},
+        {"outcome", 1, offsetof(extreme_deviation, outcome)},
+        {"proof", 1, offsetof(extreme_deviation, proof)},
+        {"from", 0, offsetof(extreme_deviation, from)},
+        {"to", 0, offsetof(extreme_deviation, to)}};
     r->rows = r->group >= 0 ? columns_length(r->group, "outcome") : -1;
     if (r->rows < 0)
         return columns_broken(r, "outcome");
-    out->finding = calloc((size_t)r->rows + 1, sizeof *out->finding);
-    if (out->finding == NULL)
+    out->deviation = calloc((size_t)r->rows + 1, sizeof *out->deviation);
+    if (out->deviation == NULL)
         return fault_set(r->f, STATUS_FAULT, "out of memory for known deviations");
-    out->findings = r->rows;
+    out->deviations = r->rows;
     for (size_t i = 0; i < sizeof field / sizeof field[0]; i++)
-        TRY(columns_read(r, &field[i], out->finding, sizeof *out->finding));
+        TRY(columns_read(r, &field[i], out->deviation, sizeof *out->deviation));
     return STATUS_OK;
 }
 
@@ -146,7 +146,8 @@ static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f
     return outcome;
 }
 
-static int speaks_of(const extreme_finding *row, const extreme_sweep *s, const extreme_outcome *o)
+static int applies_to(const extreme_deviation *row, const extreme_sweep *s,
+                      const extreme_outcome *o)
 {
     const extreme *e = &extremes[o->extreme];
     const double slack = 1e-9; /* covers the difference between 1e-4 in a table and pow(10, -4) */
@@ -192,18 +193,19 @@ static void count_cells(extreme_sweep *s)
 
 static void set_expected(extreme_sweep *s, extreme_outcome *o)
 {
-    o->finding = NULL;
+    o->deviation = NULL;
     o->as_expected = 1;
     if (o->kind == OUTCOME_SKIP)
         return;
-    for (int k = 0; k < s->findings; k++)
-        if (speaks_of(&s->finding[k], s, o)) {
-            o->finding = &s->finding[k];
-            s->finding[k].observed++;
+    for (int k = 0; k < s->deviations; k++)
+        if (applies_to(&s->deviation[k], s, o)) {
+            o->deviation = &s->deviation[k];
+            s->deviation[k].observed++;
             break;
         }
-    o->as_expected = o->finding != NULL ? strcmp(o->finding->outcome, outcome_name(o->kind)) == 0
-                                        : outcome_is_good(o->kind);
+    o->as_expected = o->deviation != NULL
+                         ? strcmp(o->deviation->outcome, outcome_name(o->kind)) == 0
+                         : outcome_is_good(o->kind);
     const series one = {.formulation = s->formulation[o->formulation]};
     if (!o->as_expected && !sweep_gates(&s->first, &one)) {
         o->as_expected = 1;
@@ -218,8 +220,8 @@ void extreme_expect(extreme_sweep *s, int whole)
         s->unexpected += !s->outcome[i].as_expected;
     }
     if (whole)
-        for (int k = 0; k < s->findings; k++)
-            s->unobserved += s->finding[k].observed == 0;
+        for (int k = 0; k < s->deviations; k++)
+            s->unobserved += s->deviation[k].observed == 0;
     count_cells(s);
 }
 
@@ -267,7 +269,7 @@ static void get_x(const subject *s, field_value *out)
 
 static void get_proof(const subject *s, field_value *out)
 {
-    schema_set_text(out, outcome_of(s)->finding != NULL ? outcome_of(s)->finding->proof : "");
+    schema_set_text(out, outcome_of(s)->deviation != NULL ? outcome_of(s)->deviation->proof : "");
 }
 
 static const char *word_of_outcome(int kind)
@@ -310,9 +312,9 @@ const record_type record_outcome = {
     "results of a formulation at one value of an extreme",
     {fields_of_place, keys_of_series, key_of_mesh, fields_of_outcome}};
 
-static const char *word_of_judge(int judge)
+static const char *word_of_criterion(int criterion)
 {
-    return judge == EXTREME_EXACT ? "exact" : "same";
+    return criterion == EXTREME_EXACT ? "exact" : "same";
 }
 
 static const schema_field fields_of_extreme[] = {
@@ -326,7 +328,7 @@ static const schema_field fields_of_extreme[] = {
     {"x_name", "", FIELD_TEXT, "extreme value", TEXT_OF(RECORD, extreme, x_name)},
     {"x_unit", "", FIELD_TEXT, "unit of the varied value", TEXT_OF(RECORD, extreme, x_unit)},
     {"judge", "", FIELD_ENUM, "base value: an exact value, or the value at another x",
-     AT(extreme, judge), .word = word_of_judge, .words = EXTREME_SAME + 1},
+     AT(extreme, criterion), .word = word_of_criterion, .words = EXTREME_SAME + 1},
     {"tolerance", "1", FIELD_DOUBLE, "relative tolerance of a value", AT(extreme, tolerance)},
     {0}};
 const record_type record_extreme = {

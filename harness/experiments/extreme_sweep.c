@@ -63,8 +63,8 @@ int extreme_sweep_exit(const extreme_sweep *s)
 
 void extreme_sweep_free(extreme_sweep *s)
 {
-    for (int i = 0; i < s->findings; i++) {
-        extreme_finding *r = &s->finding[i];
+    for (int i = 0; i < s->deviations; i++) {
+        extreme_deviation *r = &s->deviation[i];
         char *const all[] = {r->extreme, r->formulation, r->quantity, r->outcome, r->proof};
         for (size_t k = 0; k < sizeof all / sizeof all[0]; k++)
             free(all[k]);
@@ -72,7 +72,7 @@ void extreme_sweep_free(extreme_sweep *s)
     truths_free(&s->truths);
     sweep_free(&s->first);
     sweep_free(&s->neighbours);
-    free(s->finding);
+    free(s->deviation);
     free(s->formulation);
     free(s->outcome);
     free(s->count);
@@ -111,7 +111,7 @@ static double extreme_reference_of(const extreme_sweep *s, const truths *t,
 {
     const extreme *e = &extremes[o->extreme];
     *uncertainty = 0;
-    if (e->judge == EXTREME_SAME) {
+    if (e->criterion == EXTREME_SAME) {
         const extreme_outcome *base = extreme_sweep_base(s, o);
         const double power = e->quantity[o->quantity].power;
         return base != NULL
@@ -156,20 +156,20 @@ static void set_failure(extreme_outcome *o, status why, const char *reason)
 
 /* Compares the value on the first mesh with the reference value, and sets the error and the kind of
  * the outcome. */
-static void judge_value(const scene_quantity *q, double value, double uncertainty,
-                        extreme_outcome *o)
+static void evaluate_value(const scene_quantity *q, double value, double uncertainty,
+                           extreme_outcome *o)
 {
     const extreme *e = &extremes[o->extreme];
     o->result = value;
     o->error = verdict_error(q, value, o->reference);
-    if (e->judge == EXTREME_SAME && !isfinite(o->reference))
+    if (e->criterion == EXTREME_SAME && !isfinite(o->reference))
         set_kind(o, OUTCOME_WRONG,
                  "no comparison is possible, because the base state has no value");
     else
         o->kind = fabs(o->error) <= e->tolerance + uncertainty ? OUTCOME_VALUE : OUTCOME_WRONG;
 }
 
-status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outcome *o, fault *f)
+status extreme_evaluate_first(const extreme_sweep *s, const truths *t, extreme_outcome *o, fault *f)
 {
     const extreme *e = &extremes[o->extreme];
     const series *one = &s->first.series[o->series];
@@ -179,8 +179,8 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
     for (int i = 0; i < OUTCOME_NEIGHBOURS; i++)
         o->neighbour_error[i] = NAN;
     o->reference = extreme_reference_of(s, t, o, 0, &uncertainty);
-    const int other = e->judge == EXTREME_EXACT && has_other_theory(s, t, o);
-    if (e->judge == EXTREME_EXACT && !isfinite(o->reference) && !other)
+    const int other = e->criterion == EXTREME_EXACT && has_other_theory(s, t, o);
+    if (e->criterion == EXTREME_EXACT && !isfinite(o->reference) && !other)
         return fault_set(
             f, STATUS_FAULT,
             "extreme %s: %s has no exact value at %s; derive one with reference/derive/extremes.py",
@@ -198,7 +198,7 @@ status extreme_judge_first(const extreme_sweep *s, const truths *t, extreme_outc
     else if (r->status != STATUS_OK)
         set_failure(o, r->status, r->reason);
     else
-        judge_value(extreme_sweep_quantity(s, o), r->value, uncertainty, o);
+        evaluate_value(extreme_sweep_quantity(s, o), r->value, uncertainty, o);
     return STATUS_OK;
 }
 
@@ -224,7 +224,7 @@ static int falls(const mesh_refinement *r)
     return r->size[last] <= r->size[0] * sqrt(r->elements[0] / r->elements[last]);
 }
 
-void extreme_judge_neighbours(const extreme_sweep *s, const truths *t, extreme_outcome *o)
+void extreme_evaluate_neighbours(const extreme_sweep *s, const truths *t, extreme_outcome *o)
 {
     const int *mesh = s->neighbours.series[o->neighbours].mesh;
     const int own = s->first.series[o->series].mesh[0];
@@ -306,10 +306,10 @@ static void print_head(FILE *to, const extreme *e)
     if (e->fixed[0] != '\0')
         snprintf(fixed, sizeof fixed, " (%s)", e->fixed);
     fputc('\n', to);
-    paragraph_say(to, 0, 0, "%s: %s", e->name, e->summary);
-    paragraph_say(to, 0, 2, "%s%s, %s", e->base, fixed,
-                  e->judge == EXTREME_EXACT ? "against exact values"
-                                            : "compared with the formulation's own value");
+    paragraph_printf(to, 0, 0, "%s: %s", e->name, e->summary);
+    paragraph_printf(to, 0, 2, "%s%s, %s", e->base, fixed,
+                     e->criterion == EXTREME_EXACT ? "against exact values"
+                                                   : "compared with the formulation's own value");
     if (fprintf(to, "  %-*s", INDENT - 2 + NAME_WIDTH, e->x_name) > INDENT + NAME_WIDTH)
         fprintf(to, "\n%*s", INDENT + NAME_WIDTH, "");
     for (int k = 0; k < e->values; k++)
@@ -392,11 +392,11 @@ static void print_outcome(FILE *to, const extreme_sweep *s, const extreme_outcom
     const extreme *e = &extremes[o->extreme];
     char error[ROUNDING_TEXT];
     rounding_percent(o->error, error);
-    paragraph_say(to, fprintf(to, "unexpected: "), 2,
-                  "%s %s=%g %s %s: %s (error %s), expected %s; %s", e->name, e->x_name, o->x,
-                  s->formulation[o->formulation].key, e->quantity[o->quantity].name,
-                  outcome_name(o->kind), error,
-                  o->finding != NULL ? o->finding->outcome : "a value", o->reason);
+    paragraph_printf(to, fprintf(to, "unexpected: "), 2,
+                     "%s %s=%g %s %s: %s (error %s), expected %s; %s", e->name, e->x_name, o->x,
+                     s->formulation[o->formulation].key, e->quantity[o->quantity].name,
+                     outcome_name(o->kind), error,
+                     o->deviation != NULL ? o->deviation->outcome : "a value", o->reason);
 }
 
 static void print_unexpected(FILE *to, const extreme_sweep *s)
@@ -407,12 +407,12 @@ static void print_unexpected(FILE *to, const extreme_sweep *s)
             print_outcome(to, s, o);
     }
     if (s->unobserved > 0)
-        for (int i = 0; i < s->findings; i++)
-            if (s->finding[i].observed == 0)
-                paragraph_say(to, 0, 0, "not observed: %s from %g to %g, %s, %s: %s",
-                              s->finding[i].extreme, s->finding[i].from, s->finding[i].to,
-                              s->finding[i].formulation, s->finding[i].quantity,
-                              s->finding[i].outcome);
+        for (int i = 0; i < s->deviations; i++)
+            if (s->deviation[i].observed == 0)
+                paragraph_printf(to, 0, 0, "not observed: %s from %g to %g, %s, %s: %s",
+                                 s->deviation[i].extreme, s->deviation[i].from, s->deviation[i].to,
+                                 s->deviation[i].formulation, s->deviation[i].quantity,
+                                 s->deviation[i].outcome);
 }
 
 static void print_legend(FILE *to)
@@ -434,10 +434,11 @@ void extreme_table(FILE *to, const void *found)
     print_unexpected(to, s);
     print_counts(to, s);
     if (s->is_new > 0)
-        paragraph_say(to, 0, 0,
-                      "outcomes of new formulations that are neither accurate nor under-resolved, "
-                      "and would require known deviations: %d; these do not affect the exit status",
-                      s->is_new);
+        paragraph_printf(
+            to, 0, 0,
+            "outcomes of new formulations that are neither accurate nor under-resolved, "
+            "and would require known deviations: %d; these do not affect the exit status",
+            s->is_new);
     fprintf(to,
             "outcomes that differ from the expected ones: %d; known deviations that were not "
             "observed: %d\n",

@@ -11,19 +11,20 @@
 
 /* Checks that each declared feature of the section changes a result of the element. For warping, a
  * result must depend on the warping amplitudes of the nodes. */
-static void effects_check(const formulation *chosen, claims *c);
+static void effects_check(const formulation *chosen, check_results *c);
 
 typedef enum feature_outcome { FINITE, REFUSED, BAD, FEATURE_OUTCOMES } feature_outcome;
 
 /* Returns 1 if the stiffness C of a displaced element is finite. */
-static int finite_stiffness(const specimen *s, unsigned seed)
+static int finite_stiffness(const test_element *s, unsigned seed)
 {
-    double inner[SPECIMEN_INNER], e[SPECIMEN_STRAINS], C[SPECIMEN_STRAINS * SPECIMEN_STRAINS];
+    double inner[TEST_ELEMENT_INNER], e[TEST_ELEMENT_STRAINS],
+        C[TEST_ELEMENT_STRAINS * TEST_ELEMENT_STRAINS];
     node_state x[ELEMENT_MAX_NODES];
-    specimen_state(s, 0.01, seed, x);
+    test_element_state(s, 0.01, seed, x);
     s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
-    specimen_rest(s, inner);
-    if (specimen_settled(s, e, inner, &(stress_output){.C = C}) != STATUS_OK)
+    test_element_rest(s, inner);
+    if (test_element_converged(s, e, inner, &(stress_output){.C = C}) != STATUS_OK)
         return 0;
     for (int i = 0; i < s->strains * s->strains; i++)
         if (!isfinite(C[i]))
@@ -35,35 +36,36 @@ static int finite_stiffness(const specimen *s, unsigned seed)
  * them. */
 static feature_outcome evaluated(const formulation *chosen, unsigned features, fault *why)
 {
-    const specimen_request what = {
+    const test_element_request what = {
         .given = chosen->type, .options = chosen->option, .features = features, .unit = 1};
-    specimen s;
+    test_element s;
     feature_outcome out = BAD;
-    const status made = specimen_make(&what, &s, why);
+    const status made = test_element_make(&what, &s, why);
     if (made == STATUS_OK)
         out = finite_stiffness(&s, features + 1) ? FINITE : BAD;
     else if (made == STATUS_REFUSED && why->text[0] != '\0')
         out = REFUSED;
     else if (why->text[0] == '\0')
         fault_set(why, made, "no reason is given (status '%s')", status_name(made));
-    specimen_free(&s);
+    test_element_free(&s);
     return out;
 }
 
-static void accepted(const formulation *chosen, unsigned features, const char *what, claims *c)
+static void accepted(const formulation *chosen, unsigned features, const char *what,
+                     check_results *c)
 {
     fault why = {""};
-    claims_doing(c, "prepare, strain and stress with %s", what);
+    checks_current(c, "prepare, strain and stress with %s", what);
     const feature_outcome found = evaluated(chosen, features, &why);
-    claims_asks(
-        claims_open(c, "all declared features are supported", 0), found == FINITE,
+    checks_require(
+        checks_open(c, "all declared features are supported", 0), found == FINITE,
         "offers: with %s the element fails (%s%s); support the feature, or do not declare it", what,
         why.text[0] != '\0' ? "rejected: " : "the stiffness is not finite", why.text);
 }
 
 /* Checks that a type accepts an element without features, each supported feature with its
  * prerequisites, and, for straight elements, all supported features. */
-static void single_features(const formulation *chosen, claims *c)
+static void single_features(const formulation *chosen, check_results *c)
 {
     static const struct {
         unsigned feature, presupposes;
@@ -83,7 +85,7 @@ static void single_features(const formulation *chosen, claims *c)
 }
 
 /* Checks that a type accepts the features required by the cases on which it runs. */
-static void features_of_cases(const formulation *chosen, claims *c)
+static void features_of_cases(const formulation *chosen, check_results *c)
 {
     int runs = 0;
     for (int i = 0; registry_cases[i] != NULL; i++) {
@@ -100,20 +102,20 @@ static void features_of_cases(const formulation *chosen, claims *c)
         scene_free(&s);
     }
     if (registry_cases[0] != NULL)
-        claims_asks(claims_open(c, "cases", 0), runs > 0,
-                    "features, limits: the formulation supports no built-in case");
+        checks_require(checks_open(c, "cases", 0), runs > 0,
+                       "features, limits: the formulation supports no built-in case");
 }
 
 /* Checks that a type gives a finite stiffness for subsets of its features, or rejects a subset
  * with a reason. At most half of the subsets may be rejected, because one feature may require
  * another. */
-static void feature_subsets(const formulation *chosen, claims *c)
+static void feature_subsets(const formulation *chosen, check_results *c)
 {
     enum { OPTIONAL = 7 };
     static const unsigned optional[OPTIONAL] = {
         FEATURE_WARPING,       FEATURE_SHEAR,   FEATURE_TRAPEZE, FEATURE_WAGNER_MOMENTS,
         FEATURE_WAGNER_TORQUE, FEATURE_HARINGX, FEATURE_MASS};
-    claim *finite = claims_open(c, "subsets", 0), *few = claims_open(c, "few refused", 0.5);
+    check_result *finite = checks_open(c, "subsets", 0), *few = checks_open(c, "few refused", 0.5);
     int count[FEATURE_OUTCOMES] = {0};
     for (unsigned subset = 0; subset < 1u << OPTIONAL; subset++) {
         unsigned features = chosen->type->offers & ~(unsigned)FEATURE_CURVATURE;
@@ -122,22 +124,23 @@ static void feature_subsets(const formulation *chosen, claims *c)
         for (int i = 0; i < OPTIONAL; i++)
             features &= subset >> i & 1u ? ~0u : ~optional[i];
         feature_words(features, words, sizeof words);
-        claims_doing(c, "prepare, strain and stress with %s", words);
+        checks_current(c, "prepare, strain and stress with %s", words);
         const feature_outcome found = evaluated(chosen, features, &why);
         count[found]++;
-        claims_asks(finite, found != BAD,
-                    "prepare: with only %s the element fails (%s); support the feature, or reject "
-                    "it with a reason",
-                    words, why.text[0] != '\0' ? why.text : "the stiffness is not finite");
+        checks_require(
+            finite, found != BAD,
+            "prepare: with only %s the element fails (%s); support the feature, or reject "
+            "it with a reason",
+            words, why.text[0] != '\0' ? why.text : "the stiffness is not finite");
     }
-    claims_departs(
+    checks_deviation(
         few, (double)count[REFUSED] / (1 << OPTIONAL),
         "prepare: %d of %d subsets of the declared features are rejected, but at most half may be; "
         "reject only subsets that lack a feature which another one requires",
         count[REFUSED], 1 << OPTIONAL);
 }
 
-void checks_features(const formulation *chosen, claims *out)
+void checks_features(const formulation *chosen, check_results *out)
 {
     single_features(chosen, out);
     features_of_cases(chosen, out);
@@ -145,7 +148,7 @@ void checks_features(const formulation *chosen, claims *out)
     effects_check(chosen, out);
 }
 
-enum { EFFECTS_M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
+enum { EFFECTS_M = TEST_ELEMENT_STRAINS, N = TEST_ELEMENT_COORDINATES };
 
 /* Results of an element in a state. */
 typedef struct effects_answers {
@@ -153,16 +156,16 @@ typedef struct effects_answers {
         G[EFFECTS_M * EFFECTS_M];
 } effects_answers;
 
-static int answer(const specimen *s, const node_state x[], effects_answers *out)
+static int answer(const test_element *s, const node_state x[], effects_answers *out)
 {
-    double inner[SPECIMEN_INNER], stress[EFFECTS_M];
+    double inner[TEST_ELEMENT_INNER], stress[EFFECTS_M];
     memset(out, 0, sizeof *out);
-    specimen_numbers(s->strains, 67, stress);
+    test_element_numbers(s->strains, 67, stress);
     if (s->type.geometric != NULL)
         s->type.geometric(s->data, stress, out->G);
     s->type.strain(s->data, x, &(strain_output){.e = out->e, .J = out->J, .history = s->history});
-    specimen_rest(s, inner);
-    return specimen_settled(
+    test_element_rest(s, inner);
+    return test_element_converged(
                s, out->e, inner,
                &(stress_output){.energy = &out->energy, .sigma = out->sigma, .C = out->C}) ==
            STATUS_OK;
@@ -185,18 +188,19 @@ static int differ(const effects_answers *a, const effects_answers *b)
 
 /* An element with some features, and the same element without one of them. */
 typedef struct pair {
-    specimen with, without;
+    test_element with, without;
 } pair;
 
-static int makes(const formulation *chosen, unsigned features, profiles_form form, specimen *out)
+static int makes(const formulation *chosen, unsigned features, profiles_form form,
+                 test_element *out)
 {
-    const specimen_request what = {.given = chosen->type,
-                                   .options = chosen->option,
-                                   .features = features,
-                                   .form = form,
-                                   .unit = 1};
+    const test_element_request what = {.given = chosen->type,
+                                       .options = chosen->option,
+                                       .features = features,
+                                       .form = form,
+                                       .unit = 1};
     fault f = {""};
-    return specimen_make(&what, out, &f) == STATUS_OK;
+    return test_element_make(&what, out, &f) == STATUS_OK;
 }
 
 /* Returns 1 if a feature changes a result, 0 if it changes none, and -1 if the type rejects or
@@ -210,14 +214,14 @@ static int changes(const formulation *chosen, unsigned features, unsigned bit, p
     const int made = makes(chosen, features, form, &p.with),
               bare = makes(chosen, features & ~bit, form, &p.without);
     if (made && bare && p.with.strains == p.without.strains) {
-        specimen_state(&p.with, 0.04, 61, x);
+        test_element_state(&p.with, 0.04, 61, x);
         if (answer(&p.with, x, &a) && answer(&p.without, x, &b))
             found = differ(&a, &b);
     } else if (made && bare) {
         found = 1;
     }
-    specimen_free(&p.with);
-    specimen_free(&p.without);
+    test_element_free(&p.with);
+    test_element_free(&p.without);
     return found;
 }
 
@@ -225,19 +229,19 @@ static int changes(const formulation *chosen, unsigned features, unsigned bit, p
  * the element cannot be evaluated. */
 static int warps(const formulation *chosen, unsigned features, profiles_form form)
 {
-    specimen s;
+    test_element s;
     effects_answers a, b;
     node_state x[ELEMENT_MAX_NODES];
     int found = -1;
     if (makes(chosen, features, form, &s)) {
-        specimen_state(&s, 0.04, 61, x);
+        test_element_state(&s, 0.04, 61, x);
         const int first = answer(&s, x, &a);
         for (int k = 0; k < s.nodes; k++)
             x[k].a = 0;
         if (first && answer(&s, x, &b))
             found = differ(&a, &b);
     }
-    specimen_free(&s);
+    test_element_free(&s);
     return found;
 }
 
@@ -258,7 +262,7 @@ static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
     return found;
 }
 
-static void effects_check(const formulation *chosen, claims *c)
+static void effects_check(const formulation *chosen, check_results *c)
 {
     /* Features whose effect is checked. FEATURE_ECCENTRIC is excluded, because elements take the
      * shear centre from the constants of the section. FEATURE_TRAPEZE is excluded, because the
@@ -267,21 +271,21 @@ static void effects_check(const formulation *chosen, claims *c)
      * the mass or the shape are checked elsewhere. */
     static const unsigned sections[] = {FEATURE_WARPING, FEATURE_SHEAR, FEATURE_WAGNER_MOMENTS,
                                         FEATURE_WAGNER_TORQUE};
-    const unsigned all = specimen_features(chosen->type, 0);
+    const unsigned all = test_element_features(chosen->type, 0);
     for (size_t i = 0; i < sizeof sections / sizeof sections[0]; i++) {
         const unsigned bit = sections[i];
-        char name[CLAIM_NAME];
+        char name[CHECK_NAME];
         if (!(all & bit))
             continue;
         snprintf(name, sizeof name, "%s changes something", feature_name(bit));
-        claims_doing(c, "strain and stress with and without %s", feature_name(bit));
-        claim *one = claims_open(c, name, 0);
+        checks_current(c, "strain and stress with and without %s", feature_name(bit));
+        check_result *one = checks_open(c, name, 0);
         if (bit == FEATURE_WARPING)
-            claims_asks(one, anywhere(chosen, all, 0) != 0,
-                        "the formulation declares warping, but no result depends on the warping "
-                        "amplitudes; let strains depend on them, or do not declare warping");
+            checks_require(one, anywhere(chosen, all, 0) != 0,
+                           "the formulation declares warping, but no result depends on the warping "
+                           "amplitudes; let strains depend on them, or do not declare warping");
         else /* shear theories are requested only together with shear */
-            claims_asks(
+            checks_require(
                 one,
                 anywhere(chosen, all,
                          bit == FEATURE_SHEAR ? bit | FEATURE_ENGESSER | FEATURE_HARINGX : bit) !=
@@ -295,7 +299,7 @@ static void effects_check(const formulation *chosen, claims *c)
 /* Checks that the mass matrix is symmetric and positive definite, has the mass and the moments of
  * inertia of the beam, and rotates with the element. */
 
-enum { MASS_N = SPECIMEN_COORDINATES };
+enum { MASS_N = TEST_ELEMENT_COORDINATES };
 
 static double size_of(const double A[], int n, int i, int j)
 {
@@ -306,40 +310,41 @@ static double size_of(const double A[], int n, int i, int j)
                 fmax(fabs(A[j * n + j]), 1e-12 * largest));
 }
 
-static void symmetric(const specimen *s, const double A[], claim *one)
+static void symmetric(const test_element *s, const double A[], check_result *one)
 {
     const int n = s->coordinates;
-    char first[SPECIMEN_WORDS], other[SPECIMEN_WORDS];
+    char first[TEST_ELEMENT_WORDS], other[TEST_ELEMENT_WORDS];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < i; j++)
-            claims_departs(
+            checks_deviation(
                 one, fabs(A[i * n + j] - A[j * n + i]) / size_of(A, n, i, j),
                 "inertia: entry %d, %d (%s, %s) of M is %.6g, but the transposed entry is %.6g%s",
-                i + 1, j + 1, specimen_coordinate(s, i, first), specimen_coordinate(s, j, other),
-                A[i * n + j], A[j * n + i], s->words);
+                i + 1, j + 1, test_element_coordinate(s, i, first),
+                test_element_coordinate(s, j, other), A[i * n + j], A[j * n + i], s->words);
 }
 
 /* Checks that a matrix is positive definite. The matrix is scaled to a unit diagonal, which is then
  * slightly increased. Its Cholesky factorisation must exist. */
-static void positive(const specimen *s, const double A[], claim *one)
+static void positive(const test_element *s, const double A[], check_result *one)
 {
     const int n = s->coordinates;
     double scaled[MASS_N * MASS_N];
-    char where[SPECIMEN_WORDS];
+    char where[TEST_ELEMENT_WORDS];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++) {
             const double size = sqrt(fabs(A[i * n + i]) * fabs(A[j * n + j]));
             scaled[i * n + j] = (size > 0 ? A[i * n + j] / size : 0) + (i == j ? 1e-9 : 0);
         }
     const int pivot = dense_cholesky(n, scaled);
-    claims_asks(one, pivot == 0,
-                "inertia: M is not positive definite; a motion of the nodes in coordinates 1 to %d "
-                "(the last: %s) has no positive kinetic energy%s",
-                pivot, specimen_coordinate(s, pivot > 0 ? pivot - 1 : 0, where), s->words);
+    checks_require(
+        one, pivot == 0,
+        "inertia: M is not positive definite; a motion of the nodes in coordinates 1 to %d "
+        "(the last: %s) has no positive kinetic energy%s",
+        pivot, test_element_coordinate(s, pivot > 0 ? pivot - 1 : 0, where), s->words);
 }
 
 /* Returns v^T M v, twice the kinetic energy, for the velocity field omega x r + shift. */
-static double energy(const specimen *s, const node_state x[], const double M[],
+static double energy(const test_element *s, const node_state x[], const double M[],
                      const double omega[3], const double shift[3])
 {
     double v[MASS_N] = {0}, Mv[MASS_N];
@@ -360,7 +365,7 @@ static double line_mass(const section *c)
     return c->matrices ? c->mass[0] : c->density * c->A;
 }
 
-static void total(const specimen *s, const node_state x[], const double M[], claim *one)
+static void total(const test_element *s, const node_state x[], const double M[], check_result *one)
 {
     static const double none[3] = {0, 0, 0};
     const double mass = line_mass(&s->section) * s->request.length;
@@ -368,22 +373,23 @@ static void total(const specimen *s, const node_state x[], const double M[], cla
         double shift[3] = {0, 0, 0};
         shift[c] = 1;
         const double found = energy(s, x, M, none, shift);
-        claims_departs(one, fabs(found / mass - 1),
-                       "inertia: the mass along %c is %.6g kg, not rho A l = %.6g kg%s", "xyz"[c],
-                       found, mass, s -> words);
+        checks_deviation(one, fabs(found / mass - 1),
+                         "inertia: the mass along %c is %.6g kg, not rho A l = %.6g kg%s", "xyz"[c],
+                         found, mass, s -> words);
     }
 }
 
 /* Checks that rotating the whole element rotates its mass matrix M. */
-static void carried(const specimen *s, const node_state x[], const double M[], claim *one)
+static void carried(const test_element *s, const node_state x[], const double M[],
+                    check_result *one)
 {
     static const double turn[3] = {0.71, -1.93, 1.37};
     const int n = s->coordinates;
     node_state turned[ELEMENT_MAX_NODES];
     double other[MASS_N * MASS_N], T[MASS_N * MASS_N] = {0}, back[MASS_N * MASS_N] = {0},
                                               work[MASS_N * MASS_N], q[4], R[9];
-    char first[SPECIMEN_WORDS], second[SPECIMEN_WORDS];
-    specimen_carry(s, turn, x, turned);
+    char first[TEST_ELEMENT_WORDS], second[TEST_ELEMENT_WORDS];
+    test_element_rigid_motion(s, turn, x, turned);
     rotation_exp(turn, q);
     rotation_matrix(q, R);
     for (int b = 0; b < n; b += NODE_COORDINATES) {
@@ -396,32 +402,32 @@ static void carried(const specimen *s, const node_state x[], const double M[], c
     dense_add_congruence(n, n, T, other, back, work);
     for (int i = 0; i < n; i++)
         for (int j = 0; j < n; j++)
-            claims_departs(one, fabs(back[i * n + j] - M[i * n + j]) / size_of(M, n, i, j),
-                           "inertia: if the element is rotated as a whole and M is rotated back, "
-                           "entry %d, %d (%s, %s) is %.6g instead of %.6g%s",
-                           i + 1, j + 1, specimen_coordinate(s, i, first),
-                           specimen_coordinate(s, j, second), back[i * n + j], M[i * n + j],
-                           s->words);
+            checks_deviation(one, fabs(back[i * n + j] - M[i * n + j]) / size_of(M, n, i, j),
+                             "inertia: if the element is rotated as a whole and M is rotated back, "
+                             "entry %d, %d (%s, %s) is %.6g instead of %.6g%s",
+                             i + 1, j + 1, test_element_coordinate(s, i, first),
+                             test_element_coordinate(s, j, second), back[i * n + j], M[i * n + j],
+                             s->words);
 }
 
 /* Checks the inertia of a straight element that rotates about its first node. The effect of
  * FEATURE_ROTARY_INERTIA must be rho l (Ip, Iy, Iz). About the beam axis this is the whole moment
  * of inertia. About the other axes it is added to the moment of inertia of the line of mass. */
-static void moments(const specimen *s, claim *one)
+static void moments(const test_element *s, check_result *one)
 {
     static const double none[3] = {0, 0, 0};
     const section *c = &s->section;
-    specimen_request what = s->made;
-    specimen line;
+    test_element_request what = s->made;
+    test_element line;
     node_state x[ELEMENT_MAX_NODES];
     double M[MASS_N * MASS_N], without[MASS_N * MASS_N];
     fault f = {""};
     if (c->matrices || s->made.curvature[0] != 0 || !(s->made.features & FEATURE_ROTARY_INERTIA))
         return;
     what.features &= ~(unsigned)FEATURE_ROTARY_INERTIA;
-    specimen_state(s, 0, 1, x);
+    test_element_state(s, 0, 1, x);
     s->type.inertia(s->data, x, NULL, &(inertia_output){.M = M});
-    if (specimen_make(&what, &line, &f) == STATUS_OK) {
+    if (test_element_make(&what, &line, &f) == STATUS_OK) {
         line.type.inertia(line.data, x, NULL, &(inertia_output){.M = without});
         const double second[3] = {c->Ip, c->Iy, c->Iz};
         for (int axis = 0; axis < 3; axis++) {
@@ -431,48 +437,48 @@ static void moments(const specimen *s, claim *one)
                          whole = energy(s, x, M, omega, none),
                          thin = energy(&line, x, without, omega, none),
                          found = whole - (axis == 0 ? 0 : thin);
-            claims_departs(
+            checks_deviation(
                 one, fabs(found / moment - 1),
                 "inertia: the moment of inertia of the sections about %c is %.6g kg m^2, "
                 "not rho l I = %.6g kg m^2%s",
                 "xyz"[axis], found, moment, s -> words);
             if (axis == 0)
-                claims_departs(
+                checks_deviation(
                     one, fabs(thin / moment - 1),
                     "inertia: without rotary inertia, the moment of inertia about x is %.6g kg "
                     "m^2, not rho l Ip = %.6g kg m^2; twist must always have inertia%s",
                     thin, moment, s->words);
         }
     }
-    specimen_free(&line);
+    test_element_free(&line);
 }
 
-static void check(const specimen *s, claims *c)
+static void check(const test_element *s, check_results *c)
 {
     node_state x[ELEMENT_MAX_NODES];
     double M[MASS_N * MASS_N];
-    claims_doing(c, "inertia%s", s->words);
-    specimen_state(s, 0.05, 31, x);
+    checks_current(c, "inertia%s", s->words);
+    test_element_state(s, 0.05, 31, x);
     const status outcome = s->type.inertia(s->data, x, NULL, &(inertia_output){.M = M});
-    claims_asks(claims_open(c, "the element has a mass matrix", 0), outcome == STATUS_OK,
-                "inertia: status '%s' in a strained state%s", status_name(outcome), s->words);
+    checks_require(checks_open(c, "the element has a mass matrix", 0), outcome == STATUS_OK,
+                   "inertia: status '%s' in a strained state%s", status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;
-    symmetric(s, M, claims_open(c, "M is symmetric", 1e-13));
-    positive(s, M, claims_open(c, "M is positive", 0));
-    total(s, x, M, claims_open(c, "the mass is equal to that of the beam", 1e-12));
-    carried(s, x, M, claims_open(c, "M rotates with the element", 1e-11));
-    moments(s, claims_open(c, "the moments of inertia are equal to those of the beam", 1e-9));
+    symmetric(s, M, checks_open(c, "M is symmetric", 1e-13));
+    positive(s, M, checks_open(c, "M is positive", 0));
+    total(s, x, M, checks_open(c, "the mass is equal to that of the beam", 1e-12));
+    carried(s, x, M, checks_open(c, "M rotates with the element", 1e-11));
+    moments(s, checks_open(c, "the moments of inertia are equal to those of the beam", 1e-9));
 }
 
-void checks_mass(const formulation *chosen, claims *out)
+void checks_mass(const formulation *chosen, check_results *out)
 {
     if (!(chosen->type->offers & FEATURE_MASS) || chosen->type->inertia == NULL) {
-        claims_not_made(out, "M is symmetric",
+        checks_not_made(out, "M is symmetric",
                         chosen->type->offers & FEATURE_MASS
                             ? "the inertia of the displacement field is used"
                             : "does not support mass");
         return;
     }
-    specimens_each(chosen, out, check);
+    test_elements_each(chosen, out, check);
 }

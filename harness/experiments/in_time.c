@@ -10,21 +10,21 @@
 #include "harness/experiments/experiments_impl.h"
 #include "harness/formulations/formulations.h"
 
-enum { N = SPECIMEN_COORDINATES };
+enum { N = TEST_ELEMENT_COORDINATES };
 
 /* State and rates at which the derivatives of M x' are computed. */
 typedef struct moving_place {
-    specimen_place at;
+    test_element_stencil at;
     const double *rate; /* [7n] */
 } moving_place;
 
 static int momenta_at(const void *context, int i, double si, int j, double sj, double values[])
 {
     const moving_place *m = context;
-    const specimen *s = m->at.s;
+    const test_element *s = m->at.s;
     node_state x[ELEMENT_MAX_NODES];
     double M[N * N];
-    specimen_moved(&m->at, i, si, j, sj, x);
+    test_element_moved(&m->at, i, si, j, sj, x);
     const double rate[N] = {0};
     const status outcome =
         s->type.inertia(s->data, x, NULL, &(inertia_output){.M = M, .rate = rate});
@@ -35,7 +35,7 @@ static int momenta_at(const void *context, int i, double si, int j, double sj, d
 /* Computes the forces required by a motion without accelerations, using finite differences. */
 static void by_differences(const moving_place *m, const double M[], double h[])
 {
-    const specimen *s = m->at.s;
+    const test_element *s = m->at.s;
     const int n = s->coordinates;
     double p[N], column[N];
     dense_mul_vec(n, n, M, m->rate, p);
@@ -44,7 +44,7 @@ static void by_differences(const moving_place *m, const double M[], double h[])
         vec3_cross(p + NODE_COORDINATES * k + 3, m->rate + NODE_COORDINATES * k + 3,
                    h + NODE_COORDINATES * k + 3);
     for (int i = 0; i < n; i++) {
-        const double unit = specimen_unit(s, i);
+        const double unit = test_element_unit(s, i);
         stencil_first(momenta_at, m, n, i, column);
         for (int j = 0; j < n; j++)
             h[j] += column[j] / unit * m->rate[i];
@@ -52,37 +52,37 @@ static void by_differences(const moving_place *m, const double M[], double h[])
     }
 }
 
-static double size_of(const specimen *s, const double F[])
+static double size_of(const test_element *s, const double F[])
 {
     double size = 0;
     for (int i = 0; i < s->coordinates; i++)
-        size = fmax(size, fabs(F[i]) * specimen_unit(s, i));
+        size = fmax(size, fabs(F[i]) * test_element_unit(s, i));
     return size;
 }
 
-static void compare(const specimen *s, const double found[], const double right[], double size,
-                    const char *what, claim *one)
+static void compare(const test_element *s, const double found[], const double right[], double size,
+                    const char *what, check_result *one)
 {
-    char where[SPECIMEN_WORDS];
+    char where[TEST_ELEMENT_WORDS];
     for (int i = 0; i < s->coordinates; i++)
-        claims_departs(
-            one, claims_share(fabs(found[i] - right[i]) * specimen_unit(s, i), size),
+        checks_deviation(
+            one, checks_relative(fabs(found[i] - right[i]) * test_element_unit(s, i), size),
             "inertia: the inertia force in coordinate %d (%s) is %.6g, but according to %s it is "
             "%.6g%s",
-            i + 1, specimen_coordinate(s, i, where), found[i], what, right[i], s->words);
+            i + 1, test_element_coordinate(s, i, where), found[i], what, right[i], s->words);
 }
 
 /* Checks that C is the derivative of the inertia forces with respect to the rates. These forces are
  * quadratic in the rates, so central differences are exact. */
-static void check_rates(const specimen *s, const node_state x[], const double rate[],
-                        const double C[], double size, claim *one)
+static void check_rates(const test_element *s, const node_state x[], const double rate[],
+                        const double C[], double size, check_result *one)
 {
     const int n = s->coordinates;
-    char first[SPECIMEN_WORDS], other[SPECIMEN_WORDS];
+    char first[TEST_ELEMENT_WORDS], other[TEST_ELEMENT_WORDS];
     double moved[N], taken[2][N];
     memcpy(moved, rate, (size_t)n * sizeof *moved);
     for (int j = 0; j < n; j++) {
-        const double step = specimen_unit(s, j);
+        const double step = test_element_unit(s, j);
         for (int side = 0; side < 2; side++) {
             moved[j] = rate[j] + (side ? step : -step);
             s->type.inertia(s->data, x, NULL,
@@ -91,19 +91,19 @@ static void check_rates(const specimen *s, const node_state x[], const double ra
         moved[j] = rate[j];
         for (int i = 0; i < n; i++) {
             const double found = (taken[1][i] - taken[0][i]) / (2 * step);
-            claims_departs(
-                one, fabs(C[n * i + j] - found) * specimen_unit(s, i) * step / size,
+            checks_deviation(
+                one, fabs(C[n * i + j] - found) * test_element_unit(s, i) * step / size,
                 "inertia: entry %d, %d (%s, %s) of C is %.6g, but finite differences of the "
                 "inertia forces give %.6g%s",
-                i + 1, j + 1, specimen_coordinate(s, i, first), specimen_coordinate(s, j, other),
-                C[n * i + j], found, s->words);
+                i + 1, j + 1, test_element_coordinate(s, i, first),
+                test_element_coordinate(s, j, other), C[n * i + j], found, s->words);
         }
     }
 }
 
 /* Checks that rotating the whole element and its rates rotates the required forces. */
-static void check_turned(const specimen *s, const node_state x[], const inertia_output *out,
-                         double size, claim *one)
+static void check_turned(const test_element *s, const node_state x[], const inertia_output *out,
+                         double size, check_result *one)
 {
     static const double turn[3] = {0.71, -1.93, 1.37};
     const int n = s->coordinates;
@@ -111,7 +111,7 @@ static void check_turned(const specimen *s, const node_state x[], const inertia_
     double q[4], R[9], rate[N], acceleration[N], taken[N], right[N];
     rotation_exp(turn, q);
     rotation_matrix(q, R);
-    specimen_carry(s, turn, x, turned);
+    test_element_rigid_motion(s, turn, x, turned);
     memcpy(rate, out->rate, (size_t)n * sizeof *rate);
     memcpy(acceleration, out->acceleration, (size_t)n * sizeof *rate);
     memcpy(right, out->taken, (size_t)n * sizeof *right);
@@ -126,7 +126,7 @@ static void check_turned(const specimen *s, const node_state x[], const inertia_
     compare(s, taken, right, size, "the same element rotated as a whole", one);
 }
 
-static void check_one(const specimen *s, claims *c)
+static void check_one(const test_element *s, check_results *c)
 {
     const int n = s->coordinates;
     if (n > 2 * NODE_COORDINATES) /* only elements with two nodes are checked */
@@ -134,25 +134,26 @@ static void check_one(const specimen *s, claims *c)
     node_state x[ELEMENT_MAX_NODES];
     double numbers[2 * N], rate[N], acceleration[N], M[N * N], C[N * N], h[N], taken[N], right[N];
     const moving_place place = {{s, x}, rate};
-    specimen_state(s, 0.2, 31, x);
-    specimen_numbers(2 * n, 77, numbers);
+    test_element_state(s, 0.2, 31, x);
+    test_element_numbers(2 * n, 77, numbers);
     for (int i = 0; i < n; i++) {
-        rate[i] = 40 * numbers[i] * specimen_unit(s, i);
-        acceleration[i] = 900 * numbers[n + i] * specimen_unit(s, i);
+        rate[i] = 40 * numbers[i] * test_element_unit(s, i);
+        acceleration[i] = 900 * numbers[n + i] * test_element_unit(s, i);
     }
-    claims_doing(c, "inertia in time%s", s->words);
+    checks_current(c, "inertia in time%s", s->words);
     inertia_output out = {.M = M, .rate = rate, .taken = h, .C = C};
     const status outcome = s->type.inertia(s->data, x, NULL, &out);
-    claims_asks(claims_open(c, "the element has inertia during a motion", 0), outcome == STATUS_OK,
-                "inertia: status '%s' in time%s", status_name(outcome), s->words);
+    checks_require(checks_open(c, "the element has inertia during a motion", 0),
+                   outcome == STATUS_OK, "inertia: status '%s' in time%s", status_name(outcome),
+                   s->words);
     if (outcome != STATUS_OK)
         return;
     by_differences(&place, M, right);
     const double size = size_of(s, right);
     compare(s, h, right, size, "finite differences of the kinetic energy",
-            claims_open(c, "inertia forces derive from the energy", 1e-8));
+            checks_open(c, "inertia forces derive from the energy", 1e-8));
     check_rates(s, x, rate, C, size,
-                claims_open(c, "C is the derivative with respect to the rates", 1e-11));
+                checks_open(c, "C is the derivative with respect to the rates", 1e-11));
     dense_mul_vec(n, n, M, acceleration, right);
     for (int i = 0; i < n; i++)
         right[i] += h[i];
@@ -160,34 +161,34 @@ static void check_one(const specimen *s, claims *c)
     s->type.inertia(s->data, x, NULL, &out);
     compare(s, taken, right, size_of(s, right),
             "M times the accelerations plus the forces without accelerations",
-            claims_open(c, "accelerations are multiplied by M", 1e-12));
+            checks_open(c, "accelerations are multiplied by M", 1e-12));
     check_turned(s, x, &out, size_of(s, right),
-                 claims_open(c, "inertia forces rotate with the element", 1e-11));
+                 checks_open(c, "inertia forces rotate with the element", 1e-11));
 }
 
 /* Runs the checks, and repeats them without rotary inertia, so that only the twist has a moment of
  * inertia. The checks are not repeated if the section is given by matrices or the type has no
  * rotary inertia. */
-static void check(const specimen *s, claims *c)
+static void check(const test_element *s, check_results *c)
 {
-    specimen_request what = s->made;
-    specimen line;
+    test_element_request what = s->made;
+    test_element line;
     fault f = {""};
     check_one(s, c);
     if (s->section.matrices || !(s->made.features & FEATURE_ROTARY_INERTIA))
         return;
     what.features &= ~(unsigned)FEATURE_ROTARY_INERTIA;
-    if (specimen_make(&what, &line, &f) == STATUS_OK)
+    if (test_element_make(&what, &line, &f) == STATUS_OK)
         check_one(&line, c);
-    specimen_free(&line);
+    test_element_free(&line);
 }
 
-void checks_in_time(const formulation *chosen, claims *out)
+void checks_in_time(const formulation *chosen, check_results *out)
 {
     if (!element_spreads(chosen->type, chosen->option)) {
-        claims_not_made(out, "inertia forces derive from the energy",
+        checks_not_made(out, "inertia forces derive from the energy",
                         "during motions the mass of the element is lumped at its nodes");
         return;
     }
-    specimens_each(chosen, out, check);
+    test_elements_each(chosen, out, check);
 }

@@ -155,11 +155,11 @@ status list_json_case(FILE *to, const case_type *type, const double value[], fau
     return outcome;
 }
 
-static json_t *findings_of(const formulation *chosen, const rule *rules, int count)
+static json_t *deviations_of(const formulation *chosen, const rule *rules, int count)
 {
     json_t *list = json_array();
     for (int i = 0; i < count; i++)
-        if (rules_speak_of(&rules[i], chosen->key))
+        if (rules_apply_to(&rules[i], chosen->key))
             json_array_append_new(
                 list, json_pack("{s:s,s:s,s:s,s:s,s:s,s:s,s:s}", "rule", rules[i].name, "cases",
                                 rules[i].cases, "condition", rules[i].condition, "quantities",
@@ -175,7 +175,7 @@ status list_json_formulation(FILE *to, const formulation *chosen, const rule *ru
     json_t *root = begin(), *list = json_array();
     json_object_update_new(root, declaration_of(chosen));
     json_object_set_new(root, "findings",
-                        rules != NULL ? findings_of(chosen, rules, count) : json_null());
+                        rules != NULL ? deviations_of(chosen, rules, count) : json_null());
     const int cases = runs_on_cases(chosen->type, all, MOST_CASES);
     for (int i = 0; i < cases; i++)
         json_array_append_new(list, runs_of("case", &all[i]));

@@ -72,7 +72,7 @@ static unsigned shear_of(const element_type *t)
     return t->lacks & LACKS_SHEAR_Y ? 0 : t->offers & FEATURE_SHEAR;
 }
 
-void measured_locking(const formulation *chosen, claims *c, measures *out)
+void measured_locking(const formulation *chosen, check_results *c, measures *out)
 {
     const unsigned shear = shear_of(chosen->type);
     beam_request r = {.chosen = chosen,
@@ -80,16 +80,16 @@ void measured_locking(const formulation *chosen, claims *c, measures *out)
                       .needs = shear,
                       .load = SCENE_FORCE,
                       .component = SCENE_UY};
-    claims_doing(c, "a cantilever that becomes thinner");
+    checks_current(c, "a cantilever that becomes thinner");
     over_thickness(&r, shear ? "cantilever with shear, force" : "cantilever, force", out);
     r.quarter = 1;
-    claims_doing(c, "a quarter ring that becomes thinner");
+    checks_current(c, "a quarter ring that becomes thinner");
     over_thickness(&r, "quarter ring, straight elements", out);
     r.quarter = 0;
     r.load = SCENE_MOMENT;
     r.needs = shear | FEATURE_LARGE;
     r.analysis = BEAM_LARGE;
-    claims_doing(c, "a beam that is bent by a quarter turn and becomes thin");
+    checks_current(c, "a beam that is bent by a quarter turn and becomes thin");
     over_thickness(&r, "bent by a quarter turn, moment", out);
 }
 
@@ -107,7 +107,7 @@ typedef struct state {
     beam_analysis analysis;
     scene_load_kind load;
     int direction, component;
-    const char *doubt; /* reason for an error of a linear state that more elements do not reduce */
+    const char *reason; /* reason for an error of a linear state that more elements do not reduce */
 } state;
 
 static const state states[] = {
@@ -151,17 +151,17 @@ static double states_exact_of(const state *s, const section *c, double load)
 static void states_conclude(const state *s, element_measure *one)
 {
     const double coarse = fabs(one->error[0]), fine = fabs(one->error[1]);
-    one->astray = fine > 1e-6 && fine > 0.5 * coarse;
-    if (one->astray && coarse < 1e-9)
+    one->wrong_limit = fine > 1e-6 && fine > 0.5 * coarse;
+    if (one->wrong_limit && coarse < 1e-9)
         snprintf(one->words, sizeof one->words,
                  "the result is exact with one element, but has an error of %.2g %% with four: a "
                  "coupling of the nodes, its sign, or a power of the length is wrong",
                  100 * fine);
-    else if (one->astray)
+    else if (one->wrong_limit)
         snprintf(one->words, sizeof one->words,
                  "the error is %.2g %% with one element and %.2g %% with four: a stiffness of the "
                  "section is wrong (probably %s)",
-                 100 * coarse, 100 * fine, s->doubt);
+                 100 * coarse, 100 * fine, s->reason);
 }
 
 static void measure_state(const formulation *chosen, const state *s, measures *out)
@@ -215,25 +215,26 @@ static void compare_units(measures *out)
 
 /* Reports wrong limits as violated requirements, one for each linear state, or a single one for
  * wrong units. */
-static void hold_limits(claims *c, const measures *m)
+static void hold_limits(check_results *c, const measures *m)
 {
     if (m->words[0] != '\0') {
-        claims_asks(claims_open(c, "units", 0), 0, "%s", m->words);
+        checks_require(checks_open(c, "units", 0), 0, "%s", m->words);
         return;
     }
     for (int i = 0; i < m->count; i++) {
         const element_measure *one = &m->measure[i];
-        char name[CLAIM_NAME + 8];
+        char name[CHECK_NAME + 8];
         snprintf(name, sizeof name, "limit of %s", one->name);
         if (one->points > 1 && states[i].analysis == BEAM_LINEAR)
-            claims_asks(claims_open(c, name, 0), !one->astray, "%s: %s", one->name, one->words);
+            checks_require(checks_open(c, name, 0), !one->wrong_limit, "%s: %s", one->name,
+                           one->words);
     }
 }
 
-void measured_states(const formulation *chosen, claims *c, measures *out)
+void measured_states(const formulation *chosen, check_results *c, measures *out)
 {
     for (size_t i = 0; i < sizeof states / sizeof states[0]; i++) {
-        claims_doing(c, "a cantilever under %s", states[i].name);
+        checks_current(c, "a cantilever under %s", states[i].name);
         measure_state(chosen, &states[i], out);
     }
     compare_units(out);
@@ -305,7 +306,7 @@ static double orders_exact_of(const orders_question *q, const section *c, beam_r
 
 /* Returns the index of the finer of the two finest meshes whose errors exceed `noise`; 0: there are
  * no such meshes. */
-static int telling(const element_measure *one)
+static int informative_points(const element_measure *one)
 {
     int last = 0;
     for (int i = 1; i < one->points; i++)
@@ -316,23 +317,23 @@ static int telling(const element_measure *one)
 
 /* Requires that the observed order is at least the declared minimum. */
 static void hold_against_declared(const orders_question *q, int last, const element_measure *one,
-                                  claims *c)
+                                  check_results *c)
 {
     static const char *const analysis[ELEMENT_ANALYSES] = {"statics", "vibration", "buckling"};
-    char name[CLAIM_NAME];
+    char name[CHECK_NAME];
     snprintf(name, sizeof name, "order of %s", q->name);
-    claim *claimed = claims_open(c, name, 0.3);
+    check_result *claimed = checks_open(c, name, 0.3);
     if (last == 0 && fabs(one->error[one->points - 1]) <= noise)
-        claims_asks(claimed, 1, "%s", "");
+        checks_require(claimed, 1, "%s", "");
     else if (last > 1 && one->order < 0.1 && one->least > 0)
-        claims_asks(
+        checks_require(
             claimed, 0,
             "order: the errors do not decrease (%.2g, %.2g, %.2g with %g, %g and %g elements, %s), "
             "so the limit is wrong; correct the element, or the constants of its section",
             fabs(one->error[last - 2]), fabs(one->error[last - 1]), fabs(one->error[last]),
             one->at[last - 2], one->at[last - 1], one->at[last], q->name);
     else if (last > 0)
-        claims_departs(
+        checks_deviation(
             claimed, one->least - one->order,
             "order: at least %d is declared in %s, but %s shows %.1f (errors of %.2g and %.2g with "
             "%g and %g elements); declare the measured order, or correct the element",
@@ -340,7 +341,7 @@ static void hold_against_declared(const orders_question *q, int last, const elem
             fabs(one->error[last]), one->at[last - 1], one->at[last]);
 }
 
-static void measure_order(const formulation *chosen, const orders_question *q, claims *c,
+static void measure_order(const formulation *chosen, const orders_question *q, check_results *c,
                           measures *out)
 {
     element_measure *one = measures_add(out, q->name);
@@ -363,17 +364,17 @@ static void measure_order(const formulation *chosen, const orders_question *q, c
         if (!beam_point(&r, r.elements, exact, one))
             return;
     }
-    const int last = telling(one);
+    const int last = informative_points(one);
     if (last > 0)
         one->order = log(fabs(one->error[last - 1] / one->error[last])) /
                      log(one->at[last] / one->at[last - 1]);
     hold_against_declared(q, last, one, c);
 }
 
-void measured_orders(const formulation *chosen, claims *c, measures *out)
+void measured_orders(const formulation *chosen, check_results *c, measures *out)
 {
     for (size_t i = 0; i < sizeof questions / sizeof questions[0]; i++) {
-        claims_doing(c, "%s", questions[i].name);
+        checks_current(c, "%s", questions[i].name);
         measure_order(chosen, &questions[i], c, out);
     }
 }

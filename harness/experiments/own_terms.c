@@ -9,7 +9,7 @@
 #include "harness/experiments/experiments_impl.h"
 #include "harness/formulations/formulations.h"
 
-enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES, VALUES = 12 };
+enum { M = TEST_ELEMENT_STRAINS, N = TEST_ELEMENT_COORDINATES, VALUES = 12 };
 
 /* Returns the smallest eigenvalue of a symmetric matrix; NaN: out of memory, or not computed. */
 static double least_eigenvalue(int n, double A[])
@@ -28,41 +28,42 @@ static double least_eigenvalue(int n, double A[])
 }
 
 /* Computes the scaled matrix B. Returns 0, and reports a violation, if V contains NaN or Inf. */
-static int scale_damping(const specimen *s, const double C[], const double V[], double B[],
-                         claim *one)
+static int scale_damping(const test_element *s, const double C[], const double V[], double B[],
+                         check_result *one)
 {
     const int n = s->strains, wrong = damping_scale(n, C, V, B);
     if (wrong < n * n)
-        claims_asks(one, 0, "damping: entry %d, %d of V is %s; give finite numbers%s",
-                    wrong / n + 1, wrong % n + 1, isnan(V[wrong]) ? "NaN" : "Inf", s->words);
+        checks_require(one, 0, "damping: entry %d, %d of V is %s; give finite numbers%s",
+                       wrong / n + 1, wrong % n + 1, isnan(V[wrong]) ? "NaN" : "Inf", s->words);
     return wrong == n * n;
 }
 
-void own_damping_check(const specimen *s, const double C[], claims *c)
+void own_damping_check(const test_element *s, const double C[], check_results *c)
 {
     const int n = s->strains;
     double V[M * M], B[M * M];
     if (s->type.damping == NULL)
         return;
-    claims_doing(c, "damping%s", s->words);
+    checks_current(c, "damping%s", s->words);
     memset(V, 0, sizeof V);
     s->type.damping(s->data, V);
-    claim *symmetric = claims_open(c, "the damping matrix is symmetric", DAMPING_ROUNDING),
-          *dissipates = claims_open(c, "damping dissipates energy", DAMPING_ROUNDING);
+    check_result *symmetric = checks_open(c, "the damping matrix is symmetric", DAMPING_ROUNDING),
+                 *dissipates = checks_open(c, "damping dissipates energy", DAMPING_ROUNDING);
     if (!scale_damping(s, C, V, B, dissipates))
         return;
     for (int i = 0; i < n; i++) {
-        claims_departs(dissipates, B[n * i + i] < 0 ? -B[n * i + i] : 0,
-                       "damping: entry %d, %d of V is %.6g N s/m, so some motions gain energy; "
-                       "give a positive semidefinite matrix%s",
-                       i + 1, i + 1, V[n * i + i], s->words);
+        checks_deviation(dissipates, B[n * i + i] < 0 ? -B[n * i + i] : 0,
+                         "damping: entry %d, %d of V is %.6g N s/m, so some motions gain energy; "
+                         "give a positive semidefinite matrix%s",
+                         i + 1, i + 1, V[n * i + i], s->words);
         for (int j = 0; j < i; j++)
-            claims_departs(symmetric, fabs(B[n * i + j] - B[n * j + i]),
-                           "damping: entry %d, %d of V is %.6g, but the transposed entry is %.6g%s",
-                           i + 1, j + 1, V[n * i + j], V[n * j + i], s->words);
+            checks_deviation(
+                symmetric, fabs(B[n * i + j] - B[n * j + i]),
+                "damping: entry %d, %d of V is %.6g, but the transposed entry is %.6g%s", i + 1,
+                j + 1, V[n * i + j], V[n * j + i], s->words);
     }
     const double least = least_eigenvalue(n, B);
-    claims_departs(
+    checks_deviation(
         dissipates,
         least < 0    ? -least
         : least >= 0 ? 0
@@ -74,7 +75,7 @@ void own_damping_check(const specimen *s, const double C[], claims *c)
 
 /* A point of an element, with a force and a moment. */
 typedef struct line_place {
-    specimen_place at;
+    test_element_stencil at;
     double point, force[3], moment[3];
 } line_place;
 
@@ -93,7 +94,7 @@ static int motion_at(const void *context, int i, double si, int j, double sj, do
 {
     const line_place *p = context;
     node_state x[ELEMENT_MAX_NODES];
-    specimen_moved(&p->at, i, si, j, sj, x);
+    test_element_moved(&p->at, i, si, j, sj, x);
     const line_output out = section_of(p, x, NULL, NULL, NULL);
     memcpy(values, out.r, sizeof out.r);
     memcpy(values + 3, out.R, sizeof out.R);
@@ -115,20 +116,20 @@ static int forces_at(const void *context, int i, double si, int j, double sj, do
 {
     const line_place *p = context;
     node_state x[ELEMENT_MAX_NODES];
-    specimen_moved(&p->at, i, si, j, sj, x);
+    test_element_moved(&p->at, i, si, j, sj, x);
     forces_of(p, x, values);
     return 0;
 }
 
-static void check_jacobian(const line_place *p, claim *one)
+static void check_jacobian(const line_place *p, check_result *one)
 {
-    const specimen *s = p->at.s;
+    const test_element *s = p->at.s;
     const int n = s->coordinates;
-    char where[SPECIMEN_WORDS];
+    char where[TEST_ELEMENT_WORDS];
     double P[3 * N], T[3 * N], change[VALUES];
     const line_output now = section_of(p, p->at.x, P, T, NULL);
     for (int j = 0; j < n; j++) {
-        const double unit = specimen_unit(s, j);
+        const double unit = test_element_unit(s, j);
         double turn[3] = {0};
         stencil_first(motion_at, p, VALUES, j, change);
         for (int k = 0; k < 3; k++) { /* half the sum of the axes times their changes */
@@ -140,31 +141,33 @@ static void check_jacobian(const line_place *p, claim *one)
                 turn[i] += part[i] / 2;
         }
         for (int i = 0; i < 3; i++) {
-            claims_departs(one, fabs(P[n * i + j] * unit - change[i]) / s->request.length,
-                           "line: entry %d, %d of P (%s) at %g is %.6g, but differences of r give "
-                           "%.6g%s",
-                           i + 1, j + 1, specimen_coordinate(s, j, where), p->point, P[n * i + j],
-                           change[i] / unit, s->words);
-            claims_departs(one, fabs(T[n * i + j] * unit - turn[i]),
-                           "line: entry %d, %d of T (%s) at %g is %.6g, but differences of R give "
-                           "%.6g%s",
-                           i + 1, j + 1, specimen_coordinate(s, j, where), p->point, T[n * i + j],
-                           turn[i] / unit, s->words);
+            checks_deviation(
+                one, fabs(P[n * i + j] * unit - change[i]) / s->request.length,
+                "line: entry %d, %d of P (%s) at %g is %.6g, but differences of r give "
+                "%.6g%s",
+                i + 1, j + 1, test_element_coordinate(s, j, where), p->point, P[n * i + j],
+                change[i] / unit, s->words);
+            checks_deviation(
+                one, fabs(T[n * i + j] * unit - turn[i]),
+                "line: entry %d, %d of T (%s) at %g is %.6g, but differences of R give "
+                "%.6g%s",
+                i + 1, j + 1, test_element_coordinate(s, j, where), p->point, T[n * i + j],
+                turn[i] / unit, s->words);
         }
     }
 }
 
 /* Checks H. Half of the moments on the nodes transforms the derivative with respect to spatial
  * increments to the exponential chart. */
-static void check_second(const line_place *p, claim *one)
+static void check_second(const line_place *p, check_result *one)
 {
-    const specimen *s = p->at.s;
+    const test_element *s = p->at.s;
     const int n = s->coordinates;
     double H[N * N], P[3 * N], T[3 * N], F[N], column[N];
     section_of(p, p->at.x, P, T, H);
     forces_of(p, p->at.x, F);
     for (int j = 0; j < n; j++) {
-        const double unit = specimen_unit(s, j);
+        const double unit = test_element_unit(s, j);
         const int k = j % NODE_COORDINATES - 3, first = j - k;
         stencil_first(forces_at, p, n, j, column);
         for (int i = 0; i < n; i++)
@@ -174,17 +177,16 @@ static void check_second(const line_place *p, claim *one)
             column[first + (k + 2) % 3] -= F[first + (k + 1) % 3] / 2;
         }
         for (int i = 0; i < n; i++)
-            claims_departs(one,
-                           fabs(H[n * i + j] - column[i]) * unit * specimen_unit(s, i),
-                           "line: entry %d, %d of H at %g is %.6g, but differences give %.6g%s",
-                           i + 1, j + 1, p->point, H[n * i + j], column[i], s->words);
+            checks_deviation(one, fabs(H[n * i + j] - column[i]) * unit * test_element_unit(s, i),
+                             "line: entry %d, %d of H at %g is %.6g, but differences give %.6g%s",
+                             i + 1, j + 1, p->point, H[n * i + j], column[i], s->words);
     }
 }
 
 /* Checks that the forces on the nodes are in equilibrium with the load. */
-static void check_sums(const line_place *p, claim *one)
+static void check_sums(const line_place *p, check_result *one)
 {
-    const specimen *s = p->at.s;
+    const test_element *s = p->at.s;
     const node_state *x = p->at.x;
     const line_output at = section_of(p, x, NULL, NULL, NULL);
     double F[N], sum[6] = {0}, moment[3];
@@ -201,56 +203,58 @@ static void check_sums(const line_place *p, claim *one)
     for (int i = 0; i < 6; i++) {
         const double right = i < 3 ? p->force[i] : p->moment[i - 3] + moment[i - 3],
                      size = i < 3 ? s->request.length : 1;
-        claims_departs(one, fabs(sum[i] - right) * size,
-                       "line: the forces on the nodes have the %s %.6g along %c instead of %.6g, "
-                       "that of the load at %g; a rigid motion of the nodes must move the section "
-                       "in the same way%s",
-                       i < 3 ? "sum" : "moment", sum[i], "xyz"[i % 3], right, p -> point,
-                       s -> words);
+        checks_deviation(
+            one, fabs(sum[i] - right) * size,
+            "line: the forces on the nodes have the %s %.6g along %c instead of %.6g, "
+            "that of the load at %g; a rigid motion of the nodes must move the section "
+            "in the same way%s",
+            i < 3 ? "sum" : "moment", sum[i], "xyz"[i % 3], right, p -> point, s -> words);
     }
 }
 
 /* Checks the section of the undeformed element, if it is straight. */
-static void check_at_rest(const line_place *p, claim *one)
+static void check_at_rest(const line_place *p, check_result *one)
 {
-    const specimen *s = p->at.s;
+    const test_element *s = p->at.s;
     node_state x[ELEMENT_MAX_NODES];
-    specimen_state(s, 0, 1, x);
+    test_element_state(s, 0, 1, x);
     const line_output at = section_of(p, x, NULL, NULL, NULL);
     for (int i = 0; i < 3; i++) {
         const double right = (1 - p->point) * x[0].r[i] + p->point * x[s->nodes - 1].r[i];
-        claims_departs(one, fabs(at.r[i] - right) / s->request.length,
-                       "line: in the undeformed element, the section at %g is at %c = %.6g instead "
-                       "of %.6g%s",
-                       p->point, "xyz"[i], at.r[i], right, s->words);
+        checks_deviation(
+            one, fabs(at.r[i] - right) / s->request.length,
+            "line: in the undeformed element, the section at %g is at %c = %.6g instead "
+            "of %.6g%s",
+            p->point, "xyz"[i], at.r[i], right, s->words);
     }
     for (int i = 0; i < 9; i++)
-        claims_departs(one, fabs(at.R[i] - x[0].R[i]),
-                       "line: in the undeformed element, R at %g differs from that of the nodes%s",
-                       p->point, s->words);
+        checks_deviation(
+            one, fabs(at.R[i] - x[0].R[i]),
+            "line: in the undeformed element, R at %g differs from that of the nodes%s", p->point,
+            s->words);
 }
 
-void own_line_check(const specimen *s, claims *c)
+void own_line_check(const test_element *s, check_results *c)
 {
     static const double point[] = {0, 0.3, 0.75, 1}, turn[3] = {0.5, -0.6, 0.7};
     node_state bent[ELEMENT_MAX_NODES], x[ELEMENT_MAX_NODES];
     const int straight = vec3_norm(s->made.curvature) == 0;
     if (s->type.line == NULL)
         return;
-    claims_doing(c, "line%s", s->words);
-    specimen_state(s, 0.05, 5, bent);
-    specimen_carry(s, turn, bent, x);
+    checks_current(c, "line%s", s->words);
+    test_element_state(s, 0.05, 5, bent);
+    test_element_rigid_motion(s, turn, bent, x);
     for (size_t k = 0; k < sizeof point / sizeof point[0]; k++) {
         const double f = 1 / s->request.length;
         const line_place p = {.at = {s, x},
                               .point = point[k],
                               .force = {0.7 * f, -1.1 * f, 0.4 * f},
                               .moment = {-0.6, 0.9, 1.2}};
-        check_jacobian(&p, claims_open(c, "P and T are the derivatives of the sections", 1e-8));
-        check_second(&p, claims_open(c, "H is the derivative of the forces of a load", 1e-7));
+        check_jacobian(&p, checks_open(c, "P and T are the derivatives of the sections", 1e-8));
+        check_second(&p, checks_open(c, "H is the derivative of the forces of a load", 1e-7));
         check_sums(&p,
-                   claims_open(c, "forces on the nodes are in equilibrium with the load", 1e-11));
+                   checks_open(c, "forces on the nodes are in equilibrium with the load", 1e-11));
         if (straight)
-            check_at_rest(&p, claims_open(c, "sections of the undeformed element", 1e-13));
+            check_at_rest(&p, checks_open(c, "sections of the undeformed element", 1e-13));
     }
 }

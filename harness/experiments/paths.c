@@ -11,12 +11,12 @@
 #include "elements/math/scalar.h"
 #include "harness/formulations/adapted.h"
 
-enum { M = SPECIMEN_STRAINS, N = SPECIMEN_COORDINATES };
+enum { M = TEST_ELEMENT_STRAINS, N = TEST_ELEMENT_COORDINATES };
 
-static const char *const claim_continues = "commit does not change the strains",
+static const char *const check_continuation = "commit does not change the strains",
                          *const claim_forces = "commit does not change the forces",
-                         *const claim_twice = "a second commit changes nothing",
-                         *const claim_same = "commit gives the same bits again";
+                         *const check_repetition = "a second commit changes nothing",
+                         *const check_same = "commit gives the same bits again";
 
 /* A committed state, and the history before and after the call of `commit`. */
 typedef struct committed {
@@ -24,7 +24,7 @@ typedef struct committed {
     double before[ADAPTERS_MOST_HISTORY], after[ADAPTERS_MOST_HISTORY];
 } committed;
 
-static void commit_of(const specimen *s, const double before[], committed *out)
+static void commit_of(const test_element *s, const double before[], committed *out)
 {
     const size_t bytes = (size_t)s->values * sizeof(double);
     memcpy(out->before, before, bytes);
@@ -34,17 +34,17 @@ static void commit_of(const specimen *s, const double before[], committed *out)
 
 /* Computes the forces of a type that computes them, multiplied by the units of their coordinates
  * [J]. */
-static status forces_of(const specimen *s, const node_state x[], const double history[],
+static status forces_of(const test_element *s, const node_state x[], const double history[],
                         double force[N])
 {
     TRY(s->made.given->force(adapted_own(s->data), x,
                              &(force_output){.F = force, .history = history}));
     for (int i = 0; i < s->coordinates; i++)
-        force[i] *= specimen_unit(s, i);
+        force[i] *= test_element_unit(s, i);
     return STATUS_OK;
 }
 
-static void forces_continue(const specimen *s, const committed *of, claim *one)
+static void forces_continue(const test_element *s, const committed *of, check_result *one)
 {
     double first[N], then[N], most = 0;
     if (forces_of(s, of->x, of->before, first) != STATUS_OK ||
@@ -53,72 +53,73 @@ static void forces_continue(const specimen *s, const committed *of, claim *one)
     for (int i = 0; i < s->coordinates; i++)
         most = fmax(most, fabs(first[i]));
     for (int i = 0; i < s->coordinates; i++)
-        claims_departs(
-            one, claims_share(fabs(then[i] - first[i]), most),
+        checks_deviation(
+            one, checks_relative(fabs(then[i] - first[i]), most),
             "commit: the force in coordinate %d of a state, times its unit, changes from "
             "%.9g J to %.9g J when the state is committed; store what gives the same "
             "forces%s",
             i + 1, first[i], then[i], s->words);
 }
 
-static void continues(const specimen *s, const committed *of, claim *one)
+static void continues(const test_element *s, const committed *of, check_result *one)
 {
     double first[M], then[M];
-    if (specimen_lacks_energy(s)) {
+    if (test_element_lacks_energy(s)) {
         forces_continue(s, of, one);
         return;
     }
     s->type.strain(s->data, of->x, &(strain_output){.e = first, .history = of->before});
     s->type.strain(s->data, of->x, &(strain_output){.e = then, .history = of->after});
     for (int i = 0; i < s->strains; i++)
-        claims_departs(one, fabs(then[i] - first[i]) / s->request.length,
-                       "commit: strain %d of a state changes from %.9g m to %.9g m when the state "
-                       "is committed; store values that give the same strains%s",
-                       i + 1, first[i], then[i], s->words);
+        checks_deviation(
+            one, fabs(then[i] - first[i]) / s->request.length,
+            "commit: strain %d of a state changes from %.9g m to %.9g m when the state "
+            "is committed; store values that give the same strains%s",
+            i + 1, first[i], then[i], s->words);
 }
 
-static void compare_values(const specimen *s, const double first[], const double then[],
-                           const char *what, claim *one)
+static void compare_values(const test_element *s, const double first[], const double then[],
+                           const char *what, check_result *one)
 {
     for (int i = 0; i < s->values; i++)
-        claims_departs(one, fabs(then[i] - first[i]) / fmax(1, fabs(first[i])),
-                       "commit: value %d of the history is %.9g, but %.9g %s%s", i + 1, first[i],
-                       then[i], what, s->words);
+        checks_deviation(one, fabs(then[i] - first[i]) / fmax(1, fabs(first[i])),
+                         "commit: value %d of the history is %.9g, but %.9g %s%s", i + 1, first[i],
+                         then[i], what, s->words);
 }
 
-static void check(const specimen *s, claims *c)
+static void check(const test_element *s, check_results *c)
 {
     static const unsigned seed[] = {5, 71, 73};
     committed of, again;
     const double *last = s->history;
     if (s->values == 0)
         return;
-    claims_doing(c, "commit%s", s->words);
+    checks_current(c, "commit%s", s->words);
     for (size_t k = 0; k < sizeof seed / sizeof seed[0]; k++) {
-        specimen_state(s, 0.05, seed[k], of.x);
+        test_element_state(s, 0.05, seed[k], of.x);
         memcpy(again.x, of.x, sizeof of.x);
         commit_of(s, last, &of);
         continues(s, &of,
-                  specimen_lacks_energy(s) ? claims_open(c, claim_forces, 1e-11)
-                                           : claims_open(c, claim_continues, 1e-13));
+                  test_element_lacks_energy(s) ? checks_open(c, claim_forces, 1e-11)
+                                               : checks_open(c, check_continuation, 1e-13));
         commit_of(s, of.before, &again);
         compare_values(s, of.after, again.after, "in a second call with the same input",
-                       claims_open(c, claim_same, 0));
+                       checks_open(c, check_same, 0));
         commit_of(s, of.after, &again);
         compare_values(s, of.after, again.after, "after a second commit of the same state",
-                       claims_open(c, claim_twice, 1e-12));
+                       checks_open(c, check_repetition, 1e-12));
         memcpy(again.before, of.after, sizeof of.after);
         last = again.before;
     }
 }
 
-void checks_history(const formulation *chosen, claims *out)
+void checks_history(const formulation *chosen, check_results *out)
 {
     if (element_history(chosen->type, chosen->option) == 0) {
-        claims_not_made(out, claim_continues, "declares no history");
+        checks_not_made(out, check_continuation, "declares no history");
         return;
     }
-    specimens_each(chosen, out, check);
+    test_elements_each(chosen, out, check);
 }
 
 /* Strains and forces along a path of one element. */
@@ -137,37 +138,37 @@ enum { COMPARES_STRAINS, COMPARES_FORCES, COMPARES_ENERGY };
 
 /* An element that follows a path, with its history and its last results. */
 typedef struct walker {
-    const specimen *s;
+    const test_element *s;
     double history[ADAPTERS_MOST_HISTORY];
     int compares;
     double e[M], energy, force[N]; /* force: multiplied by the unit of its coordinate [J] */
     double most_e, most_energy, most_force; /* largest absolute values in the first cycle */
 } walker;
 
-static void walker_begin(const specimen *s, walker *w)
+static void walker_begin(const test_element *s, walker *w)
 {
     memset(w, 0, sizeof *w);
     w->s = s;
-    w->compares = s->made.given->force == NULL ? COMPARES_STRAINS
-                  : specimen_lacks_energy(s)   ? COMPARES_FORCES
-                                               : COMPARES_ENERGY;
+    w->compares = s->made.given->force == NULL   ? COMPARES_STRAINS
+                  : test_element_lacks_energy(s) ? COMPARES_FORCES
+                                                 : COMPARES_ENERGY;
     if (s->values > 0)
         memcpy(w->history, s->history, (size_t)s->values * sizeof *w->history);
 }
 
 /* Computes the state of a closed cycle at a phase in [0, 1]. */
-static void cycle_state(const specimen *s, double phase, node_state x[])
+static void cycle_state(const test_element *s, double phase, node_state x[])
 {
     const double there = sin(2 * PI * phase), aside = 1 - cos(2 * PI * phase);
     double a[N], b[N], step[N];
     node_state rest[ELEMENT_MAX_NODES];
-    specimen_state(s, 0, 1, rest);
-    specimen_numbers(s->coordinates, 101, a);
-    specimen_numbers(s->coordinates, 103, b);
+    test_element_state(s, 0, 1, rest);
+    test_element_numbers(s->coordinates, 101, a);
+    test_element_numbers(s->coordinates, 103, b);
     for (int i = 0; i < s->coordinates; i++) {
         const int k = i % NODE_COORDINATES;
         step[i] = (k >= 3 && k < 6 ? turned : moved) * (there * a[i] + aside * b[i]) *
-                  specimen_unit(s, i);
+                  test_element_unit(s, i);
     }
     chart_move(rest, s->nodes, s->scalars, step, x);
 }
@@ -183,7 +184,7 @@ static double largest(int count, const double v[])
 
 /* Returns 1 if step k is evaluated. With a history, all steps are evaluated. Otherwise only the
  * steps of the first cycle and of the cycles that end at a mark are evaluated. */
-static int matters(const specimen *s, int k)
+static int matters(const test_element *s, int k)
 {
     int is = s->values > 0 || k <= STEPS;
     for (int i = 0; i < MARKS; i++)
@@ -194,20 +195,20 @@ static int matters(const specimen *s, int k)
 /* Computes the strains, and with `forces` also the forces, of a type that computes strains. */
 static status walker_strains(walker *w, const node_state x[], int forces)
 {
-    const specimen *s = w->s;
-    double J[M * N], sigma[M], inner[SPECIMEN_INNER];
+    const test_element *s = w->s;
+    double J[M * N], sigma[M], inner[TEST_ELEMENT_INNER];
     s->type.strain(s->data, x,
                    &(strain_output){.e = w->e,
                                     .J = forces ? J : NULL,
                                     .history = s->values > 0 ? w->history : NULL});
     if (!forces)
         return STATUS_OK;
-    specimen_rest(s, inner);
-    TRY(specimen_settled(s, w->e, inner, &(stress_output){.sigma = sigma}));
+    test_element_rest(s, inner);
+    TRY(test_element_converged(s, w->e, inner, &(stress_output){.sigma = sigma}));
     memset(w->force, 0, sizeof w->force);
     dense_add_transpose_mul(s->coordinates, s->strains, 1, J, sigma, w->force);
     for (int i = 0; i < s->coordinates; i++)
-        w->force[i] *= specimen_unit(s, i);
+        w->force[i] *= test_element_unit(s, i);
     return STATUS_OK;
 }
 
@@ -215,7 +216,7 @@ static status walker_strains(walker *w, const node_state x[], int forces)
  * forces. */
 static status walker_step(walker *w, int k, const node_state x[], int forces)
 {
-    const specimen *s = w->s;
+    const test_element *s = w->s;
     if (w->compares == COMPARES_STRAINS)
         TRY(walker_strains(w, x, forces));
     else if (w->compares == COMPARES_FORCES)
@@ -233,7 +234,7 @@ static status walker_step(walker *w, int k, const node_state x[], int forces)
 }
 
 /* Rotates the forces of a carried element back. */
-static void turn_back(const specimen *s, const double turn[3], double force[N])
+static void turn_back(const test_element *s, const double turn[3], double force[N])
 {
     double q[4], R[9];
     rotation_exp(turn, q);
@@ -247,7 +248,7 @@ static void turn_back(const specimen *s, const double turn[3], double force[N])
 /* Returns the largest difference between two elements, of which one was carried by a rotation. */
 static double difference(const walker *at, const walker *there, const double turn[3])
 {
-    const specimen *s = at->s;
+    const test_element *s = at->s;
     double differs[N > M ? N : M];
     if (at->compares == COMPARES_ENERGY)
         return fabs(there->energy - at->energy);
@@ -271,7 +272,7 @@ static void conclude(element_measure *one, const char *holds, const char *fails)
 
 /* Follows closed cycles with and without an additional rotation of the whole element, and compares
  * the results. */
-static void superposed(const specimen *s, measures *out)
+static void superposed(const test_element *s, measures *out)
 {
     static const double axis[3] = {0.36, 0.48, 0.8};
     static const char *const name[] = {"strains, turns superposed", "forces, turns superposed",
@@ -289,7 +290,7 @@ static void superposed(const specimen *s, measures *out)
         cycle_state(s, (double)(k % STEPS) / STEPS, x);
         for (int i = 0; i < 3; i++)
             turn[i] = axis[i] * 2 * PI * k / STEPS;
-        specimen_carry(s, turn, x, carried);
+        test_element_rigid_motion(s, turn, x, carried);
         if (walker_step(&at, k, x, 0) != STATUS_OK ||
             walker_step(&there, k, carried, 0) != STATUS_OK) {
             snprintf(one->words, sizeof one->words, "a state of the path cannot be evaluated");
@@ -304,7 +305,7 @@ static void superposed(const specimen *s, measures *out)
 }
 
 /* Follows closed cycles, and compares the states at their ends with the undeformed state. */
-static void cycles(const specimen *s, measures *out)
+static void cycles(const test_element *s, measures *out)
 {
     walker at;
     element_measure *strains = NULL, *forces;
@@ -339,11 +340,11 @@ static void cycles(const specimen *s, measures *out)
 
 /* Checks that errors after superposed rotations and closed cycles are at most `exact`, unless the
  * formulation declares LIMIT_NOT_OBJECTIVE or LIMIT_PATH_DEPENDENT. */
-static void hold_against_declared(const formulation *chosen, const measures *out, claims *c)
+static void hold_against_declared(const formulation *chosen, const measures *out, check_results *c)
 {
     static const struct {
         unsigned limit;
-        const char *claim, *word;
+        const char *check_result, *word;
     } of[] = {{LIMIT_NOT_OBJECTIVE, "superposed turns change no strain", "LIMIT_NOT_OBJECTIVE"},
               {LIMIT_PATH_DEPENDENT, "closed cycles leave no strain", "LIMIT_PATH_DEPENDENT"}};
     for (int i = 0; i < 2 && i < out->count; i++) {
@@ -353,31 +354,31 @@ static void hold_against_declared(const formulation *chosen, const measures *out
         if (chosen->type->limits & of[i].limit) {
             char why[60];
             snprintf(why, sizeof why, "declares %s", of[i].word);
-            claims_not_made(c, of[i].claim, why);
+            checks_not_made(c, of[i].check_result, why);
             continue;
         }
         for (int k = 0; k < one->points; k++)
-            claims_departs(claims_open(c, of[i].claim, exact), one->error[k],
-                           "%s: an error of %.2g of the largest value after %g turns or cycles; "
-                           "correct the update, or declare %s",
-                           one->name, one->error[k], one->at[k], of[i].word);
+            checks_deviation(checks_open(c, of[i].check_result, exact), one->error[k],
+                             "%s: an error of %.2g of the largest value after %g turns or cycles; "
+                             "correct the update, or declare %s",
+                             one->name, one->error[k], one->at[k], of[i].word);
     }
 }
 
-void measured_paths(const formulation *chosen, claims *c, measures *out)
+void measured_paths(const formulation *chosen, check_results *c, measures *out)
 {
-    const specimen_request what = {.given = chosen->type,
-                                   .options = chosen->option,
-                                   .features = specimen_features(chosen->type, 0),
-                                   .unit = 1};
-    specimen s;
+    const test_element_request what = {.given = chosen->type,
+                                       .options = chosen->option,
+                                       .features = test_element_features(chosen->type, 0),
+                                       .unit = 1};
+    test_element s;
     fault f = {""};
-    claims_doing(c, "an element along a path");
-    if (specimen_make(&what, &s, &f) == STATUS_OK) {
+    checks_current(c, "an element along a path");
+    if (test_element_make(&what, &s, &f) == STATUS_OK) {
         superposed(&s, out);
         cycles(&s, out);
     }
     if (element_history(chosen->type, chosen->option) > 0)
         hold_against_declared(chosen, out, c);
-    specimen_free(&s);
+    test_element_free(&s);
 }

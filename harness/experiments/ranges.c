@@ -178,7 +178,7 @@ static void fill_cells(const making *m, int at, int which)
         const int ran = p->status == STATUS_OK && one->missing[0] == '\0';
         m->out->status[cell] = (uint8_t)status_of(p, one, k);
         m->out->cost[cell] = ran && reach_unranked(one->formulation.type)[0] == '\0'
-                                 ? price_cost(&one->formulation, &one->cell[k])
+                                 ? counted_cost(&one->formulation, &one->cell[k])
                                  : NAN;
         m->out->seconds[cell] =
             ran ? one->cell[k].solve.seconds_setup + one->cell[k].solve.seconds_solve : NAN;
@@ -198,12 +198,12 @@ static void fill_errors(const making *m, int at, int which, int q, int quantity,
 {
     const int index = at * m->of->formulations + which;
     const series *one = &m->s->series[index];
-    const scene_quantity *wants = &m->s->point[at].scene.quantity[quantity];
+    const scene_quantity *scene_value = &m->s->point[at].scene.quantity[quantity];
     const truth row = {.value = against->value};
     const verdict v = {.series = index, .quantity = quantity, .truth = &row};
     for (int k = 0; k < m->of->meshes; k++) {
         const size_t value = rows_value(m->out, at, which, k, q);
-        m->out->error[value] = verdict_error(wants, m->out->value[value], against->value);
+        m->out->error[value] = verdict_error(scene_value, m->out->value[value], against->value);
     }
     const int mesh = reach_mesh(m->s, &v, m->of->request.tolerance);
     m->out->least[rows_least(m->out, at, which, q)] = mesh >= 0 ? one->mesh[mesh] : 0;
@@ -235,7 +235,7 @@ static void fill_quantity(const making *m, int at, int q, const known_truths *k)
             shown = one;
     }
     m->out->reference[place] = shown.value;
-    m->out->doubt[place] = shown.doubt;
+    m->out->uncertainty[place] = shown.uncertainty;
     m->out->kind[place] = (uint8_t)shown.kind;
 }
 
@@ -293,7 +293,7 @@ static void add_content(digest *to, const rows *w)
                  values = cells * (size_t)w->shape.quantities,
                  leasts = known * (size_t)w->shape.formulations;
     add_numbers(to, w->reference, known);
-    add_numbers(to, w->doubt, known);
+    add_numbers(to, w->uncertainty, known);
     add_numbers(to, w->value, values);
     add_numbers(to, w->error, values);
     add_numbers(to, w->cost, cells);

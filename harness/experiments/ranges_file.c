@@ -28,7 +28,7 @@ static int columns_of(const parameter_ranges *r, const rows *w,
     const file_column all[RANGES_FILE_COLUMNS] = {
         {"points", NULL, H5T_NATIVE_DOUBLE, 1, {r->design.axes}, NULL, 0},
         {"reference", NULL, H5T_NATIVE_DOUBLE, 1, {q}, from->reference, 0},
-        {"reference_doubt", "1", H5T_NATIVE_DOUBLE, 1, {q}, from->doubt, 0},
+        {"reference_doubt", "1", H5T_NATIVE_DOUBLE, 1, {q}, from->uncertainty, 0},
         {"reference_kind", NULL, H5T_NATIVE_UINT8, 1, {q}, from->kind, ROWS_NONE},
         {"value", NULL, H5T_NATIVE_DOUBLE, 3, {f, m, q}, from->value, 0},
         {"error", "1", H5T_NATIVE_DOUBLE, 3, {f, m, q}, from->error, 0},
@@ -187,7 +187,7 @@ static void write_piece(record_file *r, hid_t set, const file_column *c, long fi
 
 /* Returns the number stored for a value of an axis: the index of a word in the list, or the
  * value. */
-static double place_of(const sweep_axis *a, double value)
+static double frame_motion_of(const sweep_axis *a, double value)
 {
     int i = 0;
     while (a->kind == AXIS_WORDS && i < a->count && a->value[i] != value)
@@ -202,7 +202,7 @@ static status add_points(ranges_file *file, long first, int points, const file_c
     status outcome = at != NULL ? design_points(&file->of->design, first, points, at, f)
                                 : fault_set(f, STATUS_FAULT, "out of memory for points");
     for (int i = 0; i < points * axes && outcome == STATUS_OK; i++)
-        at[i] = place_of(&file->of->axis[i % axes], at[i]);
+        at[i] = frame_motion_of(&file->of->axis[i % axes], at[i]);
     if (outcome == STATUS_OK)
         write_piece(&file->record, file->column[0], c, first, points, at);
     free(at);

@@ -94,7 +94,7 @@ void ranges_file_request(record_file *r, hid_t at, const parameter_ranges *of, c
         record_count(r, at, "seed", (long)of->design.seed);
     if (q->select != NULL)
         record_text(r, at, "selection", q->select);
-    snprintf(noise, sizeof noise, "%.15g", price_noise);
+    snprintf(noise, sizeof noise, "%.15g", counted_cost_noise);
     /* costs count as equal if their ratio is below this value */
     record_text(r, at, "cost_noise", noise);
     record_count(r, at, "axes", of->design.axes);
@@ -159,7 +159,7 @@ enum { LAST_KNOWN = 2 /* index of the last kind that has a reference value */ };
 
 /* Names the formulations to which the reference does not apply at some points, and writes the
  * numbers of these points. */
-static void say_unmeasured(const tally *t, int q, char *text, size_t size)
+static void describe_unmeasured(const tally *t, int q, char *text, size_t size)
 {
     enum { NAMED = 3 };
     const long none = t->kind[q][ROWS_NONE] + t->kind[q][ROWS_DISPUTED];
@@ -179,7 +179,7 @@ static void say_unmeasured(const tally *t, int q, char *text, size_t size)
 }
 
 /* Describes the reference values of a quantity. */
-static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
+static void describe_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
 {
     const long *kind = t->kind[q];
     const int alone = t->of->formulations == 1;
@@ -203,28 +203,28 @@ static void say_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
                                      parts++ > 0 ? "; " : "", part[i].count,
                                      part[i].count == 1 ? "" : "s", part[i].words);
         if (i == LAST_KNOWN && parts > 0)
-            used +=
-                (size_t)snprintf(text + used, RANGES_TABLE_LINE - used,
-                                 ", known to %.1g %% or better", 100 * fmax(t->doubt[q], 1e-16));
+            used += (size_t)snprintf(text + used, RANGES_TABLE_LINE - used,
+                                     ", known to %.1g %% or better",
+                                     100 * fmax(t->uncertainty[q], 1e-16));
     }
     used = used < RANGES_TABLE_LINE ? used : RANGES_TABLE_LINE - 1;
-    say_unmeasured(t, q, text + used, RANGES_TABLE_LINE - used);
+    describe_unmeasured(t, q, text + used, RANGES_TABLE_LINE - used);
 }
 
 /* Writes the kinds of references of a quantity. Later quantities with the same text are written in
  * the same paragraph and are marked in the last argument. */
-static void write_reference(FILE *to, const tally *t, int q, char told[])
+static void write_reference(FILE *to, const tally *t, int q, char written[])
 {
     char text[RANGES_TABLE_LINE], other[RANGES_TABLE_LINE];
     paragraph words;
     const int begun = fprintf(to, "  %s", t->of->quantity[q].name);
     FILE *out = paragraph_begin(&words, to);
-    say_reference(t, q, text);
+    describe_reference(t, q, text);
     for (int i = q + 1; i < t->of->quantities; i++) {
-        say_reference(t, i, other);
-        if (told[i] || strcmp(text, other) != 0)
+        describe_reference(t, i, other);
+        if (written[i] || strcmp(text, other) != 0)
             continue;
-        told[i] = 1;
+        written[i] = 1;
         fprintf(out, ", %s", t->of->quantity[i].name);
     }
     fprintf(out, ": %s", text);
@@ -245,19 +245,19 @@ static void write_without_scene(FILE *to, const tally *t)
     ranges_points_text(r, at, where, sizeof where);
     cell_scene(r->request.type, value, NULL, &s, &why);
     scene_free(&s);
-    paragraph_say(to,
-                  fprintf(to, "  no scene can be built at %ld point%s", t->without_scene,
-                          t->without_scene == 1 ? "" : "s"),
-                  6, "; the first is at %s: %s", where, why.text);
+    paragraph_printf(to,
+                     fprintf(to, "  no scene can be built at %ld point%s", t->without_scene,
+                             t->without_scene == 1 ? "" : "s"),
+                     6, "; the first is at %s: %s", where, why.text);
 }
 
 void ranges_table_known(FILE *to, const tally *t)
 {
-    char told[RANGES_QUANTITIES] = {0};
+    char written[RANGES_QUANTITIES] = {0};
     fprintf(to, "errors are relative to these reference values\n");
     for (int q = 0; q < t->of->quantities; q++)
-        if (!told[q])
-            write_reference(to, t, q, told);
+        if (!written[q])
+            write_reference(to, t, q, written);
     if (t->without_scene > 0)
         write_without_scene(to, t);
 }
@@ -268,7 +268,7 @@ void ranges_table_known(FILE *to, const tally *t)
 static int is_mixed(const tally *t, int which, int q)
 {
     const tally_series *s = tally_of(t, which, q);
-    return s->proven > 0 && s->proven < s->asked;
+    return s->proven > 0 && s->proven < s->requested;
 }
 
 static void write_place(FILE *to, const tally_place *p, int mixed)
@@ -278,13 +278,13 @@ static void write_place(FILE *to, const tally_place *p, int mixed)
         snprintf(text, sizeof text, ".");
     else if (p->other == p->points)
         snprintf(text, sizeof text, "o");
-    else if (p->asked == 0)
+    else if (p->requested == 0)
         snprintf(text, sizeof text, "?");
     else if (p->never > 0)
         snprintf(text, sizeof text, "-%s", mixed && p->proven > 0 ? "*" : "");
     else
         snprintf(text, sizeof text, "%d%s%s", p->least, mixed && p->proven > 0 ? "*" : "",
-                 p->asked + p->other < p->points ? "?" : "");
+                 p->requested + p->other < p->points ? "?" : "");
     fprintf(to, "%*s", RANGES_TABLE_COLUMN, text);
 }
 
@@ -367,7 +367,8 @@ static int has_unknown(const tally *t, int parts)
     int unknown = 0;
     for (int i = 0; i < r->formulations * (r->quantities + 1) * t->lines * t->columns; i++) {
         const tally_place *p = &t->map[i];
-        unknown |= p->asked + p->other < p->points && (parts ? p->asked > 0 : p->asked == 0);
+        unknown |=
+            p->requested + p->other < p->points && (parts ? p->requested > 0 : p->requested == 0);
     }
     return unknown;
 }
@@ -391,7 +392,7 @@ void ranges_table_map(FILE *to, const tally *t, int every)
         return;
     }
     fprintf(to, "\n");
-    paragraph_say(
+    paragraph_printf(
         to, fprintf(to, "smallest n "), 2,
         "at and above which every mesh is within %g %%; -: not even with n = %d%s%s%s%s%s",
         100 * r->request.tolerance, r->mesh[r->meshes - 1],

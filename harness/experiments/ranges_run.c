@@ -132,27 +132,30 @@ static status place_batches(const char *path, char folder[PATH_MAX], fault *f)
                                                folder, strerror(errno));
 }
 
-static status plan(const void *asked, void *found, fault *f)
+static status plan(const void *requested, void *found, fault *f)
 {
     range_sweep *s = found;
-    s->asked = asked;
-    TRY(ranges_make(&s->asked->of, &s->ranges, f));
+    s->requested = requested;
+    TRY(ranges_make(&s->requested->of, &s->ranges, f));
     TRY(ranges_work_make(&s->ranges, &s->work, f));
-    s->work.csv = s->asked->csv;
+    s->work.csv = s->requested->csv;
     s->all = ranges_work_of(&s->work);
-    return place_output(s->asked, s, f);
+    return place_output(s->requested, s, f);
 }
 
-static status run(const void *asked, void *found, fault *f)
+static status run(const void *requested, void *found, fault *f)
 {
-    const range_sweep_request *r = asked;
+    const range_sweep_request *r = requested;
     range_sweep *s = found;
     shard_outcome done = {0};
     if (r->take != NULL)
         return STATUS_OK;
     TRY(place_batches(r->output, s->batches, f));
-    const shard_request request = {
-        .count = 1, .into = s->batches, .jobs = r->jobs, .progress = r->progress, .tell = stderr};
+    const shard_request request = {.count = 1,
+                                   .into = s->batches,
+                                   .jobs = r->jobs,
+                                   .progress = r->progress,
+                                   .messages = stderr};
     return shard_run(&s->all, &request, &done, f);
 }
 
@@ -163,7 +166,7 @@ static status begin(range_sweep *s, fault *f)
     TRY(tally_alloc(&s->ranges, &s->tally, f));
     s->work.tally = &s->tally;
     s->work.content = digest_begin();
-    if (s->asked->output == NULL)
+    if (s->requested->output == NULL)
         return STATUS_OK;
     TRY(ranges_file_open(s->output, &s->ranges, s->all.plan, &s->file, f));
     s->work.file = &s->file;
@@ -186,25 +189,25 @@ static status end(range_sweep *s, status taken, fault *f)
     return taken;
 }
 
-/* Reads the batches of the stock `there`. there NULL: reads the batches that the caller
+/* Reads the batches of the store `there`. there NULL: reads the batches that the caller
  * supplies. */
-static status take_all(range_sweep *s, const stock *there, fault *f)
+static status take_all(range_sweep *s, const batch_store *there, fault *f)
 {
-    const range_sweep_request *r = s->asked;
+    const range_sweep_request *r = s->requested;
     status outcome = begin(s, f);
     if (outcome == STATUS_OK)
-        outcome = there != NULL ? merge_take(&s->all, there, f) : r->take(r->context, &s->all, f);
+        outcome = there != NULL ? merge_read(&s->all, there, f) : r->take(r->context, &s->all, f);
     return end(s, outcome, f);
 }
 
 /* Removes the batches from the folder, and removes the folder if it is empty. */
-static status remove_batches(const stock *there, const char *folder, fault *f)
+static status remove_batches(const batch_store *there, const char *folder, fault *f)
 {
     char path[PATH_MAX];
     for (int i = 0; i < there->batches; i++) {
         if (there->where[i] < 0)
             continue;
-        TRY(stock_path(there, i, path, f));
+        TRY(batch_store_path(there, i, path, f));
         unlink(path);
     }
     rmdir(folder);
@@ -216,20 +219,20 @@ static status remove_batches(const stock *there, const char *folder, fault *f)
 static status collect(range_sweep *s, fault *f)
 {
     const char *const folder[] = {s->batches};
-    stock there = {.batches = 0};
-    status outcome = stock_take(&s->all, folder, 1, NULL, stderr, &there, f);
+    batch_store there = {.batches = 0};
+    status outcome = batch_store_read(&s->all, folder, 1, NULL, stderr, &there, f);
     s->lost = there.batches - there.there;
     if (outcome == STATUS_OK && s->lost == 0)
         outcome = take_all(s, &there, f);
-    if (outcome == STATUS_OK && (s->lost == 0 || s->asked->output == NULL))
+    if (outcome == STATUS_OK && (s->lost == 0 || s->requested->output == NULL))
         outcome = remove_batches(&there, s->batches, f);
-    stock_free(&there);
+    batch_store_free(&there);
     return outcome;
 }
 
-static status judge(const void *asked, void *found, fault *f)
+static status evaluate(const void *requested, void *found, fault *f)
 {
-    const range_sweep_request *r = asked;
+    const range_sweep_request *r = requested;
     range_sweep *s = found;
     if (r->take == NULL)
         return collect(s, f);
@@ -241,8 +244,8 @@ static status judge(const void *asked, void *found, fault *f)
 static status write_form(FILE *to, const char *format, const void *found, fault *f)
 {
     const range_sweep *s = found;
-    if (s->evaluated && !s->asked->quiet && strcmp(format, "text") == 0)
-        ranges_table(to, &s->tally, s->asked->verbose, s->worst, f);
+    if (s->evaluated && !s->requested->quiet && strcmp(format, "text") == 0)
+        ranges_table(to, &s->tally, s->requested->verbose, s->worst, f);
     return STATUS_OK;
 }
 
@@ -255,4 +258,4 @@ void range_sweep_free(range_sweep *s)
 }
 
 const experiment_type experiment_sweep = {
-    .name = KEPT_SWEEP, .plan = plan, .run = run, .judge = judge, .write = write_form};
+    .name = KEPT_SWEEP, .plan = plan, .run = run, .evaluate = evaluate, .write = write_form};

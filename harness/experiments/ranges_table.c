@@ -35,20 +35,20 @@ void ranges_table_head(FILE *to, const parameter_ranges *r)
     parameters_text(r->request.type, r->base, fixed, sizeof fixed);
     if (r->design.kind == DESIGN_RANDOM)
         snprintf(seed, sizeof seed, ", seed %lu", r->design.seed);
-    paragraph_say(to, fprintf(to, "%s", r->request.type->name), 2,
-                  "%s%s: %ld points (%s%s), %d %s, %d %s: %ld cells", fixed[0] != '\0' ? ", " : "",
-                  fixed, r->design.points, design_name(r->design.kind), seed, r->formulations,
-                  r->formulations == 1 ? "formulation" : "formulations", r->meshes,
-                  r->meshes == 1 ? "mesh" : "meshes",
-                  r->design.points * r->formulations * r->meshes);
+    paragraph_printf(
+        to, fprintf(to, "%s", r->request.type->name), 2,
+        "%s%s: %ld points (%s%s), %d %s, %d %s: %ld cells", fixed[0] != '\0' ? ", " : "", fixed,
+        r->design.points, design_name(r->design.kind), seed, r->formulations,
+        r->formulations == 1 ? "formulation" : "formulations", r->meshes,
+        r->meshes == 1 ? "mesh" : "meshes", r->design.points * r->formulations * r->meshes);
     for (int i = 0; i < r->design.axes; i++)
         write_axis(to, r, i);
     if (r->omitted[0] != '\0')
-        paragraph_say(to, fprintf(to, "  omitted: "), 4, "%s", r->omitted);
+        paragraph_printf(to, fprintf(to, "  omitted: "), 4, "%s", r->omitted);
     if (r->assumed[0] != '\0')
         paragraph_write(to, fprintf(to, "  "), 4, r->assumed);
     if (r->left_out[0] != '\0')
-        paragraph_say(to, fprintf(to, "  omitted: "), 4, "%s", r->left_out);
+        paragraph_printf(to, fprintf(to, "  omitted: "), 4, "%s", r->left_out);
 }
 
 /* Writes a percentage. 99.96 % is not rounded to 100 %. */
@@ -76,13 +76,13 @@ static void write_line(FILE *to, const tally *t, int which, int q)
     const tally_series *s = tally_of(t, which, q);
     const int at = fprintf(to, "  %-*s", RANGES_TABLE_NAME, r->formulation[which].key);
     fprintf(to, "%*s", at < RANGES_TABLE_NAME + 2 ? 0 : 1, "");
-    if (s->asked == 0) {
+    if (s->requested == 0) {
         fprintf(to, "%*s\n", RANGES_TABLE_COLUMN + 15,
                 t->others[which] > 0 ? "another model" : "without a reference");
         return;
     }
     for (int k = r->meshes - finest_shown(r); k < r->meshes; k++)
-        write_share(to, s->within[k], s->asked);
+        write_share(to, s->within[k], s->requested);
     if (s->never > 0)
         fprintf(to, "   not everywhere");
     else {
@@ -96,7 +96,7 @@ static void write_line(FILE *to, const tally *t, int which, int q)
                                another process */
             fprintf(to, " %.2g ms", 1e3 * cost);
     }
-    fprintf(to, s->asked < t->points ? ", %ld points\n" : "\n", s->asked);
+    fprintf(to, s->requested < t->points ? ", %ld points\n" : "\n", s->requested);
 }
 
 /* Prints the percentages of points within the tolerance for a quantity, with a line for each
@@ -122,7 +122,7 @@ static void write_least(FILE *to, const tally *t, int which, int q, int width)
     const tally_series *s = tally_of(t, which, q);
     if (t->others[which] == t->points)
         fprintf(to, "%*s", width, "o");
-    else if (s->asked == 0)
+    else if (s->requested == 0)
         fprintf(to, "%*s", width, "?");
     else if (s->never > 0)
         fprintf(to, "%*s", width, "-");
@@ -159,7 +159,7 @@ static void write_open(FILE *to, const tally *t)
     for (int i = 0; i < t->of->formulations; i++)
         open |= tally_of(t, i, t->of->quantities)->open > 0;
     if (open)
-        paragraph_say(
+        paragraph_printf(
             to, 0, 2,
             "a point at which a value has no reference counts for all quantities together only if "
             "another value is outside the error; n?: over the points that have a reference");
@@ -186,7 +186,7 @@ static void write_others(FILE *to, const tally *t)
         char words[OMIT_WORDS];
         missing_omit_words(t->lacks[i], words);
         if (t->others[i] > 0)
-            paragraph_say(
+            paragraph_printf(
                 to, 0, 2,
                 "%s: another model at %ld of %ld points, which are not counted: %s not modelled",
                 t->of->formulation[i].key, t->others[i], t->points, words);

@@ -17,7 +17,7 @@ static const double MOVED = 1e-5;
 
 /* Writes the run to a temporary file and reads this file, so the run is compared with a former run
  * in the same form. */
-static status read_back(const sweep *s, const judgement *j, stored_results *out, fault *f)
+static status read_back(const sweep *s, const evaluation *j, stored_results *out, fault *f)
 {
     const char *folder = getenv("TMPDIR");
     char path[PATH_MAX];
@@ -39,9 +39,9 @@ static status read_back(const sweep *s, const judgement *j, stored_results *out,
 
 /* Adds a regression for a line of the comparison, such as "worse NAME n=4: WHY". Lines of other
  * kinds are ignored. */
-static status add_line(const char *line, judgement *j, fault *f)
+static status add_line(const char *line, evaluation *j, fault *f)
 {
-    static const comparison_kind counted[] = {CHANGE_WORSE, CHANGE_GONE};
+    static const comparison_kind counted[] = {CHANGE_WORSE, CHANGE_MISSING};
     for (size_t i = 0; i < sizeof counted / sizeof counted[0]; i++) {
         const char *kind = comparison_kind_names[counted[i]];
         const size_t length = strlen(kind);
@@ -51,14 +51,14 @@ static status add_line(const char *line, judgement *j, fault *f)
         regression one;
         snprintf(one.of, sizeof one.of, "%.*s", why != NULL ? (int)(why - name) : (int)strlen(name),
                  name);
-        snprintf(one.why, sizeof one.why, "%s%s", counted[i] == CHANGE_GONE ? "gone" : "",
-                 why != NULL ? why + (counted[i] == CHANGE_GONE ? 0 : 2) : "");
+        snprintf(one.why, sizeof one.why, "%s%s", counted[i] == CHANGE_MISSING ? "gone" : "",
+                 why != NULL ? why + (counted[i] == CHANGE_MISSING ? 0 : 2) : "");
         return memory_append(&j->regression, &j->regressions, &one, sizeof one, "regressions", f);
     }
     return STATUS_OK;
 }
 
-static status add_lines(char *text, judgement *j, fault *f)
+static status add_lines(char *text, evaluation *j, fault *f)
 {
     char *rest = NULL;
     for (char *line = strtok_r(text, "\n", &rest); line != NULL; line = strtok_r(NULL, "\n", &rest))
@@ -67,7 +67,7 @@ static status add_lines(char *text, judgement *j, fault *f)
 }
 
 static status compare(const stored_results *former, const char *name, const stored_results *now,
-                      judgement *j, fault *f)
+                      evaluation *j, fault *f)
 {
     const comparison_limits limits = {LARGER, RESULTS_FLOOR, DBL_MAX};
     char *text = NULL;
@@ -111,7 +111,7 @@ static const result_limit *limit_of_former(const stored_results *former, const s
 /* Returns 1 if a reference value checks the limit to within `slack`. Returns 0 if the reference
  * value is an estimate, if the limit has a larger uncertainty, or if a known deviation allows the
  * limit to differ. */
-static int is_judged_closely(const verdict *v, double slack)
+static int is_evaluated_closely(const verdict *v, double slack)
 {
     return (v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED_AS_PREDICTED ||
             v->kind == VERDICT_WRONG_AS_PREDICTED) &&
@@ -119,7 +119,7 @@ static int is_judged_closely(const verdict *v, double slack)
            3 * v->fit.limit_uncertainty + v->truth->uncertainty <= slack;
 }
 
-static status find_moved(const stored_results *former, const sweep *s, judgement *j, fault *f)
+static status find_moved(const stored_results *former, const sweep *s, evaluation *j, fault *f)
 {
     for (int i = 0; i < j->verdicts; i++) {
         const verdict *v = &j->verdict[i];
@@ -131,7 +131,7 @@ static status find_moved(const stored_results *former, const sweep *s, judgement
         if (old == NULL || one->imported != NULL)
             continue;
         const double slack = MOVED * fmax(fabs(old->value), q->near_zero);
-        if (fabs(v->fit.limit - old->value) <= slack || is_judged_closely(v, slack))
+        if (fabs(v->fit.limit - old->value) <= slack || is_evaluated_closely(v, slack))
             continue;
         regression new;
         snprintf(new.of, sizeof new.of, "%s/default/%s", s->point[one->point].type->name,
@@ -146,7 +146,7 @@ static status find_moved(const stored_results *former, const sweep *s, judgement
 }
 
 status regressions_find(const stored_results *former, const char *name, const sweep *s,
-                        judgement *j, fault *f)
+                        evaluation *j, fault *f)
 {
     stored_results now = {.cells = 0};
     status outcome = read_back(s, j, &now, f);

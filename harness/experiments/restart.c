@@ -357,10 +357,10 @@ static int line_of(const char **text)
 
 /* Numbers of characters that are reported before a difference, and from each of the different
  * lines. */
-enum { BEFORE = 30, TOLD = 70 };
-static int told(int length)
+enum { BEFORE = 30, EXCERPT = 70 };
+static int excerpt_length(int length)
 {
-    return length < TOLD ? length : TOLD;
+    return length < EXCERPT ? length : EXCERPT;
 }
 
 static status differ(const char *former, const char *now, fault *f)
@@ -376,7 +376,7 @@ static status differ(const char *former, const char *now, fault *f)
             return fault_set(
                 f, STATUS_REFUSED,
                 "the --restart file belongs to another scene: there '%.*s', here '%.*s'",
-                told(n - same), a + same, told(k - same), b + same);
+                excerpt_length(n - same), a + same, excerpt_length(k - same), b + same);
         }
         former = a + n + (a[n] == '\n');
         now = b + k + (b[k] == '\n');

@@ -26,114 +26,114 @@ status shard_parse(const char *text, int *index, int *count, fault *f)
                      "--shard '%.40s': give K/N for shard K of N shards, such as 1/4", text);
 }
 
-typedef struct shard_hand {
+typedef struct shard_process {
     pid_t process;
     int from; /* end of the pipe that is read; -1: no process is running */
-} shard_hand;
+} shard_process;
 
-typedef struct crew {
-    labour todo;
+typedef struct worker_pool {
+    batch_worker todo;
     shard_outcome *out;
-    shard_hand hand[SHARD_MOST_JOBS];
+    shard_process worker[SHARD_MOST_JOBS];
     int jobs, running;
     double cost, cost_done;
     progress line;
-} crew;
+} worker_pool;
 
-static status hire(crew *c, int self, fault *f)
+static status start_process(worker_pool *c, int self, fault *f)
 {
     int ends[2];
     const pid_t parent = getpid();
-    c->todo.shelf->at[self] = -1;
+    c->todo.queue->at[self] = -1;
     if (pipe2(ends, O_CLOEXEC) != 0)
         return fault_set(f, STATUS_FAULT, "cannot start a process: no pipe can be created");
-    c->hand[self].process = fork();
-    if (c->hand[self].process == 0) {
+    c->worker[self].process = fork();
+    if (c->worker[self].process == 0) {
         child_begin(parent);
         close(ends[0]);
-        labour_work(&c->todo, self, ends[1]);
+        batch_worker_run(&c->todo, self, ends[1]);
     }
     close(ends[1]);
-    if (c->hand[self].process < 0) {
+    if (c->worker[self].process < 0) {
         close(ends[0]);
         return fault_set(f, STATUS_FAULT, "cannot start a process");
     }
     fcntl(ends[0], F_SETFL, O_NONBLOCK);
-    c->hand[self].from = ends[0];
+    c->worker[self].from = ends[0];
     c->running++;
     return STATUS_OK;
 }
 
 /* Closes the pipe of a process and waits for its end. A process that does not end is killed.
  * Returns the status from waitpid. */
-static int dismiss(crew *c, int self)
+static int end_process(worker_pool *c, int self)
 {
-    close(c->hand[self].from);
-    c->hand[self].from = -1;
+    close(c->worker[self].from);
+    c->worker[self].from = -1;
     c->running--;
-    return child_reap(c->hand[self].process);
+    return child_reap(c->worker[self].process);
 }
 
-static void tell_lost(const crew *c, int batch, int how)
+static void print_lost(const worker_pool *c, int batch, int how)
 {
     char words[80];
     child_ended(how, 0, 0, words, sizeof words);
-    if (c->todo.request->tell != NULL)
-        fprintf(c->todo.request->tell,
+    if (c->todo.request->messages != NULL)
+        fprintf(c->todo.request->messages,
                 "beamwork: batch %d is lost, because its process %s; start the shard again\n",
                 batch + 1, WIFSIGNALED(how) ? words : "ended before the batch was complete");
 }
 
 /* Deletes the incomplete files of a batch. batch -1: there are none. */
-static void clean(const crew *c, int batch, int gone)
+static void clean(const worker_pool *c, int batch, int ended)
 {
     char stem[BATCH_STEM], name[BATCH_NAME];
     if (batch < 0)
         return;
     batch_stem(c->todo.w, stem);
     batch_name(stem, batch, name);
-    batch_clean(c->todo.request->into, name, gone);
+    batch_clean(c->todo.request->into, name, ended);
 }
 
 /* Handles a process that has sent a message or has ended. */
-static status attend(crew *c, int self, fault *f)
+static status handle_process(worker_pool *c, int self, fault *f)
 {
-    labour_notice said;
-    const int gone = child_is_gone(c->hand[self].process);
-    const ssize_t got = read(c->hand[self].from, &said, sizeof said);
-    if (got < 0 && (errno == EINTR || errno == EAGAIN) && !gone)
+    batch_report report;
+    const int ended = child_has_ended(c->worker[self].process);
+    const ssize_t got = read(c->worker[self].from, &report, sizeof report);
+    if (got < 0 && (errno == EINTR || errno == EAGAIN) && !ended)
         return STATUS_OK;
-    if (got == (ssize_t)sizeof said) {
-        if (said.status != STATUS_OK)
-            return fault_set(f, said.status, "%s", said.text);
+    if (got == (ssize_t)sizeof report) {
+        if (report.status != STATUS_OK)
+            return fault_set(f, report.status, "%s", report.text);
         c->out->done++;
-        c->out->seconds += said.seconds;
-        c->cost_done += c->todo.w->cost[said.batch];
+        c->out->seconds += report.seconds;
+        c->cost_done += c->todo.w->cost[report.batch];
         char what[40];
-        snprintf(what, sizeof what, "batch %d", said.batch + 1);
+        snprintf(what, sizeof what, "batch %d", report.batch + 1);
         if (progress_is_due(&c->line, clock_wall_seconds()))
             progress_show(&c->line, clock_wall_seconds(), c->out->done,
                           c->cost > 0 ? c->cost_done / c->cost : 0, what);
         return STATUS_OK;
     }
-    const int how = dismiss(c, self), batch = c->todo.shelf->at[self];
+    const int how = end_process(c, self), batch = c->todo.queue->at[self];
     if (batch < 0)
         return STATUS_OK;
     c->out->lost++;
-    tell_lost(c, batch, how);
+    print_lost(c, batch, how);
     clean(c, batch, 1);
-    return hire(c, self, f);
+    return start_process(c, self, f);
 }
 
-static status work_off(crew *c, int asked, fault *f)
+static status work_off(worker_pool *c, int requested, fault *f)
 {
     struct pollfd ends[SHARD_MOST_JOBS + 1];
     for (int i = 0; i < c->jobs; i++)
-        TRY(hire(c, i, f));
+        TRY(start_process(c, i, f));
     while (c->running > 0) {
         for (int i = 0; i < c->jobs; i++)
-            ends[i] = (struct pollfd){.fd = c->hand[i].from, .events = POLLIN};
-        ends[c->jobs] = (struct pollfd){.fd = asked, .events = POLLIN};
+            ends[i] = (struct pollfd){.fd = c->worker[i].from, .events = POLLIN};
+        ends[c->jobs] = (struct pollfd){.fd = requested, .events = POLLIN};
         while (poll(ends, (nfds_t)c->jobs + 1, 1000) < 0 && errno == EINTR)
             ;
         if (ends[c->jobs].revents != 0) {
@@ -141,36 +141,36 @@ static status work_off(crew *c, int asked, fault *f)
             return STATUS_OK;
         }
         for (int i = 0; i < c->jobs; i++)
-            if (ends[i].fd >= 0 && (ends[i].revents != 0 || child_is_gone(c->hand[i].process)))
-                TRY(attend(c, i, f));
+            if (ends[i].fd >= 0 && (ends[i].revents != 0 || child_has_ended(c->worker[i].process)))
+                TRY(handle_process(c, i, f));
     }
     return STATUS_OK;
 }
 
 /* Kills all processes and deletes incomplete files. */
-static void end_all(crew *c)
+static void end_all(worker_pool *c)
 {
     for (int i = 0; i < c->jobs; i++)
-        if (c->hand[i].from >= 0) {
-            kill(c->hand[i].process, SIGKILL);
-            dismiss(c, i);
-            clean(c, c->todo.shelf->at[i], 1);
+        if (c->worker[i].from >= 0) {
+            kill(c->worker[i].process, SIGKILL);
+            end_process(c, i);
+            clean(c, c->todo.queue->at[i], 1);
         }
 }
 
-static status run_crew(crew *c, fault *f)
+static status run_pool(worker_pool *c, fault *f)
 {
     const int own = c->todo.request->stop <= 0;
-    interrupt asked = {.descriptor = -1};
+    interrupt requested = {.descriptor = -1};
     if (own)
-        interrupt_begin(&asked);
+        interrupt_begin(&requested);
     c->line =
         progress_begin(c->todo.request->progress, "batches", c->todo.count, clock_wall_seconds());
-    const status outcome = work_off(c, own ? asked.descriptor : c->todo.request->stop, f);
+    const status outcome = work_off(c, own ? requested.descriptor : c->todo.request->stop, f);
     progress_end(&c->line);
     end_all(c);
     if (own)
-        interrupt_end(&asked);
+        interrupt_end(&requested);
     return outcome;
 }
 
@@ -184,13 +184,14 @@ static status make_folder(const char *into, fault *f)
 
 /* Lists the missing batches of the shard, the most expensive first. mine[batches]: 1 for
  * the batches of the shard. */
-static status make_list(crew *c, char mine[], fault *f)
+static status make_list(worker_pool *c, char mine[], fault *f)
 {
     const shard_work *w = c->todo.w;
-    stock s;
-    status outcome = stock_take(w, &c->todo.request->into, 1, mine, c->todo.request->tell, &s, f);
+    batch_store s;
+    status outcome =
+        batch_store_read(w, &c->todo.request->into, 1, mine, c->todo.request->messages, &s, f);
     if (outcome == STATUS_OK)
-        deal_order(w->batches, w->cost, c->todo.list);
+        batches_order(w->batches, w->cost, c->todo.list);
     for (int i = 0; outcome == STATUS_OK && i < w->batches; i++) {
         const int batch = c->todo.list[i];
         if (!mine[batch])
@@ -204,16 +205,16 @@ static status make_list(crew *c, char mine[], fault *f)
         c->todo.list[c->todo.count++] = batch;
         c->cost += w->cost[batch];
     }
-    stock_free(&s);
+    batch_store_free(&s);
     return outcome;
 }
 
 /* Runs the missing batches of the shard. The caller shard_run() frees *c, even after a failure. */
-static status run(crew *c, int shard[], char mine[], fault *f)
+static status run(worker_pool *c, int shard[], char mine[], fault *f)
 {
     const shard_work *w = c->todo.w;
-    if (c->todo.list == NULL || shard == NULL || mine == NULL || c->todo.shelf == MAP_FAILED ||
-        deal_out(w->batches, w->cost, c->todo.request->count, shard) != 0)
+    if (c->todo.list == NULL || shard == NULL || mine == NULL || c->todo.queue == MAP_FAILED ||
+        batches_assign(w->batches, w->cost, c->todo.request->count, shard) != 0)
         return fault_set(f, STATUS_FAULT, "out of memory for batches");
     for (int i = 0; i < w->batches; i++)
         mine[i] = shard[i] == c->todo.request->index;
@@ -225,8 +226,8 @@ static status run(crew *c, int shard[], char mine[], fault *f)
     if (c->jobs > c->todo.count)
         c->jobs = c->todo.count;
     for (int i = 0; i < c->jobs; i++)
-        c->hand[i].from = -1;
-    return c->todo.count > 0 ? run_crew(c, f) : STATUS_OK;
+        c->worker[i].from = -1;
+    return c->todo.count > 0 ? run_pool(c, f) : STATUS_OK;
 }
 
 status shard_run(const shard_work *w, const shard_request *request, shard_outcome *out, fault *f)
@@ -234,17 +235,17 @@ status shard_run(const shard_work *w, const shard_request *request, shard_outcom
     const size_t count = (size_t)w->batches + 1;
     int *shard = malloc(count * sizeof *shard);
     char *mine = calloc(count, 1);
-    crew c = {.todo = {.w = w,
-                       .request = request,
-                       .list = malloc(count * sizeof *c.todo.list),
-                       .shelf = mmap(NULL, sizeof *c.todo.shelf, PROT_READ | PROT_WRITE,
-                                     MAP_SHARED | MAP_ANONYMOUS, -1, 0)},
-              .out = out,
-              .jobs = request->jobs};
+    worker_pool c = {.todo = {.w = w,
+                              .request = request,
+                              .list = malloc(count * sizeof *c.todo.list),
+                              .queue = mmap(NULL, sizeof *c.todo.queue, PROT_READ | PROT_WRITE,
+                                            MAP_SHARED | MAP_ANONYMOUS, -1, 0)},
+                     .out = out,
+                     .jobs = request->jobs};
     *out = (shard_outcome){.mine = 0};
     const status outcome = run(&c, shard, mine, f);
-    if (c.todo.shelf != MAP_FAILED)
-        munmap(c.todo.shelf, sizeof *c.todo.shelf);
+    if (c.todo.queue != MAP_FAILED)
+        munmap(c.todo.queue, sizeof *c.todo.queue);
     free(c.todo.list);
     free(shard);
     free(mine);

@@ -26,7 +26,7 @@ void solution_choice_free(solution_choice *why)
 
 /* Copies the chosen formulation and number of elements into the request, and the reasons and
  * changes to `why`. */
-static void take(solution_request *r, preference *p, solution_choice *why)
+static void take(solution_request *r, default_choice *p, solution_choice *why)
 {
     r->formulation = p->chosen;
     r->elements = p->elements;
@@ -42,7 +42,7 @@ static void take(solution_request *r, preference *p, solution_choice *why)
 static status choose(solution_request *r, const rule *rules, int count, int elements, scene *s,
                      solution_choice *why, fault *f)
 {
-    const double asked = r->error > 0 ? r->error : PREFERENCE_ERROR;
+    const double requested = r->error > 0 ? r->error : DEFAULT_CHOICE_ERROR;
     TRY(cell_scene(r->type, r->parameter, NULL, s, f));
     TRY(narrow_scene(s, r->type, r->parameter, &r->formulation, r->select, f));
     if (r->systems)
@@ -50,14 +50,14 @@ static status choose(solution_request *r, const rule *rules, int count, int elem
     const rule_subject where = {
         .type = r->type, .parameter = r->parameter, .features = features_needed(s)};
     const cell_request cell = cell_of(r, s);
-    preference found;
+    default_choice found;
     if (r->formulation.type == NULL && !(elements && r->elements == 0))
-        return preference_formulation(s, &where, rules, count, &r->formulation, why->formulation,
-                                      f);
+        return default_choice_formulation(s, &where, rules, count, &r->formulation,
+                                          why->formulation, f);
     if (r->formulation.type == NULL)
-        TRY(preference_both(&cell, &where, rules, count, asked, &found, f));
+        TRY(default_choice_both(&cell, &where, rules, count, requested, &found, f));
     else
-        TRY(preference_elements(&cell, &r->formulation, asked, &found, f));
+        TRY(default_choice_elements(&cell, &r->formulation, requested, &found, f));
     take(r, &found, why);
     return STATUS_OK;
 }
@@ -85,10 +85,10 @@ status solution_plan(const solution_request *r, sweep *s, fault *f)
 
 /* Stores the relative changes that were found while the mesh was chosen. Returns the status of the
  * solution, or NOT_CONVERGED if the requested error was not reached. */
-static status tell_change(const solution_request *r, const solution_choice *why, solve_result *out,
-                          fault *f)
+static status report_change(const solution_request *r, const solution_choice *why,
+                            solve_result *out, fault *f)
 {
-    const double asked = r->error > 0 ? r->error : PREFERENCE_ERROR;
+    const double requested = r->error > 0 ? r->error : DEFAULT_CHOICE_ERROR;
     for (int i = 0; i < out->quantities && why->change != NULL; i++)
         out->quantity[i].change = why->change[i];
     if (!why->short_of || out->status != STATUS_OK)
@@ -96,7 +96,7 @@ static status tell_change(const solution_request *r, const solution_choice *why,
     out->status = STATUS_NOT_CONVERGED;
     snprintf(out->reason, sizeof out->reason,
              "no convergence on %.200s; %.3g %% was requested; use -n %d, or a larger --error",
-             why->elements, 100 * asked, 2 * r->elements);
+             why->elements, 100 * requested, 2 * r->elements);
     return fault_set(f, STATUS_NOT_CONVERGED, "%s", out->reason);
 }
 
@@ -110,11 +110,11 @@ status solution_run(const solution_request *r, const solution_choice *why, sweep
     request.solve.keep_ends = r->keep_ends;
     /* analyses are also run if only shapes, matrices or final states are needed */
     request.solve.all_analyses = r->shapes > 0 || r->systems || r->keep_ends;
-    request.solve.looks = 1;
+    request.solve.checks_flutter = 1;
     request.solve.restarts = r->restarts;
     request.solve.restart = r->restart;
     TRY(cell_run(&request, out, f));
-    return tell_change(r, why, &out->solve, f);
+    return report_change(r, why, &out->solve, f);
 }
 
 enum { MOST = 64 };
@@ -171,15 +171,15 @@ static point_reference of_limits(const sweep *s, int index, int quantity, double
     for (int i = 1; i < count; i++)
         if (all[i].uncertainty < all[best].uncertainty)
             best = i;
-    double doubt = all[best].uncertainty;
+    double uncertainty = all[best].uncertainty;
     for (int i = 0; i < count; i++)
-        doubt = fmax(doubt, fabs(all[i].value - all[best].value) - all[i].uncertainty);
+        uncertainty = fmax(uncertainty, fabs(all[i].value - all[best].value) - all[i].uncertainty);
     const double scale = scale_of(q, all[best].value), most = tolerance / 2;
     if (!(all[best].uncertainty / scale <= most))
         return none;
-    if (!(doubt / scale <= most))
+    if (!(uncertainty / scale <= most))
         return (point_reference){ROWS_DISPUTED, NAN, NAN};
-    return (point_reference){ROWS_LIMIT, all[best].value, doubt / scale};
+    return (point_reference){ROWS_LIMIT, all[best].value, uncertainty / scale};
 }
 
 point_reference reference_of(const sweep *s, int series_index, int quantity, const truths *stored,
@@ -193,12 +193,13 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
     point_reference found = {ROWS_NONE, NAN, NAN};
     if (row != NULL)
         found = of_truth(q, row, ROWS_STORED);
-    if (found.doubt <= tolerance / 2) /* false for NAN */
+    if (found.uncertainty <= tolerance / 2) /* false for NAN */
         return found;
     row = derived != NULL ? verdict_truth(derived, p, &one->formulation, quantity) : NULL;
     if (row != NULL)
         found = of_truth(q, row, ROWS_DERIVED);
-    return found.doubt <= tolerance / 2 ? found : of_limits(s, series_index, quantity, tolerance);
+    return found.uncertainty <= tolerance / 2 ? found
+                                              : of_limits(s, series_index, quantity, tolerance);
 }
 
 /* Finds the rows of the request that apply at the point. There are few such rows, so the search for
@@ -254,7 +255,7 @@ static status add_row(const sweep_point *p, const derived_value *v, truths *t, f
                    .uncertainty = v->uncertainty,
                    .at = NAN,
                    .met = 1,
-                   .judged = 1,
+                   .evaluated = 1,
                    .formulation = strdup(""),
                    .theory = strdup(theory_of(&p->scene, v->quantity)),
                    .quantity = strdup(v->quantity),
@@ -340,9 +341,9 @@ void known_free(known_truths *k)
     memset(k, 0, sizeof *k);
 }
 
-static status plan(const void *asked, void *found, fault *f)
+static status plan(const void *requested, void *found, fault *f)
 {
-    const convergence_request *r = asked;
+    const convergence_request *r = requested;
     convergence *c = found;
     c->level = r->level;
     c->verbose = r->verbose;
@@ -352,19 +353,19 @@ static status plan(const void *asked, void *found, fault *f)
     return narrow_to(&c->sweep, r->cells.select, f);
 }
 
-static status run(const void *asked, void *found, fault *f)
+static status run(const void *requested, void *found, fault *f)
 {
-    const convergence_request *r = asked;
+    const convergence_request *r = requested;
     convergence *c = found;
     return verification_cells(&r->cells, &c->truths, &c->sweep, f);
 }
 
-static status judge(const void *asked, void *found, fault *f)
+static status evaluate(const void *requested, void *found, fault *f)
 {
     convergence *c = found;
-    (void)asked;
+    (void)requested;
     TRY(families_add_truths(&c->sweep, 0, &c->truths, f));
-    return judgement_make(&c->sweep, &c->truths, 0, &c->judgement, f);
+    return evaluation_make(&c->sweep, &c->truths, 0, &c->evaluation, f);
 }
 
 /* Returns the number of formulations that run. */
@@ -417,12 +418,12 @@ static status write_form(FILE *to, const char *format, const void *found, fault 
 static experiment_cells cells(const void *found)
 {
     const convergence *c = found;
-    return (experiment_cells){&c->sweep, &c->judgement, &c->made};
+    return (experiment_cells){&c->sweep, &c->evaluation, &c->made};
 }
 
 void convergence_free(convergence *c)
 {
-    judgement_free(&c->judgement);
+    evaluation_free(&c->evaluation);
     sweep_free(&c->sweep);
     truths_free(&c->truths);
 }
@@ -430,7 +431,7 @@ void convergence_free(convergence *c)
 const experiment_type experiment_converge = {.name = "converge",
                                              .plan = plan,
                                              .run = run,
-                                             .judge = judge,
+                                             .evaluate = evaluate,
                                              .cells = cells,
                                              .write = write_form};
 

@@ -9,7 +9,7 @@
 
 enum { LOOKED_AT = 9 };
 
-typedef struct survey_wanted {
+typedef struct survey_selected {
     const char *select;
     select_words words;
     /* [formulations] 1: the selection includes at least one quantity of the formulation */
@@ -17,7 +17,7 @@ typedef struct survey_wanted {
     char runs[RANGES_FORMULATIONS];
     /* reason why the formulation does not run, at the first point where this happens */
     const char *missing[RANGES_FORMULATIONS];
-} survey_wanted;
+} survey_selected;
 
 static status add_point(const parameter_ranges *r, long index, sweep *s, fault *f)
 {
@@ -45,7 +45,7 @@ static status add_quantity(parameter_ranges *r, const scene_quantity *q, fault *
 }
 
 /* Records the selected quantities of a series, and whether the series runs. */
-static status look_at(parameter_ranges *r, const sweep *s, int index, survey_wanted *w, fault *f)
+static status look_at(parameter_ranges *r, const sweep *s, int index, survey_selected *w, fault *f)
 {
     const series *one = &s->series[index];
     const sweep_point *p = &s->point[one->point];
@@ -54,16 +54,16 @@ static status look_at(parameter_ranges *r, const sweep *s, int index, survey_wan
     if (one->missing[0] != '\0' && w->missing[which] == NULL)
         w->missing[which] = one->missing;
     for (int q = 0; q < p->scene.quantities; q++) {
-        const scene_quantity *wants = &p->scene.quantity[q];
+        const scene_quantity *scene_value = &p->scene.quantity[q];
         char text[SWEEP_TEXT];
-        if (wants->reduction == SCENE_CURVE)
+        if (scene_value->reduction == SCENE_CURVE)
             continue;
-        sweep_text(p, &one->formulation, wants->name, text);
+        sweep_text(p, &one->formulation, scene_value->name, text);
         select_meet(w->select, text, &w->words);
         if (w->select != NULL && select_matches(w->select, text) <= 0)
             continue;
         w->formulation[which] = 1;
-        TRY(add_quantity(r, wants, f));
+        TRY(add_quantity(r, scene_value, f));
     }
     return STATUS_OK;
 }
@@ -74,7 +74,7 @@ static const char *quantity_at(const void *context, int i)
     return i < s->quantities ? s->quantity[i].name : NULL;
 }
 
-static status check_words(const survey_wanted *w, const sweep_point *p, fault *f)
+static status check_words(const survey_selected *w, const sweep_point *p, fault *f)
 {
     char word[SELECT_WORD];
     if (!select_unmet(w->select, &w->words, word))
@@ -89,9 +89,9 @@ static status check_words(const survey_wanted *w, const sweep_point *p, fault *f
 
 /* Removes formulations that cannot run or have no selected quantity. REFUSED: the user named a
  * formulation that cannot run, or no formulation or quantity remains. */
-static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f)
+static status keep_running(parameter_ranges *r, const survey_selected *w, fault *f)
 {
-    int kept = 0, told = 0;
+    int kept = 0, used = 0;
     for (int i = 0; i < r->formulations; i++) {
         const char *why = w->missing[i] != NULL ? w->missing[i] : "";
         if (w->runs[i] && w->formulation[i]) {
@@ -104,9 +104,9 @@ static status keep_running(parameter_ranges *r, const survey_wanted *w, fault *f
             return fault_set(f, STATUS_REFUSED,
                              "%.60s does not support %.160s, which %.60s requires",
                              r->formulation[i].key, why, r->request.type->name);
-        if (told < (int)sizeof r->left_out)
-            told += snprintf(r->left_out + told, sizeof r->left_out - (size_t)told, "%s%s (%s)",
-                             told > 0 ? ", " : "", r->formulation[i].key, why);
+        if (used < (int)sizeof r->left_out)
+            used += snprintf(r->left_out + used, sizeof r->left_out - (size_t)used, "%s%s (%s)",
+                             used > 0 ? ", " : "", r->formulation[i].key, why);
     }
     r->formulations = kept;
     if (kept > 0 && r->quantities > 0)
@@ -131,9 +131,9 @@ static void take_meshes(parameter_ranges *r, const sweep *s)
         }
 }
 
-static status judge(parameter_ranges *r, const sweep *s, fault *f)
+static status evaluate(parameter_ranges *r, const sweep *s, fault *f)
 {
-    survey_wanted w = {.select = r->request.select};
+    survey_selected w = {.select = r->request.select};
     int known = -1;
     TRY(select_begin(w.select, &w.words, f));
     for (int i = 0; i < s->seriess; i++)
@@ -176,19 +176,19 @@ static double cost_of(const sweep *s)
     for (int i = 0; i < s->seriess; i++)
         if (s->series[i].missing[0] == '\0' && s->point[s->series[i].point].status == STATUS_OK)
             for (int k = 0; k < s->series[i].meshes; k++)
-                all += expense_of_cell(s, i, k);
+                all += run_cost_of_cell(s, i, k);
     return all;
 }
 
 static status survey_points(parameter_ranges *r, sweep *s, fault *f)
 {
     const long last = r->design.points - 1;
-    const int looks = last + 1 < LOOKED_AT ? (int)last + 1 : LOOKED_AT;
+    const int points = last + 1 < LOOKED_AT ? (int)last + 1 : LOOKED_AT;
     take_formulations(r);
-    for (int i = 0; i < looks; i++)
-        TRY(add_point(r, looks > 1 ? last * i / (looks - 1) : 0, s, f));
-    TRY(judge(r, s, f));
-    r->point_cost = cost_of(s) / looks;
+    for (int i = 0; i < points; i++)
+        TRY(add_point(r, points > 1 ? last * i / (points - 1) : 0, s, f));
+    TRY(evaluate(r, s, f));
+    r->point_cost = cost_of(s) / points;
     if (r->request.derive != NULL)
         r->point_cost += r->request.file != NULL ? derive_scene_cost : derive_cost;
     return STATUS_OK;

@@ -78,7 +78,7 @@ double tally_edge(const tally *t, int axis_index, int place)
 }
 
 /* Returns the index of the field that contains a value of an axis. */
-static int place_of(const tally *t, int axis_index, double value)
+static int frame_motion_of(const tally *t, int axis_index, double value)
 {
     const int places = axis_index == 0 ? t->columns : t->lines;
     int low = 0;
@@ -102,11 +102,11 @@ static int place_of(const tally *t, int axis_index, double value)
 
 /* Result of one formulation and quantity at one point. */
 typedef struct seen {
-    int asked;  /* 1: the point has a reference */
-    int proven; /* 1: the reference is a stored or computed reference value */
-    int open;   /* 1: there is a value without a reference */
-    int other;  /* 1: the formulation solves another model */
-    int least;  /* number of elements of the coarsest mesh within the tolerance; 0: none */
+    int requested; /* 1: the point has a reference */
+    int proven;    /* 1: the reference is a stored or computed reference value */
+    int open;      /* 1: there is a value without a reference */
+    int other;     /* 1: the formulation solves another model */
+    int least;     /* number of elements of the coarsest mesh within the tolerance; 0: none */
     char within[SERIES_MAX_MESHES];
 } seen;
 
@@ -115,19 +115,19 @@ typedef struct seen {
 static seen look_at(const tally *t, const rows *w, int here, int which, int quantity)
 {
     const int kind = w->kind[rows_quantity(w, here, quantity)];
-    seen s = {.asked = kind != ROWS_NONE && kind != ROWS_DISPUTED,
+    seen s = {.requested = kind != ROWS_NONE && kind != ROWS_DISPUTED,
               .least = w->least[rows_least(w, here, which, quantity)]};
     for (int k = 0; k < t->of->meshes; k++) {
         const size_t at = rows_value(w, here, which, k, quantity);
         s.open |= isfinite(w->value[at]) && isnan(w->error[at]);
         if (w->status[rows_cell(w, here, which, k)] == ROWS_NOT_OFFERED)
-            s.asked = 0;
+            s.requested = 0;
         s.within[k] = fabs(w->error[at]) <= t->of->request.tolerance;
     }
     s.other = w->lacks[rows_lacks(w, here, which)] != 0;
     s.open &= !s.other;
-    s.asked &= !s.open && !s.other;
-    s.proven = s.asked && (kind == ROWS_STORED || kind == ROWS_DERIVED);
+    s.requested &= !s.open && !s.other;
+    s.proven = s.requested && (kind == ROWS_STORED || kind == ROWS_DERIVED);
     return s;
 }
 
@@ -138,9 +138,9 @@ static void count(const tally *t, tally_series *to, tally_place *place, const se
         place->other += s->other;
     }
     to->open += s->open;
-    if (!s->asked)
+    if (!s->requested)
         return;
-    to->asked++;
+    to->requested++;
     to->proven += s->proven;
     for (int k = 0; k < t->of->meshes; k++)
         to->within[k] += s->within[k];
@@ -148,7 +148,7 @@ static void count(const tally *t, tally_series *to, tally_place *place, const se
     to->everywhere = s->least > to->everywhere ? s->least : to->everywhere;
     if (place == NULL)
         return;
-    place->asked++;
+    place->requested++;
     place->proven += s->proven;
     place->never += s->least == 0;
     place->least = s->least > place->least ? s->least : place->least;
@@ -158,12 +158,12 @@ static void join(const tally *t, seen *all, const seen *one)
 {
     const int open = all->open | one->open, proven = all->proven | one->proven,
               other = all->other | one->other;
-    if (one->asked && !all->asked)
+    if (one->requested && !all->requested)
         *all = *one;
     all->other = other;
     all->open = open;
     all->proven = proven;
-    if (!one->asked)
+    if (!one->requested)
         return;
     for (int k = 0; k < t->of->meshes; k++)
         all->within[k] = all->within[k] && one->within[k];
@@ -178,8 +178,8 @@ static void close_counts(seen *all)
 {
     if (!all->open)
         return;
-    all->asked &= all->least == 0;
-    all->proven &= all->asked;
+    all->requested &= all->least == 0;
+    all->proven &= all->requested;
     memset(all->within, 0, sizeof all->within);
 }
 
@@ -244,7 +244,7 @@ static void count_formulation(tally *t, const rows *w, int here, int which, int 
 {
     const int quantities = t->of->quantities, first = which * (quantities + 1);
     const int mapped = t->columns > 0;
-    seen all = {.asked = 0};
+    seen all = {.requested = 0};
     for (int q = 0; q <= quantities; q++) {
         if (q == quantities)
             close_counts(&all);
@@ -263,14 +263,14 @@ static void count_references(tally *t, const rows *w, int here)
     for (int q = 0; q < t->of->quantities; q++) {
         const size_t at = rows_quantity(w, here, q);
         t->kind[q][w->kind[at] < ROWS_REFERENCES ? w->kind[at] : ROWS_NONE]++;
-        t->doubt[q] = fmax(t->doubt[q], w->doubt[at]); /* a NAN is ignored */
+        t->uncertainty[q] = fmax(t->uncertainty[q], w->uncertainty[at]); /* a NAN is ignored */
     }
 }
 
 static void count_point(tally *t, const rows *w, int here, long index, const double at[])
 {
-    const int mapped = t->columns > 0, column = mapped ? place_of(t, 0, at[0]) : 0,
-              line = mapped ? place_of(t, 1, t->of->design.axes > 1 ? at[1] : 0) : 0;
+    const int mapped = t->columns > 0, column = mapped ? frame_motion_of(t, 0, at[0]) : 0,
+              line = mapped ? frame_motion_of(t, 1, t->of->design.axes > 1 ? at[1] : 0) : 0;
     t->points++;
     if (w->status[rows_cell(w, here, 0, 0)] == ROWS_NO_SCENE) {
         t->first_without = t->without_scene++ == 0 ? index : t->first_without;
@@ -307,8 +307,8 @@ static size_t lay_out(rows *r)
     const size_t known = points * q, cells = points * f * m, values = cells * q,
                  leasts = points * f * q, models = points * f;
     double *at = r->first;
-    double **const column[] = {&r->reference, &r->doubt, &r->value,
-                               &r->error,     &r->cost,  &r->seconds};
+    double **const column[] = {&r->reference, &r->uncertainty, &r->value,
+                               &r->error,     &r->cost,        &r->seconds};
     const size_t length[] = {known, known, values, values, cells, cells};
     size_t doubles = 0;
     for (size_t i = 0; i < sizeof length / sizeof length[0]; i++) {
@@ -354,26 +354,26 @@ size_t rows_quantity(const rows *r, int point, int quantity)
     return (size_t)point * (size_t)r->shape.quantities + (size_t)quantity;
 }
 
-size_t rows_cell(const rows *r, int point, int contestant, int mesh)
+size_t rows_cell(const rows *r, int point, int compared_run, int mesh)
 {
-    return ((size_t)point * (size_t)r->shape.formulations + (size_t)contestant) *
+    return ((size_t)point * (size_t)r->shape.formulations + (size_t)compared_run) *
                (size_t)r->shape.meshes +
            (size_t)mesh;
 }
 
-size_t rows_value(const rows *r, int point, int contestant, int mesh, int quantity)
+size_t rows_value(const rows *r, int point, int compared_run, int mesh, int quantity)
 {
-    return rows_cell(r, point, contestant, mesh) * (size_t)r->shape.quantities + (size_t)quantity;
+    return rows_cell(r, point, compared_run, mesh) * (size_t)r->shape.quantities + (size_t)quantity;
 }
 
-size_t rows_lacks(const rows *r, int point, int contestant)
+size_t rows_lacks(const rows *r, int point, int compared_run)
 {
-    return (size_t)point * (size_t)r->shape.formulations + (size_t)contestant;
+    return (size_t)point * (size_t)r->shape.formulations + (size_t)compared_run;
 }
 
-size_t rows_least(const rows *r, int point, int contestant, int quantity)
+size_t rows_least(const rows *r, int point, int compared_run, int quantity)
 {
-    return ((size_t)point * (size_t)r->shape.formulations + (size_t)contestant) *
+    return ((size_t)point * (size_t)r->shape.formulations + (size_t)compared_run) *
                (size_t)r->shape.quantities +
            (size_t)quantity;
 }

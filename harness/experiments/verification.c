@@ -9,17 +9,17 @@
 #include "harness/terminal/terminal.h"
 
 /* State of the evaluation of a run. */
-typedef struct judging {
+typedef struct evaluation_run {
     truths *truths;
-    judgement *judgement;
+    evaluation *evaluation;
     const verification_reader *reader; /* observer; NULL: none */
-    int judged;                        /* number of evaluated series */
-} judging;
+    int evaluated;                     /* number of evaluated series */
+} evaluation_run;
 
-static int doubts(void *context, const sweep *s, int series_index)
+static int needs_scatter(void *context, const sweep *s, int series_index)
 {
-    const judging *v = context;
-    return judgement_doubts(s, v->truths, series_index);
+    const evaluation_run *v = context;
+    return evaluation_needs_scatter(s, v->truths, series_index);
 }
 
 static const case_type *case_of(const sweep *s, int series_index)
@@ -28,7 +28,7 @@ static const case_type *case_of(const sweep *s, int series_index)
 }
 
 /* Reports that a case is complete if this is its last series. */
-static void hand_over(judging *v, const sweep *s, int series_index)
+static void store_results(evaluation_run *v, const sweep *s, int series_index)
 {
     const case_type *type = case_of(s, series_index);
     if (v->reader == NULL)
@@ -36,20 +36,20 @@ static void hand_over(judging *v, const sweep *s, int series_index)
     for (int i = series_index + 1; i < s->seriess; i++)
         if (case_of(s, i) == type)
             return;
-    v->reader->judged(v->reader->context, type);
+    v->reader->evaluated(v->reader->context, type);
 }
 
 /* Evaluates the series before index `end`. All points of these series must be complete. */
-static status judge_to(judging *v, const sweep *s, int end, fault *f)
+static status evaluate_to(evaluation_run *v, const sweep *s, int end, fault *f)
 {
     int of = -1;
-    for (int i = v->judged; i < end; i++) {
+    for (int i = v->evaluated; i < end; i++) {
         if (s->series[i].point != of)
             TRY(families_add_point(s, s->series[i].point, 1, v->truths, f));
         of = s->series[i].point;
-        TRY(judgement_add(s, v->truths, i, v->judgement, f));
+        TRY(evaluation_add(s, v->truths, i, v->evaluation, f));
     }
-    v->judged = end;
+    v->evaluated = end;
     return STATUS_OK;
 }
 
@@ -57,15 +57,15 @@ static status judge_to(judging *v, const sweep *s, int end, fault *f)
  * them. */
 static status whole(void *context, const sweep *s, int series_index, fault *f)
 {
-    judging *v = context;
+    evaluation_run *v = context;
     const int here = s->series[series_index].point;
-    if (v->judged < series_index && s->series[v->judged].point != here)
+    if (v->evaluated < series_index && s->series[v->evaluated].point != here)
         /* the remaining series of the previous point are not run */
-        TRY(judge_to(v, s, series_index, f));
+        TRY(evaluate_to(v, s, series_index, f));
     if (series_index + 1 < s->seriess && s->series[series_index + 1].point == here)
         return STATUS_OK;
-    TRY(judge_to(v, s, series_index + 1, f));
-    hand_over(v, s, series_index);
+    TRY(evaluate_to(v, s, series_index + 1, f));
+    store_results(v, s, series_index);
     return STATUS_OK;
 }
 
@@ -87,9 +87,9 @@ static int find_own(const sweep *s, formulation out[MOST_OWN])
     return count;
 }
 
-static status add_breach(const certificate *c, judgement *out, fault *f)
+static status add_breach(const certificate *c, evaluation *out, fault *f)
 {
-    const claim *broken = certificate_broken(c);
+    const check_result *broken = certificate_broken(c);
     breach one;
     if (broken == NULL)
         return STATUS_OK;
@@ -100,7 +100,7 @@ static status add_breach(const certificate *c, judgement *out, fault *f)
 
 /* Checks the named and loaded formulations against the interface requirements before any cell is
  * run. The results of a formulation that violates them are meaningless. */
-static status hold_contracts(const sweep *s, int jobs, int time_limit, judgement *out, fault *f)
+static status hold_contracts(const sweep *s, int jobs, int time_limit, evaluation *out, fault *f)
 {
     formulation own[MOST_OWN];
     certificate *found = NULL;
@@ -108,7 +108,7 @@ static status hold_contracts(const sweep *s, int jobs, int time_limit, judgement
                                       .count = find_own(s, own),
                                       .jobs = jobs,
                                       .time_limit = time_limit,
-                                      .contract_only = 1};
+                                      .checks_only = 1};
     if (what.count == 0)
         return STATUS_OK;
     status outcome = certificate_find(&what, &found, f);
@@ -118,29 +118,29 @@ static status hold_contracts(const sweep *s, int jobs, int time_limit, judgement
     return outcome;
 }
 
-static status begin(judging *v, const sweep *s, int jobs, int time_limit, fault *f)
+static status begin(evaluation_run *v, const sweep *s, int jobs, int time_limit, fault *f)
 {
-    memset(v->judgement, 0, sizeof *v->judgement);
+    memset(v->evaluation, 0, sizeof *v->evaluation);
     TRY(families_reserve(s, 1, v->truths, f));
-    TRY(judgement_begin(s, v->truths, v->judgement, f));
-    return hold_contracts(s, jobs, time_limit, v->judgement, f);
+    TRY(evaluation_begin(s, v->truths, v->evaluation, f));
+    return hold_contracts(s, jobs, time_limit, v->evaluation, f);
 }
 
 /* Evaluates the remaining series, which an interrupted run may leave, and completes the
- * judgement. */
-static status end(judging *v, const sweep *s, int everything, fault *f)
+ * evaluation. */
+static status end(evaluation_run *v, const sweep *s, int everything, fault *f)
 {
-    TRY(judge_to(v, s, s->seriess, f));
-    judgement_end(s, v->truths, everything && s->unfinished == 0, v->judgement);
+    TRY(evaluate_to(v, s, s->seriess, f));
+    evaluation_end(s, v->truths, everything && s->unfinished == 0, v->evaluation);
     return STATUS_OK;
 }
 
 status verification_run(const sweep_request *request, int everything,
-                        const verification_reader *reader, truths *t, sweep *s, judgement *out,
+                        const verification_reader *reader, truths *t, sweep *s, evaluation *out,
                         fault *f)
 {
-    judging v = {.truths = t, .judgement = out, .reader = reader};
-    const sweep_follower follower = {.context = &v, .doubts = doubts, .whole = whole};
+    evaluation_run v = {.truths = t, .evaluation = out, .reader = reader};
+    const sweep_follower follower = {.context = &v, .needs_scatter = needs_scatter, .whole = whole};
     sweep_request followed = *request;
     followed.follower = &follower;
     TRY(begin(&v, s, request->jobs, request->time_limit, f));
@@ -150,25 +150,25 @@ status verification_run(const sweep_request *request, int everything,
 
 status verification_cells(const sweep_request *request, truths *t, sweep *s, fault *f)
 {
-    judging v = {.truths = t};
-    const sweep_follower follower = {.context = &v, .doubts = doubts};
+    evaluation_run v = {.truths = t};
+    const sweep_follower follower = {.context = &v, .needs_scatter = needs_scatter};
     sweep_request followed = *request;
     followed.follower = &follower;
     return run_sweep(&followed, s, f);
 }
 
-static status judge_all(const sweep_request *request, int everything, truths *t, const sweep *s,
-                        judgement *out, fault *f)
+static status evaluate_all(const sweep_request *request, int everything, truths *t, const sweep *s,
+                           evaluation *out, fault *f)
 {
-    judging v = {.truths = t, .judgement = out};
+    evaluation_run v = {.truths = t, .evaluation = out};
     TRY(begin(&v, s, request->jobs, request->time_limit, f));
     return end(&v, s, everything, f);
 }
 
-static status files_open(verification_files *to, const sweep *s, const judgement *j, fault *f)
+static status files_open(verification_files *to, const sweep *s, const evaluation *j, fault *f)
 {
     to->sweep = s;
-    to->judged = j;
+    to->evaluated = j;
     if (to->output != NULL)
         TRY(store_open(NULL, s, j, &to->store, f));
     to->part = (json_part){.verdicts = 0};
@@ -184,7 +184,7 @@ static void files_case(void *files, const case_type *type)
     if (to->output != NULL)
         store_case(&to->store, type);
     if (to->json != NULL)
-        json_part_add(&to->part, to->sweep, to->judged);
+        json_part_add(&to->part, to->sweep, to->evaluated);
 }
 
 /* Determines the path of an output file. If the run was interrupted, the name of the file shows
@@ -210,14 +210,14 @@ static status write_json(verification_files *to, const environment *e, fault *f)
     output file;
     TRY(open_text(to, to->json, &file, f));
     return output_finish(
-        &file, json_write_verdicts(file.stream, to->sweep, to->judged, e, &to->part, f), f);
+        &file, json_write_verdicts(file.stream, to->sweep, to->evaluated, e, &to->part, f), f);
 }
 
 static status write_junit(const verification_files *to, fault *f)
 {
     output file;
     TRY(open_text(to, to->junit, &file, f));
-    junit_write(file.stream, to->sweep, to->judged);
+    junit_write(file.stream, to->sweep, to->evaluated);
     return output_close(&file, f);
 }
 
@@ -226,7 +226,7 @@ static status write_markdown(const verification_files *to, const overview *o, co
 {
     output file;
     TRY(open_text(to, to->markdown, &file, f));
-    markdown_write(file.stream, to->sweep, to->judged, o, e);
+    markdown_write(file.stream, to->sweep, to->evaluated, o, e);
     return output_close(&file, f);
 }
 
@@ -234,7 +234,7 @@ static status write_proposal(const verification_files *to, fault *f)
 {
     output file;
     TRY(open_text(to, to->propose, &file, f));
-    proposal_write(file.stream, to->sweep, to->judged);
+    proposal_write(file.stream, to->sweep, to->evaluated);
     return output_close(&file, f);
 }
 
@@ -306,7 +306,7 @@ static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
 }
 
 /* Returns 1 if a verdict on another program affects the exit status. */
-static int imported_was_judged(const sweep *s, const judgement *j)
+static int imported_was_evaluated(const sweep *s, const evaluation *j)
 {
     for (int i = 0; i < j->verdicts; i++) {
         const imported *from = s->series[j->verdict[i].series].imported;
@@ -317,48 +317,48 @@ static int imported_was_judged(const sweep *s, const judgement *j)
     return 0;
 }
 
-static status plan(const void *asked, void *found, fault *f)
+static status plan(const void *requested, void *found, fault *f)
 {
     verification *v = found;
-    v->asked = asked;
-    return plan_sweep(&v->asked->cells, &v->truths, &v->sweep, f);
+    v->requested = requested;
+    return plan_sweep(&v->requested->cells, &v->truths, &v->sweep, f);
 }
 
 /* Runs the cells and evaluates the series as they arrive. */
-static status run(const void *asked, void *found, fault *f)
+static status run(const void *requested, void *found, fault *f)
 {
-    const verification_request *r = asked;
+    const verification_request *r = requested;
     verification *v = found;
     const verification_reader reader = {v->files, files_case};
     for (int i = 0; i < r->importeds; i++)
         TRY(add_imported(r->imported[i], r->imported_must_pass, &v->sweep, f));
-    TRY(files_open(v->files, &v->sweep, &v->judgement, f));
+    TRY(files_open(v->files, &v->sweep, &v->evaluation, f));
     return r->taken ? STATUS_OK
                     : verification_run(&r->cells, r->whole, &reader, &v->truths, &v->sweep,
-                                       &v->judgement, f);
+                                       &v->evaluation, f);
 }
 
-static status judge(const void *asked, void *found, fault *f)
+static status evaluate(const void *requested, void *found, fault *f)
 {
-    const verification_request *r = asked;
+    const verification_request *r = requested;
     verification *v = found;
     if (r->taken)
-        TRY(judge_all(&r->cells, r->whole, &v->truths, &v->sweep, &v->judgement, f));
-    if (r->imported_must_pass && !imported_was_judged(&v->sweep, &v->judgement))
+        TRY(evaluate_all(&r->cells, r->whole, &v->truths, &v->sweep, &v->evaluation, f));
+    if (r->imported_must_pass && !imported_was_evaluated(&v->sweep, &v->evaluation))
         return fault_set(
             f, STATUS_REFUSED,
             "--imported-must-pass: no imported value has a verdict, because no imported quantity "
             "both has a reference value and is selected (-k), or because the model is not 'beam'");
     if (r->former != NULL && v->sweep.unfinished == 0)
-        TRY(regressions_find(&v->former, r->former, &v->sweep, &v->judgement, f));
-    return overview_make(&v->sweep, &v->judgement, &v->overview, f);
+        TRY(regressions_find(&v->former, r->former, &v->sweep, &v->evaluation, f));
+    return overview_make(&v->sweep, &v->evaluation, &v->overview, f);
 }
 
 /* Returns 1 if all limits are shown: with --verbose, with -k, or if the overview has a single
  * row. */
 static int shows_limits(const verification *v)
 {
-    return v->asked->verbose || v->asked->cells.select != NULL || v->overview.rows == 1;
+    return v->requested->verbose || v->requested->cells.select != NULL || v->overview.rows == 1;
 }
 
 /* Prints the matrix, the counts, unexpected results and the conclusion. */
@@ -366,17 +366,17 @@ static void print(FILE *to, const verification *v)
 {
     const screen look = screen_of(to);
     const sweep *s = &v->sweep;
-    const judgement *j = &v->judgement;
+    const evaluation *j = &v->evaluation;
     char sentence[SENTENCE_OF_RUN];
-    if (v->asked->exit_zero)
+    if (v->requested->exit_zero)
         fputs("exploration: the exit status is 0 whatever the verdicts (--exit-zero)\n\n", to);
     table_breaches(to, look, j);
-    if (!v->asked->quiet && shows_limits(v)) {
+    if (!v->requested->quiet && shows_limits(v)) {
         table_verdicts(to, s, j);
         table_run_details(to, s, j);
         fputc('\n', to);
     }
-    if (!v->asked->quiet) {
+    if (!v->requested->quiet) {
         table_overview(to, look, &v->overview);
         fputc('\n', to);
         table_run(to, s, j, clock_wall_seconds() - v->begun);
@@ -390,10 +390,10 @@ static void print(FILE *to, const verification *v)
 static status write_form(FILE *to, const char *format, const void *found, fault *f)
 {
     const verification *v = found;
-    environment made = environment_now(v->asked->cells.jobs);
+    environment made = environment_now(v->requested->cells.jobs);
     (void)format;
-    if (v->asked->processor[0] != '\0')
-        snprintf(made.processor, sizeof made.processor, "%s", v->asked->processor);
+    if (v->requested->processor[0] != '\0')
+        snprintf(made.processor, sizeof made.processor, "%s", v->requested->processor);
     print(to, v);
     return files_close(v->files, &v->overview, &made, f);
 }
@@ -402,11 +402,11 @@ void verification_free(verification *v)
 {
     files_drop(v->files);
     overview_free(&v->overview);
-    judgement_free(&v->judgement);
+    evaluation_free(&v->evaluation);
     results_free(&v->former);
     sweep_free(&v->sweep);
     truths_free(&v->truths);
 }
 
 const experiment_type experiment_verify = {
-    .name = "verify", .plan = plan, .run = run, .judge = judge, .write = write_form};
+    .name = "verify", .plan = plan, .run = run, .evaluate = evaluate, .write = write_form};

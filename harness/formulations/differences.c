@@ -349,11 +349,11 @@ static int leaves_h(const element_data *d)
 /* Returns the outputs that the type itself computes. The others are NULL. */
 static strain_output given_part(const element_data *d, const strain_output *out)
 {
-    strain_output asked = *out;
-    asked.J = leaves_j(d) ? NULL : out->J;
-    asked.H = leaves_h(d) ? NULL : out->H;
-    asked.s = leaves_h(d) ? NULL : out->s;
-    return asked;
+    strain_output requested = *out;
+    requested.J = leaves_j(d) ? NULL : out->J;
+    requested.H = leaves_h(d) ? NULL : out->H;
+    requested.s = leaves_h(d) ? NULL : out->s;
+    return requested;
 }
 
 /* Computes the remaining derivatives by finite differences. */
@@ -407,12 +407,12 @@ static void evaluate_states(void *context, gather *g, int first_state, int count
 static void give_parts(int count, const many *all)
 {
     const element_data *own[ADAPTED_TOGETHER];
-    strain_output asked[ADAPTED_TOGETHER];
+    strain_output requested[ADAPTED_TOGETHER];
     for (int i = 0; i < count; i += ADAPTED_TOGETHER) {
         const int part = adapted_owns(count - i, all->data + i, own);
         for (int k = 0; k < part; k++)
-            asked[k] = given_part(all->data[i + k], &all->out[i + k]);
-        all->data[0]->given->strain_many(part, own, all->x + i * all->data[0]->nodes, asked);
+            requested[k] = given_part(all->data[i + k], &all->out[i + k]);
+        all->data[0]->given->strain_many(part, own, all->x + i * all->data[0]->nodes, requested);
     }
 }
 
@@ -457,7 +457,7 @@ void differences_strain(const element_data *d, const node_state x[], strain_outp
     }
     if (!has_history(1, &d, out))
         return;
-    strain_output asked = given_part(d, out);
-    d->given->strain(adapted_own(d), x, &asked);
+    strain_output requested = given_part(d, out);
+    d->given->strain(adapted_own(d), x, &requested);
     made_part(d, x, NULL, out);
 }

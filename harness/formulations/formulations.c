@@ -10,7 +10,7 @@ enum { MOST_ACCEPTED = 256 };
 static const element_type *formulations_loaded[FORMULATIONS_MOST_LOADED + 1];
 static const char *loaded_from[FORMULATIONS_MOST_LOADED];
 static const element_type *accepted[MOST_ACCEPTED + 1];
-static int are_told;
+static int are_reported;
 
 const element_type *formulations_at(int i)
 {
@@ -44,14 +44,14 @@ int formulations_is_loaded(const element_type *t)
 
 int formulations_is_new(const element_type *t)
 {
-    return formulations_is_loaded(t) || (are_told && !is_among(accepted, t));
+    return formulations_is_loaded(t) || (are_reported && !is_among(accepted, t));
 }
 
 void formulations_accept(const char *name)
 {
     int count = 0;
     const element_type *t = formulations_named(name, strlen(name));
-    are_told = 1;
+    are_reported = 1;
     while (accepted[count] != NULL)
         count++;
     if (t != NULL && !is_among(accepted, t) && count < MOST_ACCEPTED)

@@ -25,7 +25,7 @@ typedef enum child_event {
     CHILD_DONE,
     CHILD_ENDED, /* the child has closed its output or has terminated */
     CHILD_LATE,  /* there was no answer within the time limit */
-    CHILD_SPOKE  /* the child wrote before it had received the whole request */
+    CHILD_WROTE  /* the child wrote before it had received the whole request */
 } child_event;
 
 /* Description that a process sends of its formulation: the JSON line of the protocol (protocol.md).
@@ -51,7 +51,8 @@ typedef struct handshake {
 /* Reads the first line of a process. who: start of every error message. After success,
  * handshake_free frees the memory to which the type points. After an error, nothing needs to be
  * freed. The owner sets type.constants. REFUSED: the line does not follow the protocol. */
-status handshake_read(const char *who, const char *line, size_t length, handshake *out, fault *f);
+status handshake_read(const char *program_name, const char *line, size_t length, handshake *out,
+                      fault *f);
 /* Frees the memory to which the type of a handshake points. Accepts a type filled with zeros. */
 void handshake_free(element_type *);
 
@@ -77,7 +78,7 @@ typedef struct channel_bytes {
 } channel_bytes;
 
 typedef struct channel {
-    char *who; /* start of messages: first "exec:COMMAND", later "formulation NAME" */
+    char *program_name; /* start of messages: first "exec:COMMAND", later "formulation NAME" */
     char **words;
     child process;
     long started; /* number of starts; data that an earlier process prepared are invalid */
@@ -86,7 +87,7 @@ typedef struct channel {
     channel_bytes out, in;
     /* Error that broke the channel, stored until it is reported; "": none. */
     char trouble[FAULT_TEXT];
-    int told;
+    int reported;
 } channel;
 
 /* Makes a channel. REFUSED: the command has no words. FAULT: out of memory. */

@@ -6,8 +6,8 @@
 
 /* Reads the options into *out, a table that the caller frees, even after REFUSED. *out is NULL if
  * the list is NULL or empty. REFUSED: as for handshake_read. */
-static status handshake_options(const char *who, const json_t *list, const parameter_type **out,
-                                fault *f);
+static status handshake_options(const char *program_name, const json_t *list,
+                                const parameter_type **out, fault *f);
 static void handshake_options_free(const parameter_type *table); /* accepts NULL */
 
 typedef struct word_bit {
@@ -45,15 +45,15 @@ static const char *const keys[] = {"beamwork", "name",           "summary", "sou
                                    "places",   "damping",        "line",    "scalars"};
 
 typedef struct handshake_reading {
-    const char *who;
+    const char *program_name;
     json_t *said;
     fault *f;
 } handshake_reading;
 
 static status refuse(const handshake_reading *r, const char *key, const char *what)
 {
-    return fault_set(r->f, STATUS_REFUSED, "%.100s: '%.40s' in its first line: %.120s", r->who, key,
-                     what);
+    return fault_set(r->f, STATUS_REFUSED, "%.100s: '%.40s' in its first line: %.120s",
+                     r->program_name, key, what);
 }
 
 /* Copies a string, because the JSON is freed before the type. */
@@ -100,7 +100,7 @@ static status no_such_word(const handshake_reading *r, const char *key, const wo
                                known->word);
     return fault_set(r->f, STATUS_REFUSED,
                      "%.60s: '%s' in its first line contains the unknown word '%.40s'; give %s",
-                     r->who, key, word != NULL ? word : "the value is not text", words);
+                     r->program_name, key, word != NULL ? word : "the value is not text", words);
 }
 
 /* Combines the bits of a list of words. known NULL: the words of feature.h. */
@@ -262,7 +262,7 @@ static status protocol_of(const handshake_reading *r)
     return fault_set(r->f, STATUS_REFUSED,
                      "%.100s: the command uses protocol %lld, but this program uses protocol %d; "
                      "the first line must contain \"beamwork\": %d",
-                     r->who, (long long)json_integer_value(number), PROCESS_PROTOCOL,
+                     r->program_name, (long long)json_integer_value(number), PROCESS_PROTOCOL,
                      PROCESS_PROTOCOL);
 }
 
@@ -294,7 +294,8 @@ static status read_all(const handshake_reading *r, handshake *out)
     TRY(orders_of(r, out->constants.order));
     TRY(inertia_of(r, out));
     TRY(terms_of(r, out));
-    return handshake_options(r->who, json_object_get(r->said, "options"), &t->options[0], r->f);
+    return handshake_options(r->program_name, json_object_get(r->said, "options"), &t->options[0],
+                             r->f);
 }
 
 void handshake_free(element_type *t)
@@ -306,17 +307,19 @@ void handshake_free(element_type *t)
     handshake_options_free(t->options[0]);
 }
 
-status handshake_read(const char *who, const char *line, size_t length, handshake *out, fault *f)
+status handshake_read(const char *program_name, const char *line, size_t length, handshake *out,
+                      fault *f)
 {
     json_error_t why;
-    const handshake_reading r = {who, json_loadb(line, length, JSON_REJECT_DUPLICATES, &why), f};
+    const handshake_reading r = {program_name,
+                                 json_loadb(line, length, JSON_REJECT_DUPLICATES, &why), f};
     *out = (handshake){.type = {.abi = ELEMENT_ABI, .size = sizeof(element_type)}};
     if (!json_is_object(r.said)) {
         json_decref(r.said);
         return fault_set(f, STATUS_REFUSED,
                          "%.100s: began with '%.60s', which is not a line of JSON as in "
                          "harness/formulations/protocol.md; print other text to standard error",
-                         who, line);
+                         program_name, line);
     }
     const status outcome = read_all(&r, out);
     json_decref(r.said);
@@ -328,10 +331,10 @@ status handshake_read(const char *who, const char *line, size_t length, handshak
 static const char *const options_keys[] = {"name", "summary", "default", "choices",
                                            "min",  "max",     "unit"};
 
-static status options_refuse(const char *who, const char *name, const char *what, fault *f)
+static status options_refuse(const char *program_name, const char *name, const char *what, fault *f)
 {
-    return fault_set(f, STATUS_REFUSED, "%.100s: option '%.40s' of its first line: %.120s", who,
-                     name, what);
+    return fault_set(f, STATUS_REFUSED, "%.100s: option '%.40s' of its first line: %.120s",
+                     program_name, name, what);
 }
 
 static int is_word(const char *text)
@@ -374,7 +377,8 @@ static const char *join(const json_t *list)
     return out;
 }
 
-static status read_choice(const char *who, const json_t *one, parameter_type *out, fault *f)
+static status read_choice(const char *program_name, const json_t *one, parameter_type *out,
+                          fault *f)
 {
     const json_t *list = json_object_get(one, "choices");
     const char *chosen = json_string_value(json_object_get(one, "default"));
@@ -388,11 +392,12 @@ static status read_choice(const char *who, const json_t *one, parameter_type *ou
     }
     return out->choices != NULL && out->unit != NULL && found
                ? STATUS_OK
-               : options_refuse(who, out->name,
+               : options_refuse(program_name, out->name,
                                 "'choices' must be words, and 'default' must be one of them", f);
 }
 
-static status read_number(const char *who, const json_t *one, parameter_type *out, fault *f)
+static status read_number(const char *program_name, const json_t *one, parameter_type *out,
+                          fault *f)
 {
     const json_t *value = json_object_get(one, "default"), *min = json_object_get(one, "min"),
                  *max = json_object_get(one, "max");
@@ -400,37 +405,38 @@ static status read_number(const char *who, const json_t *one, parameter_type *ou
     out->value = json_number_value(value);
     out->min = json_number_value(min);
     out->max = json_number_value(max);
-    const int sound = json_is_number(value) && json_is_number(min) && json_is_number(max) &&
-                      out->min <= out->value && out->value <= out->max && out->unit != NULL;
-    return sound ? STATUS_OK
-                 : options_refuse(who, out->name,
-                                  "give numbers 'min' <= 'default' <= 'max', or 'choices'", f);
+    const int is_valid = json_is_number(value) && json_is_number(min) && json_is_number(max) &&
+                         out->min <= out->value && out->value <= out->max && out->unit != NULL;
+    return is_valid ? STATUS_OK
+                    : options_refuse(program_name, out->name,
+                                     "give numbers 'min' <= 'default' <= 'max', or 'choices'", f);
 }
 
-static status read_one(const char *who, const json_t *one, parameter_type *out, fault *f)
+static status read_one(const char *program_name, const json_t *one, parameter_type *out, fault *f)
 {
     if (!is_word(json_string_value(json_object_get(one, "name"))))
         return options_refuse(
-            who, "", "its 'name' must be a word of lowercase letters, digits and underscores", f);
+            program_name, "",
+            "its 'name' must be a word of lowercase letters, digits and underscores", f);
     out->name = copy_or(json_object_get(one, "name"), "");
     out->summary = copy_or(json_object_get(one, "summary"), "");
     if (out->name == NULL || out->summary == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory");
     if (has_other_keys(one))
         return options_refuse(
-            who, out->name,
+            program_name, out->name,
             "the keys of an option are name, default, min, max, unit, choices, summary", f);
-    return json_object_get(one, "choices") != NULL ? read_choice(who, one, out, f)
-                                                   : read_number(who, one, out, f);
+    return json_object_get(one, "choices") != NULL ? read_choice(program_name, one, out, f)
+                                                   : read_number(program_name, one, out, f);
 }
 
-static status handshake_options(const char *who, const json_t *list, const parameter_type **out,
-                                fault *f)
+static status handshake_options(const char *program_name, const json_t *list,
+                                const parameter_type **out, fault *f)
 {
     const size_t count = json_array_size(list);
     *out = NULL;
     if ((list != NULL && !json_is_array(list)) || count > ELEMENT_MAX_OPTIONS)
-        return options_refuse(who, "", "'options' must be a list of at most 6 options", f);
+        return options_refuse(program_name, "", "'options' must be a list of at most 6 options", f);
     if (count == 0)
         return STATUS_OK;
     parameter_type *table = calloc(count + 1, sizeof *table);
@@ -438,7 +444,7 @@ static status handshake_options(const char *who, const json_t *list, const param
         return fault_set(f, STATUS_FAULT, "out of memory");
     *out = table;
     for (size_t i = 0; i < count; i++)
-        TRY(read_one(who, json_array_get(list, i), &table[i], f));
+        TRY(read_one(program_name, json_array_get(list, i), &table[i], f));
     return STATUS_OK;
 }
 

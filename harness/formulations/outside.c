@@ -137,7 +137,7 @@ static status start_again(process *p, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
     status outcome = channel_start(&p->to, line, f);
     if (outcome == STATUS_OK)
-        outcome = handshake_read(p->to.who, line, strlen(line), &again, f);
+        outcome = handshake_read(p->to.program_name, line, strlen(line), &again, f);
     free(line);
     p->kinds = 0;
     TRY(outcome);
@@ -212,7 +212,7 @@ static status ask_prepare(process *p, const element_request *request, element_da
 static status prepare_locked(process *p, const element_request *request, element_data *out,
                              fault *f)
 {
-    if (p->to.trouble[0] != '\0' && !p->to.told)
+    if (p->to.trouble[0] != '\0' && !p->to.reported)
         return fault_set(f, STATUS_FAULT, "%s", p->to.trouble);
     if (!channel_runs(&p->to))
         TRY(start_again(p, f));
@@ -232,7 +232,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     process *p = process_of(request->type);
     pthread_mutex_lock(&p->to.lock);
     const status outcome = prepare_locked(p, request, out, f);
-    p->to.told |= outcome != STATUS_OK;
+    p->to.reported |= outcome != STATUS_OK;
     pthread_mutex_unlock(&p->to.lock);
     /* the same outcome as for a failed evaluation */
     return outcome == STATUS_FAULT ? STATUS_NOT_CONVERGED : outcome;
@@ -241,9 +241,9 @@ static status prepare(const element_request *request, element_data *out, fault *
 static const char *trouble(const element_data *d)
 {
     channel *c = &d->of->to;
-    if (c->trouble[0] == '\0' || c->told)
+    if (c->trouble[0] == '\0' || c->reported)
         return NULL;
-    c->told = 1;
+    c->reported = 1;
     return c->trouble;
 }
 
@@ -272,7 +272,7 @@ static status begin(process *p, const char *command, fault *f)
     if (outcome == STATUS_OK)
         outcome = channel_start(&p->to, line, f);
     if (outcome == STATUS_OK)
-        outcome = handshake_read(p->to.who, line, strlen(line), &said, f);
+        outcome = handshake_read(p->to.program_name, line, strlen(line), &said, f);
     free(line);
     TRY(outcome);
     p->type = said.type;

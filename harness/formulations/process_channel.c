@@ -183,9 +183,9 @@ static child_event child_write(const child *c, const void *bytes, size_t count, 
     const char *from = bytes;
     const double end = end_of(limit);
     while (count > 0) {
-        struct pollfd spoken = {.fd = c->from, .events = POLLIN};
-        if (poll(&spoken, 1, 0) > 0)
-            return spoken.revents & POLLIN ? CHILD_SPOKE : CHILD_ENDED;
+        struct pollfd readable_end = {.fd = c->from, .events = POLLIN};
+        if (poll(&readable_end, 1, 0) > 0)
+            return readable_end.revents & POLLIN ? CHILD_WROTE : CHILD_ENDED;
         const ssize_t written = write_quietly(c->to, from, count);
         if (written < 0 && errno == EAGAIN) {
             if (!await(c, POLLOUT, end))
@@ -225,10 +225,10 @@ enum { MESSAGE = 300 };
 status channel_init(channel *c, const char *command, fault *f)
 {
     const size_t room = strlen(command) + 80;
-    *c = (channel){.who = malloc(room), .limit = 120};
-    if (c->who == NULL)
+    *c = (channel){.program_name = malloc(room), .limit = 120};
+    if (c->program_name == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
-    snprintf(c->who, room, "exec:%s", command);
+    snprintf(c->program_name, room, "exec:%s", command);
     pthread_mutex_init(&c->lock, NULL);
     return words_split(command, &c->words, f);
 }
@@ -236,31 +236,31 @@ status channel_init(channel *c, const char *command, fault *f)
 status channel_call(channel *c, const char *name, fault *f)
 {
     const size_t room = strlen(name) + 20;
-    char *who = malloc(room);
-    if (who == NULL)
+    char *program_name = malloc(room);
+    if (program_name == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
-    snprintf(who, room, "formulation %s", name);
-    free(c->who);
-    c->who = who;
+    snprintf(program_name, room, "formulation %s", name);
+    free(c->program_name);
+    c->program_name = program_name;
     return STATUS_OK;
 }
 
 void channel_end(channel *c)
 {
     child_end(&c->process, 1);
-    free(c->who);
+    free(c->program_name);
     free(c->words);
     free(c->in.at);
     free(c->out.at);
-    *c = (channel){.who = NULL};
+    *c = (channel){.program_name = NULL};
 }
 
 void channel_note(channel *c, status outcome, const fault *why)
 {
-    if (outcome < STATUS_REFUSED || (c->trouble[0] != '\0' && !c->told))
+    if (outcome < STATUS_REFUSED || (c->trouble[0] != '\0' && !c->reported))
         return;
     memcpy(c->trouble, why->text, sizeof c->trouble);
-    c->told = 0;
+    c->reported = 0;
 }
 
 /* Replaces characters that are not printable by dots, so that the text is one line. */
@@ -284,9 +284,9 @@ static void how_it_ended(int how, char words[], size_t size)
 status channel_break(channel *c, const char *why, fault *f)
 {
     child_end(&c->process, 1);
-    snprintf(c->trouble, sizeof c->trouble, "%.100s: %.200s", c->who, why);
+    snprintf(c->trouble, sizeof c->trouble, "%.100s: %.200s", c->program_name, why);
     on_one_line(c->trouble);
-    c->told = 0;
+    c->reported = 0;
     return fault_set(f, STATUS_FAULT, "%s", c->trouble);
 }
 
@@ -296,7 +296,7 @@ static status breach(channel *c, child_event what, const char *when, fault *f)
     char why[200], how[100];
     if (what == CHILD_LATE) {
         snprintf(why, sizeof why, "its process did not answer within %d s%s", c->limit, when);
-    } else if (what == CHILD_SPOKE) {
+    } else if (what == CHILD_WROTE) {
         snprintf(why, sizeof why,
                  "its process wrote more than an answer to standard output%s; print other text to "
                  "standard error",
@@ -325,7 +325,7 @@ static status first_line(channel *c, char line[], fault *f)
     }
     char *end = memchr(line, '\n', count);
     if (end != line + count - 1 && line[0] == '{')
-        return breach(c, CHILD_SPOKE, " after its first line", f);
+        return breach(c, CHILD_WROTE, " after its first line", f);
     *end = '\0';
     on_one_line(line);
     return STATUS_OK;
@@ -393,7 +393,8 @@ static status refused(channel *c, status outcome, size_t bytes, size_t had, faul
             return breach(c, what, " in the middle of an answer", f);
     }
     on_one_line(text);
-    return fault_set(f, outcome, "%.100s: %.200s", c->who, text[0] != '\0' ? text : "refused");
+    return fault_set(f, outcome, "%.100s: %.200s", c->program_name,
+                     text[0] != '\0' ? text : "refused");
 }
 
 /* Reads the rest of an answer after its header and, possibly, after a part of its body. */
@@ -426,7 +427,7 @@ static status rest_of(channel *c, enum channel_request what, size_t least, size_
         return channel_break(c, why, f);
     }
     if (had > CHANNEL_ANSWER + *count)
-        return breach(c, CHILD_SPOKE, "", f);
+        return breach(c, CHILD_WROTE, "", f);
     const size_t left = CHANNEL_ANSWER + *count - had;
     const child_event event = child_read(&c->process, c->in.at + had, left, left, &more, c->limit);
     return event == CHILD_DONE ? STATUS_OK : breach(c, event, " in the middle of an answer", f);

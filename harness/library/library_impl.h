@@ -44,11 +44,11 @@ status known_read(const case_type *type, truths *out, fault *f);
 /* Reads the reference values of all cases. */
 status known_read_all(truths *out, fault *f);
 
-/* Locks HDF5 without changing its error handling. known_hold and known_let_go enclose the reading
+/* Locks HDF5 without changing its error handling. known_hold and known_release enclose the reading
  * of shared reference values. If two threads need the same values, only one of them reads them, and
  * no process is forked during this time. */
 void known_hold(void);
-void known_let_go(void);
+void known_release(void);
 /* Locks HDF5 for all other calls. known_unlock restores the error handling of the host. */
 void known_lock(void);
 void known_unlock(void);

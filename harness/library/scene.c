@@ -45,7 +45,7 @@ bw_status bw_scene_case(const char *name, bw_scene **out, char **why)
 }
 
 /* Writes all errors as JSON. */
-static void tell(const mistakes *m, call *c)
+static void report(const mistakes *m, call *c)
 {
     document_text t;
     fault f;
@@ -71,7 +71,7 @@ static status read_scene(const char *bytes, size_t size, const char *name, bw_sc
     const status outcome = read_file(bytes, size, kept, &file, &m, &c->fault);
     if (outcome == STATUS_OK)
         return new_scene(scene_file_case(file), file, kept, out, &c->fault);
-    tell(&m, c);
+    report(&m, c);
     free(kept);
     return outcome;
 }
@@ -162,7 +162,8 @@ void bw_scene_free(bw_scene *s)
     free(s);
 }
 
-static status list_write_list(FILE *to, const list_subject *what, const truths *ledger, fault *f)
+static status list_write_list(FILE *to, const list_subject *what, const truths *deviations,
+                              fault *f)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
     if (what->type != NULL) {
@@ -170,23 +171,23 @@ static status list_write_list(FILE *to, const list_subject *what, const truths *
         return list_json_case(to, what->type, value, f);
     }
     if (what->chosen.type != NULL)
-        return list_json_formulation(to, &what->chosen, ledger->rule, ledger->rules, f);
+        return list_json_formulation(to, &what->chosen, deviations->rule, deviations->rules, f);
     return list_json_all(to, what->cases, what->formulations, f);
 }
 
 static status list_of(const char *name, char **json, fault *f)
 {
     list_subject what;
-    truths ledger = {0};
+    truths deviations = {0};
     document_text t;
     if (json == NULL)
         return fault_set(f, STATUS_REFUSED, "bw_list: give a pointer for the text");
     *json = NULL;
     TRY(list_subject_find(name, &what, f));
     TRY(text_begin(&t, f));
-    known_read(NULL, &ledger, NULL); /* the file of reference values may be missing */
-    const status outcome = text_end(&t, list_write_list(t.to, &what, &ledger, f), json, f);
-    truths_free(&ledger);
+    known_read(NULL, &deviations, NULL); /* the file of reference values may be missing */
+    const status outcome = text_end(&t, list_write_list(t.to, &what, &deviations, f), json, f);
+    truths_free(&deviations);
     return outcome;
 }
 
@@ -360,7 +361,7 @@ typedef struct verify_trial {
     stored_results former;
     truths truths;
     sweep sweep;
-    judgement judgement;
+    evaluation evaluation;
 } verify_trial;
 
 static status verify_read_truths(verify_trial *v, fault *f)
@@ -410,18 +411,18 @@ static status verify_prepare(verify_trial *v, const char *names, const char *opt
     return verify_read_truths(v, f);
 }
 
-static status judge(verify_trial *v, fault *f)
+static status evaluate(verify_trial *v, fault *f)
 {
     const sweep_request *r = &v->request;
     const int whole = r->select == NULL && r->formulations == 0 && v->scene == NULL;
     TRY(plan_sweep(r, &v->truths, &v->sweep, f));
-    TRY(verification_run(r, whole, NULL, &v->truths, &v->sweep, &v->judgement, f));
+    TRY(verification_run(r, whole, NULL, &v->truths, &v->sweep, &v->evaluation, f));
     TRY(contestants_finished(&v->sweep, f));
     if (v->former_path == NULL)
         return STATUS_OK;
     known_lock();
     const status outcome =
-        regressions_find(&v->former, v->former_path, &v->sweep, &v->judgement, f);
+        regressions_find(&v->former, v->former_path, &v->sweep, &v->evaluation, f);
     known_unlock();
     return outcome;
 }
@@ -431,7 +432,7 @@ static status keep(const verify_trial *v, const environment *e, fault *f)
     if (v->results == NULL)
         return STATUS_OK;
     known_lock();
-    const status outcome = store_write(v->results, NULL, &v->sweep, &v->judgement, e, f);
+    const status outcome = store_write(v->results, NULL, &v->sweep, &v->evaluation, e, f);
     known_unlock();
     return outcome;
 }
@@ -439,11 +440,11 @@ static status keep(const verify_trial *v, const environment *e, fault *f)
 static status answer(verify_trial *v, char **json, fault *f)
 {
     document_text t;
-    TRY(judge(v, f));
+    TRY(evaluate(v, f));
     const environment e = environment_now(v->request.jobs);
     TRY(keep(v, &e, f));
     TRY(text_begin(&t, f));
-    return text_end(&t, json_write_verdicts(t.to, &v->sweep, &v->judgement, &e, NULL, f), json, f);
+    return text_end(&t, json_write_verdicts(t.to, &v->sweep, &v->evaluation, &e, NULL, f), json, f);
 }
 
 static status verify(verify_trial *v, const char *names, const char *options, char **json, fault *f)
@@ -454,7 +455,7 @@ static status verify(verify_trial *v, const char *names, const char *options, ch
     status outcome = verify_prepare(v, names, options, f);
     if (outcome == STATUS_OK)
         outcome = answer(v, json, f);
-    judgement_free(&v->judgement);
+    evaluation_free(&v->evaluation);
     results_free(&v->former);
     sweep_free(&v->sweep);
     truths_free(&v->truths);

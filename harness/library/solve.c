@@ -29,7 +29,7 @@ static status read_options(const char *json, solution_request *out, int *stop, f
         {"keep_all", OPTION_SWITCH, &out->keep_all, 0, 1}, /* name in version 0.2 */
         {"steps", OPTION_WHOLE, &out->steps, 1, STEPS_MOST},
         {"shapes", OPTION_WHOLE, &out->shapes, 0, SHAPES_ALL},
-        {"threads", OPTION_WHOLE, &out->threads, 1, TEAM_MOST},
+        {"threads", OPTION_WHOLE, &out->threads, 1, THREAD_POOL_MOST},
         {"stop", OPTION_FILE, stop, 1, INT_MAX},
         {"error", OPTION_SHARE, &out->error, 0, 0},
         {.name = NULL}};
@@ -40,7 +40,7 @@ static status read_options(const char *json, solution_request *out, int *stop, f
 }
 
 /* Reads the reference values of the result. A case may have none. */
-static status know(bw_result *r, const double parameter[], fault *f)
+static status read_truths(bw_result *r, const double parameter[], fault *f)
 {
     const scene_file *file = source_file(r->from);
     if (file != NULL) {
@@ -55,13 +55,13 @@ static status know(bw_result *r, const double parameter[], fault *f)
 static status choose(const bw_result *r, const char *name, solution_request *out,
                      solution_choice *why, fault *f)
 {
-    const truths *ledger = NULL;
+    const truths *deviations = NULL;
     if (name != NULL)
         TRY(formulation_parse(name, &out->formulation, f));
     else
-        source_known(r->from, &ledger, NULL);
-    return solution_choose(out, ledger != NULL ? ledger->rule : NULL,
-                           ledger != NULL ? ledger->rules : 0, 1, why, f);
+        source_known(r->from, &deviations, NULL);
+    return solution_choose(out, deviations != NULL ? deviations->rule : NULL,
+                           deviations != NULL ? deviations->rules : 0, 1, why, f);
 }
 
 static double error_of(const subject *s)
@@ -96,7 +96,7 @@ static status fill(bw_result *r, const bw_scene *from, const char *name, solutio
                    solution_choice *why, status *solved, fault *f)
 {
     fault lost = {""};
-    TRY(know(r, from->parameter, f));
+    TRY(read_truths(r, from->parameter, f));
     TRY(choose(r, name, what, why, f));
     TRY(solution_plan(what, &r->sweep, f));
     *solved = solution_run(what, why, &r->sweep, f);
@@ -130,11 +130,11 @@ static status solve(const bw_scene *from, const char *name, int elements, const 
         return fault_set(f, STATUS_FAULT, "out of memory for a result");
     r->from = source_hold(from->from);
     solution_choice why = {.formulation = ""};
-    stop_watch(stop);
+    stop_observe(stop);
     status filled = fill(r, from, name, &what, &why, &solved, f);
     if (filled == STATUS_FAULT && stop_check(NULL) != STATUS_OK)
         filled = fault_set(f, STATUS_TIME_LIMIT, "stopped before the solution was finished");
-    stop_watch(0);
+    stop_observe(0);
     solution_choice_free(&why);
     if (filled == STATUS_OK)
         *out = r;
@@ -191,7 +191,7 @@ static void before_fork(void)
 static void after_fork(void)
 {
     pthread_mutex_unlock(&state.lock);
-    known_let_go();
+    known_release();
 }
 
 static void in_child(void)
@@ -292,19 +292,19 @@ void known_hold(void)
     pthread_mutex_lock(&hdf5);
 }
 
-void known_let_go(void)
+void known_release(void)
 {
     pthread_mutex_unlock(&hdf5);
 }
 
-/* Disables the error messages of HDF5 until `speak` is called. */
-static void hush(void)
+/* Disables the error messages of HDF5 until `restore_library_errors` is called. */
+static void mute_library_errors(void)
 {
     H5Eget_auto2(H5E_DEFAULT, &host.print, &host.context);
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }
 
-static void speak(void)
+static void restore_library_errors(void)
 {
     H5Eset_auto2(H5E_DEFAULT, host.print, host.context);
 }
@@ -312,13 +312,13 @@ static void speak(void)
 void known_lock(void)
 {
     known_hold();
-    hush();
+    mute_library_errors();
 }
 
 void known_unlock(void)
 {
-    speak();
-    known_let_go();
+    restore_library_errors();
+    known_release();
 }
 
 static void place_now(char path[PATH_MAX])
@@ -334,10 +334,10 @@ static status known_read_held(const case_type *type, truths *out, fault *f)
 {
     char path[PATH_MAX];
     place_now(path);
-    hush();
+    mute_library_errors();
     const status outcome =
         type != NULL ? truths_read_case(path, type, out, f) : truths_read_rules(path, out, f);
-    speak();
+    restore_library_errors();
     return outcome;
 }
 
@@ -345,7 +345,7 @@ status known_read(const case_type *type, truths *out, fault *f)
 {
     known_hold();
     const status outcome = known_read_held(type, out, f);
-    known_let_go();
+    known_release();
     return outcome;
 }
 
@@ -431,7 +431,7 @@ static status source_known(source *s, const truths **out, fault *f)
         outcome = known_read_held(s->file == NULL ? s->type : NULL, &s->known, f);
     s->is_known |= outcome == STATUS_OK;
     *out = s->is_known ? &s->known : NULL;
-    known_let_go();
+    known_release();
     return outcome;
 }
 

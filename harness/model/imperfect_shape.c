@@ -157,7 +157,8 @@ void model_imperfect_free(model_imperfect *p)
 
 status model_imperfect_build(const model *m, const model_imperfect *p, model **out, fault *f)
 {
-    const model_request request = {&p->own, m->given, m->options, m->asked, m->keep_all, m->omits};
+    const model_request request = {&p->own,      m->given,    m->options,
+                                   m->requested, m->keep_all, m->omits};
     return model_alloc_imperfect(&request, p->modes ? p : NULL, out, f);
 }
 

@@ -37,7 +37,7 @@ static int stored(const mesh_pattern *p, int row, int column)
 }
 
 /* Returns the address of an entry; NULL: the entry is not stored. */
-static double *place_of(sparse *a, int row, int column)
+static double *frame_motion_of(sparse *a, int row, int column)
 {
     int low = a->column[column], high = a->column[column + 1] - 1;
     while (low <= high) {
@@ -56,7 +56,7 @@ void assemble_subtract(sparse *K, int row, int column, double value)
 {
     if (row < 0 || column < 0 || row >= K->n || column >= K->n || (K->symmetric && row > column))
         return;
-    double *entry = place_of(K, row, column);
+    double *entry = frame_motion_of(K, row, column);
     if (entry != NULL)
         *entry -= value;
 }
@@ -370,7 +370,7 @@ void assemble_discrete(const mesh_element *el, const double K[], sparse *out)
             const int row = el->index[a], column = el->index[b];
             if (row != NONE && column != NONE && row < out->n && column < out->n &&
                 (!out->symmetric || row <= column))
-                *place_of(out, row, column) += K[n * a + b];
+                *frame_motion_of(out, row, column) += K[n * a + b];
         }
 }
 

@@ -141,11 +141,11 @@ static int mass_lacks(const scene *s, const element_type *type, char *words, int
  * 0 if there are none. */
 static int strains_lack(const scene *s, const element_type *type, char *words, int size)
 {
-    scene_words who;
-    if (type->force == NULL || !scene_is_free(s, &who))
+    scene_words owner_name;
+    if (type->force == NULL || !scene_is_free(s, &owner_name))
         return 0;
     snprintf(words, (size_t)size, "the stress-free strains of %s (it computes forces, not strains)",
-             who.text);
+             owner_name.text);
     return 1;
 }
 
@@ -279,7 +279,7 @@ static int is_heavy(const scene *s)
 
 /* Names the loads along members that are lumped together with the mass of a motion
  * (newton/loads.c). */
-static const char *goes_with(const scene *s, const scene_motion *how)
+static const char *requirement_of(const scene *s, const scene_motion *how)
 {
     int weight = 0, other = 0;
     for (int i = 0; i < s->loads; i++) {
@@ -313,7 +313,7 @@ static int put_masses(model_words *w, const scene *s, const element_type *type,
                         count++ > 0   ? ", "
                         : w->used > 0 ? "; "
                                       : "",
-                        motion ? goes_with(s, scene_motion_of(a)) : "",
+                        motion ? requirement_of(s, scene_motion_of(a)) : "",
                         scene_called(s, SCENE_ANALYSES, i).text);
     }
     return count;

@@ -173,11 +173,12 @@ static status note_means(model *m, fault *f)
 
 static status divide(model *m, fault *f)
 {
-    if (m->asked < 1)
-        return fault_set(f, STATUS_REFUSED, "%d elements are too few; give at least 1", m->asked);
+    if (m->requested < 1)
+        return fault_set(f, STATUS_REFUSED, "%d elements are too few; give at least 1",
+                         m->requested);
     if (m->scene->members < 1)
         return fault_set(f, STATUS_REFUSED, "scene %s has no member; add one", m->scene->name);
-    TRY(division_make(m->scene, m->asked, &m->division, f));
+    TRY(division_make(m->scene, m->requested, &m->division, f));
     return check_memory(m, f);
 }
 
@@ -275,7 +276,7 @@ status model_alloc_imperfect(const model_request *request, const model_imperfect
     m->imperfect = imperfect;
     m->given = m->mesh.type = request->type;
     m->keep_all = request->keep_all;
-    m->asked = request->elements;
+    m->requested = request->elements;
     const status outcome = build(m, request, f);
     if (outcome == STATUS_OK)
         *out = m;
@@ -303,7 +304,7 @@ status model_coarse(const model *m, model **out, fault *f)
 
 status model_halved(const model *m, model **out, fault *f)
 {
-    return again(m, 2 * m->asked, out, f);
+    return again(m, 2 * m->requested, out, f);
 }
 
 void model_free(model *m)

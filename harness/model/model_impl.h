@@ -128,7 +128,7 @@ struct model {
     scene_spring *founded; /* springs of foundations at the vertices of their members */
     mesh_turn *turn;       /* [turns] in the order of model_turns */
     double size;           /* length of the longest member [m] */
-    int asked;             /* requested number of elements per piece of a member */
+    int requested;         /* requested number of elements per piece of a member */
     division division;     /* division of the members into elements */
     model_state *rest;     /* undeformed */
     int lines;

@@ -41,7 +41,7 @@ void predictor_free(predictor *t)
         kinematics_state_free(t->at[i]);
 }
 
-void predictor_forget(predictor *t)
+void predictor_reset(predictor *t)
 {
     t->count = 0;
 }

@@ -445,7 +445,7 @@ static status refine(analysis_context *c, linear_system *s, system_workspace *w,
     }
     if (state == REFINEMENT_ENDS) {
         TRY(shake(c, s, w, x, &correction, f));
-        state = refinement_judge(&r, correction);
+        state = refinement_evaluate(&r, correction);
     }
     return state == REFINEMENT_ENDS ? STATUS_OK : refinement_refuse(&r, "the linear solution", f);
 }

@@ -161,7 +161,7 @@ static void add_columns(const model *m, const mesh_element *el, const double K[]
     }
 }
 
-/* Data shared by the threads of a team. Elements are evaluated in batches of `window`, and their
+/* Data shared by the threads of a pool. Elements are evaluated in batches of `window`, and their
  * parts are added in order. */
 typedef struct shared_loop {
     const equations *eq;
@@ -171,7 +171,7 @@ typedef struct shared_loop {
     model_linearisation *lin;
     const mesh_pattern *pattern; /* pattern of K; NULL: K is not requested */
     int tangent, window;
-    element_part *part; /* [slots of the team x window] */
+    element_part *part; /* [slots of the pool x window] */
     status outcome;
     fault *f;
 } shared_loop;
@@ -216,8 +216,8 @@ static int window_of(const equations *eq)
 {
     const model *m = eq->m;
     const int wanted = model_elements(m) < CHUNK_WINDOW ? model_elements(m) : CHUNK_WINDOW,
-              slots = eq->run->team != NULL ? TEAM_SLOTS : 1;
-    if (eq->run->team == NULL && chunk_size(m) == 1)
+              slots = eq->run->pool != NULL ? THREAD_POOL_SLOTS : 1;
+    if (eq->run->pool == NULL && chunk_size(m) == 1)
         return 0;
     if (eq->run->part == NULL)
         eq->run->part = malloc((size_t)(wanted * slots) * sizeof *eq->run->part);
@@ -293,7 +293,7 @@ static status linearise_elements(const equations *eq, const linear_memory *memor
                         .part = window > 0 ? eq->run->part : &own,
                         .f = f};
     /* counting the evaluations of inertia requires a single thread */
-    thread_team *together = window > 0 && !eq->loading.rotates ? eq->run->team : NULL;
+    thread_pool *together = window > 0 && !eq->loading.rotates ? eq->run->pool : NULL;
     memset(lin->residual, 0, (size_t)model_all_coordinates(m) * sizeof *lin->residual);
     lin->incompatibility = 0;
     if (lin->conditions > 0)
@@ -301,8 +301,8 @@ static status linearise_elements(const equations *eq, const linear_memory *memor
                (size_t)(lin->conditions * model_all_coordinates(m)) * sizeof *lin->column);
     if (lin->K != NULL)
         sparse_zero(lin->K);
-    team_relay(together, (model_elements(m) + loop.window - 1) / loop.window, fill_piece,
-               take_piece, &loop);
+    thread_pool_relay(together, (model_elements(m) + loop.window - 1) / loop.window, fill_piece,
+                      take_piece, &loop);
     TRY(loop.outcome);
     add_discrete(eq, s, lin);
     loads_add_at_vertices(eq, s, lin->path, lin->residual);

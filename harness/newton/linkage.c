@@ -34,7 +34,7 @@ static status begin(run_state *run, const model *m, int threads, fault *f)
     TRY(assemble_patterns_alloc(&run->patterns, f));
     TRY(linear_memory_alloc(m, &run->memory, f));
     TRY(free_strain_begin(m, &run->free_strain, f));
-    return team_alloc(threads < most ? threads : most, &run->team, f);
+    return thread_pool_alloc(threads < most ? threads : most, &run->pool, f);
 }
 
 status run_state_begin(run_state *run, const model *m, int threads, fault *f)
@@ -54,7 +54,7 @@ void run_state_end(run_state *run)
     free(run->ahead);
     free(run->part);
     free_strain_end(run->free_strain);
-    team_free(run->team);
+    thread_pool_free(run->pool);
     assemble_patterns_free(run->patterns);
     linear_memory_free(&run->memory);
     memset(run, 0, sizeof *run);

@@ -53,7 +53,8 @@ status newton_alloc(analysis_context *c, int condense, newton_run *n, fault *f)
     n->c = c;
     n->free = size.free;
     n->all = size.free + size.driven;
-    arrival_start(c->options->criterion, model_leaves(c->model) != 0, size.elements, &n->arrival);
+    newton_convergence_start(c->options->criterion, model_leaves(c->model) != 0, size.elements,
+                             &n->newton_convergence);
     n->max_iterations =
         c->options->max_iterations > 0 ? c->options->max_iterations : MAX_ITERATIONS;
     const status outcome = allocate(n, condense, f);
@@ -296,13 +297,13 @@ status newton_to(newton_run *n, double path, step_record *record, fault *f)
     const int unstressed = is_unstressed(n);
     const step_record first = *record;
     n->path = path;
-    const status outcome = newton_iterate(n->c, &use, &n->arrival, record, f);
+    const status outcome = newton_iterate(n->c, &use, &n->newton_convergence, record, f);
     if (!unstressed || (outcome != STATUS_SINGULAR && outcome != STATUS_NOT_CONVERGED))
         return outcome;
     history_drop_step(n->c->result, record);
     *record = first;
     TRY(prestress(n, path, f));
-    return newton_iterate(n->c, &use, &n->arrival, record, f);
+    return newton_iterate(n->c, &use, &n->newton_convergence, record, f);
 }
 
 int context_runs(const analysis_context *c, int analysis)

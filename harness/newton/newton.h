@@ -1,7 +1,7 @@
 /* newton/: equations of a model, Newton's method, tangents, condensation, outcomes.
  *
  * Sections, in this order: equations of a model; advance (a state after a correction); applied
- * loads; arrival (convergence); modes; outcomes of analyses; shapes; rows; system matrices;
+ * loads; convergence; modes; outcomes of analyses; shapes; rows; system matrices;
  * solve_options and solve_result; the context of an analysis; tangent of a node; loads along a
  * path; linearise; convention of moments; extrapolate; history; identity; internal (section
  * resultants, stresses); linear solutions; predictor; newton; quadratic forms; quantity results;
@@ -90,7 +90,7 @@ typedef struct run_state {
     assemble_patterns *patterns; /* patterns of the matrices of the model, created on request */
     counters counters;
     phases phases;
-    thread_team *team; /* threads for the loop over elements; NULL: one thread */
+    thread_pool *pool; /* threads for the loop over elements; NULL: one thread */
     struct element_part
         *part; /* equations of a few elements, which are then added in order; NULL: none yet */
     struct run_ahead *ahead; /* batch of elements in one memory block (newton_impl.h); NULL: no
@@ -169,7 +169,7 @@ void applied_each(const model *, const model_state *, const scene_load *, double
  * their rate of decrease. */
 
 /* Convergence history along a path. All members except `stress` are dimensionless. */
-typedef struct arrival {
+typedef struct newton_convergence {
     double criterion; /* requested limit of the correction; 0: the limit set by rounding */
     double small;     /* a step ends after two successive corrections below this value */
     /* last correction, and previous correction in the same step (INFINITY: none) */
@@ -180,16 +180,17 @@ typedef struct arrival {
         /* last ratio of a correction to the square of the previous correction; NAN: none */
         contraction;
     double remaining; /* predicted size of the next correction; NAN: unknown */
-} arrival;
+} newton_convergence;
 
 /* Starts the history. differences 1: derivatives are computed by finite differences, whose noise
  * prevents quadratic convergence. The iteration then ends at the first small correction. elements:
  * number of elements. If there are many elements, rounding of positions limits the size of
  * corrections. */
-void arrival_start(double criterion, int differences, int elements, arrival *);
+void newton_convergence_start(double criterion, int differences, int elements,
+                              newton_convergence *);
 /* Returns 1 if the last change of the state was so small that the tangent of the last linearisation
  * is still accurate to rounding error. */
-int arrival_tangent_stands(const arrival *);
+int newton_convergence_tangent_stands(const newton_convergence *);
 
 typedef struct condensation condensation;
 
@@ -352,10 +353,10 @@ typedef struct outcome_about {
 
 typedef struct outcome_motion {
     outcome_path path;
-    outcome_instant *instant; /* [stations] */
-    int steps;                /* number of records, including the initial state */
-    outcome_step *step;       /* [steps] */
-    outcome_passing *passing; /* [quantities of the scene] */
+    outcome_instant *at_station; /* [stations] */
+    int steps;                   /* number of records, including the initial state */
+    outcome_step *step;          /* [steps] */
+    outcome_passing *passing;    /* [quantities of the scene] */
     /* [quantities of the scene] 1: the quantity depends on an acceleration of a coordinate without
      * inertia */
     unsigned char *undefined;
@@ -618,7 +619,7 @@ typedef struct solve_options {
     int all_analyses;           /* 1: run all analyses, even if no quantity needs them */
     /* 1: check the stability of static paths within their steps, and where pivots are not
      * conclusive */
-    int looks;
+    int checks_flutter;
     int values_only; /* 1: omit results that only curves and matrices need */
 } solve_options;
 
@@ -1051,9 +1052,9 @@ void history_drop_step(solve_result *r, const step_record *step);
 
 /* Sets the analysis of the steps from index `first` on, and the stability of the states at their
  * ends. */
-void history_judge_steps(solve_result *, const scene *, int analysis, int first);
+void history_evaluate_steps(solve_result *, const scene *, int analysis, int first);
 /* Sets the stability at a station where pivots are not conclusive, as found from the modes. */
-void history_judge_station(solve_result *, int analysis, double path, step_stability);
+void history_evaluate_station(solve_result *, int analysis, double path, step_stability);
 /* Returns the stability at the end of the step that ended at this path parameter; STEP_OPEN: there
  * is no such step. */
 step_stability history_stability_at(const solve_result *, int analysis, double path);
@@ -1214,7 +1215,7 @@ typedef struct predictor {
 status predictor_alloc(const model *, predictor *, fault *); /* contains the undeformed state */
 void predictor_free(predictor *);
 status predictor_add(const equations *, const model_state *, int iterations, predictor *, fault *);
-void predictor_forget(predictor *);
+void predictor_reset(predictor *);
 /* Replaces the last state s by an extrapolation for `path`, or leaves s unchanged if there is none.
  * */
 void predictor_guess(const equations *, const predictor *, double path, model_state *s);
@@ -1241,7 +1242,7 @@ typedef struct newton_run {
         *weight; /* [free + driven] weights of metric_of, which scale displacements and rotations */
     double energy; /* [J] |r . K^-1 r| of the last residual r; NAN: unknown */
     double path;   /* target of newton_to */
-    arrival arrival;
+    newton_convergence newton_convergence;
     int max_iterations, free, all;
     long counted; /* number of factorisations that the counters of the model already include */
 } newton_run;
@@ -1267,7 +1268,7 @@ status newton_direction(newton_run *, double path, step_record *, fault *);
 void newton_advance(newton_run *, double path, newton_correction *);
 /* Returns NOT_CONVERGED if the initial rise of a curved element exceeds the range of the
  * formulation. */
-status newton_judge_rest(const model *m, fault *f);
+status newton_check_rest(const model *m, fault *f);
 /* Compares an accepted state with the previous state. NOT_CONVERGED: the message names an element
  * that rotates beyond the range of its formulation, a spring whose rotation vector has lost its
  * direction, or a prescribed coordinate that moves too far in one step. If the rotation vector of a
@@ -1300,8 +1301,10 @@ newton_use newton_in_time(const analysis_context *, void *of,
                           void (*prepare)(void *of, int iteration, double correction));
 
 /* Runs Newton's method for a nonlinear step, with common limits. Returns OK, or NOT_CONVERGED with
- * the reason. Each correction is added to the counters, to the records and to `arrival`. */
-status newton_iterate(analysis_context *, const newton_use *, arrival *, step_record *, fault *);
+ * the reason. Each correction is added to the counters, to the records and to `newton_convergence`.
+ */
+status newton_iterate(analysis_context *, const newton_use *, newton_convergence *, step_record *,
+                      fault *);
 
 /* Moves the state to `path` by Newton's method. Returns OK, or NOT_CONVERGED with the reason. */
 status newton_to(newton_run *, double path, step_record *, fault *);

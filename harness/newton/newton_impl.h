@@ -284,7 +284,7 @@ double linear_geometric_rounding(const equations *, const double load_x[], const
 
 /* Returns REFINEMENT_ENDS if the accuracy is sufficient, otherwise REFINEMENT_LOST. correction: the
  * last correction, or another measure of the error. */
-refinement_state refinement_judge(solution_refinement *, double correction);
+refinement_state refinement_evaluate(solution_refinement *, double correction);
 /* Returns SINGULAR. The message contains the remaining accuracy of `what` and a remedy. */
 status refinement_refuse(const solution_refinement *, const char *what, fault *);
 /* Returns |change|/|x| in the norm with n weights; 0: there is no change. |x| is taken as at least

@@ -45,8 +45,8 @@ static void free_continuation(outcome_continuation *c)
 
 static void free_motion(outcome_motion *m)
 {
-    for (int i = 0; m->instant != NULL && i < m->path.stations; i++)
-        free(m->instant[i].rate);
+    for (int i = 0; m->at_station != NULL && i < m->path.stations; i++)
+        free(m->at_station[i].rate);
     for (int i = 0; i < m->abouts; i++) {
         outcome_about *one = &m->about[i];
         kinematics_state_free(one->state);
@@ -57,7 +57,7 @@ static void free_motion(outcome_motion *m)
         sparse_free_values(&one->G);
     }
     free(m->about);
-    free(m->instant);
+    free(m->at_station);
     free(m->passing);
     free(m->undefined);
     free(m->slope);
@@ -310,7 +310,7 @@ static step_stability without_symmetry(const scene *s, const step_record *one)
     return STEP_NO_DIVERGENCE;
 }
 
-void history_judge_steps(solve_result *r, const scene *s, int analysis, int first)
+void history_evaluate_steps(solve_result *r, const scene *s, int analysis, int first)
 {
     const scene_analysis *a = &s->analysis[analysis];
     for (int i = first; i < r->steps; i++) {
@@ -331,7 +331,7 @@ void history_judge_steps(solve_result *r, const scene *s, int analysis, int firs
     }
 }
 
-void history_judge_station(solve_result *r, int analysis, double path, step_stability found)
+void history_evaluate_station(solve_result *r, int analysis, double path, step_stability found)
 {
     for (int i = 0; i < r->steps; i++)
         if (r->step[i].analysis == analysis && r->step[i].path == path &&

@@ -18,7 +18,8 @@ static void border_fill(border *, int free_count, const sparse *K);
 static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns,
                            double x[]);
 /* Refines s->x iteratively for s->load. The stiff part of the residuals is computed from the
- * element strains (refinement_judge). SINGULAR: the accuracy is insufficient because of rounding.
+ * element strains (refinement_evaluate). SINGULAR: the accuracy is insufficient because of
+ * rounding.
  * */
 static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
 
@@ -112,7 +113,7 @@ static status factor_inside(analysis_context *c, node_tangent *t, fault *f)
 }
 
 /* Returns 1 if the condition number requires refinement. */
-static int asks_refinement(node_tangent *t)
+static int needs_refinement(node_tangent *t)
 {
     const double apart = factor_count(t->factor).condition;
     const int clearly = t->condition > clear * harmless_condition ||
@@ -130,7 +131,7 @@ static status complete(analysis_context *c, const scene_compliance *a, const mod
                        const double reaction[6], node_tangent *t, fault *f)
 {
     t->state = s;
-    t->refined = t->condensed != NULL || asks_refinement(t);
+    t->refined = t->condensed != NULL || needs_refinement(t);
     if (t->refined) {
         TRY(stiffness_parts_geometric(&c->eq, &c->run->memory, s, &t->geometric, f));
         loads_release_moment(c->model, s, a->node, reaction + 3, &t->geometric);
@@ -487,7 +488,7 @@ enum { LEAST = 2, MOST = 30 };
  * 42000. In a run of verify, no correction exceeded 2e-12. */
 static const double sure_digits = 1e-9, enough_digits = 1e-6;
 
-refinement_state refinement_judge(solution_refinement *r, double correction)
+refinement_state refinement_evaluate(solution_refinement *r, double correction)
 {
     r->last = correction;
     return correction <= enough_digits ? REFINEMENT_ENDS : REFINEMENT_LOST;
@@ -500,7 +501,7 @@ refinement_state refinement_next(solution_refinement *r, double correction)
     if (step >= LEAST && correction <= sure_digits)
         return REFINEMENT_ENDS;
     if ((step > LEAST && settles) || step == MOST)
-        return refinement_judge(r, correction);
+        return refinement_evaluate(r, correction);
     return REFINEMENT_GOES_ON;
 }
 

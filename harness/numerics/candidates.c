@@ -253,7 +253,7 @@ double *candidates_products(const candidates *p)
  * y = x_k^T s A y/mu_k, is due to a part c_k/(mu_k - mu) of this mode in x. This part changes the
  * quotient mu by c_k^2/(mu_k - mu), or by mu_k - mu if the two eigenvalues are too close to be
  * distinguished. The remaining part of y contributes its full length. */
-void candidates_judge(candidates *p, int i, double *residual, double *error)
+void candidates_evaluate(candidates *p, int i, double *residual, double *error)
 {
     const double mu = p->mu[i], *x = p->x + (size_t)i * (size_t)p->n;
     double *y = p->work;
@@ -331,9 +331,9 @@ status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_r
     const int q = above_cluster(p, wanted, &low);
     /* The value is immediately above the cluster, because a larger value could hide missing
      * eigenvalues below it. */
-    const double told_apart = 2 * close + 32 * p->noise[q], near = 1e-2;
-    const double high = q > 0 ? fmin(p->matrix_mu[q - 1], low * (1 + fmax(near, told_apart)))
-                              : low * (1 + told_apart);
+    const double distinguishable = 2 * close + 32 * p->noise[q], near = 1e-2;
+    const double high = q > 0 ? fmin(p->matrix_mu[q - 1], low * (1 + fmax(near, distinguishable)))
+                              : low * (1 + distinguishable);
     int above = 0;
     *missing = -1;
     /* A count that does not match is repeated at another value, because the factorisation does not

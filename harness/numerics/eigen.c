@@ -95,18 +95,18 @@ static status fill(candidates *p, int wanted, double scale, double least, eigen_
 {
     int exist;
     TRY(count_existing(p, wanted + SPARE, scale, least, &exist, r, f));
-    const int asked = wanted < exist ? wanted : exist;
+    const int requested = wanted < exist ? wanted : exist;
     int missing = wanted + SPARE < exist ? wanted + SPARE : exist;
     for (int pass = 0; missing > 0; pass++) {
         if (pass == MAX_PASSES || p->count + missing >= p->n)
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "%d of %d eigenvalues were not found in %d attempts", missing, asked,
-                             pass);
+                             "%d of %d eigenvalues were not found in %d attempts", missing,
+                             requested, pass);
         candidates_count_rest(p);
         TRY(run_lanczos(p, missing, least, &r->solutions, f));
-        missing = asked - p->count;
+        missing = requested - p->count;
         if (missing <= 0)
-            TRY(candidates_count_missing(p, asked, &missing, r, f));
+            TRY(candidates_count_missing(p, requested, &missing, r, f));
     }
     return STATUS_OK;
 }
@@ -154,9 +154,9 @@ static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, e
  * it. */
 static void drop_rounding(candidates *p, eigen_side *out)
 {
-    const double suspect = 1e-6; /* fraction of the largest value */
+    const double uncertain_below = 1e-6; /* fraction of the largest value */
     for (int i = 0; i < p->count; i++)
-        if ((i == 0 || p->mu[i] < suspect * p->mu[0]) &&
+        if ((i == 0 || p->mu[i] < uncertain_below * p->mu[0]) &&
             candidates_is_rounding(p, p->mu[i] * p->stiffness[i],
                                    p->x + (size_t)i * (size_t)p->n)) {
             out->rounding = p->count - i;
@@ -165,11 +165,11 @@ static void drop_rounding(candidates *p, eigen_side *out)
 }
 
 /* Computes the residuals and errors of the first `count` candidates. Returns the largest error. */
-static double judge(candidates *p, int count, eigen_side *out, long *solutions)
+static double evaluate(candidates *p, int count, eigen_side *out, long *solutions)
 {
     double largest = 0;
     for (int i = 0; i < count; i++, (*solutions)++) {
-        candidates_judge(p, i, &out->residual[i], &out->error[i]);
+        candidates_evaluate(p, i, &out->residual[i], &out->error[i]);
         largest = fmax(largest, out->error[i]);
     }
     return largest;
@@ -180,16 +180,17 @@ static double judge(candidates *p, int count, eigen_side *out, long *solutions)
 static status improve(candidates *p, int count, eigen_side *out, eigen_result *r, fault *f)
 {
     enum { SWEEPS = 3 };
-    const double bearable = 1e-6; /* the error of an eigenvalue is about the square of this value */
+    const double acceptable =
+        1e-6; /* the error of an eigenvalue is about the square of this value */
     const double good = 1e-8;
-    if (p->problem->K_product == NULL || candidates_departure(p, count) <= bearable) {
-        judge(p, count, out, &r->solutions);
+    if (p->problem->K_product == NULL || candidates_departure(p, count) <= acceptable) {
+        evaluate(p, count, out, &r->solutions);
         return STATUS_OK;
     }
     TRY(candidates_refine(p, count, f));
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         TRY(polish(p, &r->solutions, f));
-        if (judge(p, count, out, &r->solutions) <= good)
+        if (evaluate(p, count, out, &r->solutions) <= good)
             break;
     }
     return STATUS_OK;
@@ -218,7 +219,7 @@ static void drop_lost(candidates *p, int count, eigen_side *out)
 }
 
 /* Stores the first `wanted` candidates in the result. */
-static status hand_over(candidates *p, int wanted, eigen_side *out, eigen_result *r, fault *f)
+static status store_results(candidates *p, int wanted, eigen_side *out, eigen_result *r, fault *f)
 {
     const size_t n = (size_t)p->n;
     drop_rounding(p, out);
@@ -258,8 +259,8 @@ static status solve(const eigen_problem *e, candidates *up, candidates *down, ei
     TRY(candidates_alloc(up, e, e->sign, f));
     TRY(candidates_alloc(down, e, -e->sign, f));
     TRY(find(e, up, down, r, f));
-    TRY(hand_over(up, e->largest, &r->positive, r, f));
-    TRY(hand_over(down, e->smallest, &r->negative, r, f));
+    TRY(store_results(up, e->largest, &r->positive, r, f));
+    TRY(store_results(down, e->smallest, &r->negative, r, f));
     const eigen_side *worse = r->positive.status != STATUS_OK ? &r->positive : &r->negative;
     return worse->status == STATUS_OK ? STATUS_OK
                                       : fault_set(f, worse->status, "%s", worse->reason);

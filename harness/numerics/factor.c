@@ -414,7 +414,7 @@ static int determinant_of(factor_unsymmetric *fu)
     return sign;
 }
 
-static status judge_pivots(factor_unsymmetric *fu, const sparse *a, factor_counts *counts, int *row,
+static status check_pivots(factor_unsymmetric *fu, const sparse *a, factor_counts *counts, int *row,
                            int *column, double *ratio)
 {
     const klu_numeric *u = fu->numeric;
@@ -450,7 +450,7 @@ static status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a
         TRY(factor_anew(fu, a, counts));
     }
     counts->determinant = determinant_of(fu);
-    return judge_pivots(fu, a, counts, row, column, ratio);
+    return check_pivots(fu, a, counts, row, column, ratio);
 }
 
 void factor_unsymmetric_solve(factor_unsymmetric *fu, int columns, int stride, double x[])

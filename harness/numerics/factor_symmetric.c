@@ -198,7 +198,7 @@ static void sum_terms(factor_symmetric *fs, int negative_pivots)
             fs->terms[fs->L_row[k]] += fs->L_value[k] * fs->L_value[k] * fabs(fs->D[j]);
 }
 
-static status judge_pivots(factor_symmetric *fs, const double a[], factor_counts *counts,
+static status check_pivots(factor_symmetric *fs, const double a[], factor_counts *counts,
                            int *weakest, double *ratio)
 {
     const double digits = 16 * DBL_EPSILON;
@@ -246,7 +246,7 @@ status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_co
     memset(fs->rest, 0, size_of_rest((size_t)fs->n));
     if (!REAL_CHOSEN(triangular_rows_factor)(&rows, a->value))
         return STATUS_SINGULAR;
-    return judge_pivots(fs, a->value, counts, weakest, ratio);
+    return check_pivots(fs, a->value, counts, weakest, ratio);
 }
 
 void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, double x[])

@@ -11,7 +11,7 @@ enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
 
 /* limits of residuals relative to x^H K x; the relative error of a frequency is the square of the
  * residual */
-static const double good_residual = 1e-8, bearable_residual = 1e-5;
+static const double good_residual = 1e-8, acceptable_residual = 1e-5;
 /* A pair need not converge if rounding changes its residual by more than this limit. Its mass is
  * then a rounding error of the largest mass. */
 static const double no_digits = 1e-7;
@@ -133,7 +133,7 @@ static status iterate(gyroscopic_solver *s, int wanted, fault *f)
         s->found = count;
         for (int i = 0; i < count; i++) {
             const double size = improve(s, i, &grown);
-            if (size > bearable_residual && s->found == count && noise(s, i) > no_digits)
+            if (size > acceptable_residual && s->found == count && noise(s, i) > no_digits)
                 s->found = i;
             worst = fmax(worst, i < s->found ? size : 0);
             beyond = fmax(beyond, size);
@@ -142,7 +142,7 @@ static status iterate(gyroscopic_solver *s, int wanted, fault *f)
             return STATUS_OK;
         if (grown > 0 && pass < MAX_PASSES)
             continue;
-        return worst <= bearable_residual
+        return worst <= acceptable_residual
                    ? STATUS_OK
                    : fault_set(
                          f, STATUS_NOT_CONVERGED,
@@ -341,7 +341,7 @@ static void take_pair(gyroscopic_solver *s, int i, motion_estimate *e)
     memcpy(r->mode + (size_t)i * (size_t)r->n, s->re, (size_t)r->n * sizeof(double));
 }
 
-static status hand_over(gyroscopic_solver *s, fault *f)
+static status store_results(gyroscopic_solver *s, fault *f)
 {
     gyroscopic_result *r = s->out;
     motion_estimate e;
@@ -379,7 +379,7 @@ static status find(gyroscopic_solver *s, fault *f)
         TRY(missing(s, s->p->wanted, &lost, f));
         first += 2 * lost + SPARE;
     }
-    return hand_over(s, f);
+    return store_results(s, f);
 }
 
 /* Finds the modes. The caller gyroscopic_solve() frees *s, even after a failure. */

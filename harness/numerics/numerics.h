@@ -168,7 +168,7 @@ void eigen_free(eigen_result *r);
 double clock_wall_seconds(void);
 
 /* Sets a file descriptor that becomes readable when this thread must stop; 0: none. */
-void stop_watch(int descriptor);
+void stop_observe(int descriptor);
 /* Returns FAULT if this thread must stop. Iterations and steps of motions call this function. */
 status stop_check(fault *f);
 /* Returns the processor time [s] of this thread, which the load of other programs does not affect.
@@ -260,7 +260,7 @@ typedef struct phases {
 
 /* Sets all parts to zero and measures the duration of a reading, which is the shortest of several.
  * */
-static inline void phases_want(phases *p, int wanted)
+static inline void phases_request(phases *p, int wanted)
 {
     enum { FEW = 50 };
     *p = (phases){.wanted = wanted, .reading = 1};
@@ -314,26 +314,28 @@ static inline const char *phase_name(newton_phase k)
 /* Threads that share a loop. Each thread takes one range of consecutive indices, so results do not
  * depend on the number of threads. */
 
-typedef struct thread_team thread_team;
-typedef void team_work(void *context, int first, int end); /* [first, end) */
+typedef struct thread_pool thread_pool;
+typedef void thread_pool_work(void *context, int first, int end); /* [first, end) */
 
 /* Computes a piece of the work and stores the results in a slot. */
-typedef void team_fill(void *context, int piece, int slot);
+typedef void thread_pool_fill(void *context, int piece, int slot);
 /* Uses the contents of a slot, in the calling thread. Returns 0 to stop. */
-typedef int team_take(void *context, int piece, int slot);
+typedef int thread_pool_take(void *context, int piece, int slot);
 
-enum { TEAM_MOST = 16, TEAM_SLOTS = 8 };
+enum { THREAD_POOL_MOST = 16, THREAD_POOL_SLOTS = 8 };
 
-status team_alloc(int threads, thread_team **out,
+status
+thread_pool_alloc(int threads, thread_pool **out,
                   fault *f); /* the caller counts as one thread; threads <= 1: *out is NULL */
-void team_free(thread_team *t);
+void thread_pool_free(thread_pool *t);
 /* Runs `work` over [0, count) on all threads, and returns when all work is done. t NULL: only the
  * calling thread is used. */
-void team_run(thread_team *t, int count, team_work *work, void *context);
+void thread_pool_run(thread_pool *t, int count, thread_pool_work *work, void *context);
 /* Fills and uses the pieces [0, pieces). Any free thread fills the next piece, at most a few pieces
  * ahead. The caller uses the pieces in order, and also fills pieces. The slots fit into the cache,
- * and the order of sums does not change. slot: less than TEAM_SLOTS; 0 if t is NULL. */
-void team_relay(thread_team *t, int pieces, team_fill *fill, team_take *take, void *context);
+ * and the order of sums does not change. slot: less than THREAD_POOL_SLOTS; 0 if t is NULL. */
+void thread_pool_relay(thread_pool *t, int pieces, thread_pool_fill *fill, thread_pool_take *take,
+                       void *context);
 
 /* Matrices as lists of entries, which are stored and written. */
 

@@ -51,7 +51,7 @@ status candidates_take(candidates *p, int count, double *x, double least, fault 
 double *candidates_products(const candidates *p);
 /* Computes the residual of candidate i and the estimated error of its mu, both relative to mu. This
  * needs one solution. */
-void candidates_judge(candidates *p, int i, double *residual, double *error);
+void candidates_evaluate(candidates *p, int i, double *residual, double *error);
 
 /* Proof that no eigenvalue is missing among the candidates. */
 

@@ -103,7 +103,7 @@ struct by_numbers {
 };
 
 /* Returns the position of an entry; -1: not stored. */
-static int place_of(const sparse *a, int row, int column)
+static int frame_motion_of(const sparse *a, int row, int column)
 {
     int low = a->column[column], high = a->column[column + 1] - 1;
     while (low <= high) {
@@ -120,7 +120,7 @@ static int place_of(const sparse *a, int row, int column)
 
 double sparse_diagonal(const sparse *a, int j)
 {
-    const int place = place_of(a, j, j);
+    const int place = frame_motion_of(a, j, j);
     return place < 0 ? 0 : a->value[place];
 }
 
@@ -132,7 +132,7 @@ static void fill(const sparse *a, by_numbers *b)
         for (int k = a->column[j]; k < a->column[j + 1] && a->row[k] <= j; k++) {
             b->upper.row[entries] = a->row[k];
             b->from[entries] = k;
-            b->mirror[entries++] = place_of(a, j, a->row[k]);
+            b->mirror[entries++] = frame_motion_of(a, j, a->row[k]);
         }
     }
     b->upper.column[a->n] = entries;

@@ -57,7 +57,7 @@ static int selected(const char *select, const char *name)
 
 /* Writes a line for all meshes of a series of another program that is missing or new, with a
  * remedy. */
-static void tell_foreign(const listing *l, int which, const char **last)
+static void report_foreign(const listing *l, int which, const char **last)
 {
     const char *instead = results_part_instead(which == 0 ? l->after : l->before,
                                                which == 0 ? l->before : l->after, l->name);
@@ -66,7 +66,7 @@ static void tell_foreign(const listing *l, int which, const char **last)
         return;
     *last = l->name;
     here.elements = 0;
-    comparison_lines_heading(&here, which == 0 ? CHANGE_GONE : CHANGE_NEW);
+    comparison_lines_heading(&here, which == 0 ? CHANGE_MISSING : CHANGE_NEW);
     if (which == 0 && instead != NULL)
         fprintf(l->to,
                 ": was the program renamed to '%.80s'? If so, write the version in '# version:' of "
@@ -90,21 +90,21 @@ static int has_series(const stored_results *r, const char *name)
 /* Handles a series, or a mesh of a series (elements > 0), that exists in only one run. which: 0 for
  * the old run, 1 for the new run. *last: last series that was counted. Series are visited in the
  * order of their names. */
-static void tell_lone(const listing *l, int which, const char **last)
+static void report_lone(const listing *l, int which, const char **last)
 {
     const stored_results *here = which == 0 ? l->before : l->after,
                          *other = which == 0 ? l->after : l->before;
     int *count = NULL;
-    if (!results_part_wants(other, here, l->name))
+    if (!results_part_needs(other, here, l->name))
         count = &l->out->outside[which];
     else if (results_part_is_fresh(&here->part, l->name))
         count = &l->out->fresh[which];
     if (count == NULL && results_part_is_foreign(l->name) && !has_series(other, l->name)) {
-        tell_foreign(l, which, last);
+        report_foreign(l, which, last);
         return;
     }
     if (count == NULL) {
-        comparison_lines_lone(l, which == 0 ? CHANGE_GONE : CHANGE_NEW);
+        comparison_lines_lone(l, which == 0 ? CHANGE_MISSING : CHANGE_NEW);
         return;
     }
     *count += *last == NULL || strcmp(*last, l->name) != 0;
@@ -129,7 +129,7 @@ static void run_cells(listing l, const stored_results *before, const stored_resu
         if (order == 0)
             comparison_cells(&l, a, b);
         else
-            tell_lone(&l, a == NULL, &last);
+            report_lone(&l, a == NULL, &last);
     }
 }
 
@@ -150,7 +150,7 @@ static void run_series(listing l, const stored_results *before, const stored_res
         if (order == 0)
             comparison_series(&l, a, b);
         else
-            tell_lone(&l, a == NULL, &last);
+            report_lone(&l, a == NULL, &last);
     }
 }
 
@@ -160,7 +160,7 @@ void comparison_run(FILE *to, const stored_results *before, const stored_results
     const listing l = {to, limits, out, before, after, "", 0};
     memset(out, 0, sizeof *out);
     out->whole = before->whole && after->whole;
-    out->judged = before->limits && after->limits;
+    out->evaluated = before->limits && after->limits;
     out->swept = before->swept && after->swept;
     if (out->swept)
         comparison_sweeps(&l, select);
@@ -226,7 +226,7 @@ static void compare_values(const listing *l, const result_cell *a, const result_
         }
         if (!results_part_selects(&l->after->part, l->name, a->value[i].quantity))
             continue;
-        comparison_lines_heading(l, CHANGE_GONE);
+        comparison_lines_heading(l, CHANGE_MISSING);
         fprintf(l->to, ": %s\n", a->value[i].quantity);
     }
     for (int i = 0; i < b->values; i++)
@@ -330,7 +330,7 @@ static int compare_meshes(const listing *l, const result_series *a, const result
         if (old != NULL && new != NULL)
             comparison_lines_status(&here, old->status, new->status);
         else
-            comparison_lines_lone(&here, old != NULL ? CHANGE_GONE : CHANGE_NEW);
+            comparison_lines_lone(&here, old != NULL ? CHANGE_MISSING : CHANGE_NEW);
         same = same && old != NULL && new != NULL;
         i += old != NULL;
         k += new != NULL;
@@ -422,20 +422,20 @@ void comparison_series(const listing *l, const result_series *a, const result_se
     }
     free(common.mesh);
     free(common.limit);
-    if (l->out->judged)
+    if (l->out->evaluated)
         compare_limits(l, a, b);
 }
 
 /* Compares two sweeps. In a sweep, all points have all formulations and meshes. */
 
-enum { TOLD = 1 << 14, NAME = 2048 };
+enum { REPORTED = 1 << 14, NAME = 2048 };
 
 /* Entries that exist in only one of the runs, and entries that were printed. */
 typedef struct lone {
     comparison_kind kind;
     const stored_results *other;
-    char told[TOLD];  /* formulations and meshes that were printed, in one line each */
-    char where[NAME]; /* the last point printed */
+    char reported[REPORTED]; /* formulations and meshes that were printed, in one line each */
+    char where[NAME];        /* the last point printed */
 } lone;
 
 /* Returns 1 if the name of cell `next` - 1 or `next` of the run starts with the first `length`
@@ -448,7 +448,7 @@ static int is_beside(const stored_results *r, int next, const char *name, size_t
     return 0;
 }
 
-static void tell(const listing *l, comparison_kind kind, const char *name, int elements)
+static void report(const listing *l, comparison_kind kind, const char *name, int elements)
 {
     listing here = *l;
     here.name = name;
@@ -456,40 +456,41 @@ static void tell(const listing *l, comparison_kind kind, const char *name, int e
     comparison_lines_lone(&here, kind);
 }
 
-static void tell_point(const listing *l, lone *only, int length)
+static void report_point(const listing *l, lone *only, int length)
 {
     if (strncmp(only->where, l->name, (size_t)length) == 0 && only->where[length] == '\0')
         return;
     snprintf(only->where, sizeof only->where, "%.*s", length, l->name);
-    tell(l, only->kind, only->where, 0);
+    report(l, only->kind, only->where, 0);
 }
 
 /* Reports an entry that exists in only one run, for all points: case/formulation, or a mesh of the
  * case. */
-static void tell_column(const listing *l, lone *only, const char *key, int elements)
+static void report_column(const listing *l, lone *only, const char *key, int elements)
 {
-    const size_t used = strlen(only->told);
+    const size_t used = strlen(only->reported);
     char name[NAME], line[NAME + FORMULATION_KEY];
     snprintf(name, sizeof name, "%.*s%s", (int)strcspn(l->name, "/"), l->name, key);
     snprintf(line, sizeof line, "%s n=%d", name, elements);
-    if (results_part_has(only->told, line))
+    if (results_part_has(only->reported, line))
         return;
-    snprintf(only->told + used, sizeof only->told - used, "%s%s", used > 0 ? "\n" : "", line);
-    tell(l, only->kind, name, elements);
+    snprintf(only->reported + used, sizeof only->reported - used, "%s%s", used > 0 ? "\n" : "",
+             line);
+    report(l, only->kind, name, elements);
 }
 
 /* Handles a cell that exists in only one run. next: position at which the cell would be in the
  * other run. */
-static void tell_cell(const listing *l, int next, lone *only)
+static void report_cell(const listing *l, int next, lone *only)
 {
     const char *key = strrchr(l->name, '/');
     const int length = (int)(key - l->name);
     if (!is_beside(only->other, next, l->name, (size_t)length + 1))
-        tell_point(l, only, length);
+        report_point(l, only, length);
     else if (!is_beside(only->other, next, l->name, strlen(l->name) + 1))
-        tell_column(l, only, key, 0);
+        report_column(l, only, key, 0);
     else
-        tell_column(l, only, "", l->elements);
+        report_column(l, only, "", l->elements);
 }
 
 static int order_of(const listing *l, int i, int k)
@@ -502,7 +503,7 @@ static int order_of(const listing *l, int i, int k)
 static void comparison_sweeps(const listing *l, const char *select)
 {
     listing here = *l;
-    lone gone = {CHANGE_GONE, l->after, "", ""}, new = {CHANGE_NEW, l->before, "", ""};
+    lone absent = {CHANGE_MISSING, l->after, "", ""}, new = {CHANGE_NEW, l->before, "", ""};
     for (int i = 0, k = 0; i < l->before->cells || k < l->after->cells;) {
         const int order = order_of(l, i, k);
         const result_cell *a = order <= 0 ? &l->before->cell[i++] : NULL;
@@ -515,6 +516,6 @@ static void comparison_sweeps(const listing *l, const char *select)
         if (order == 0)
             comparison_cells(&here, a, b);
         else
-            tell_cell(&here, a != NULL ? k : i, a != NULL ? &gone : &new);
+            report_cell(&here, a != NULL ? k : i, a != NULL ? &absent : &new);
     }
 }

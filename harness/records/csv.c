@@ -74,7 +74,7 @@ void csv_convergence(FILE *to, const sweep *s, const truths *t)
     list_meshes(to, &(gathering){s, NULL, t}, 0, 2, row);
 }
 
-void csv_timing(FILE *to, const sweep *s, const judgement *j)
+void csv_timing(FILE *to, const sweep *s, const evaluation *j)
 {
     csv_part row[] = {{.type = &record_timing}, {.type = &record_quantity}, {.type = &record_cell}};
     list_meshes(to, &(gathering){s, j, NULL}, 1, 3, row);

@@ -59,13 +59,13 @@ static void get_strains(const subject *s, field_value *out)
 static void get_cost(const subject *s, field_value *out)
 {
     schema_set_number(out, s->series->imported == NULL
-                               ? price_cost(&s->series->formulation, fields_keys_cell(s))
+                               ? counted_cost(&s->series->formulation, fields_keys_cell(s))
                                : NAN);
 }
 
-static void get_priced(const subject *s, field_value *out)
+static void get_has_cost(const subject *s, field_value *out)
 {
-    out->whole = price_own(price_rows, &s->series->formulation);
+    out->whole = has_cost_coefficients(cost_coefficients, &s->series->formulation);
 }
 
 static const schema_field fields_of_point[] = {
@@ -173,7 +173,7 @@ static const schema_field fields_of_cell[] = {
     {"priced", "", FIELD_FLAG,
      "1 if the formulation has its own cost coefficients, 0 if the general cost coefficients are "
      "used",
-     .get = get_priced},
+     .get = get_has_cost},
     {"seconds_setup", "s", FIELD_DOUBLE, "processor time of the set-up in one run",
      CELL(solve.seconds_setup)},
     {"seconds_solve", "s", FIELD_DOUBLE, "processor time of the solution in one run",

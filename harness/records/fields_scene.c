@@ -160,7 +160,7 @@ static void get_message(const subject *s, field_value *out)
     out->text = out->room;
 }
 
-static void get_finding(const subject *s, field_value *out)
+static void get_deviation(const subject *s, field_value *out)
 {
     schema_set_text(out, s->verdict->rule != NULL ? s->verdict->rule->name : "");
 }
@@ -213,7 +213,7 @@ static const schema_field fields_of_verdict[] = {
      "1 if the verdict is as expected; otherwise the exit status is 1", AT(verdict, matches)},
     {"message", "", FIELD_TEXT, "description of the verdict", .get = get_message},
     {"reason", "", FIELD_TEXT, "reason for a missing value", AT(verdict, reason)},
-    {"finding", "", FIELD_TEXT, "known deviation that explains the verdict", .get = get_finding},
+    {"finding", "", FIELD_TEXT, "known deviation that explains the verdict", .get = get_deviation},
     {"cause", "", FIELD_TEXT, "cause of the known deviation", .get = get_cause},
     {"proof", "", FIELD_TEXT, "proof of the cause", .get = get_proof},
     {"value", OWN_UNIT, FIELD_DOUBLE, "value on the finest mesh", AT(verdict, finest)},

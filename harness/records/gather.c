@@ -64,7 +64,7 @@ subject gather_coverage(const gathering *g, const coverage *c, int left_out)
 
 /* Returns the index of the first verdict on the series or on a later series. Verdicts are in the
  * order of the series. */
-static int first_verdict(const judgement *j, int series_index)
+static int first_verdict(const evaluation *j, int series_index)
 {
     int low = 0, high = j->verdicts;
     while (low < high) {
@@ -79,7 +79,7 @@ static int first_verdict(const judgement *j, int series_index)
 
 static void compare_with(const gathering *g, int series_index, subject *s)
 {
-    const judgement *j = g->judged;
+    const evaluation *j = g->evaluated;
     s->truth = s->model_truth = NULL;
     if (j == NULL) {
         if (g->truths != NULL)
@@ -192,11 +192,11 @@ static void gather_series(const gathering *g, const record_type *type, int index
             gather_mesh(g, type, index, i, out);
     if (type == &record_import && s.series->imported != NULL)
         add_imports(s, s.series->imported, out);
-    if (type != &record_verdict || g->judged == NULL)
+    if (type != &record_verdict || g->evaluated == NULL)
         return;
-    for (int i = first_verdict(g->judged, index);
-         i < g->judged->verdicts && g->judged->verdict[i].series == index; i++) {
-        const subject one = gather_verdict(g, &g->judged->verdict[i]);
+    for (int i = first_verdict(g->evaluated, index);
+         i < g->evaluated->verdicts && g->evaluated->verdict[i].series == index; i++) {
+        const subject one = gather_verdict(g, &g->evaluated->verdict[i]);
         gather_add(out, &one);
     }
 }
@@ -256,9 +256,9 @@ static void gather_of_points(const gathering *g, const record_type *type, const 
 
 static void gather_agreements(const gathering *g, const case_type *of, subjects *out)
 {
-    if (g->judged != NULL)
-        for (int i = 0; i < g->judged->agreements; i++) {
-            const subject s = gather_agreement(g, &g->judged->agreement[i]);
+    if (g->evaluated != NULL)
+        for (int i = 0; i < g->evaluated->agreements; i++) {
+            const subject s = gather_agreement(g, &g->evaluated->agreement[i]);
             if (s.point->type == of)
                 gather_add(out, &s);
         }
@@ -266,11 +266,11 @@ static void gather_agreements(const gathering *g, const case_type *of, subjects 
 
 static void gather_coverages(const gathering *g, const case_type *of, subjects *out)
 {
-    if (g->judged != NULL)
-        for (int i = 0; i < g->judged->coverages; i++)
-            if (g->judged->coverage[i].of == of)
+    if (g->evaluated != NULL)
+        for (int i = 0; i < g->evaluated->coverages; i++)
+            if (g->evaluated->coverage[i].of == of)
                 for (int k = 0; k < COVERAGE_MESHES; k++) {
-                    const subject s = gather_coverage(g, &g->judged->coverage[i], k);
+                    const subject s = gather_coverage(g, &g->evaluated->coverage[i], k);
                     gather_add(out, &s);
                 }
 }

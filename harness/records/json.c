@@ -152,7 +152,7 @@ void json_part_begin(json_part *part)
     part->to = open_memstream(&part->text, &part->size);
 }
 
-void json_part_add(json_part *part, const sweep *s, const judgement *j)
+void json_part_add(json_part *part, const sweep *s, const evaluation *j)
 {
     const gathering g = {s, j, NULL};
     json_t *list = json_array(), *alone = json_pack("{s:o}", record_verdict.table, list);
@@ -198,7 +198,7 @@ static json_t *assumptions_of(const sweep *s)
     return all;
 }
 
-static json_t *breaches_of(const judgement *j)
+static json_t *breaches_of(const evaluation *j)
 {
     json_t *all = json_array();
     for (int i = 0; i < j->breaches; i++)
@@ -207,7 +207,7 @@ static json_t *breaches_of(const judgement *j)
     return all;
 }
 
-static json_t *regressions_of(const judgement *j)
+static json_t *regressions_of(const evaluation *j)
 {
     json_t *all = json_array();
     for (int i = 0; i < j->regressions; i++)
@@ -217,7 +217,7 @@ static json_t *regressions_of(const judgement *j)
 }
 
 /* Returns the document with an empty list of verdicts. */
-static json_t *around_verdicts(const sweep *s, const judgement *j, const environment *e)
+static json_t *around_verdicts(const sweep *s, const evaluation *j, const environment *e)
 {
     const gathering g = {s, j, NULL};
     json_t *agreements = json_array(), *coverages = json_array(), *counts = json_object();
@@ -232,13 +232,13 @@ static json_t *around_verdicts(const sweep *s, const judgement *j, const environ
         }
     for (int k = 0; k < VERDICT_KINDS; k++)
         json_object_set_new(counts, verdict_name((verdict_kind)k), json_integer(j->by_kind[k]));
-    json_t *root =
-        json_pack("{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:i,s:i,s:i}", "schema_version",
-                  SCHEMA_VERSION, "program_version", e->version, "commit", e->commit, "compiler",
-                  e->compiler, "clock", e->clock, "cells", sweep_cells(s), "noise_cells",
-                  noise_cells(s), "judged", j->judged, "unexpected", j->unexpected, "disagreements",
-                  j->disagreements, "unobserved_findings", j->unobserved, "unmet_truths", j->unmet);
-    json_object_set_new(root, "outcome", json_string(judgement_outcome(j)));
+    json_t *root = json_pack("{s:i,s:s,s:s,s:s,s:s,s:i,s:i,s:i,s:i,s:i,s:i,s:i}", "schema_version",
+                             SCHEMA_VERSION, "program_version", e->version, "commit", e->commit,
+                             "compiler", e->compiler, "clock", e->clock, "cells", sweep_cells(s),
+                             "noise_cells", noise_cells(s), "judged", j->evaluated, "unexpected",
+                             j->unexpected, "disagreements", j->disagreements,
+                             "unobserved_findings", j->unobserved, "unmet_truths", j->unmet);
+    json_object_set_new(root, "outcome", json_string(evaluation_outcome(j)));
     json_object_set_new(root, "broken_contracts", breaches_of(j));
     json_object_set_new(root, "regressions", regressions_of(j));
     json_object_set_new(root, "unfinished_cells", json_integer(s->unfinished));
@@ -264,7 +264,7 @@ static int write_around(FILE *to, const char *around, const json_part *part)
     return ferror(to);
 }
 
-status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e,
+status json_write_verdicts(FILE *to, const sweep *s, const evaluation *j, const environment *e,
                            json_part *part, fault *f)
 {
     json_part whole = {.verdicts = 0};

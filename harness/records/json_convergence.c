@@ -179,10 +179,10 @@ static void write_defective(FILE *to, const reach_question *q, const reached lis
 {
     for (int i = 0; i < count; i++) {
         const char *words = reach_defect_words(list[i].defect->kind), *before = "";
-        int told = 0;
+        int reported = 0;
         for (int k = 0; k < i; k++)
-            told |= strcmp(words, reach_defect_words(list[k].defect->kind)) == 0;
-        if (told)
+            reported |= strcmp(words, reach_defect_words(list[k].defect->kind)) == 0;
+        if (reported)
             continue;
         fprintf(to, "; also within %g %%, %s: ", 100 * q->level, words);
         for (int k = i; k < count; k++)
@@ -199,27 +199,27 @@ static void write_defective(FILE *to, const reach_question *q, const reached lis
 static void write_ranking(FILE *to, const reach_question *q, const reached list[], int count)
 {
     const int ties = reach_ties(list, count);
-    int sound = 0;
-    while (sound < count && list[sound].defect == NULL)
-        sound++;
-    for (int i = 0; i < sound; i++) {
+    int without_defect = 0;
+    while (without_defect < count && list[without_defect].defect == NULL)
+        without_defect++;
+    for (int i = 0; i < without_defect; i++) {
         fputs(i == 0 ? "" : i < ties ? ", " : "; ", to);
         write_reached(to, q->s, &list[i]);
         if (ties > 1 && i == ties - 1)
             fputs(": costs tie", to);
     }
-    if (sound == 0)
+    if (without_defect == 0)
         fputs("no formulation passes everywhere", to);
-    write_defective(to, q, list + sound, count - sound);
+    write_defective(to, q, list + without_defect, count - without_defect);
 }
 
 /* Writes the formulations that use the general cost coefficients for their number of strains. */
-static void write_unpriced(FILE *to, const sweep *s, const reached list[], int count)
+static void write_without_cost(FILE *to, const sweep *s, const reached list[], int count)
 {
     const char *before = "; no own cost coefficients: ";
     for (int i = 0; i < count; i++) {
         const formulation *one = &s->series[list[i].series].formulation;
-        if (price_own(price_rows, one))
+        if (has_cost_coefficients(cost_coefficients, one))
             continue;
         fprintf(to, "%s%s", before, one->key);
         before = ", ";
@@ -263,12 +263,12 @@ static void write_worst(FILE *to, const reach_question *q, int series_index)
             isfinite(most) ? " %" : "");
 }
 
-/* Writes the series that are not in the list and for which reach_asks returns `kind`. */
+/* Writes the series that are not in the list and for which reach_has_references returns `kind`. */
 static void write_others(FILE *to, const reach_question *q, const reached list[], int count,
                          int kind, const char *words)
 {
     for (int i = 0; i < q->s->seriess; i++) {
-        if (reach_asks(q, i) != kind || is_reached(list, count, i))
+        if (reach_has_references(q, i) != kind || is_reached(list, count, i))
             continue;
         fprintf(to, "%s%s", words, q->s->series[i].formulation.key);
         if (kind == 1)
@@ -301,7 +301,7 @@ static int has_reference(const reach_question *q, int quantity)
 
 /* Writes the requested quantities: all quantities except curves, or those with a reference value
  * and the names of the others. Returns the number of quantities with a reference value. */
-static int write_asked(FILE *to, const reach_question *q)
+static int write_requested(FILE *to, const reach_question *q)
 {
     const char *before = " (without a reference: ";
     const scene *here = &q->s->point[q->point].scene;
@@ -385,7 +385,7 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
         fputc('\n', to);
         return;
     }
-    const int count = reach_ranking(q, list), known = write_asked(to, q);
+    const int count = reach_ranking(q, list), known = write_requested(to, q);
     if (count == 0)
         fputs(
             known > 0
@@ -394,7 +394,7 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
             to);
     else
         write_ranking(to, q, list, count);
-    write_unpriced(to, q->s, list, count);
+    write_without_cost(to, q->s, list, count);
     if (known > 0) {
         write_others(to, q, list, count, 1, "; not reached by ");
         write_others(to, q, list, count, 0,

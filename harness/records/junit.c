@@ -120,9 +120,9 @@ typedef struct junit_counts {
 } junit_counts;
 
 /* Counts the entries that will be written, with the same rules as the functions that write them. */
-static junit_counts count_all(const sweep *s, const judgement *j)
+static junit_counts count_all(const sweep *s, const evaluation *j)
 {
-    const int nothing = judgement_exit(j) == JUDGED_NOTHING;
+    const int nothing = evaluation_exit(j) == EVALUATION_NOTHING;
     junit_counts c = {.tests = j->verdicts + j->agreements + j->breaches + j->regressions + 3 +
                                nothing + (s->unfinished > 0),
                       .failures = j->breaches + j->regressions + nothing + (j->unobserved > 0) +
@@ -136,7 +136,7 @@ static junit_counts count_all(const sweep *s, const judgement *j)
     return c;
 }
 
-static void write_ledger(FILE *to, const char *name, int failures, const char *what)
+static void write_deviations(FILE *to, const char *name, int failures, const char *what)
 {
     fprintf(to, "  <testcase classname=\"ledger\" name=\"%s\">\n", name);
     if (failures > 0)
@@ -153,7 +153,7 @@ static void write_failed(FILE *to, const char *class, const char *name, const ch
     fprintf(to, "\"/>\n  </testcase>\n");
 }
 
-void junit_write(FILE *to, const sweep *s, const judgement *j)
+void junit_write(FILE *to, const sweep *s, const evaluation *j)
 {
     const junit_counts c = count_all(s, j);
     fprintf(to,
@@ -169,20 +169,21 @@ void junit_write(FILE *to, const sweep *s, const judgement *j)
         write_failed(to, "contract", j->breach[i].formulation, j->breach[i].why);
     for (int i = 0; i < j->regressions; i++)
         write_failed(to, "not-worse-than", j->regression[i].of, j->regression[i].why);
-    write_ledger(to, "findings", j->unobserved,
-                 j->unobserved == 1 ? "known deviation was not observed"
-                                    : "known deviations were not observed");
-    write_ledger(to, "truths", j->unmet,
-                 j->unmet == 1 ? "reference value refers to an unknown name"
-                               : "reference values refer to unknown names");
-    write_ledger(to, "cells", j->flaws,
-                 j->flaws == 1 ? "inconsistent run record" : "inconsistent run records");
-    if (judgement_exit(j) == JUDGED_NOTHING)
-        write_ledger(to, "run", 1, "run assigned no verdict, because there is no reference value");
+    write_deviations(to, "findings", j->unobserved,
+                     j->unobserved == 1 ? "known deviation was not observed"
+                                        : "known deviations were not observed");
+    write_deviations(to, "truths", j->unmet,
+                     j->unmet == 1 ? "reference value refers to an unknown name"
+                                   : "reference values refer to unknown names");
+    write_deviations(to, "cells", j->flaws,
+                     j->flaws == 1 ? "inconsistent run record" : "inconsistent run records");
+    if (evaluation_exit(j) == EVALUATION_NOTHING)
+        write_deviations(to, "run", 1,
+                         "run assigned no verdict, because there is no reference value");
     if (s->unfinished > 0)
-        write_ledger(to, "run", s->unfinished,
-                     s->partial ? "cells were not computed, because batches are missing"
-                                : "cells were not computed, because the run was interrupted");
+        write_deviations(to, "run", s->unfinished,
+                         s->partial ? "cells were not computed, because batches are missing"
+                                    : "cells were not computed, because the run was interrupted");
     fprintf(to, " </testsuite>\n</testsuites>\n");
 }
 

@@ -37,13 +37,13 @@ static status unfit(const char *path, fault *f)
                      path);
 }
 
-/* Locks a file, waiting at most `patience` tenths of a second; -1: no limit. Returns 0 on success.
- * Otherwise returns -1 and sets errno. */
-static int hold(int file, int kind, int patience)
+/* Locks a file, waiting at most `most_waits` tenths of a second; -1: no limit. Returns 0 on
+ * success. Otherwise returns -1 and sets errno. */
+static int hold(int file, int kind, int most_waits)
 {
-    const int wait = patience < 0 ? 0 : LOCK_NB;
+    const int wait = most_waits < 0 ? 0 : LOCK_NB;
     while (flock(file, kind | wait) != 0) {
-        if (errno != EINTR && (errno != EWOULDBLOCK || patience-- <= 0))
+        if (errno != EINTR && (errno != EWOULDBLOCK || most_waits-- <= 0))
             return -1;
         usleep(100000);
     }
@@ -52,9 +52,9 @@ static int hold(int file, int kind, int patience)
 
 /* Waits for another writer. The HDF5 library locks files that it writes, and cannot read locked
  * files. */
-static status await_writer(const char *path, int patience, fault *f)
+static status await_writer(const char *path, int most_waits, fault *f)
 {
-    const int file = open(path, O_RDONLY | O_CLOEXEC), held = hold(file, LOCK_SH, patience),
+    const int file = open(path, O_RDONLY | O_CLOEXEC), held = hold(file, LOCK_SH, most_waits),
               why = errno;
     close(file);
     return held == 0 || why != EWOULDBLOCK
@@ -74,12 +74,12 @@ static int is_ours(hid_t file)
 }
 
 /* Opens the existing file. *file is -1 if there is nothing to keep. */
-static status open_former(const char *path, int patience, hid_t *file, fault *f)
+static status open_former(const char *path, int most_waits, hid_t *file, fault *f)
 {
     *file = -1;
     if (!is_hdf5(path))
         return STATUS_OK;
-    TRY(await_writer(path, patience, f));
+    TRY(await_writer(path, most_waits, f));
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     if (checksum_check(path, NULL) == STATUS_OK)
         *file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -218,13 +218,13 @@ static int is_there(int lock, const char *name)
 /* Locks a separate file, because the results file is replaced. A lock file that a killed run has
  * left is harmless, because the lock ends with its process. If there is no lock, returns -1 and
  * sets errno. */
-static int take_lock(const char *name, int patience)
+static int take_lock(const char *name, int most_waits)
 {
     for (;;) {
         const int lock = open(name, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
         if (lock < 0)
             return -1;
-        if (hold(lock, LOCK_EX, patience) != 0) {
+        if (hold(lock, LOCK_EX, most_waits) != 0) {
             const int why = errno;
             close(lock);
             errno = why;
@@ -236,11 +236,11 @@ static int take_lock(const char *name, int patience)
     }
 }
 
-static status lock_beside(const file_place *at, int patience, char beside[PATH_MAX], int *lock,
+static status lock_beside(const file_place *at, int most_waits, char beside[PATH_MAX], int *lock,
                           fault *f)
 {
     const int length = snprintf(beside, PATH_MAX, "%s.lock", at->path);
-    *lock = length < PATH_MAX ? take_lock(beside, patience) : -1;
+    *lock = length < PATH_MAX ? take_lock(beside, most_waits) : -1;
     if (*lock >= 0)
         return STATUS_OK;
     if (length < PATH_MAX && errno == EWOULDBLOCK)
@@ -260,7 +260,7 @@ static void unlock(const char *beside, int lock)
 
 status kept_check(const char *path, fault *f)
 {
-    enum { PATIENCE = 100 }; /* [0.1 s] longer than the time for writing a file */
+    enum { MOST_WAITS = 100 }; /* [0.1 s] longer than the time for writing a file */
     char beside[PATH_MAX];
     hid_t file;
     file_place at;
@@ -268,8 +268,8 @@ status kept_check(const char *path, fault *f)
     TRY(place_find(path, &at, f));
     if (at.kind != PLACE_FREE && at.kind != PLACE_FILE)
         return STATUS_OK;
-    TRY(lock_beside(&at, PATIENCE, beside, &lock, f));
-    const status outcome = open_former(at.path, PATIENCE, &file, f);
+    TRY(lock_beside(&at, MOST_WAITS, beside, &lock, f));
+    const status outcome = open_former(at.path, MOST_WAITS, &file, f);
     if (file >= 0)
         H5Fclose(file);
     unlock(beside, lock);

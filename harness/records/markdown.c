@@ -46,7 +46,7 @@ static void write_verdict(FILE *to, const sweep *s, const verdict *v)
     fprintf(to, " |\n");
 }
 
-static void write_regressions(FILE *to, const judgement *j)
+static void write_regressions(FILE *to, const evaluation *j)
 {
     if (j->regressions == 0)
         return;
@@ -62,7 +62,7 @@ static void write_regressions(FILE *to, const judgement *j)
         fprintf(to, "\n… and %d more.\n", j->regressions - MOST_ROWS);
 }
 
-static void write_unexpected(FILE *to, const sweep *s, const judgement *j)
+static void write_unexpected(FILE *to, const sweep *s, const evaluation *j)
 {
     int rows = 0;
     if (j->unexpected == 0)
@@ -80,7 +80,7 @@ static void write_unexpected(FILE *to, const sweep *s, const judgement *j)
 }
 
 /* Writes a row for each formulation, with its verdicts by kind. */
-static void write_formulations(FILE *to, const sweep *s, const judgement *j)
+static void write_formulations(FILE *to, const sweep *s, const evaluation *j)
 {
     fprintf(to, "\n| formulation");
     for (int k = 0; k < VERDICT_KINDS; k++)
@@ -142,11 +142,11 @@ static void write_row(FILE *to, const overview *o, int row)
 
 /* Lists the cases without a row. Cases in which values were evaluated and cases in which no value
  * was evaluated are listed separately. */
-static void write_unshown(FILE *to, const overview *o, int judged, const char *what)
+static void write_unshown(FILE *to, const overview *o, int evaluated, const char *what)
 {
     int named = 0;
     for (int r = 0; r < o->rows; r++)
-        if (!overview_shown(o, r) && overview_judged(o, r) == judged) {
+        if (!overview_shown(o, r) && overview_evaluated(o, r) == evaluated) {
             if (named == 0)
                 fprintf(to, "\n%s", what);
             fprintf(to, "%s%s", named++ > 0 ? ", " : ": ", o->row[r]->name);
@@ -239,18 +239,18 @@ static const char *words_before(const sweep *s)
     return s->partial ? "incomplete; for the existing part  " : "interrupted; until then ";
 }
 
-void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,
+void markdown_write(FILE *to, const sweep *s, const evaluation *j, const overview *o,
                     const environment *e)
 {
     char sentence[SENTENCE_OF_RUN];
-    fprintf(to, "## beamwork: %s%s\n\n", words_before(s), judgement_outcome(j));
+    fprintf(to, "## beamwork: %s%s\n\n", words_before(s), evaluation_outcome(j));
     for (int i = 0; i < j->breaches; i++)
         fprintf(to, "**%s violates the interface requirements**: %s\n\n", j->breach[i].formulation,
                 j->breach[i].why);
     fprintf(to,
             "%d verdicts against reference values in %d cells; %d verdicts differ from the "
             "expected ones; %d of %d stored discrete values agree",
-            j->judged, sweep_cells(s), j->unexpected, j->agreements - j->disagreements,
+            j->evaluated, sweep_cells(s), j->unexpected, j->agreements - j->disagreements,
             j->agreements);
     if (s->unfinished > 0)
         fprintf(to, "; %d cells were not run", s->unfinished);

@@ -24,7 +24,7 @@ static struct {
     char path[PATH_MAX];
 } unfinished[MOST_OPEN];
 
-static void remember(const char *path)
+static void output_register(const char *path)
 {
     for (int i = 0; i < MOST_OPEN; i++) {
         int nobody = 0;
@@ -36,7 +36,7 @@ static void remember(const char *path)
     }
 }
 
-static void output_forget(const char *path)
+static void output_unregister(const char *path)
 {
     for (int i = 0; i < MOST_OPEN; i++)
         if (atomic_load(&unfinished[i].owner) == getpid() && strcmp(unfinished[i].path, path) == 0)
@@ -101,7 +101,7 @@ static status fail(const char *path, int why, fault *f)
 }
 
 /* Calls `make` with an unpredictable name next to `path`. Returns its result, or -1 with errno set.
- * The file counts as incomplete until output_forget is called. */
+ * The file counts as incomplete until output_unregister is called. */
 static int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX])
 {
     const char *leaf = place_leaf(path);
@@ -116,11 +116,11 @@ static int output_beside(const char *path, int (*make)(const char *name), char t
             return -1;
         }
         /* called before the file exists, because a signal may arrive at any time */
-        remember(temporary);
+        output_register(temporary);
         const int made = make(temporary);
         if (made >= 0)
             return made;
-        output_forget(temporary);
+        output_unregister(temporary);
         if (errno != EEXIST)
             return -1;
     }
@@ -210,7 +210,7 @@ static void discard(output *out)
     out->stream = NULL;
     if (out->temporary[0] != '\0') {
         unlink(out->temporary);
-        output_forget(out->temporary);
+        output_unregister(out->temporary);
     }
 }
 
@@ -245,7 +245,7 @@ status output_close(output *out, fault *f)
         why = errno;
     }
     if (good) {
-        output_forget(out->temporary);
+        output_unregister(out->temporary);
         return STATUS_OK;
     }
     discard(out);
@@ -274,7 +274,7 @@ status output_try(const char *path, output_form form, file_place *where, fault *
         return fail(path, errno, f);
     close(file);
     unlink(temporary);
-    output_forget(temporary);
+    output_unregister(temporary);
     return STATUS_OK;
 }
 
@@ -363,7 +363,7 @@ status output_folder_try(const char *path, file_place *where, fault *f)
     output_folder out;
     TRY(output_folder_open(path, &out, f));
     output_remove(out.temporary);
-    output_forget(out.temporary);
+    output_unregister(out.temporary);
     *where = out.to;
     return STATUS_OK;
 }
@@ -409,7 +409,7 @@ status output_folder_finish(output_folder *out, status written, fault *f)
         outcome = folder_fail(out, errno, f);
     if (outcome != STATUS_OK)
         output_remove(out->temporary);
-    output_forget(out->temporary);
+    output_unregister(out->temporary);
     out->temporary[0] = '\0';
     return outcome;
 }

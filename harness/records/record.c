@@ -441,8 +441,8 @@ void follow_record_csv(FILE *to, const char *parameter, const follow_curves *c)
     fprintf(to, "%s,asked,mode,frequency,match\n", parameter);
     for (int k = 0; k < c->samples; k++)
         for (int i = 0; i < c->modes; i++)
-            fprintf(to, "%.17g,%d,%d,%.17g,%.17g\n", c->sample[k].value, c->sample[k].asked, i + 1,
-                    c->sample[k].frequency[i], c->sample[k].match[i]);
+            fprintf(to, "%.17g,%d,%d,%.17g,%.17g\n", c->sample[k].value, c->sample[k].requested,
+                    i + 1, c->sample[k].frequency[i], c->sample[k].match[i]);
 }
 
 static json_t *curve_of(const follow_curves *c, int mode)
@@ -464,17 +464,17 @@ static json_t *event_of(const follow_event *e)
 
 status follow_record_json(FILE *to, const char *parameter, const follow_curves *c, fault *f)
 {
-    json_t *value = json_array(), *asked = json_array(), *curves = json_array(),
+    json_t *value = json_array(), *requested = json_array(), *curves = json_array(),
            *events = json_array();
     for (int k = 0; k < c->samples; k++) {
         json_array_append_new(value, json_real(c->sample[k].value));
-        json_array_append_new(asked, json_boolean(c->sample[k].asked));
+        json_array_append_new(requested, json_boolean(c->sample[k].requested));
     }
     for (int i = 0; i < c->modes; i++)
         json_array_append_new(curves, curve_of(c, i));
     for (int i = 0; i < c->events; i++)
         json_array_append_new(events, event_of(&c->event[i]));
     return json_finish(json_pack("{s:s,s:o,s:o,s:o,s:o}", "parameter", parameter, "values", value,
-                                 "asked", asked, "curves", curves, "events", events),
+                                 "asked", requested, "curves", curves, "events", events),
                        to, f);
 }

@@ -169,7 +169,7 @@ typedef enum comparison_kind {
     CHANGE_WORSE,
     CHANGE_BETTER,
     CHANGE_OTHER,
-    CHANGE_GONE,
+    CHANGE_MISSING,
     CHANGE_NEW,
     COMPARISON_KINDS
 } comparison_kind;
@@ -177,7 +177,7 @@ extern const char *const comparison_kind_names[COMPARISON_KINDS];
 
 typedef struct comparison {
     int whole;                     /* 1: cell by cell; 0: series by series */
-    int judged;                    /* 1: both runs contain limits */
+    int evaluated;                 /* 1: both runs contain limits */
     int swept;                     /* 1: sweeps */
     int pairs;                     /* number of cells or series that exist in both runs */
     int count[COMPARISON_KINDS];   /* number of lines of each kind */
@@ -207,7 +207,7 @@ int comparison_differs(const comparison *c);
 void csv_solution(FILE *to, const sweep *s);
 void csv_convergence(FILE *to, const sweep *s, const truths *t);
 /* Writes the table of a benchmark. There is a row for every cell and evaluated quantity. */
-void csv_timing(FILE *to, const sweep *s, const judgement *j);
+void csv_timing(FILE *to, const sweep *s, const evaluation *j);
 
 /* A schema for all records, with a table of fields for each kind of record. HDF5, JSON, CSV and
  * `beamwork schema` use this schema and the same names. A new field is one line in a table. */
@@ -391,7 +391,7 @@ typedef struct subjects {
  * values if nothing was evaluated. Both pointers may be NULL. */
 typedef struct gathering {
     const sweep *sweep;
-    const judgement *judged;
+    const evaluation *evaluated;
     const truths *truths;
 } gathering;
 
@@ -430,11 +430,11 @@ typedef struct json_part {
 /* Starts the text. The structure must not move until it is freed. */
 void json_part_begin(json_part *);
 /* Adds the verdicts found since the last call. */
-void json_part_add(json_part *, const sweep *s, const judgement *j);
+void json_part_add(json_part *, const sweep *s, const evaluation *j);
 void json_part_free(json_part *);
 /* Writes the verdicts of a verification. part: verdicts that have already been converted; NULL:
  * none. */
-status json_write_verdicts(FILE *to, const sweep *s, const judgement *j, const environment *e,
+status json_write_verdicts(FILE *to, const sweep *s, const evaluation *j, const environment *e,
                            json_part *part, fault *f);
 
 /* JSON of a convergence study: values, limits, orders. */
@@ -452,7 +452,7 @@ json_t *json_record_type(const record_type *type); /* describes the fields of a 
 
 /* Writes verdicts for continuous integration as JUnit XML. Values and tolerances are properties. */
 
-void junit_write(FILE *to, const sweep *s, const judgement *j);
+void junit_write(FILE *to, const sweep *s, const evaluation *j);
 
 /* Target of a path: its kind, and a test for two paths to the same file. */
 
@@ -585,7 +585,7 @@ status kept_check(const char *path, fault *f);
 
 /* Summary of a verification as Markdown, for the description of a pull request. */
 
-void markdown_write(FILE *to, const sweep *s, const judgement *j, const overview *o,
+void markdown_write(FILE *to, const sweep *s, const evaluation *j, const overview *o,
                     const environment *e);
 
 /* A folder that appears complete or not at all. Its files are written to a temporary folder next to
@@ -652,11 +652,12 @@ typedef struct store {
     hid_t root, cases;
     const char *experiment; /* experiment whose group is written; NULL: the root is written */
     const sweep *sweep;
-    const judgement *judged;
+    const evaluation *evaluated;
 } store;
 
 /* Opens the store. The arguments must exist as long as the file is open. */
-status store_open(const char *experiment, const sweep *s, const judgement *j, store *out, fault *f);
+status store_open(const char *experiment, const sweep *s, const evaluation *j, store *out,
+                  fault *f);
 /* Adds a case. All its series must have been evaluated. */
 void store_case(store *, const case_type *);
 /* Adds the remaining cases and the description of the run. The file is written under a temporary
@@ -664,7 +665,7 @@ void store_case(store *, const case_type *);
 status store_close(store *, const char *path, const environment *e, fault *f);
 
 /* Writes the whole file under a temporary name and renames it. After FAULT, no file remains. */
-status store_write(const char *path, const char *experiment, const sweep *s, const judgement *j,
+status store_write(const char *path, const char *experiment, const sweep *s, const evaluation *j,
                    const environment *e, fault *f);
 /* Writes the first cell of a sweep in the same way, without verdicts. Its shapes are also written
  * for VTK. */

@@ -36,7 +36,7 @@ const char *results_part_instead(const stored_results *r, const stored_results *
 int results_part_selects(const results_part *p, const char *series, const char *quantity);
 /* Returns 1 if the selection of run r includes at least one quantity of the series that the two
  * runs contain. */
-int results_part_wants(const stored_results *r, const stored_results *other, const char *series);
+int results_part_needs(const stored_results *r, const stored_results *other, const char *series);
 /* Returns 1 if the two runs requested different quantities of a series, among the quantities that
  * they contain. */
 int results_part_differ(const stored_results *a, const stored_results *b, const char *series);

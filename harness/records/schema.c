@@ -255,7 +255,7 @@ int results_part_selects(const results_part *p, const char *series_name, const c
 }
 
 /* Returns 1 if the run has a quantity of the series that this selection excludes. */
-static int leaves_out(const results_part *p, const stored_results *known, const char *series_name)
+static int omits_series(const results_part *p, const stored_results *known, const char *series_name)
 {
     for (int i = 0; p->select != NULL && i < known->cells; i++)
         for (int k = 0; strcmp(known->cell[i].name, series_name) == 0 && k < known->cell[i].values;
@@ -275,14 +275,14 @@ int results_part_differ(const stored_results *a, const stored_results *b, const 
     if (a->part.select != NULL && b->part.select != NULL &&
         strcmp(a->part.select, b->part.select) == 0)
         return 0;
-    return leaves_out(&a->part, a, series_name) || leaves_out(&a->part, b, series_name) ||
-           leaves_out(&b->part, a, series_name) || leaves_out(&b->part, b, series_name);
+    return omits_series(&a->part, a, series_name) || omits_series(&a->part, b, series_name) ||
+           omits_series(&b->part, a, series_name) || omits_series(&b->part, b, series_name);
 }
 
 /* Returns 1 if `name` is the series or, if the series has no options, a series of its case. Of a
  * series with options, only the quantities that depend on the options are evaluated, namely those
  * with limits. */
-static int speaks_for(const char *name, const char *series_name)
+static int is_of_series(const char *name, const char *series_name)
 {
     return strchr(formulation_of(series_name), ':') != NULL
                ? strcmp(name, series_name) == 0
@@ -292,17 +292,17 @@ static int speaks_for(const char *name, const char *series_name)
 /* Returns 1 if the selection includes a quantity that a run contains. */
 static int selects_any(const results_part *p, const stored_results *known, const char *series_name)
 {
-    const int judged = strchr(formulation_of(series_name), ':') != NULL;
+    const int evaluated = strchr(formulation_of(series_name), ':') != NULL;
     for (int i = 0; i < known->cells; i++) {
         const result_cell *cell = &known->cell[i];
-        for (int k = 0; speaks_for(cell->name, series_name) && k < cell->values; k++)
-            if ((!judged || isfinite(cell->value[k].limit)) &&
+        for (int k = 0; is_of_series(cell->name, series_name) && k < cell->values; k++)
+            if ((!evaluated || isfinite(cell->value[k].limit)) &&
                 results_part_selects(p, series_name, cell->value[k].quantity))
                 return 1;
     }
     for (int i = 0; i < known->seriess; i++) {
         const result_series *one = &known->series[i];
-        for (int k = 0; speaks_for(one->name, series_name) && k < one->limits; k++)
+        for (int k = 0; is_of_series(one->name, series_name) && k < one->limits; k++)
             if (results_part_selects(p, series_name, one->limit[k].quantity))
                 return 1;
     }
@@ -329,7 +329,7 @@ static int is_run(const stored_results *r, const char *series_name)
     return 0;
 }
 
-int results_part_wants(const stored_results *r, const stored_results *other,
+int results_part_needs(const stored_results *r, const stored_results *other,
                        const char *series_name)
 {
     const results_part *p = &r->part;

@@ -27,7 +27,7 @@ void store_environment(record_file *r, hid_t at, const environment *e)
 static void put_noise(record_file *r, hid_t at)
 {
     char noise[32];
-    snprintf(noise, sizeof noise, "%.15g", price_noise);
+    snprintf(noise, sizeof noise, "%.15g", counted_cost_noise);
     record_text(r, at, "cost_noise", noise); /* smaller ratios of costs count as ties */
 }
 
@@ -219,9 +219,9 @@ static void put_declarations(record_file *r, hid_t at, const gathering *g)
     gather_free(&list);
 }
 
-status store_open(const char *experiment, const sweep *s, const judgement *j, store *out, fault *f)
+status store_open(const char *experiment, const sweep *s, const evaluation *j, store *out, fault *f)
 {
-    *out = (store){.experiment = experiment, .sweep = s, .judged = j};
+    *out = (store){.experiment = experiment, .sweep = s, .evaluated = j};
     TRY(record_open(&out->file, f));
     out->root = kept_group(&out->file, experiment);
     out->cases = record_group(&out->file, out->root, "cases");
@@ -230,16 +230,16 @@ status store_open(const char *experiment, const sweep *s, const judgement *j, st
 
 void store_case(store *to, const case_type *of)
 {
-    const gathering g = {to->sweep, to->judged, NULL};
+    const gathering g = {to->sweep, to->evaluated, NULL};
     put_case(&to->file, to->cases, &g, of);
 }
 
 /* Stores the result of the run, with the words of its last line. */
-static void put_outcome(record_file *r, hid_t at, const sweep *s, const judgement *j)
+static void put_outcome(record_file *r, hid_t at, const sweep *s, const evaluation *j)
 {
     char sentence[SENTENCE_OF_RUN];
     sentence_of_run(s, j, sentence, sizeof sentence);
-    record_text(r, at, "outcome", judgement_outcome(j));
+    record_text(r, at, "outcome", evaluation_outcome(j));
     record_text(r, at, "sentence", sentence);
 }
 
@@ -247,7 +247,7 @@ static void put_outcome(record_file *r, hid_t at, const sweep *s, const judgemen
 static void finish(store *to, const environment *e)
 {
     const sweep *s = to->sweep;
-    const gathering g = {s, to->judged, NULL};
+    const gathering g = {s, to->evaluated, NULL};
     for (int i = 0; i < s->seriess; i++)
         store_case(to, s->point[s->series[i].point].type);
     store_environment(&to->file, to->root, e);
@@ -268,13 +268,13 @@ status store_close(store *to, const char *path, const environment *e, fault *f)
     if (path != NULL) {
         record_count(&to->file, to->root, "unfinished_cells", to->sweep->unfinished);
         finish(to, e);
-        if (to->judged != NULL)
-            put_outcome(&to->file, to->root, to->sweep, to->judged);
+        if (to->evaluated != NULL)
+            put_outcome(&to->file, to->root, to->sweep, to->evaluated);
     }
     return close_file(to, path, f);
 }
 
-status store_write(const char *path, const char *experiment, const sweep *s, const judgement *j,
+status store_write(const char *path, const char *experiment, const sweep *s, const evaluation *j,
                    const environment *e, fault *f)
 {
     store to;

@@ -98,7 +98,7 @@ typedef struct history {
 
 /* Adds a pair of differences: of the steps G(x) - x (`move`), made orthogonal to the previous ones,
  * and of the values G(x) of the map (`given`). A full history is cleared first. */
-static void remember(history *h, int n, double move[], double given[])
+static void store_history(history *h, int n, double move[], double given[])
 {
     if (h->count == MEMORY)
         h->count = 0;
@@ -150,7 +150,7 @@ double fixed_point_find(int n, fixed_point_map map, void *context, double enough
                 dm[i] = move[i] - last[i];
                 dg[i] = given[i] - before[i];
             }
-            remember(&h, n, dm, dg);
+            store_history(&h, n, dm, dg);
         }
         memcpy(before, given, (size_t)n * sizeof *before);
         memcpy(last, move, (size_t)n * sizeof *last);

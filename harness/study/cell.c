@@ -131,7 +131,7 @@ static const double longest = 20;
 /* [s] a solution with a shorter estimated time is always made */
 static const double brief = 0.2;
 /* A change larger than this multiple of omission_most is significant without further checks. */
-static const double surely = 100;
+static const double many_times = 100;
 /* values below this limit, relative to the largest value in the same unit, count as zero */
 static const double nothing = 1e-9;
 
@@ -326,8 +326,8 @@ static void estimate(const scene *s, const element_type *type, omission *out)
     enum { FINEST = 32 };
     double last = NAN;
     for (int n = 1; n <= FINEST; n *= 2) {
-        const double cost = expense_of_scene(s, 0, type, n);
-        if (last > surely * omission_most && cost > brief) {
+        const double cost = run_cost_of_scene(s, 0, type, n);
+        if (last > many_times * omission_most && cost > brief) {
             out->change = last;
             return;
         }
@@ -338,7 +338,7 @@ static void estimate(const scene *s, const element_type *type, omission *out)
         const double change = change_on(s, type, n, out);
         if (isfinite(last) && isfinite(change) && agree(last, change)) {
             out->change =
-                change > surely * omission_most ? change : omission_safety * fmax(last, change);
+                change > many_times * omission_most ? change : omission_safety * fmax(last, change);
             return;
         }
         if (isfinite(last) && isfinite(change))

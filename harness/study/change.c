@@ -135,7 +135,7 @@ static double change_of(const scene *s, int index, const solve_result *a, const 
     return scale > 0 ? fabs(y - x) / scale : fabs(y - x);
 }
 
-static int tells_errors(const scene_quantity *q)
+static int reports_errors(const scene_quantity *q)
 {
     return q->what.kind == SCENE_BALANCE && q->what.of.balance == SCENE_DRIFT;
 }
@@ -148,10 +148,10 @@ void change_between(const scene *s, const cell_result *before, const cell_result
     out->which = -1;
     out->missing = 0;
     for (int q = 0; q < s->quantities; q++) {
-        const int judged = values && !tells_errors(&s->quantity[q]);
-        const double one = judged ? change_of(s, q, &before->solve, &now->solve) : (double)NAN;
+        const int evaluated = values && !reports_errors(&s->quantity[q]);
+        const double one = evaluated ? change_of(s, q, &before->solve, &now->solve) : (double)NAN;
         out->of_each[q] = one;
-        out->missing |= judged && isnan(one) && s->quantity[q].reduction != SCENE_CURVE;
+        out->missing |= evaluated && isnan(one) && s->quantity[q].reduction != SCENE_CURVE;
         if (one > out->largest) {
             out->largest = one;
             out->which = q;

@@ -24,7 +24,7 @@ status derive_script(const char *name, char out[PATH_MAX], fault *f)
 
 typedef struct script {
     pid_t process;
-    FILE *says, *complains;
+    FILE *output, *errors;
 } script;
 
 /* Request to a program of reference/derive. */
@@ -62,9 +62,9 @@ static status start(const derive_question *q, script *s, fault *f)
     }
     close(out[1]);
     close(error[1]);
-    s->says = fdopen(out[0], "r");
-    s->complains = fdopen(error[0], "r");
-    if (s->says != NULL && s->complains != NULL)
+    s->output = fdopen(out[0], "r");
+    s->errors = fdopen(error[0], "r");
+    if (s->output != NULL && s->errors != NULL)
         return STATUS_OK;
     fault_set(f, STATUS_FAULT, "the output of the deriving program cannot be read");
     return STATUS_FAULT;
@@ -115,39 +115,39 @@ static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
 static int stop(script *s)
 {
     int how = 0;
-    if (s->says != NULL)
-        fclose(s->says);
-    if (s->complains != NULL)
-        fclose(s->complains);
+    if (s->output != NULL)
+        fclose(s->output);
+    if (s->errors != NULL)
+        fclose(s->errors);
     if (s->process > 0)
         waitpid(s->process, &how, 0);
     *s = (script){0};
     return how;
 }
 
-/* Runs the script and reads its values. The caller derive_asked() stops the script and frees
+/* Runs the script and reads its values. The caller derive_requested() stops the script and frees
  * memory, even after a failure. */
 static status derive(const derive_question *q, script *s, derived_value **out, int *count, fault *f)
 {
-    char complaint[LINE] = "", more[LINE];
+    char error_text[LINE] = "", more[LINE];
     TRY(start(q, s, f));
-    TRY(read_lines(s->says, out, count, f));
-    while (fgets(more, sizeof more, s->complains) != NULL) {
-        memcpy(complaint, more, sizeof complaint); /* the reason is in the last line */
+    TRY(read_lines(s->output, out, count, f));
+    while (fgets(more, sizeof more, s->errors) != NULL) {
+        memcpy(error_text, more, sizeof error_text); /* the reason is in the last line */
         if (*count > 0)
             /* prints the parts of the scene that the program cannot compute */
-            fputs(complaint, stderr);
+            fputs(error_text, stderr);
     }
-    complaint[strcspn(complaint, "\n")] = '\0';
+    error_text[strcspn(error_text, "\n")] = '\0';
     const int how = stop(s);
     if (how == 0)
         return STATUS_OK;
     return WIFEXITED(how) && WEXITSTATUS(how) == NOT_DERIVABLE
-               ? fault_set(f, STATUS_REFUSED, "%.300s", complaint)
-               : fault_set(f, STATUS_FAULT, "the deriving program failed: %.250s", complaint);
+               ? fault_set(f, STATUS_REFUSED, "%.300s", error_text)
+               : fault_set(f, STATUS_FAULT, "the deriving program failed: %.250s", error_text);
 }
 
-static status derive_asked(const derive_question *q, derived_value **out, int *count, fault *f)
+static status derive_requested(const derive_question *q, derived_value **out, int *count, fault *f)
 {
     script s = {0};
     *out = NULL;
@@ -171,14 +171,14 @@ status derive_values(const char *path, const char *case_name, const char *parame
                      derived_value **out, int *count, fault *f)
 {
     const derive_question q = {path, case_name, parameters, NULL};
-    return derive_asked(&q, out, count, f);
+    return derive_requested(&q, out, count, f);
 }
 
 status derive_scene(const char *path, FILE *scene_text, derived_value **out, int *count, fault *f)
 {
     const derive_question q = {path, NULL, NULL, scene_text};
     rewind(scene_text);
-    return derive_asked(&q, out, count, f);
+    return derive_requested(&q, out, count, f);
 }
 
 /* Folder that contains the data of an installed copy. No other source file depends on the

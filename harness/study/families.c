@@ -24,14 +24,15 @@ static int is_known_wrong(const truths *t, unsigned features, const char *key)
     for (int i = 0; i < t->rules; i++) {
         const rule *r = &t->rule[i];
         const unsigned of = rules_features(r);
-        if (of != 0 && (of & features) == of && verdict_tells_defect(r) && rules_speak_of(r, key))
+        if (of != 0 && (of & features) == of && verdict_explains_defect(r) &&
+            rules_apply_to(r, key))
             return 1;
     }
     return 0;
 }
 
 /* Returns 1 if the limit of the series may take part in an agreement. */
-static int may_vote(const sweep *s, const series *one, const truths *t)
+static int is_eligible(const sweep *s, const series *one, const truths *t)
 {
     const element_type *type = one->formulation.type;
     return one->missing[0] == '\0' && !one->without.other && type->family != NULL &&
@@ -46,7 +47,7 @@ static int known_limits(const sweep *s, int point_index, int quantity, const tru
     int count = 0;
     for (int i = 0; i < s->seriess && count < MOST_SERIES; i++) {
         const series *one = &s->series[i];
-        if (one->point != point_index || !may_vote(s, one, t))
+        if (one->point != point_index || !is_eligible(s, one, t))
             continue;
         const mesh_limit fit = verdict_limit(s, i, quantity, 0);
         const double unmodelled =
@@ -151,7 +152,7 @@ static int is_near(const families_known_limit *one, const mean *m)
 /* Repeatedly removes from in[count] the limit with the largest distance from the mean relative
  * to its uncertainty, until all limits agree with the mean. Returns the mean of the remaining
  * limits. */
-static mean settle(const families_known_limit *all, int count, int in[])
+static mean weighted_mean(const families_known_limit *all, int count, int in[])
 {
     for (;;) {
         const mean m = mean_of(all, count, in);
@@ -179,7 +180,7 @@ static void refine(const scene_quantity *q, const families_known_limit *all, int
     families_limit better = {.theory = out->theory, .disputed = out->disputed};
     for (int i = 0; i < count; i++)
         in[i] = near[i] = agree(q, &all[centre], &all[i]);
-    const mean m = settle(all, count, in);
+    const mean m = weighted_mean(all, count, in);
     for (int i = 0; i < count; i++) {
         int k = 0;
         while (k < better.families && strcmp(all[better.series[k]].family, all[i].family) != 0)
@@ -240,7 +241,7 @@ static const char *kept_out(const sweep *s, int index, int quantity, const truth
         return "another model here";
     if (type->family == NULL || type->misprint != NULL)
         return type->family == NULL ? "of no family" : "implemented with a misprint";
-    if (!may_vote(s, one, t))
+    if (!is_eligible(s, one, t))
         return "with a known deviation here";
     const mesh_limit fit = verdict_limit(s, index, quantity, 0);
     return isfinite(fit.limit) && isfinite(fit.limit_uncertainty)
@@ -292,14 +293,14 @@ void families_why(FILE *to, const sweep *s, int point_index, int quantity, const
         const series *one = &s->series[i];
         const int counts = one->point == point_index && one->missing[0] == '\0';
         const char *why = counts ? kept_out(s, i, quantity, t) : NULL;
-        int told = 0;
+        int reported = 0;
         for (int k = 0; k < i && why != NULL; k++)
-            told |= s->series[k].point == point_index && s->series[k].missing[0] == '\0' &&
-                    kept_out(s, k, quantity, t) == why;
+            reported |= s->series[k].point == point_index && s->series[k].missing[0] == '\0' &&
+                        kept_out(s, k, quantity, t) == why;
         if (counts && why == NULL) {
             families += family == NULL || strcmp(family, one->formulation.type->family) != 0;
             family = one->formulation.type->family;
-        } else if (counts && !told) {
+        } else if (counts && !reported) {
             put_series(to, s, point_index, quantity, t, why, before);
             fprintf(to, ": %s", why);
             before = "; ";
@@ -357,7 +358,7 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
                    .uncertainty = l->uncertainty,
                    .at = NAN,
                    .met = 1,
-                   .judged = 1,
+                   .evaluated = 1,
                    .formulation = strdup(""),
                    .theory = strdup(""),
                    .quantity = strdup(p->scene.quantity[quantity].name),

@@ -10,7 +10,7 @@
 enum { HALVINGS = 20 };
 
 /* Adds a sample. The walk takes ownership of the shapes, even after a failure. */
-static status keep_sample(follow_walk *w, double value, int asked, follow_shapes *s, fault *f)
+static status keep_sample(follow_state *w, double value, int requested, follow_shapes *s, fault *f)
 {
     follow_curves *c = w->out;
     const size_t modes = (size_t)c->modes;
@@ -29,7 +29,7 @@ static status keep_sample(follow_walk *w, double value, int asked, follow_shapes
     }
     w->shapes[c->samples] = *s;
     follow_sample *out = &c->sample[c->samples++];
-    *out = (follow_sample){.value = value, .asked = asked};
+    *out = (follow_sample){.value = value, .requested = requested};
     out->frequency = calloc(2 * modes + 1, sizeof *out->frequency);
     if (out->frequency == NULL) {
         fault_set(f, STATUS_FAULT, "out of memory for curves of modes");
@@ -43,7 +43,7 @@ static status keep_sample(follow_walk *w, double value, int asked, follow_shapes
     return STATUS_OK;
 }
 
-static void drop_sample(follow_walk *w)
+static void drop_sample(follow_state *w)
 {
     const int last = --w->out->samples;
     free(w->out->sample[last].frequency);
@@ -52,7 +52,7 @@ static void drop_sample(follow_walk *w)
 
 /* Makes one step from the last sample. If *least < follow_sure, the step is too large, and nothing
  * is stored. */
-static status try_step(follow_walk *w, double target, int asked, double *least, fault *f)
+static status try_step(follow_state *w, double target, int requested, double *least, fault *f)
 {
     follow_shapes next;
     const int events = w->out->events;
@@ -62,7 +62,7 @@ static status try_step(follow_walk *w, double target, int asked, double *least, 
         follow_match_free(&next);
         return outcome;
     }
-    TRY(keep_sample(w, target, asked, &next, f));
+    TRY(keep_sample(w, target, requested, &next, f));
     TRY(follow_events_step(w, least, f));
     if (*least < follow_sure) {
         drop_sample(w);
@@ -73,7 +73,7 @@ static status try_step(follow_walk *w, double target, int asked, double *least, 
 
 /* Moves from the last sample to `to` in as many steps as necessary. NOT_CONVERGED: the steps have
  * become too small. */
-static status step_to(follow_walk *w, double to, fault *f)
+static status step_to(follow_state *w, double to, fault *f)
 {
     const follow_curves *c = w->out;
     double target = to, at = c->sample[c->samples - 1].value;
@@ -92,7 +92,7 @@ static status step_to(follow_walk *w, double to, fault *f)
     return STATUS_OK;
 }
 
-static status walk_along(follow_walk *w, fault *f)
+static status follow_to_end(follow_state *w, fault *f)
 {
     const follow_request *r = w->of;
     follow_shapes first;
@@ -107,15 +107,15 @@ static status walk_along(follow_walk *w, fault *f)
     return STATUS_OK;
 }
 
-static status follow(follow_walk *w, fault *f)
+static status follow(follow_state *w, fault *f)
 {
-    TRY(walk_along(w, f));
+    TRY(follow_to_end(w, f));
     return follow_events_rest(w, f);
 }
 
 status follow_run(const follow_request *r, follow_curves *out, fault *f)
 {
-    follow_walk w = {.of = r, .out = out};
+    follow_state w = {.of = r, .out = out};
     memset(out, 0, sizeof *out);
     const status outcome = follow(&w, f);
     for (int i = 0; i < out->samples; i++)
@@ -218,7 +218,8 @@ static const char *wrong_count(const cell_result *cell, long reused, long stale,
     return c->solutions < c->iterations ? "solutions" : NULL;
 }
 
-int sound_cell(const cell_result *cell, const scene *s, newton_form newton, char why[FAULT_TEXT])
+int record_is_consistent(const cell_result *cell, const scene *s, newton_form newton,
+                         char why[FAULT_TEXT])
 {
     const solve_result *r = &cell->solve;
     const counters *c = &cell->counters;
@@ -258,7 +259,7 @@ int sound_cell(const cell_result *cell, const scene *s, newton_form newton, char
 /* largest relative difference between a value and its stored discrete value */
 static const double agreement_least = 1e-6;
 
-static status add_agreement(const agreement *one, judgement *out, fault *f)
+static status add_agreement(const agreement *one, evaluation *out, fault *f)
 {
     TRY(memory_append(&out->agreement, &out->agreements, one, sizeof *one, "agreements", f));
     out->disagreements += !one->good;
@@ -266,7 +267,7 @@ static status add_agreement(const agreement *one, judgement *out, fault *f)
 }
 
 /* Compares the values of a mesh with a row of the reference values. */
-static status compare_mesh(const sweep *s, const truth *row, int index, int mesh, judgement *out,
+static status compare_mesh(const sweep *s, const truth *row, int index, int mesh, evaluation *out,
                            fault *f)
 {
     const series *one = &s->series[index];
@@ -284,7 +285,7 @@ static status compare_mesh(const sweep *s, const truth *row, int index, int mesh
     return STATUS_OK;
 }
 
-status agreements_add(const sweep *s, const truths *t, int index, judgement *out, fault *f)
+status agreements_add(const sweep *s, const truths *t, int index, evaluation *out, fault *f)
 {
     const series *one = &s->series[index];
     const sweep_point *p = &s->point[one->point];
@@ -306,7 +307,7 @@ status agreements_add(const sweep *s, const truths *t, int index, judgement *out
 
 /* Returns the row for the case and the formulation of the series, and adds it if necessary. NULL:
  * out of memory. */
-static coverage *row_of(const sweep *s, judgement *j, const series *one, fault *f)
+static coverage *row_of(const sweep *s, evaluation *j, const series *one, fault *f)
 {
     const case_type *of = s->point[one->point].type;
     for (int i = 0; i < j->coverages; i++)
@@ -334,7 +335,7 @@ static void count(const sweep *s, const verdict *v, coverage *row)
     }
 }
 
-status coverage_count(const sweep *s, int first, judgement *out, fault *f)
+status coverage_count(const sweep *s, int first, evaluation *out, fault *f)
 {
     for (int i = first; i < out->verdicts; i++) {
         const verdict *v = &out->verdict[i];

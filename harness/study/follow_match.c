@@ -164,11 +164,11 @@ static int count_wanted(const scene *s, int *analysis)
         if (s->analysis[*analysis].kind == SCENE_MODAL)
             break;
     for (int i = 0; i < s->quantities; i++)
-        count += scene_asks(&s->quantity[i], *analysis, SCENE_FREQUENCY);
+        count += scene_requests(&s->quantity[i], *analysis, SCENE_FREQUENCY);
     return *analysis < s->analyses ? count : 0;
 }
 
-static status solve_at(follow_walk *w, double value, cell_result *cell,
+static status solve_at(follow_state *w, double value, cell_result *cell,
                        const state_matrices **state, fault *f)
 {
     cell_request request = w->of->cell;
@@ -196,7 +196,7 @@ static status solve_at(follow_walk *w, double value, cell_result *cell,
     return STATUS_OK;
 }
 
-status follow_solve(follow_walk *w, double value, const follow_shapes *before, follow_shapes *out,
+status follow_solve(follow_state *w, double value, const follow_shapes *before, follow_shapes *out,
                     double *least, fault *f)
 {
     cell_result cell;
@@ -222,7 +222,7 @@ static const double close_enough = 0.1; /* largest relative gap of a veering tha
 
 /* Computes f_i - f_j at a parameter value, where modes are matched with sample k. *mean: mean of
  * both frequencies [Hz]. *least is replaced by the worst match if this is smaller. */
-static status difference_at(follow_walk *w, int k, double value, const int mode[2],
+static status difference_at(follow_state *w, int k, double value, const int mode[2],
                             double *difference, double *mean, double *least, fault *f)
 {
     follow_shapes s;
@@ -250,7 +250,7 @@ static double gap_of(const follow_sample *s, const int mode[2])
 
 /* Finds the crossing between samples a and b, where the differences have opposite signs, with the
  * Illinois variant of regula falsi. Stops if *least falls below follow_sure. */
-static status find_crossing(follow_walk *w, int a, int b, follow_event *e, double *least, fault *f)
+static status find_crossing(follow_state *w, int a, int b, follow_event *e, double *least, fault *f)
 {
     const follow_sample *s = w->out->sample;
     double x[2] = {s[a].value, s[b].value},
@@ -285,7 +285,7 @@ static status add_event(follow_curves *c, const follow_event *e, fault *f)
     return STATUS_OK;
 }
 
-status follow_events_step(follow_walk *w, double *least, fault *f)
+status follow_events_step(follow_state *w, double *least, fault *f)
 {
     const int last = w->out->samples - 1;
     const follow_sample *s = w->out->sample;
@@ -303,7 +303,7 @@ status follow_events_step(follow_walk *w, double *least, fault *f)
 
 /* Adds the veerings of two modes: samples at which the gap between their frequencies has a
  * minimum. */
-static status find_veerings(follow_walk *w, const int mode[2], fault *f)
+static status find_veerings(follow_state *w, const int mode[2], fault *f)
 {
     const follow_sample *s = w->out->sample;
     for (int k = 1; k + 1 < w->out->samples; k++) {
@@ -321,7 +321,7 @@ static status find_veerings(follow_walk *w, const int mode[2], fault *f)
 
 /* Adds the crossings of two modes at samples, where the frequencies are equal. follow_events_step
  * finds crossings between samples. */
-static status find_crossings(follow_walk *w, const int mode[2], fault *f)
+static status find_crossings(follow_state *w, const int mode[2], fault *f)
 {
     const follow_sample *s = w->out->sample;
     for (int k = 0, last = -1; k < w->out->samples; k++) {
@@ -345,7 +345,7 @@ static int by_value(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-status follow_events_rest(follow_walk *w, fault *f)
+status follow_events_rest(follow_state *w, fault *f)
 {
     for (int i = 0; i < w->out->modes; i++)
         for (int j = i + 1; j < w->out->modes; j++) {

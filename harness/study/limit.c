@@ -23,10 +23,10 @@ static const double noisy_changes = 10;
 static const double least_seen_order = 0.5; /* smallest observed order that is accepted */
 /* order that is assumed for the remaining error */
 static const double remaining_order = 1;
-static const double settled_part = 1e-4;
+static const double converged_part = 1e-4;
 /* smallest uncertainty if scatter was not measured, as a fraction of the extrapolation step */
-static const double doubted_step = 0.02;
-static const double sure = 1.25, unsure = 3;
+static const double uncertain_step = 0.02;
+static const double safety_small = 1.25, safety_large = 3;
 static const double end_factor =
     4; /* uncertainty of a value without extrapolation, as a multiple of the scatter */
 
@@ -118,7 +118,7 @@ static void few(const meshes *m, mesh_limit *out)
     out->from = (int)m->n[0];
     if (m->count == 2)
         out->limit_uncertainty =
-            unsure * fabs(m->change[0]) / (pow(refinement(m, 0), remaining_order) - 1) +
+            safety_large * fabs(m->change[0]) / (pow(refinement(m, 0), remaining_order) - 1) +
             end_factor * m->noise;
 }
 
@@ -130,7 +130,7 @@ static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
                  noise = noisy_changes * m->noise;
     if (a > noise || b > noise * pow(refinement(m, 1), s->highest_order + 1))
         return 0;
-    out->kind = b <= noise ? LIMIT_NOISE_DOMINATED : LIMIT_SETTLED;
+    out->kind = b <= noise ? LIMIT_NOISE_DOMINATED : LIMIT_CONVERGED;
     out->limit = m->f[m->count - 1];
     out->limit_uncertainty = a + end_factor * m->noise;
     out->order = m->count > 3 && is_good(m->order[m->count - 4], s) ? m->order[m->count - 4] : NAN;
@@ -152,13 +152,13 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
     const double R = refinement(m, 0), value = own_limit(m, k);
     const int measured = !isnan(s->noise);
     double change = fabs(value - own_limit(m, k - 1));
-    *factor = sure;
+    *factor = safety_small;
     if (k > 1 && is_good(m->order[k - 2], s)) {
         const double before = fabs(own_limit(m, k - 1) - own_limit(m, k - 2));
         /* The limits do not converge, possibly because of noise. */
         if (!measured && change > before / pow(R, remaining_order)) {
             change = fmax(change, before);
-            *factor = unsure;
+            *factor = safety_large;
         }
         /* A small change may be accidental. An order above the highest possible order means that
          * another error term contributes, which makes such accidents likely. */
@@ -166,7 +166,7 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
             m->order[k] <= 1.1 * s->highest_order ? m->order[k] + 2 : s->nominal_order;
         change = fmax(change, before / pow(R, next));
     }
-    return measured ? change : fmax(change, doubted_step * fabs(value - m->f[k + 2]));
+    return measured ? change : fmax(change, uncertain_step * fabs(value - m->f[k + 2]));
 }
 
 /* Returns 1 if the middle order is the smallest or the largest by more than the scatter of orders
@@ -210,7 +210,7 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     const double p = m->order[k], before = k > 0 ? m->order[k - 1] : NAN,
                  nominal = s->nominal_order, highest = s->highest_order;
     const double a = fabs(m->change[k + 1]), b = fabs(m->change[k]), R = refinement(m, 0);
-    double q, rest, factor = unsure;
+    double q, rest, factor = safety_large;
     if (!is_good(p, s) || (k > 0 && isnan(before)))
         return 0;
     if (k == 0) {
@@ -220,7 +220,7 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     } else if (before >= least_seen_order && before <= p && p <= 1.1 * nominal) {
         q = p;
         rest = a;
-        factor = p >= 0.9 * nominal ? sure : unsure;
+        factor = p >= 0.9 * nominal ? safety_small : safety_large;
     } else { /* an order that is too high indicates that the error will change its sign, so the
                 order is extrapolated downwards */
         q = fmax(fmin(fmin(p, highest), fmin(before, 2 * before - p)), fmin(remaining_order, p));
@@ -249,7 +249,7 @@ static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out
         growth = b > 0 ? fmin(a / b, most) : most;
     out->kind = m->change[last - 1] * m->change[last - 2] < 0 ? LIMIT_OSCILLATING : LIMIT_NOT_YET;
     out->limit = m->f[last];
-    out->limit_uncertainty = unsure * rest * growth + end_factor * m->noise;
+    out->limit_uncertainty = safety_large * rest * growth + end_factor * m->noise;
 }
 
 mesh_limit limit_of(const limit_sequence *s)
@@ -277,8 +277,8 @@ mesh_limit limit_of(const limit_sequence *s)
         return out;
     if (!drifting(s, &m, &out))
         disorderly(s, &m, &out);
-    if (out.limit_uncertainty <= settled_part * m.scale)
-        out.kind = LIMIT_SETTLED;
+    if (out.limit_uncertainty <= converged_part * m.scale)
+        out.kind = LIMIT_CONVERGED;
     return out;
 }
 

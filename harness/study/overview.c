@@ -128,7 +128,7 @@ static void add(overview_cell *to, overview_mark mark, int unexpected)
         to->count++;
 }
 
-static void fill(const sweep *s, const judgement *j, overview *out)
+static void fill(const sweep *s, const evaluation *j, overview *out)
 {
     for (int i = 0; i < j->verdicts; i++) {
         const verdict *v = &j->verdict[i];
@@ -141,7 +141,7 @@ static void fill(const sweep *s, const judgement *j, overview *out)
         add(cell_of(s, out, j->flaw[i].series), OVERVIEW_FLAW, 1);
 }
 
-status overview_make(const sweep *s, const judgement *j, overview *out, fault *f)
+status overview_make(const sweep *s, const evaluation *j, overview *out, fault *f)
 {
     const size_t most = (size_t)s->seriess + 1;
     *out = (overview){.row = calloc(most, sizeof(void *)),
@@ -183,12 +183,12 @@ static int overview_passes(const overview *o, int row)
     return passes;
 }
 
-int overview_judged(const overview *o, int row)
+int overview_evaluated(const overview *o, int row)
 {
-    int judged = 0;
+    int evaluated = 0;
     for (int i = 0; i < o->columns; i++)
-        judged |= overview_at(o, row, i)->mark >= OVERVIEW_PASS;
-    return judged;
+        evaluated |= overview_at(o, row, i)->mark >= OVERVIEW_PASS;
+    return evaluated;
 }
 
 int overview_shown(const overview *o, int row)

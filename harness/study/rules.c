@@ -117,7 +117,7 @@ int rules_hold(const rule *r, const rule_subject *s)
            choice_index(r->verdicts, s->verdict) >= 0 && condition_holds(r->condition, s);
 }
 
-int rules_speak_of(const rule *r, const char *formulation_name)
+int rules_apply_to(const rule *r, const char *formulation_name)
 {
     return list_has_formulation(r->formulations, formulation_name);
 }
@@ -133,14 +133,14 @@ unsigned rules_features(const rule *r)
     return out;
 }
 
-void rules_foretell(rule *r, const rule_subject *s)
+void rules_confirm_limit(rule *r, const rule_subject *s)
 {
     char word[WORD], here[WORD];
     unsigned bit = 1;
     snprintf(here, sizeof here, "%s/%s", s->type->name, s->quantity);
     for (const char *at = r->predicted; (at = next_word(at, " ", word)) != NULL; bit <<= 1)
         if (strcmp(word, here) == 0)
-            r->foretold |= bit;
+            r->confirmed |= bit;
 }
 
 int rules_is_observed(const rule *r)
@@ -149,7 +149,7 @@ int rules_is_observed(const rule *r)
     unsigned all = 0;
     for (const char *at = r->predicted; (at = next_word(at, " ", word)) != NULL;)
         all = 2 * all + 1;
-    return r->observed > 0 && r->foretold == all;
+    return r->observed > 0 && r->confirmed == all;
 }
 
 /* Returns 1 if the term is a feature, or if a case of the rule has the parameter of the term and

@@ -33,35 +33,35 @@ static status attend(progress *p, workload *w, int self, worker *one, int *runni
         return fault_set(f, STATUS_FAULT, "out of memory for results");
     if (i != WORKER_ENDED)
         return STATUS_OK;
-    if (worker_bury(w, self, one))
+    if (worker_handle_end(w, self, one))
         return worker_start(w, self, one, f);
     --*running;
     return STATUS_OK;
 }
 
 /* Waits for workers or for a request to stop. Returns 1 if the run must stop. */
-static int wait_for_any(const workload *w, int jobs, const worker workers[], int asked,
+static int wait_for_any(const workload *w, int jobs, const worker workers[], int requested,
                         struct pollfd ends[])
 {
     /* [ms] Interval between checks for workers that exceed the time limit, and for workers that
      * have ended while another process keeps their pipe open. */
-    const int interval = workload_can_tell(w) ? 0 : w->time_limit > 0 ? 100 : 1000;
+    const int interval = workload_can_pass(w) ? 0 : w->time_limit > 0 ? 100 : 1000;
     for (int i = 0; i < jobs; i++)
         ends[i] = (struct pollfd){.fd = workers[i].from, .events = POLLIN};
-    ends[jobs] = (struct pollfd){.fd = asked, .events = POLLIN};
+    ends[jobs] = (struct pollfd){.fd = requested, .events = POLLIN};
     while (poll(ends, (nfds_t)jobs + 1, interval) < 0 && errno == EINTR)
         ;
     return ends[jobs].revents != 0;
 }
 
 /* The running processes, and the descriptor of requests to stop. */
-typedef struct cell_crew {
+typedef struct cell_pool {
     int jobs, running, interrupted;
-    int asked; /* becomes readable when a stop is requested; -1: none */
+    int requested; /* becomes readable when a stop is requested; -1: none */
     worker workers[WORKERS_MOST];
-} cell_crew;
+} cell_pool;
 
-static status start_all(const workload *w, cell_crew *c, fault *f)
+static status start_all(const workload *w, cell_pool *c, fault *f)
 {
     for (int i = 0; i < c->jobs; i++) {
         TRY(worker_start(w, i, &c->workers[i], f));
@@ -71,14 +71,14 @@ static status start_all(const workload *w, cell_crew *c, fault *f)
 }
 
 /* Reads from processes that have sent data, and checks the time limit of the other processes. */
-static status attend_all(progress *p, workload *w, cell_crew *c, const struct pollfd ends[],
+static status attend_all(progress *p, workload *w, cell_pool *c, const struct pollfd ends[],
                          fault *f)
 {
     for (int i = 0; i < c->jobs; i++) {
         worker *one = &c->workers[i];
         if (one->from < 0)
             continue;
-        if (ends[i].revents != 0 || child_is_gone(one->process))
+        if (ends[i].revents != 0 || child_has_ended(one->process))
             TRY(attend(p, w, i, one, &c->running, f));
         else
             worker_stop_late(w, i, one);
@@ -86,22 +86,22 @@ static status attend_all(progress *p, workload *w, cell_crew *c, const struct po
     return STATUS_OK;
 }
 
-static status work_off(progress *p, workload *w, cell_crew *c, fault *f)
+static status work_off(progress *p, workload *w, cell_pool *c, fault *f)
 {
     struct pollfd ends[WORKERS_MOST + 1];
     TRY(start_all(w, c, f));
     while (c->running > 0) {
-        c->interrupted = wait_for_any(w, c->jobs, c->workers, c->asked, ends);
+        c->interrupted = wait_for_any(w, c->jobs, c->workers, c->requested, ends);
         if (c->interrupted)
             break;
         TRY(attend_all(p, w, c, ends, f));
-        if (workload_can_tell(w)) /* one series at a time, because workers are waiting */
-            TRY(workload_tell(w, f));
+        if (workload_can_pass(w)) /* one series at a time, because workers are waiting */
+            TRY(workload_pass(w, f));
     }
     return STATUS_OK;
 }
 
-static status run_parallel(const sweep_request *request, workload *w, cell_crew *c, fault *f)
+static status run_parallel(const sweep_request *request, workload *w, cell_pool *c, fault *f)
 {
     progress p =
         progress_begin(request->progress, request->things != NULL ? request->things : "cells",
@@ -131,22 +131,22 @@ static int smaller(int a, int b)
 }
 
 /* Passes all remaining series to the observer. */
-static status tell_all(workload *w, fault *f)
+static status pass_all(workload *w, fault *f)
 {
-    while (workload_can_tell(w))
-        TRY(workload_tell(w, f));
+    while (workload_can_pass(w))
+        TRY(workload_pass(w, f));
     return STATUS_OK;
 }
 
 static status run_all(const sweep_request *request, workload *w, fault *f)
 {
-    interrupt asked = {.descriptor = -1};
+    interrupt requested = {.descriptor = -1};
     if (request->interruptible)
-        interrupt_begin(&asked);
+        interrupt_begin(&requested);
     else if (request->stop > 0)
-        asked.descriptor = request->stop;
-    cell_crew c = {.jobs = smaller(smaller(request->jobs, WORKERS_MOST), w->count),
-                   .asked = asked.descriptor};
+        requested.descriptor = request->stop;
+    cell_pool c = {.jobs = smaller(smaller(request->jobs, WORKERS_MOST), w->count),
+                   .requested = requested.descriptor};
     for (int i = 0; i < c.jobs; i++)
         c.workers[i].from = -1;
     status outcome = run_parallel(request, w, &c, f);
@@ -155,8 +155,8 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
     else if (outcome == STATUS_OK)
         outcome = check_all_done(w, f);
     if (request->interruptible)
-        interrupt_end(&asked);
-    return outcome == STATUS_OK ? tell_all(w, f) : outcome;
+        interrupt_end(&requested);
+    return outcome == STATUS_OK ? pass_all(w, f) : outcome;
 }
 
 /* Cells run in separate processes even if there is only one job. A crash is then reported as a
@@ -267,10 +267,10 @@ void interrupt_begin(interrupt *out)
 
 void interrupt_end(interrupt *out)
 {
-    struct signalfd_siginfo asked;
+    struct signalfd_siginfo requested;
     if (out->descriptor < 0)
         return;
-    while (read(out->descriptor, &asked, sizeof asked) >
+    while (read(out->descriptor, &requested, sizeof requested) >
            0) /* discards requests that have been handled */
         ;
     close(out->descriptor);

@@ -26,7 +26,7 @@ static void passed(const verdict *v, char *text, size_t size)
 /* Writes the uncertainty of a limit in percent of the reference value. If the reference value is
  * zero or very small, the error is relative to near_zero, and the uncertainty has the unit of the
  * quantity. */
-static void doubt_of(const verdict *v, char text[2 * ROUNDING_TEXT])
+static void uncertainty_of(const verdict *v, char text[2 * ROUNDING_TEXT])
 {
     const double size = fabs(v->truth->value), apart = fabs(v->fit.limit - v->truth->value);
     const int by_truth = size > 0 && fabs(v->error) * size >= apart * (1 - 1e-9);
@@ -37,15 +37,15 @@ static void doubt_of(const verdict *v, char text[2 * ROUNDING_TEXT])
 
 static void undecided(const verdict *v, char *text, size_t size)
 {
-    char doubt[2 * ROUNDING_TEXT];
+    char uncertainty[2 * ROUNDING_TEXT];
     if (!isfinite(v->fit.limit_uncertainty)) {
         snprintf(text, size, "undecided: one mesh does not determine a limit");
         return;
     }
-    doubt_of(v, doubt);
+    uncertainty_of(v, uncertainty);
     snprintf(text, size,
              "undecided: the limit is %+.3g %% off, but known only to %s (%s, %d meshes)",
-             100 * v->error, doubt, limit_kind_name(v->fit.kind), v->fit.meshes);
+             100 * v->error, uncertainty, limit_kind_name(v->fit.kind), v->fit.meshes);
 }
 
 /* Describes a limit within the tolerance. A limit that is neither the reference value nor the limit
@@ -53,20 +53,20 @@ static void undecided(const verdict *v, char *text, size_t size)
  * elements are longer than the thickness of a boundary layer. */
 static void biased(const verdict *v, char *text, size_t size)
 {
-    char doubt[2 * ROUNDING_TEXT];
+    char uncertainty[2 * ROUNDING_TEXT];
     if (v->predicted == NULL) {
         snprintf(text, size, "has a different limit within the tolerance: %+.3g %%",
                  100 * v->error);
         return;
     }
-    doubt_of(v, doubt);
+    uncertainty_of(v, uncertainty);
     snprintf(text, size,
              "seems to have a different limit within the tolerance (error %+.3g %%, uncertainty "
              "%s), which also differs from the derived limit %.10g; use finer meshes",
-             100 * v->error, doubt, v->predicted->value);
+             100 * v->error, uncertainty, v->predicted->value);
 }
 
-static void unjudged(const verdict *v, char *text, size_t size)
+static void not_evaluated(const verdict *v, char *text, size_t size)
 {
     if (v->theory_truth != NULL && v->theory_truth->theory[0] != '\0')
         snprintf(text, size,
@@ -139,7 +139,7 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
     case VERDICT_KINDS:
         break;
     }
-    unjudged(v, text, size);
+    not_evaluated(v, text, size);
 }
 
 /* Appends a part to a string. If the string is not empty, the joint is inserted before the part. */
@@ -160,7 +160,7 @@ static void count_part(char *text, size_t size, int *parts, int count, const cha
 }
 
 /* Returns the number of unexpected undecided verdicts. */
-static int count_undecided(const judgement *j)
+static int count_undecided(const evaluation *j)
 {
     int count = 0;
     for (int i = 0; i < j->verdicts; i++)
@@ -170,7 +170,7 @@ static int count_undecided(const judgement *j)
 
 /* Lists the numbers of all findings that make a run fail, such as unexpected verdicts and
  * regressions. */
-static void failures(const judgement *j, char *text, size_t size)
+static void failures(const evaluation *j, char *text, size_t size)
 {
     int parts = 0;
     count_part(text, size, &parts, j->breaches, "formulation violates the interface requirements",
@@ -197,7 +197,7 @@ typedef struct known_value {
     int by_rule;
 } known_value;
 
-static known_value count_known(const judgement *j)
+static known_value count_known(const evaluation *j)
 {
     known_value out = {{0}, 0};
     for (int i = 0; i < j->verdicts; i++) {
@@ -214,7 +214,7 @@ static known_value count_known(const judgement *j)
 
 /* Describes the verdicts on formulations that do not affect the exit status, and gives the number
  * of verdicts that would need a known deviation. */
-static void new_ones(const judgement *j, char *text, size_t size)
+static void new_ones(const evaluation *j, char *text, size_t size)
 {
     if (j->proposed == 0)
         snprintf(text, size, "%d %s; none requires a known deviation", j->is_new,
@@ -230,7 +230,7 @@ static void new_ones(const judgement *j, char *text, size_t size)
 }
 
 /* Explains the expected verdicts other than pass. */
-static void expected_findings(const judgement *j, char *text, size_t size)
+static void expected_deviations(const evaluation *j, char *text, size_t size)
 {
     const known_value k = count_known(j);
     const int derived = k.derived[0] + k.derived[1];
@@ -256,9 +256,9 @@ static void expected_findings(const judgement *j, char *text, size_t size)
     }
 }
 
-void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size)
+void sentence_of_run(const sweep *s, const evaluation *j, char *text, size_t size)
 {
-    const int bad = judgement_exit(j) == 1, checked = bad || j->judged + j->agreements > 0;
+    const int bad = evaluation_exit(j) == 1, checked = bad || j->evaluated + j->agreements > 0;
     char more[FAULT_TEXT * 4] = "";
     text[0] = '\0';
     if (!checked)
@@ -266,7 +266,7 @@ void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size
     if (bad)
         failures(j, more, sizeof more);
     else
-        expected_findings(j, more, sizeof more);
+        expected_deviations(j, more, sizeof more);
     const char *word = bad ? "FAIL" : "PASS", *of = "";
     if (s->unfinished > 0) {
         word = s->partial ? "INCOMPLETE" : "INTERRUPTED";

@@ -1,10 +1,10 @@
 /* study/: runs and their results, reference values, verdicts, cost coefficients, times.
  *
  * Sections, in this order: limit; cell; imported values; omission; rules (known deviations);
- * truths; sweep; verdict; judgement; change (differences of meshes); checksum; child process;
- * columns; curve error; data files; derive; follow; glossary; handles; interrupt; meeting (equal
- * error); narrow; overview; user-defined findings, tables and truths; plan; preference; cost of a
- * cell; progress; proposal; reach; rounding; rounds (times); run; scene truths; sentence;
+ * truths; sweep; verdict; evaluation; change (differences of meshes); checksum; child process;
+ * columns; curve error; data files; derive; follow; glossary; handles; interrupt; equal
+ * error; narrow; overview; user-defined deviations, tables and truths; plan; default choice; cost
+ * of a cell; progress; proposal; reach; rounding; rounds (times); run; scene truths; sentence;
  * serialise. */
 #ifndef BEAMWORK_STUDY_H
 #define BEAMWORK_STUDY_H
@@ -44,7 +44,7 @@ typedef enum limit_kind {
     LIMIT_NONE,            /* no value */
     LIMIT_NOISE_DOMINATED, /* the last two changes are within the noise */
     /* the relative uncertainty is below 1e-4, or the last change is within the noise */
-    LIMIT_SETTLED,
+    LIMIT_CONVERGED,
     LIMIT_ASYMPTOTIC,  /* two observed orders agree: value(n) = limit + c n^-order */
     LIMIT_OSCILLATING, /* the last two changes differ in sign */
     LIMIT_NOT_YET, /* the orders change from mesh to mesh, or there are fewer than three meshes */
@@ -202,9 +202,10 @@ typedef struct rule {
     double largest_error;
     /* "file:line" for a rule of a user table; NULL: the rule is in the list of known deviations */
     char *from;
-    int missed;   /* set by judgement; 1: the run should have shown this deviation but did not */
-    int observed; /* set by judgement: number of verdicts that the rule explains */
-    unsigned foretold; /* set by judgement: bits of the derived limits that verdicts confirmed */
+    int missed; /* set by the evaluation; 1: the run should have shown this deviation but did not */
+    int observed; /* set by the evaluation: number of verdicts that the rule explains */
+    unsigned
+        confirmed; /* set by the evaluation: bits of the derived limits that verdicts confirmed */
 } rule;
 
 /* Attributes by which rules are matched. */
@@ -216,9 +217,9 @@ typedef struct rule_subject {
 } rule_subject;
 
 /* Returns 1 if the formulation, given by its key, is among those of the rule. */
-int rules_speak_of(const rule *, const char *formulation);
+int rules_apply_to(const rule *, const char *formulation);
 
-/* The packed reference values and findings (reference/pack.py). */
+/* The packed reference values and known deviations (reference/pack.py). */
 
 enum { TRUTHS_VERSION = 3 };
 
@@ -235,9 +236,9 @@ typedef struct truth {
     int on_curve; /* 1: the row is a point of a curve at abscissa `at` */
     double at;
     double value, uncertainty;
-    /* set by judgement; met 1: the quantity of the row exists; judged 1: at least one formulation
-     * evaluates the row */
-    int met, judged;
+    /* set by the evaluation; met 1: the quantity of the row exists; evaluated 1: at least one
+     * formulation evaluates the row */
+    int met, evaluated;
 } truth;
 
 typedef struct truths {
@@ -248,8 +249,8 @@ typedef struct truths {
     int indexed, places; /* number of indexed rows, which precede all other rows */
     int *first, *next;   /* [places], [indexed] */
     rule *rule;          /* known deviations */
-    int strangers;       /* number of cases in the file that this program does not contain */
-    char stranger[64];
+    int unknown_cases;   /* number of cases in the file that this program does not contain */
+    char unknown_case[64];
 } truths;
 
 /* Reads all reference values, and registers the formulations that affect the exit status
@@ -333,7 +334,7 @@ typedef struct sweep_follower {
     void *context;
     /* Returns 1 if the finest mesh of this complete series must be run again to measure its
      * scatter. NULL: no scatter is measured. */
-    int (*doubts)(void *context, const sweep *, int series_index);
+    int (*needs_scatter)(void *context, const sweep *, int series_index);
     /* Called once for every series, in order, when this series and all previous series are complete
      * and their scatter has been measured. A failure ends the run. An interrupted run removes
      * incomplete series, which changes the indices of later series. NULL: no call. */
@@ -440,7 +441,7 @@ typedef struct verdict {
     int matches; /* 1: verdict as expected */
     /* 1: the verdict of a new or named formulation is not a pass, and no known deviation explains
      * it */
-    int needs_finding;
+    int needs_deviation;
     const rule *rule; /* rule that explains a verdict other than pass; NULL: none */
     char reason[FAULT_TEXT];
 } verdict;
@@ -509,7 +510,7 @@ typedef struct coverage {
     int series[COVERAGE_MESHES], covered[COVERAGE_MESHES];
 } coverage;
 
-typedef struct judgement {
+typedef struct evaluation {
     int verdicts, agreements, coverages, flaws;
     verdict *verdict;
     agreement *agreement;
@@ -524,7 +525,7 @@ typedef struct judgement {
     int is_new;   /* number of verdicts of new formulations, which do not affect the exit status */
     int proposed; /* number of verdicts of new formulations that need a known deviation */
     int disagreements;
-    int judged; /* number of verdicts that have a reference value */
+    int evaluated; /* number of verdicts that have a reference value */
     /* number of rules that no verdict matched, or whose derived limits no verdict confirmed: in the
      * built-in list (complete runs only) and in user tables (study_impl.h) */
     int unobserved;
@@ -536,28 +537,28 @@ typedef struct judgement {
     /* number of reference values for times during a motion that the run does not evaluate (complete
      * runs only) */
     int unread;
-} judgement;
+} evaluation;
 
 /* Returns 1 if verdicts on the series may depend on the scatter of its finest mesh. The scatter
  * must then be measured. */
-int judgement_doubts(const sweep *s, const truths *t, int series_index);
+int evaluation_needs_scatter(const sweep *s, const truths *t, int series_index);
 /* Starts an evaluation. The planned series are evaluated in order, after they have run. FAULT: the
  * unit of a reference value is not the unit of its quantity. */
-status judgement_begin(const sweep *s, truths *t, judgement *out, fault *f);
-status judgement_add(const sweep *s, truths *t, int series_index, judgement *out, fault *f);
+status evaluation_begin(const sweep *s, truths *t, evaluation *out, fault *f);
+status evaluation_add(const sweep *s, truths *t, int series_index, evaluation *out, fault *f);
 /* Ends an evaluation. whole 1: no selection was made. Unobserved rules, and reference values whose
  * quantity does not exist, are then failures. */
-void judgement_end(const sweep *s, truths *t, int whole, judgement *out);
-/* Calls judgement_begin, judgement_add for every series, and judgement_end. */
-status judgement_make(const sweep *s, truths *t, int whole, judgement *out, fault *f);
-void judgement_free(judgement *j);
-enum { JUDGED_AS_EXPECTED = 0, JUDGED_DIFFERS = 1, JUDGED_NOTHING = 3 };
+void evaluation_end(const sweep *s, truths *t, int whole, evaluation *out);
+/* Calls evaluation_begin, evaluation_add for every series, and evaluation_end. */
+status evaluation_make(const sweep *s, truths *t, int whole, evaluation *out, fault *f);
+void evaluation_free(evaluation *j);
+enum { EVALUATION_AS_EXPECTED = 0, EVALUATION_DIFFERS = 1, EVALUATION_NOTHING = 3 };
 /* Returns the exit status: 0 if all verdicts are as expected, 1 if a verdict that affects the exit
  * status is not as expected, 3 if nothing was evaluated. No other function determines the exit
  * status. */
-int judgement_exit(const judgement *j);
+int evaluation_exit(const evaluation *j);
 /* Returns "pass", "fail" or "nothing was judged". */
-const char *judgement_outcome(const judgement *j);
+const char *evaluation_outcome(const evaluation *j);
 
 /* Returns the largest extent of the positions of nodes [m]. */
 double change_size(const scene *);
@@ -590,7 +591,7 @@ void child_begin(pid_t parent);
 /* Sets the remaining time [s] of the child; 0: no limit. */
 void child_alarm(int seconds);
 /* Returns 1 if the child has ended. The parent calls this function. The child is not reaped. */
-int child_is_gone(pid_t process);
+int child_has_ended(pid_t process);
 /* Waits at most two seconds for the end of the child, then kills it. Reaps the child and returns
  * its status from waitpid. The parent calls this function. */
 int child_reap(pid_t process);
@@ -598,7 +599,7 @@ int child_reap(pid_t process);
  * the child was killed after the time limit. Returns 1 if the time limit was the reason. */
 int child_ended(int how, int late, int seconds, char *words, size_t size);
 
-typedef struct claims claims;
+typedef struct task_locks task_locks;
 
 /* Reads a table that is stored as one HDF5 data set per column. The size and type of every column
  * are checked. */
@@ -677,8 +678,8 @@ status derive_scene(const char *script, FILE *scene_text, derived_value **out, i
 enum { WORKERS_MOST = 64 };
 
 /* Returns the estimated cost [s]. elements: number of elements per member. */
-double expense_of_scene(const scene *s, int steps, const element_type *type, int elements);
-double expense_of_cell(const sweep *s, int index, int mesh);
+double run_cost_of_scene(const scene *s, int steps, const element_type *type, int elements);
+double run_cost_of_cell(const sweep *s, int index, int mesh);
 
 /* Writes the reason why there is no agreement, and which formulation could give an agreement. */
 void families_why(FILE *to, const sweep *s, int point_index, int quantity, const truths *);
@@ -709,8 +710,8 @@ typedef struct follow_request {
 } follow_request;
 
 typedef struct follow_sample {
-    double value; /* value of the parameter */
-    int asked;    /* 1: the value was requested; 0: it was added between two requested values */
+    double value;  /* value of the parameter */
+    int requested; /* 1: the value was requested; 0: it was added between two requested values */
     double *frequency; /* [modes] [Hz] */
     double *match;     /* [modes] match with the previous sample; 1 for the first sample */
 } follow_sample;
@@ -793,22 +794,22 @@ void interrupt_end(interrupt *);
 /* Compares the numbers of elements that two formulations need for equal errors. */
 
 /* Result for series 0 and 1 of a sweep with one point. */
-typedef struct meeting {
+typedef struct equal_error {
     /* index of the coarsest mesh for which all quantities are within the error target on this and
      * all finer meshes; -1: none */
     int mesh[2];
     double error[2]; /* largest relative error on this mesh; NAN: none */
-} meeting;
+} equal_error;
 
 /* Returns 1 if the comparison includes the quantity. The quantity must not be a curve, and both
  * series need a reference value or an agreement. */
-int meeting_asks(const sweep *s, const truths *t, int quantity);
+int equal_error_includes(const sweep *s, const truths *t, int quantity);
 /* Returns the number of quantities in the comparison. */
-int meeting_asked(const sweep *s, const truths *t);
+int equal_error_quantities(const sweep *s, const truths *t);
 /* Compares all quantities in the comparison at the relative error target `level`. */
-meeting meeting_at(const sweep *s, const truths *t, double level);
+equal_error equal_error_at(const sweep *s, const truths *t, double level);
 /* Returns 1 if both series meet the target. */
-int meeting_holds(const meeting *);
+int equal_error_met(const equal_error *);
 
 /* Reduces the last point of a planned sweep to the selected quantities and formulations. */
 
@@ -862,11 +863,11 @@ typedef struct overview {
 enum { OVERVIEW_TEXT = 24 };
 
 /* FAULT: out of memory. */
-status overview_make(const sweep *s, const judgement *j, overview *out, fault *f);
+status overview_make(const sweep *s, const evaluation *j, overview *out, fault *f);
 void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
 /* Returns 1 if the row has an evaluated run. */
-int overview_judged(const overview *, int row);
+int overview_evaluated(const overview *, int row);
 /* Returns 1 if the row is shown on a separate line. Every row has a separate line if there are few
  * rows. Otherwise passing cases share lines, so that the table fits on one screen. */
 int overview_shown(const overview *, int row);
@@ -881,30 +882,31 @@ const char *overview_words(overview_mark mark);
 
 /* Adds the rules of a file to the rules of t. run: cases of the run, NULL-terminated. Errors in the
  * file are reported to `m`, and rows with errors are skipped. FAULT: the file cannot be read. */
-status own_findings_read(const char *path, const case_type *const run[], truths *t, mistakes *m,
-                         fault *f);
+status user_deviations_read(const char *path, const case_type *const run[], truths *t, mistakes *m,
+                            fault *f);
 
 /* A user table in CSV format, with given columns and one record per line. All fields are checked.
  * */
 
-enum { OWN_TABLE_COLUMNS = 16 };
+enum { USER_TABLE_COLUMNS = 16 };
 
-typedef struct own_table_row {
-    int line;                       /* starting at 1 */
-    char *text;                     /* text of the line, into which the fields point */
-    char *field[OWN_TABLE_COLUMNS]; /* trimmed, without quotes */
-} own_table_row;
+typedef struct user_table_row {
+    int line;                        /* starting at 1 */
+    char *text;                      /* text of the line, into which the fields point */
+    char *field[USER_TABLE_COLUMNS]; /* trimmed, without quotes */
+} user_table_row;
 
-typedef struct own_table {
+typedef struct user_table {
     int rows;
-    own_table_row *row;
-} own_table;
+    user_table_row *row;
+} user_table;
 
 /* Reads a user table. columns: names of the columns, in order and separated by commas; the first
  * line of the file must be equal. Errors in lines are reported to `m`, and lines with errors are
  * skipped. FAULT: the file cannot be read. The caller frees *out, even after a failure. */
-status own_table_read(const char *path, const char *columns, own_table *out, mistakes *m, fault *f);
-void own_table_free(own_table *);
+status user_table_read(const char *path, const char *columns, user_table *out, mistakes *m,
+                       fault *f);
+void user_table_free(user_table *);
 
 /* Reference values of a user project, in addition to the packed reference values, with the columns
  * of reference/tables. */
@@ -912,8 +914,8 @@ void own_table_free(own_table *);
 /* Adds the rows of a file to the rows of t. run: cases of the run, NULL-terminated. only: the only
  * case to read; NULL: all cases. Errors in the file are reported to `m`, and rows with errors are
  * skipped. FAULT: the file cannot be read. */
-status own_truths_read(const char *path, const case_type *const run[], const case_type *only,
-                       truths *t, mistakes *m, fault *f);
+status user_truths_read(const char *path, const case_type *const run[], const case_type *only,
+                        truths *t, mistakes *m, fault *f);
 
 /* Plans the cells of a verification. */
 
@@ -938,13 +940,13 @@ status plan_extend(sweep *s, const formulation those[], int count, fault *f);
  * preferred, then those with the highest order in the requested quantities, then the first in the
  * order of names. rules NULL: no list of known deviations. REFUSED: no formulation supports
  * everything that the scene requires. why: reason for the choice, in one line. */
-status preference_formulation(const scene *, const rule_subject *where, const rule *rules,
-                              int count, formulation *out, char why[FAULT_TEXT], fault *f);
+status default_choice_formulation(const scene *, const rule_subject *where, const rule *rules,
+                                  int count, formulation *out, char why[FAULT_TEXT], fault *f);
 
 /* Default relative change between two meshes that counts as converged. */
-#define PREFERENCE_ERROR 1e-3
+#define DEFAULT_CHOICE_ERROR 1e-3
 
-typedef struct preference {
+typedef struct default_choice {
     formulation chosen;
     int elements;
     int short_of; /* 1: values still change by more than the requested error on the finest mesh */
@@ -952,68 +954,69 @@ typedef struct preference {
      * unknown */
     double *change;
     char why_formulation[FAULT_TEXT], why_elements[FAULT_TEXT];
-} preference;
-void preference_free(preference *);
+} default_choice;
+void default_choice_free(default_choice *);
 
 /* Finds the coarsest mesh on which all values differ from those of the previous mesh by less than
- * `asked`, or the finest mesh that was tried. Solves all meshes up to this mesh. request: the cell
- * without the number of elements. */
-status preference_elements(const cell_request *, const formulation *chosen, double asked,
-                           preference *out, fault *f);
+ * `requested`, or the finest mesh that was tried. Solves all meshes up to this mesh. request: the
+ * cell without the number of elements. */
+status default_choice_elements(const cell_request *, const formulation *chosen, double requested,
+                               default_choice *out, fault *f);
 
 /* Chooses formulation and mesh together. Candidates are the formulations that
- * preference_formulation ranks equal to the first formulation (at most five, and at most two per
- * family). The first candidate that converges is chosen. The next mesh to be solved is always the
- * mesh with the lowest counted work. request: the cell without formulation and elements. */
-status preference_both(const cell_request *, const rule_subject *where, const rule *rules,
-                       int count, double asked, preference *out, fault *f);
+ * default_choice_formulation ranks equal to the first formulation (at most five, and at most two
+ * per family). The first candidate that converges is chosen. The next mesh to be solved is always
+ * the mesh with the lowest counted work. request: the cell without formulation and elements. */
+status default_choice_both(const cell_request *, const rule_subject *where, const rule *rules,
+                           int count, double requested, default_choice *out, fault *f);
 
 /* Cost of a cell: the sum of the counts of its work times cost coefficients. Counts, and therefore
  * costs, are equal in every run and on every machine. Formulations are ranked by cost and not by
  * measured times, because times scatter. The coefficients are fitted to measured times (`make lab
- * L=prices`) and stored in harness/study/prices.csv, from which the build generates the table. A
- * formulation without coefficients uses the common coefficients ("*"), which depend on its number
- * of strains. */
+ * L=cost-coefficients`) and stored in harness/study/cost_coefficients.csv, from which the build
+ * generates the table. A formulation without coefficients uses the common coefficients ("*"), which
+ * depend on its number of strains. */
 
 /* Counted work. The names are those of the columns of the table `cells`. */
-typedef enum price_count {
-    PRICE_one, /* one per cell */
-    PRICE_elements_total,
-    PRICE_element_kinds,
-    PRICE_strains, /* number of strains of an element plus its number of inner unknowns */
-    PRICE_free,
-    PRICE_strain_evaluations,
-    PRICE_stress_evaluations,
-    PRICE_inertia_evaluations,
-    PRICE_geometric_evaluations,
-    PRICE_iterations,
-    PRICE_load_steps,
-    PRICE_factorisations,
-    PRICE_solutions,
-    PRICE_factor_entries,
-    PRICE_factor_flops,
-    PRICE_dense_operations,
-    PRICE_COUNTS
-} price_count;
+typedef enum counted_work {
+    COUNTED_one, /* one per cell */
+    COUNTED_elements_total,
+    COUNTED_element_kinds,
+    COUNTED_strains, /* number of strains of an element plus its number of inner unknowns */
+    COUNTED_free,
+    COUNTED_strain_evaluations,
+    COUNTED_stress_evaluations,
+    COUNTED_inertia_evaluations,
+    COUNTED_geometric_evaluations,
+    COUNTED_iterations,
+    COUNTED_load_steps,
+    COUNTED_factorisations,
+    COUNTED_solutions,
+    COUNTED_factor_entries,
+    COUNTED_factor_flops,
+    COUNTED_dense_operations,
+    COUNTED_KINDS
+} counted_work;
 
-typedef struct price_row {
+typedef struct cost_coefficient {
     /* name of the formulation, with options if they affect the coefficient; "": the row applies to
      * all formulations; "*": it applies to formulations without coefficients */
     const char *formulation;
-    price_count first, second; /* the cost is proportional to the product of both counts */
-    double seconds;            /* [s] cost per unit of the product, on the reference machine */
-} price_row;
+    counted_work first, second; /* the cost is proportional to the product of both counts */
+    double seconds;             /* [s] cost per unit of the product, on the reference machine */
+} cost_coefficient;
 
-extern const price_row price_rows[]; /* generated table, whose last row has no formulation */
+extern const cost_coefficient
+    cost_coefficients[]; /* generated table, whose last row has no formulation */
 /* Smallest ratio of two costs that shows which formulation is faster. The cost coefficients are not
  * accurate enough for smaller ratios. */
-extern const double price_noise;
+extern const double counted_cost_noise;
 
-/* Like price_of, with the committed coefficients. */
-double price_cost(const formulation *chosen, const cell_result *cell);
+/* Like counted_cost_of, with the committed coefficients. */
+double counted_cost(const formulation *chosen, const cell_result *cell);
 /* Returns 1 if the formulation has separate cost coefficients, 0 if the common coefficients apply.
  * */
-int price_own(const price_row *rows, const formulation *chosen);
+int has_cost_coefficients(const cost_coefficient *rows, const formulation *chosen);
 
 /* Progress of a long run, in one line of the terminal, which is overwritten and finally removed. */
 
@@ -1041,7 +1044,7 @@ void progress_end(progress *);
 /* Writes CSV with the columns of the list of known deviations, including the header. There is one
  * rule for each formulation, case and verdict, which lists all quantities. largest_error is 4/3 of
  * the largest error found, and the cause is a placeholder. Returns the number of rules. */
-int proposal_write(FILE *to, const sweep *s, const judgement *j);
+int proposal_write(FILE *to, const sweep *s, const evaluation *j);
 
 /* Determines which formulations meet an error target, and on which mesh. A formulation meets the
  * target with the coarsest mesh for which the errors of this mesh and of all finer meshes are
@@ -1091,8 +1094,8 @@ int reach_ranking(const reach_question *q, reached out[]);
 int reach_ties(const reached list[], int count);
 /* Returns 1 if every quantity of the series has a reference value of the shear theory of the
  * formulation, 0 if some quantities have none, and -1 if the series does not run. */
-int reach_asks(const reach_question *q, int series_index);
-/* Computes the verdicts on every series and quantity of a sweep that has no judgement. Quantities
+int reach_has_references(const reach_question *q, int series_index);
+/* Computes the verdicts on every series and quantity of a sweep that has no evaluation. Quantities
  * without a reference value use the cross-formulation agreement. The caller frees the array; NULL:
  * out of memory. */
 verdict *reach_verdicts(const sweep *s, const truths *t, int *count);
@@ -1177,7 +1180,7 @@ enum { SENTENCE_OF_RUN = 1000 };
 /* Writes a summary of the whole run in one sentence. The sentence starts with PASS, FAIL,
  * INTERRUPTED (after an interruption) or INCOMPLETE (if batches are missing), and names expected
  * verdicts other than pass. The text is empty if nothing was evaluated. */
-void sentence_of_run(const sweep *s, const judgement *j, char *text, size_t size);
+void sentence_of_run(const sweep *s, const evaluation *j, char *text, size_t size);
 
 /* Result of a cell as bytes, which are sent to the parent process. */
 

@@ -31,7 +31,7 @@ int rules_hold(const rule *, const rule_subject *);
 /* Returns the features in the condition of the rule; 0: none. */
 unsigned rules_features(const rule *);
 /* Records that a verdict confirmed a derived limit that the rule names. */
-void rules_foretell(rule *, const rule_subject *);
+void rules_confirm_limit(rule *, const rule_subject *);
 /* Finds the first term of the condition that is neither a feature nor a parameter of the rule's
  * cases, and copies it to `word`. Returns 0 if there is no such term. cases: NULL-terminated. */
 enum { RULES_WORD = 128 };
@@ -59,7 +59,7 @@ int sweep_selects(const sweep *s, const sweep_point *p, const formulation *chose
 enum { VERDICT_DEFECTS = 4 };
 extern const verdict_kind verdict_defects[VERDICT_DEFECTS];
 /* Returns 1 if the rule explains one of these verdicts. */
-int verdict_tells_defect(const rule *);
+int verdict_explains_defect(const rule *);
 /* Returns the kind of analysis that determines the order of a quantity. */
 element_analysis verdict_analysis(const scene *, const scene_quantity *);
 
@@ -83,13 +83,13 @@ void change_between(const scene *s, const cell_result *before, const cell_result
 /* Prevents several processes from solving the same problem. The first process solves the problem,
  * and the others use its results. */
 
-/* Allocates `count` claims, which all processes that are started later share; NULL: out of memory.
+/* Allocates `count` locks, which all processes that are started later share; NULL: out of memory.
  * */
-claims *claims_alloc(int count);
-void claims_free(claims *);
-/* Claims a problem for a task. Returns the task that claimed the problem first, which is `task` if
+task_locks *task_locks_alloc(int count);
+void task_locks_free(task_locks *);
+/* Locks a problem for a task. Returns the task that locked the problem first, which is `task` if
  * no other task did. */
-int claims_take(claims *, const identity *, int task);
+int task_locks_acquire(task_locks *, const identity *, int task);
 
 /* Reads a column into out[rows] with the HDF5 memory type `type`. */
 status columns_numbers(const table_columns *r, const char *column, hid_t type, void *out);
@@ -111,12 +111,12 @@ typedef struct board {
     /* number of added tasks, and number of added tasks that have been taken */
     atomic_int later, taken;
     atomic_int ended; /* 1: no more tasks will be added */
-    sem_t news;       /* wakes a waiting process if there are new tasks, and at the end */
+    sem_t changed;    /* wakes a waiting process if there are new tasks, and at the end */
     atomic_int at[WORKERS_MOST]; /* task of each worker; -1: none */
     /* [s] time of a monotonic clock at which the task was taken */
     _Atomic double since[WORKERS_MOST];
     /* added tasks; ~task: to be solved even if another cell has the same results */
-    atomic_int came_up[];
+    atomic_int added[];
 } board;
 
 /* Remaining work of a series: cells, scatter, or none. */
@@ -135,9 +135,9 @@ typedef struct workload {
     int due, finished;  /* numbers of required and of finished tasks */
     int *open;          /* [series] number of unfinished tasks */
     char *state;        /* [series] enum series_state */
-    int told;           /* number of series that have been passed to the observer */
+    int passed;         /* number of series that have been passed to the observer */
     cell_result *again; /* [all - count] results of repetitions */
-    claims *known;      /* problems that are solved only once; NULL: all cells are solved */
+    task_locks *known;  /* problems that are solved only once; NULL: all cells are solved */
     /* [all] first task that waits for the results of this task; next task that waits for the same
      * results */
     int *waits, *after;
@@ -168,61 +168,61 @@ void workload_same(workload *, int task, int same);
 double workload_share(const workload *);
 
 /* Returns 1 if the next series, in order, is complete and can be passed to the observer. */
-int workload_can_tell(const workload *);
+int workload_can_pass(const workload *);
 /* Passes the next series to the observer. */
-status workload_tell(workload *, fault *);
+status workload_pass(workload *, fault *);
 /* Removes incomplete series. */
 void workload_keep_whole(workload *);
 
 /* Estimated cost of cells: cost coefficients for the steps of their analyses, fitted to counted
- * work (`make lab L=expense`, harness/study/expense.csv). The estimates determine the order of
+ * work (`make lab L=run-cost`, harness/study/run_cost.csv). The estimates determine the order of
  * work, batches and shards. They do not affect results. */
 
 /* Cost items. Each cost is multiplied by the number of occurrences of the item. */
-typedef enum expense_kind {
-    EXPENSE_cell, /* once per cell */
-    EXPENSE_linear,
-    EXPENSE_buckling,
+typedef enum run_cost_kind {
+    RUN_COST_cell, /* once per cell */
+    RUN_COST_linear,
+    RUN_COST_buckling,
     /* buckling about a loaded state, including the path to the critical point */
-    EXPENSE_loaded_buckling,
-    EXPENSE_modal,
-    EXPENSE_load_step,
-    EXPENSE_compliance, /* at each station */
-    EXPENSE_continuation,
-    EXPENSE_rotation_step,
-    EXPENSE_rotation_station,
-    EXPENSE_alpha_step, /* transient analysis, by integrator */
-    EXPENSE_conserving_step,
-    EXPENSE_radau_step,
-    EXPENSE_explicit_step,
-    EXPENSE_KINDS
-} expense_kind;
+    RUN_COST_loaded_buckling,
+    RUN_COST_modal,
+    RUN_COST_load_step,
+    RUN_COST_compliance, /* at each station */
+    RUN_COST_continuation,
+    RUN_COST_rotation_step,
+    RUN_COST_rotation_station,
+    RUN_COST_alpha_step, /* transient analysis, by integrator */
+    RUN_COST_conserving_step,
+    RUN_COST_radau_step,
+    RUN_COST_explicit_step,
+    RUN_COST_KINDS
+} run_cost_kind;
 
 /* [s] cost on the reference machine: a fixed part and a part per element; or factors of both parts
  * */
-typedef struct expense_price {
+typedef struct run_cost_pair {
     double once, element;
-} expense_price;
+} run_cost_pair;
 
-typedef struct expense_factor {
+typedef struct run_cost_factor {
     /* name of the formulation without options; NULL: all formulations that have no row */
     const char *formulation;
-    expense_price factor;
-} expense_factor;
+    run_cost_pair factor;
+} run_cost_factor;
 
 /* Generated tables. The last factors apply to formulations without a row. */
-extern const expense_price expense_work[EXPENSE_KINDS];
-extern const expense_factor expense_factors[];
+extern const run_cost_pair run_cost_work[RUN_COST_KINDS];
+extern const run_cost_factor run_cost_factors[];
 
 /* Counts the items of a cell of the scene. steps: number of load steps between stations; 0: as in
  * the scene. */
-void expense_count(const scene *s, int steps, double times[EXPENSE_KINDS]);
+void run_cost_count(const scene *s, int steps, double times[RUN_COST_KINDS]);
 /* Orders all cells of a sweep: tasks[sweep_cells]. Cells of expensive series come first, in
  * decreasing order of cost, so that only small cells remain at the end. The other cells follow in
  * the order of the series, so that series are completed one after the other. The finest mesh of a
  * series comes first. A series is expensive if it needs more than a hundredth of the work of one
  * process. Returns 0, or -1 if out of memory. */
-int expense_order(const sweep *s, int jobs, workload_task tasks[]);
+int run_cost_order(const sweep *s, int jobs, workload_task tasks[]);
 
 /* Cross-formulation agreement, for structures without a reference value: the limit on which
  * formulations of different families agree. Types of one family share code or theory, so their
@@ -272,11 +272,12 @@ enum { NOISE_REPETITIONS = 2 };
 
 /* If values still change on the finest mesh of the scene, the number of elements is doubled
  * repeatedly, up to this number of elements or up to this counted work [s] for one mesh. */
-#define PREFERENCE_FINEST 1024
-#define PREFERENCE_COST   2.0
+#define DEFAULT_CHOICE_FINEST 1024
+#define DEFAULT_CHOICE_COST   2.0
 
 /* Returns the cost [s] on the reference machine, from all rows that apply to the formulation. */
-double price_of(const price_row *rows, const formulation *chosen, const cell_result *cell);
+double counted_cost_of(const cost_coefficient *rows, const formulation *chosen,
+                       const cell_result *cell);
 
 /* Cause in a proposed rule, which the user must replace. */
 #define PROPOSAL_CAUSE "to be found: why is this not a pass?"
@@ -326,7 +327,7 @@ enum { WORKER_ENDED = -1, WORKER_NOTHING = -2, WORKER_NO_MEMORY = -3 };
 int worker_receive(workload *, worker *);
 /* Handles a worker that has ended. If the worker ended during a task, records that the cell of the
  * task has failed. Returns 1 if the worker must be replaced. */
-int worker_bury(workload *, int self, worker *);
+int worker_handle_end(workload *, int self, worker *);
 /* Ends a worker whose cell exceeds the time limit, in case the worker cannot end itself. The pipe
  * of the worker closes. */
 void worker_stop_late(const workload *, int self, worker *);
@@ -338,13 +339,13 @@ void worker_end(workload *, worker *);
 status accepted_read(const char *path, hid_t file, fault *f);
 
 /* Compares one series with the stored values of its meshes. */
-status agreements_add(const sweep *s, const truths *t, int index, judgement *out, fault *f);
+status agreements_add(const sweep *s, const truths *t, int index, evaluation *out, fault *f);
 
 /* Coverage: the share of limits that agree with exact reference values within their
  * uncertainties. */
 
-/* Adds the verdicts from number `first` on to the coverages of a judgement. */
-status coverage_count(const sweep *s, int first, judgement *out, fault *f);
+/* Adds the verdicts from number `first` on to the coverages of an evaluation. */
+status coverage_count(const sweep *s, int first, evaluation *out, fault *f);
 
 /* Mode shapes at one value of a parameter, matched with the shapes at another value. */
 
@@ -366,38 +367,38 @@ void follow_match_free(follow_shapes *);
 /* smallest match of two shapes that count as the same mode */
 static const double follow_sure = 0.9;
 
-typedef struct follow_walk {
+typedef struct follow_state {
     const follow_request *of;
     follow_curves *out;
     int analysis, room;
     follow_shapes *shapes; /* [samples] */
-} follow_walk;
+} follow_state;
 
 /* Computes the modes at a value, matched with the modes of `before` (NULL: first value), and the
  * worst match. See follow_match.c. */
-status follow_solve(follow_walk *, double value, const follow_shapes *before, follow_shapes *out,
+status follow_solve(follow_state *, double value, const follow_shapes *before, follow_shapes *out,
                     double *least, fault *);
 
 /* Adds the crossings in the last step. *least: worst match. If modes veer within the step, they
  * appear to cross. At the apparent crossing, however, their shapes do not match those of the
  * previous sample. *least then falls below follow_sure, and the step must be halved. */
-status follow_events_step(follow_walk *, double *least, fault *);
+status follow_events_step(follow_state *, double *least, fault *);
 /* Adds crossings at samples, and veerings, in the order of their parameter values. */
-status follow_events_rest(follow_walk *, fault *);
+status follow_events_rest(follow_state *, fault *);
 
 /* Names in user tables. */
 
 /* Finds a case by name among the cases of the run (NULL-terminated) and the built-in cases; NULL:
  * none. */
-const case_type *own_names_case(const case_type *const run[], const char *name);
+const case_type *user_names_case(const case_type *const run[], const char *name);
 /* Returns the quantity of the scene with this name; NULL: none. */
-const scene_quantity *own_names_quantity(const scene *s, const char *name);
+const scene_quantity *user_names_quantity(const scene *s, const char *name);
 /* Write "; did you mean 'NEAR'?" for cases, formulations, or quantities of a scene. If no name is
  * near, they write another remedy. */
-const char *own_names_near_case(const case_type *const run[], const char *name,
-                                char text[FAULT_TEXT]);
-const char *own_names_near_formulation(const char *name, char text[FAULT_TEXT]);
-const char *own_names_near_quantity(const scene *s, const char *name, char text[FAULT_TEXT]);
+const char *user_names_near_case(const case_type *const run[], const char *name,
+                                 char text[FAULT_TEXT]);
+const char *user_names_near_formulation(const char *name, char text[FAULT_TEXT]);
+const char *user_names_near_quantity(const scene *s, const char *name, char text[FAULT_TEXT]);
 
 /* Checks the consistency of the records of a run, without reference values. Inconsistent records
  * are an error of the program. */
@@ -405,7 +406,8 @@ const char *own_names_near_quantity(const scene *s, const char *name, char text[
 /* Returns 1 if the counters, steps and corrections of a cell agree with each other and with the
  * properties of every solution. Otherwise returns 0, and `why` describes the contradiction. newton:
  * form of Newton's method. A cell without a solution is not checked. */
-int sound_cell(const cell_result *cell, const scene *s, newton_form newton, char why[FAULT_TEXT]);
+int record_is_consistent(const cell_result *cell, const scene *s, newton_form newton,
+                         char why[FAULT_TEXT]);
 
 /* Index of rows by case and quantity, because each verdict needs thousands of look-ups. */
 

@@ -280,9 +280,9 @@ static void choose_all(const truths *t, const sweep_point *p, chosen_cells *out)
 }
 
 /* Returns 1 if at least one quantity of the series is selected. Records all words of the selection
- * that match. asked[quantities or 1]: set to 1 for selected quantities. */
+ * that match. requested[quantities or 1]: set to 1 for selected quantities. */
 static int is_selected(const sweep *s, const sweep_point *p, const formulation *one,
-                       select_words *words, char asked[])
+                       select_words *words, char requested[])
 {
     int selected = 0;
     for (int q = 0; q < p->scene.quantities || q == 0; q++) {
@@ -290,7 +290,7 @@ static int is_selected(const sweep *s, const sweep_point *p, const formulation *
         char text[SWEEP_TEXT];
         sweep_text(p, one, quantity, text);
         select_meet(s->select, text, words);
-        asked[q] |= s->select == NULL || select_matches(s->select, text) > 0;
+        requested[q] |= s->select == NULL || select_matches(s->select, text) > 0;
         selected = selected || sweep_selects(s, p, one, quantity);
     }
     return selected;
@@ -299,7 +299,7 @@ static int is_selected(const sweep *s, const sweep_point *p, const formulation *
 /* Plans the formulations at a point: the requested formulations or all, and options with a discrete
  * reference value. */
 static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index,
-                          select_words *words, char asked[], fault *f)
+                          select_words *words, char requested[], fault *f)
 {
     const sweep_point *p = &s->point[index];
     chosen_cells those = {.count = 0};
@@ -308,17 +308,17 @@ static status plan_series(const sweep_request *request, const truths *t, sweep *
     else
         choose_all(t, p, &those);
     for (int i = 0; i < those.count; i++)
-        if (is_selected(s, p, &those.list[i], words, asked))
+        if (is_selected(s, p, &those.list[i], words, requested))
             TRY(add_series(s, index, &those.list[i], t, f));
     return STATUS_OK;
 }
 
 /* Removes quantities that no formulation requests. */
-static void drop_quantities(scene *s, const char asked[])
+static void drop_quantities(scene *s, const char requested[])
 {
     int kept = 0;
     for (int q = 0; q < s->quantities; q++)
-        if (asked[q])
+        if (requested[q])
             s->quantity[kept++] = s->quantity[q];
     s->quantities = kept > 0 ? kept : s->quantities;
 }
@@ -326,15 +326,15 @@ static void drop_quantities(scene *s, const char asked[])
 static status plan_point(const sweep_request *request, const truths *t, sweep *s, int index,
                          select_words *words, fault *f)
 {
-    char *asked = calloc((size_t)s->point[index].scene.quantities + 1, 1);
-    if (asked == NULL)
+    char *requested = calloc((size_t)s->point[index].scene.quantities + 1, 1);
+    if (requested == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a selection");
-    const status outcome = plan_series(request, t, s, index, words, asked, f);
+    const status outcome = plan_series(request, t, s, index, words, requested, f);
     /* Omissions depend on all quantities. Thus a selection does not change which formulations solve
      * another model. */
     plan_omissions(s, index);
-    drop_quantities(&s->point[index].scene, asked);
-    free(asked);
+    drop_quantities(&s->point[index].scene, requested);
+    free(requested);
     return outcome;
 }
 

@@ -114,7 +114,7 @@ static uint64_t hash_of(const case_type *type, const char *quantity)
 
 /* Returns the position of the first row of the case and quantity in the hash table, or the free
  * position for such a row. */
-static int place_of(const truths *t, const case_type *type, const char *quantity)
+static int frame_motion_of(const truths *t, const case_type *type, const char *quantity)
 {
     int at = (int)(hash_of(type, quantity) % (uint64_t)t->places);
     while (t->first[at] >= 0 && !is_of(&t->row[t->first[at]], type, quantity))
@@ -132,7 +132,7 @@ static int walk(const truths *t, const case_type *type, const char *quantity, in
 
 int truth_index_first(const truths *t, const case_type *type, const char *quantity)
 {
-    const int first = t->indexed > 0 ? t->first[place_of(t, type, quantity)] : -1;
+    const int first = t->indexed > 0 ? t->first[frame_motion_of(t, type, quantity)] : -1;
     return first >= 0 ? first : walk(t, type, quantity, t->indexed);
 }
 
@@ -151,7 +151,7 @@ static void chain(truths *t)
     for (int k = 0; k < t->places; k++)
         t->first[k] = -1;
     for (int i = t->rows - 1; i >= 0; i--) {
-        const int at = place_of(t, t->row[i].type, t->row[i].quantity);
+        const int at = frame_motion_of(t, t->row[i].type, t->row[i].quantity);
         t->next[i] = t->first[at] >= 0 ? t->first[at] : t->rows;
         t->first[at] = i;
     }

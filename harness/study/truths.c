@@ -67,7 +67,7 @@ static status read_cases(const char *path, hid_t all, const case_type *only, tru
 
 /* Counts the tables of cases that the program does not have, and records the name of the first one.
  * Otherwise these tables would remain unused without notice. */
-static void find_strangers(hid_t all, truths *out)
+static void find_unknown_cases(hid_t all, truths *out)
 {
     char name[64];
     for (hsize_t i = 0; H5Lget_name_by_idx(all, ".", H5_INDEX_NAME, H5_ITER_INC, i, name,
@@ -76,8 +76,8 @@ static void find_strangers(hid_t all, truths *out)
         int known = 0;
         for (int k = 0; registry_cases[k] != NULL; k++)
             known |= strcmp(registry_cases[k]->name, name) == 0;
-        if (!known && out->strangers++ == 0)
-            snprintf(out->stranger, sizeof out->stranger, "%s", name);
+        if (!known && out->unknown_cases++ == 0)
+            snprintf(out->unknown_case, sizeof out->unknown_case, "%s", name);
     }
 }
 
@@ -98,7 +98,7 @@ static status read_tables(const char *path, hid_t file, const truths_wanted *wha
                          what->group);
     const status outcome = read_cases(path, all, what->only, out, f);
     if (outcome == STATUS_OK)
-        find_strangers(all, out);
+        find_unknown_cases(all, out);
     H5Gclose(all);
     return outcome;
 }

@@ -20,17 +20,17 @@ static const char *const names[VERDICT_KINDS] = {"pass",
                                                  "other model"};
 static const double order_slack = 0.3; /* accuracy of orders that are observed on finite meshes */
 /* A difference is significant if it is larger than this multiple of the uncertainty. */
-static const double surely = 3;
+static const double many_times = 3;
 
 const verdict_kind verdict_defects[VERDICT_DEFECTS] = {
     VERDICT_BIASED, VERDICT_WRONG_LIMIT, VERDICT_BIASED_AS_PREDICTED, VERDICT_WRONG_AS_PREDICTED};
 
-int verdict_tells_defect(const rule *r)
+int verdict_explains_defect(const rule *r)
 {
-    int tells = 0;
+    int explains = 0;
     for (int i = 0; i < VERDICT_DEFECTS; i++)
-        tells |= choice_index(r->verdicts, verdict_name(verdict_defects[i])) >= 0;
-    return tells;
+        explains |= choice_index(r->verdicts, verdict_name(verdict_defects[i])) >= 0;
+    return explains;
 }
 
 const char *verdict_name(verdict_kind kind)
@@ -141,22 +141,23 @@ static int is_predicted(const verdict *v)
     if (v->predicted == NULL)
         return 0;
     const double apart = fabs(v->fit.limit - v->predicted->value);
-    return apart <= surely * v->fit.limit_uncertainty + v->predicted->uncertainty;
+    return apart <= many_times * v->fit.limit_uncertainty + v->predicted->uncertainty;
 }
 
 /* Returns the verdict with respect to the reference value. If the uncertainty of the reference
  * value is only an estimate, the verdict is never a bias. */
 static verdict_kind compare(const scene_quantity *q, const verdict *v)
 {
-    const double error = fabs(v->fit.limit - v->truth->value), doubt = v->fit.limit_uncertainty;
+    const double error = fabs(v->fit.limit - v->truth->value),
+                 uncertainty = v->fit.limit_uncertainty;
     const int known = strcmp(v->truth->kind, "exact") == 0;
-    if (!(error + doubt <= v->tolerance)) {
-        const int wrong = error - doubt > v->tolerance && v->fit.meshes > 3;
+    if (!(error + uncertainty <= v->tolerance)) {
+        const int wrong = error - uncertainty > v->tolerance && v->fit.meshes > 3;
         if (!wrong)
             return VERDICT_UNDECIDED;
         return is_predicted(v) ? VERDICT_WRONG_AS_PREDICTED : VERDICT_WRONG_LIMIT;
     }
-    if (known && error > surely * doubt + v->truth->uncertainty + v->unmodelled)
+    if (known && error > many_times * uncertainty + v->truth->uncertainty + v->unmodelled)
         return is_predicted(v) ? VERDICT_BIASED_AS_PREDICTED : VERDICT_BIASED;
     return order_is_low(q, v) ? VERDICT_LOW_ORDER : VERDICT_PASS;
 }
@@ -234,7 +235,7 @@ static const truth *contradiction(const sweep *s, const truths *t, const verdict
 }
 
 /* Sets the verdict for another model, whose values are not evaluated. */
-static void say_other_model(const series *one, verdict *v)
+static void describe_other_model(const series *one, verdict *v)
 {
     char words[OMISSION_TEXT];
     omission_words(&one->without, words);
@@ -243,7 +244,7 @@ static void say_other_model(const series *one, verdict *v)
 }
 
 /* Returns 1 and sets the verdict if the series cannot be compared with a reference value. */
-static int is_hindered(const sweep *s, verdict *v)
+static int is_inapplicable(const sweep *s, verdict *v)
 {
     const series *one = &s->series[v->series];
     const sweep_point *p = &s->point[one->point];
@@ -278,9 +279,9 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
                           .last_change = NAN};
     v->expected = VERDICT_PASS;
     find_truths(s, t, v);
-    if (is_hindered(s, v)) {
+    if (is_inapplicable(s, v)) {
         if (one->without.other && one->missing[0] == '\0')
-            say_other_model(one, v);
+            describe_other_model(one, v);
         return;
     }
     v->finest = one->cell[verdict_meshes(one, v->quantity) - 1].solve.quantity[v->quantity].value;
@@ -288,7 +289,7 @@ void verdict_reach(const sweep *s, const truths *t, verdict *v)
     if (v->model_truth != NULL)
         v->model_error = verdict_error(q, v->fit.limit, v->model_truth->value);
     if (one->without.other) {
-        say_other_model(one, v);
+        describe_other_model(one, v);
         return;
     }
     if (v->truth == NULL) {
@@ -329,14 +330,14 @@ static const char *quantity_of(const sweep *s, const verdict *v)
  * kind. */
 static int same_rule(const sweep *s, const verdict *a, const verdict *b)
 {
-    return a->needs_finding && b->needs_finding && a->kind == b->kind &&
+    return a->needs_deviation && b->needs_deviation && a->kind == b->kind &&
            strcmp(case_of(s, a), case_of(s, b)) == 0 &&
            strcmp(series_of(s, a)->formulation.key, series_of(s, b)->formulation.key) == 0;
 }
 
 /* Returns the index of the first verdict with the same rule. quantity 1: the quantity must also be
  * the same. */
-static int first_of(const sweep *s, const judgement *j, int index, int quantity)
+static int first_of(const sweep *s, const evaluation *j, int index, int quantity)
 {
     const verdict *v = &j->verdict[index];
     for (int i = 0; i < index; i++)
@@ -346,7 +347,7 @@ static int first_of(const sweep *s, const judgement *j, int index, int quantity)
     return index;
 }
 
-static void write_rule(FILE *to, const sweep *s, const judgement *j, int first, int number)
+static void write_rule(FILE *to, const sweep *s, const evaluation *j, int first, int number)
 {
     const verdict *v = &j->verdict[first];
     const char *key = series_of(s, v)->formulation.key, *blank = "";
@@ -369,13 +370,13 @@ static void write_rule(FILE *to, const sweep *s, const judgement *j, int first, 
     fprintf(to, ",,\"" PROPOSAL_CAUSE "\",\n");
 }
 
-int proposal_write(FILE *to, const sweep *s, const judgement *j)
+int proposal_write(FILE *to, const sweep *s, const evaluation *j)
 {
     int rules = 0;
     fprintf(to, "rule,formulations,cases,condition,quantities,verdicts,largest_error,predicted,"
                 "cause,proof\n");
     for (int i = 0; i < j->verdicts; i++)
-        if (j->verdict[i].needs_finding && first_of(s, j, i, 0) == i)
+        if (j->verdict[i].needs_deviation && first_of(s, j, i, 0) == i)
             write_rule(to, s, j, i, ++rules);
     return rules;
 }

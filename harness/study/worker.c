@@ -13,16 +13,16 @@
 #include "harness/numerics/numerics.h"
 
 /* A task that a worker performs. */
-typedef struct asked {
+typedef struct requested {
     const workload *w;
     const cell_request *request;
     scene_edit edit;
     int task, same;
-} asked;
+} requested;
 
 /* Adds the inputs of a cell that the model does not contain, such as the case, its parameters, the
  * options of the solution, and the number of quantities. */
-static void add_request(identity *out, const workload *w, const asked *a)
+static void add_request(identity *out, const workload *w, const requested *a)
 {
     const sweep_point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
     const solve_options *o = &a->request->solve;
@@ -52,19 +52,20 @@ static void add_request(identity *out, const workload *w, const asked *a)
 
 static int is_known(void *context, const model *m)
 {
-    asked *a = context;
+    requested *a = context;
     identity what = identity_begin();
     add_request(&what, a->w, a);
     if (!identity_add_model(&what, m))
         return 0;
-    const int first = claims_take(a->w->known, &what, a->task);
+    const int first = task_locks_acquire(a->w->known, &what, a->task);
     a->same = first != a->task ? first : -1;
     return a->same >= 0;
 }
 
 /* Runs the equivalent scene of a repetition, of which only the values are needed. If this scene is
  * invalid, there is no result. */
-static void run_again(const workload *w, const asked *a, cell_request *request, cell_result *out)
+static void run_again(const workload *w, const requested *a, cell_request *request,
+                      cell_result *out)
 {
     const sweep_point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
     scene edited;
@@ -84,7 +85,7 @@ static void run_again(const workload *w, const asked *a, cell_request *request, 
 static int run_task(const workload *w, int i, int alone, cell_result *out)
 {
     cell_request request = sweep_cell(w->s, w->tasks[i].series, w->tasks[i].mesh);
-    asked a = {w, &request, workload_edit(w, i), i, -1};
+    requested a = {w, &request, workload_edit(w, i), i, -1};
     fault f = {""};
     if (w->known != NULL && !alone) {
         request.is_known = is_known;
@@ -119,7 +120,7 @@ static int write_all(int to, const char *bytes, size_t count)
 
 /* Sends a result or a reference to a task with the same results. Returns 0, or -1 if the pipe has
  * no reader. */
-static int tell(int to, int i, int same, const cell_result *cell)
+static int send_result(int to, int i, int same, const cell_result *cell)
 {
     heading head = {.task = i, .same = same};
     char *bytes = NULL;
@@ -145,7 +146,7 @@ static void work(const workload *w, int self, int to)
     while (!bad && (i = workload_take(w, self, &alone)) >= 0) {
         cell_result cell;
         const int same = run_task(w, i, alone, &cell);
-        bad = tell(to, i, same, &cell) != 0;
+        bad = send_result(to, i, same, &cell) != 0;
         if (!bad)
             w->board->at[self] = -1;
         cell_result_free(&cell);
@@ -220,7 +221,7 @@ static int is_heading(const workload *w, const heading *head)
 }
 
 /* Marks the output of the worker as damaged, and kills the worker, which closes its pipe. */
-static int spoilt(worker *from)
+static int corrupted(worker *from)
 {
     from->damaged = 1;
     kill(from->process, SIGKILL);
@@ -236,12 +237,12 @@ static int take_whole(workload *w, worker *from)
     while (from->count - at >= sizeof head) {
         memcpy(&head, from->bytes + at, sizeof head);
         if (!is_heading(w, &head))
-            return spoilt(from);
+            return corrupted(from);
         if (from->count - at - sizeof head < head.bytes)
             break;
         const int bad = take_result(w, &head, from->bytes + at + sizeof head);
         if (bad != 0)
-            return bad == SERIALISE_NO_MEMORY ? WORKER_NO_MEMORY : spoilt(from);
+            return bad == SERIALISE_NO_MEMORY ? WORKER_NO_MEMORY : corrupted(from);
         last = head.task;
         at += sizeof head + head.bytes;
     }
@@ -254,13 +255,13 @@ int worker_receive(workload *w, worker *from)
 {
     ssize_t got;
     /* after the end of the worker, no more data will arrive */
-    const int gone = child_is_gone(from->process);
+    const int ended = child_has_ended(from->process);
     if (grow(from) != 0)
         return WORKER_NO_MEMORY;
     do
         got = read(from->from, from->bytes + from->count, from->room - from->count);
     while (got < 0 && errno == EINTR);
-    if (got < 0 && errno == EAGAIN && !gone)
+    if (got < 0 && errno == EAGAIN && !ended)
         return WORKER_NOTHING;
     if (got <= 0)
         return WORKER_ENDED;
@@ -268,7 +269,7 @@ int worker_receive(workload *w, worker *from)
     return take_whole(w, from);
 }
 
-static int reap(worker *w)
+static int wait_for_end(worker *w)
 {
     close(w->from);
     free(w->bytes);
@@ -277,13 +278,13 @@ static int reap(worker *w)
     return child_reap(w->process);
 }
 
-int worker_bury(workload *w, int self, worker *dead)
+int worker_handle_end(workload *w, int self, worker *dead)
 {
-    const int how = reap(dead), i = w->board->at[self];
+    const int how = wait_for_end(dead), i = w->board->at[self];
     if (w->together && !dead->stopped && !dead->damaged && WIFSIGNALED(how) &&
         WTERMSIG(how) == SIGKILL)
         kill(getpid(), SIGKILL);
-    sem_post(&w->board->news); /* replaces a wake-up signal that the worker may have received */
+    sem_post(&w->board->changed); /* replaces a wake-up signal that the worker may have received */
     if (i < 0 || w->done[i])
         return dead->stopped || i >= 0;
     solve_result *r = &workload_cell(w, i)->solve;
@@ -312,7 +313,7 @@ void worker_end(workload *w, worker *one)
     do
         got = worker_receive(w, one);
     while (got >= 0 || got == WORKER_NOTHING);
-    reap(one);
+    wait_for_end(one);
 }
 
 static void default_alarm(void)
@@ -338,7 +339,7 @@ void child_alarm(int seconds)
     setitimer(ITIMER_REAL, &limit, NULL);
 }
 
-int child_is_gone(pid_t process)
+int child_has_ended(pid_t process)
 {
     siginfo_t how = {.si_pid = 0};
     return waitid(P_PID, (id_t)process, &how, WEXITED | WNOHANG | WNOWAIT) != 0 || how.si_pid != 0;
@@ -346,11 +347,11 @@ int child_is_gone(pid_t process)
 
 int child_reap(pid_t process)
 {
-    enum { LOOKS = 200 };
+    enum { POLLS = 200 };
     int how = 0;
-    for (int i = 0; i < LOOKS && !child_is_gone(process); i++)
+    for (int i = 0; i < POLLS && !child_has_ended(process); i++)
         nanosleep(&(struct timespec){.tv_nsec = 10000000}, NULL);
-    if (!child_is_gone(process))
+    if (!child_has_ended(process))
         kill(process, SIGKILL);
     waitpid(process, &how, 0);
     return how;

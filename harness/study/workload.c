@@ -50,7 +50,7 @@ static board *alloc_board(int all, size_t *size)
     board *out = mmap(NULL, *size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (out == MAP_FAILED)
         return NULL;
-    if (sem_init(&out->news, 1, 0) != 0) {
+    if (sem_init(&out->changed, 1, 0) != 0) {
         munmap(out, *size);
         return NULL;
     }
@@ -72,13 +72,13 @@ status workload_begin(const sweep_request *request, sweep *s, workload *out, fau
                       .open = calloc(serieses, sizeof *out->open),
                       .state = calloc(serieses, 1),
                       .again = calloc(room, sizeof *out->again),
-                      .known = request->share ? claims_alloc(all) : NULL,
+                      .known = request->share ? task_locks_alloc(all) : NULL,
                       .waits = malloc(room * sizeof *out->waits),
                       .after = malloc(room * sizeof *out->after)};
     out->board = alloc_board(all, &out->size);
     if (out->tasks == NULL || out->done == NULL || out->open == NULL || out->state == NULL ||
         out->again == NULL || out->waits == NULL || out->after == NULL || out->board == NULL ||
-        expense_order(s, request->jobs, out->tasks) != 0)
+        run_cost_order(s, request->jobs, out->tasks) != 0)
         return fault_set(f, STATUS_FAULT, "out of memory for the list of cells");
     list_tasks(out);
     return STATUS_OK;
@@ -90,10 +90,10 @@ void workload_end(workload *w)
         for (int i = 0; i < w->all - w->count; i++)
             cell_result_free(&w->again[i]);
     if (w->board != NULL) {
-        sem_destroy(&w->board->news);
+        sem_destroy(&w->board->changed);
         munmap(w->board, w->size);
     }
-    claims_free(w->known);
+    task_locks_free(w->known);
     free(w->tasks);
     free(w->done);
     free(w->open);
@@ -122,8 +122,8 @@ int workload_take(const workload *w, int self, int *alone)
     for (;;) {
         const int ended = b->ended, late = b->taken, next = b->next;
         if (late < b->later) {
-            const int said = b->came_up[late], i = said < 0 ? ~said : said;
-            *alone = said < 0;
+            const int entry = b->added[late], i = entry < 0 ? ~entry : entry;
+            *alone = entry < 0;
             if (take(b, self, &b->taken, late, i))
                 return i;
         } else if (next < w->count) {
@@ -133,7 +133,7 @@ int workload_take(const workload *w, int self, int *alone)
         } else if (ended)
             return -1;
         else
-            while (sem_wait(&b->news) != 0 && errno == EINTR)
+            while (sem_wait(&b->changed) != 0 && errno == EINTR)
                 ;
     }
 }
@@ -151,12 +151,12 @@ cell_result *workload_cell(const workload *w, int i)
                         : &w->again[i - w->count];
 }
 
-static void say(workload *w, int said)
+static void add_task(workload *w, int entry)
 {
     board *b = w->board;
-    b->came_up[b->later] = said;
+    b->added[b->later] = entry;
     b->later++;
-    sem_post(&b->news);
+    sem_post(&b->changed);
 }
 
 static void begin_noise(workload *w, int i)
@@ -165,7 +165,7 @@ static void begin_noise(workload *w, int i)
     w->open[i] = NOISE_REPETITIONS;
     w->due += NOISE_REPETITIONS;
     for (int k = 0; k < NOISE_REPETITIONS; k++)
-        say(w, task_of_noise(w, i, k));
+        add_task(w, task_of_noise(w, i, k));
 }
 
 /* Handles a series whose tasks are all done. If the scatter is needed, adds the repetitions of the
@@ -174,7 +174,8 @@ static void all_done(workload *w, int i, const workload_task *last)
 {
     series *one = &w->s->series[i];
     const sweep_follower *to = w->follower;
-    if (last->again == 0 && to != NULL && to->doubts != NULL && to->doubts(to->context, w->s, i)) {
+    if (last->again == 0 && to != NULL && to->needs_scatter != NULL &&
+        to->needs_scatter(to->context, w->s, i)) {
         begin_noise(w, i);
         return;
     }
@@ -195,7 +196,7 @@ static void mark(workload *w, int i)
         return;
     w->board->ended = 1;
     for (int k = 0; k < WORKERS_MOST; k++)
-        sem_post(&w->board->news);
+        sem_post(&w->board->changed);
 }
 
 /* Copies a result. Returns 0 on success. */
@@ -217,13 +218,13 @@ static int copy(const cell_result *from, cell_result *to)
 
 /* Copies the results of another task, which is complete. A failed solution is repeated by each
  * task, because the messages differ. */
-static void settle(workload *w, int i, int same)
+static void finish(workload *w, int i, int same)
 {
     if (workload_cell(w, same)->solve.status == STATUS_OK &&
         copy(workload_cell(w, same), workload_cell(w, i)) == 0)
         mark(w, i);
     else
-        say(w, ~i);
+        add_task(w, ~i);
 }
 
 void workload_done(workload *w, int i)
@@ -232,14 +233,14 @@ void workload_done(workload *w, int i)
         return;
     mark(w, i);
     for (int k = w->waits[i]; k >= 0; k = w->after[k])
-        settle(w, k, i);
+        finish(w, k, i);
     w->waits[i] = -1;
 }
 
 void workload_same(workload *w, int i, int same)
 {
     if (w->done[same]) {
-        settle(w, i, same);
+        finish(w, i, same);
         return;
     }
     w->after[i] = w->waits[same];
@@ -253,21 +254,21 @@ double workload_share(const workload *w)
         const workload_task *t = &w->tasks[i];
         if (t->again > 0 && w->state[t->series] != SERIES_NOISE && !w->done[i])
             continue; /* the repetition is not requested, or not at present */
-        const double cost = expense_of_cell(w->s, t->series, t->mesh);
+        const double cost = run_cost_of_cell(w->s, t->series, t->mesh);
         all += cost;
         done += w->done[i] ? cost : 0;
     }
     return all > 0 ? done / all : 0;
 }
 
-int workload_can_tell(const workload *w)
+int workload_can_pass(const workload *w)
 {
-    return w->told < w->s->seriess && w->state[w->told] == SERIES_WHOLE;
+    return w->passed < w->s->seriess && w->state[w->passed] == SERIES_WHOLE;
 }
 
-status workload_tell(workload *w, fault *f)
+status workload_pass(workload *w, fault *f)
 {
-    const int i = w->told++;
+    const int i = w->passed++;
     return w->follower != NULL && w->follower->whole != NULL
                ? w->follower->whole(w->follower->context, w->s, i, f)
                : STATUS_OK;
@@ -350,22 +351,22 @@ int noise_cells(const sweep *s)
 }
 
 /* Claim of a task; key 0: the entry is free. */
-typedef struct process_claim {
+typedef struct task_lock {
     _Atomic uint64_t key, check;
     atomic_int task; /* task + 1; 0: not written yet */
-} process_claim;
+} task_lock;
 
-struct claims {
+struct task_locks {
     size_t size; /* size of the shared memory [bytes] */
     uint64_t places;
-    process_claim place[];
+    task_lock place[];
 };
 
-claims *claims_alloc(int count)
+task_locks *task_locks_alloc(int count)
 {
     const uint64_t places = 2 * (uint64_t)(count > 0 ? count : 0) + 1;
-    const size_t size = sizeof(claims) + places * sizeof(process_claim);
-    claims *out = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
+    const size_t size = sizeof(task_locks) + places * sizeof(task_lock);
+    task_locks *out = mmap(NULL, size, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     if (out == MAP_FAILED)
         return NULL;
     out->size = size;
@@ -373,24 +374,24 @@ claims *claims_alloc(int count)
     return out;
 }
 
-void claims_free(claims *c)
+void task_locks_free(task_locks *c)
 {
     if (c != NULL)
         munmap(c, c->size);
 }
 
-/* Returns 1 if the claim is for the same problem. A claim that is being written counts as another
+/* Returns 1 if the lock is for the same problem. A lock that is being written counts as another
  * problem. */
-static int is_same(process_claim *at, const identity *what)
+static int is_same(task_lock *at, const identity *what)
 {
     return atomic_load(&at->task) != 0 && atomic_load(&at->check) == what->part[1];
 }
 
-int claims_take(claims *c, const identity *what, int task)
+int task_locks_acquire(task_locks *c, const identity *what, int task)
 {
     const uint64_t key = what->part[0] != 0 ? what->part[0] : 1;
     for (uint64_t i = 0; i < c->places; i++) {
-        process_claim *at = &c->place[(key + i) % c->places];
+        task_lock *at = &c->place[(key + i) % c->places];
         uint64_t there = 0;
         if (atomic_compare_exchange_strong(&at->key, &there, key)) {
             atomic_store(&at->check, what->part[1]);

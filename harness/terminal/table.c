@@ -93,14 +93,15 @@ void table_omitted(FILE *to, const sweep_point *p)
     if (words[0] != '\0' && !whole)
         paragraph_write(to, fprintf(to, "omitted: "), INDENT, words);
     if (whole && words[0] == '\0')
-        paragraph_say(
+        paragraph_printf(
             to, fprintf(to, "omitted: "), INDENT,
             "nothing; omit=none has no effect and can be removed, so that stored values are shown");
     else if (whole)
-        paragraph_say(to, fprintf(to, "omitted: "), INDENT,
-                      "nothing, although the source of the case omits %s; the stored values belong "
-                      "to another model and are not shown",
-                      words);
+        paragraph_printf(
+            to, fprintf(to, "omitted: "), INDENT,
+            "nothing, although the source of the case omits %s; the stored values belong "
+            "to another model and are not shown",
+            words);
 }
 
 void table_theory(FILE *to, const scene *s, const element_type *type)
@@ -204,7 +205,7 @@ void paragraph_end_command(paragraph *p, int at, int indent)
     end_with(p, at, indent, " \\");
 }
 
-void paragraph_say(FILE *to, int at, int indent, const char *format, ...)
+void paragraph_printf(FILE *to, int at, int indent, const char *format, ...)
 {
     char *text = NULL;
     va_list arguments, again;

@@ -268,7 +268,7 @@ static void write_missing(FILE *to, const sweep *s)
             if (strcmp(s->series[k].missing, missing) == 0)
                 snprintf(line + strlen(line), sizeof line - strlen(line), "%s%s", k > i ? ", " : "",
                          s->series[k].formulation.key);
-        paragraph_say(to, fprintf(to, "not run, "), 4, "does not support %s: %s", missing, line);
+        paragraph_printf(to, fprintf(to, "not run, "), 4, "does not support %s: %s", missing, line);
     }
 }
 
@@ -325,28 +325,28 @@ static void mesh_line(FILE *to, const series *one, int mesh, int quantity, const
     rounding_digits(r->seconds_setup + r->seconds_solve, 3, seconds);
     column += fprintf(to, " %9s s", seconds);
     if (!isfinite(x))
-        paragraph_say(to, column, column + 2, "%s",
-                      known ? r->quantity[quantity].reason : r->reason);
+        paragraph_printf(to, column, column + 2, "%s",
+                         known ? r->quantity[quantity].reason : r->reason);
     else
         fputc('\n', to);
 }
 
 static void limit_line(FILE *to, const verdict *v, const scene_quantity *q, const truth *row)
 {
-    char sentence[2 * FAULT_TEXT], limit[ROUNDING_TEXT], doubt[ROUNDING_TEXT],
+    char sentence[2 * FAULT_TEXT], limit[ROUNDING_TEXT], uncertainty[ROUNDING_TEXT],
         known[ROUNDING_TEXT] = "", order[ROUNDING_TEXT];
     sentence_of_verdict(v, q->least_order, sentence, sizeof sentence);
     rounding_known(v->fit.limit, v->fit.limit_uncertainty, limit);
-    rounding_digits(v->fit.limit_uncertainty, 2, doubt);
+    rounding_digits(v->fit.limit_uncertainty, 2, uncertainty);
     rounding_digits(v->fit.order, 3, order);
     if (row != NULL)
         rounding_known(row->value, row->uncertainty, known);
     const int at = fprintf(to, "  limit ");
     if (row != NULL)
-        paragraph_say(to, at, 4, "%s +- %s, order %s; %s %s: %s", limit, doubt, order, row->kind,
-                      known, sentence);
+        paragraph_printf(to, at, 4, "%s +- %s, order %s; %s %s: %s", limit, uncertainty, order,
+                         row->kind, known, sentence);
     else
-        paragraph_say(to, at, 4, "%s +- %s, order %s", limit, doubt, order);
+        paragraph_printf(to, at, 4, "%s +- %s, order %s", limit, uncertainty, order);
 }
 
 static void quantity_block(FILE *to, const sweep *s, const truths *t, int index, int quantity)
@@ -374,7 +374,7 @@ void table_convergence(FILE *to, const sweep *s, const truths *t)
         const scene *wanted = &s->point[one->point].scene;
         table_series(to, s, i);
         if (one->missing[0] != '\0') {
-            paragraph_say(to, 0, 2, "skip: does not support %s", one->missing);
+            paragraph_printf(to, 0, 2, "skip: does not support %s", one->missing);
             continue;
         }
         table_theory(to, wanted, one->formulation.type);

@@ -22,7 +22,7 @@ static void corrections(FILE *to, int column, const solve_result *r, const step_
 
 /* Returns the number of load steps. Steps of motions do not count, because their summary is printed
  * separately. */
-static int steps_told(const solve_result *r)
+static int steps_reported(const solve_result *r)
 {
     int steps = r->steps;
     for (int i = 0; i < r->motions; i++)
@@ -32,7 +32,7 @@ static int steps_told(const solve_result *r)
 
 void table_path_steps(FILE *to, const solve_result *r)
 {
-    const int steps = steps_told(r);
+    const int steps = steps_reported(r);
     if (steps <= 0)
         return;
     fprintf(to, "%4s %12s %12s %8s %6s %10s  %s\n", "step", "path", "increment", "rejected",
@@ -222,10 +222,11 @@ static void damping_line(FILE *to, const motion_extent *e)
         when = one->time;
     }
     if (part > account_stated)
-        paragraph_say(to, fprintf(to, "numerical damping: "), MOTION_INDENT,
-                      "until %.4g s the integrator has lost %.3g J of energy, %.2g %% of %.3g J; "
-                      "use a smaller step or tolerance to lose less",
-                      when, lost, 100 * part, of);
+        paragraph_printf(
+            to, fprintf(to, "numerical damping: "), MOTION_INDENT,
+            "until %.4g s the integrator has lost %.3g J of energy, %.2g %% of %.3g J; "
+            "use a smaller step or tolerance to lose less",
+            when, lost, 100 * part, of);
 }
 
 /* Returns the largest change of a vector from its initial value. */
@@ -247,7 +248,7 @@ static void momentum_line(FILE *to, const motion_extent *e)
 {
     const motion_record *last = &e->record[e->end - 1];
     const int at = fprintf(to, "momenta: ");
-    paragraph_say(
+    paragraph_printf(
         to, at, MOTION_INDENT,
         "%.6g kg m/s at the end, %.6g kg m^2/s about the origin; largest changes: %.2g and "
         "%.2g from those at %g s",
@@ -268,11 +269,12 @@ static void jump_lines(FILE *to, const scene *s, int analysis, double path)
         function_at(&load->function, 0, value);
         const double held = along_path_factor(load, path);
         if (fabs(held - value[0]) > 1e-9 * fmax(fabs(held), fabs(value[0])))
-            paragraph_say(to, fprintf(to, "load: "), MOTION_INDENT,
-                          "%s has factor %g where the path ends, but %g where the motion begins, "
-                          "so it jumps; for a load of the motion only, give path: [0, 1], factor: "
-                          "[0, 0] in addition to its function",
-                          scene_name(s, SCENE_LOADS, i).text, held, value[0]);
+            paragraph_printf(
+                to, fprintf(to, "load: "), MOTION_INDENT,
+                "%s has factor %g where the path ends, but %g where the motion begins, "
+                "so it jumps; for a load of the motion only, give path: [0, 1], factor: "
+                "[0, 0] in addition to its function",
+                scene_name(s, SCENE_LOADS, i).text, held, value[0]);
     }
 }
 

@@ -24,9 +24,9 @@ static void failed_series(FILE *to, const sweep *s, int index, int *lines)
     if ((*lines)++ == 0)
         fprintf(to, "\ncells without a solution\n");
     const int at = fprintf(to, "  %s", p->type->name);
-    paragraph_say(to, at, 4, "%s%s%s, %s, n = %s: %s: %s", p->text[0] != '\0' ? " (" : "", p->text,
-                  p->text[0] != '\0' ? ")" : "", one->formulation.key, meshes,
-                  status_name(last->status), last->reason);
+    paragraph_printf(to, at, 4, "%s%s%s, %s, n = %s: %s: %s", p->text[0] != '\0' ? " (" : "",
+                     p->text, p->text[0] != '\0' ? ")" : "", one->formulation.key, meshes,
+                     status_name(last->status), last->reason);
 }
 
 /* Prints the cells without a solution, even if finer meshes have a solution and determine the
@@ -40,7 +40,7 @@ static void failed_cells(FILE *to, const sweep *s)
 
 /* Prints, for each formulation and over all cases, how often its limits agree with exact reference
  * values within their uncertainty. */
-static void coverage_lines(FILE *to, const judgement *j)
+static void coverage_lines(FILE *to, const evaluation *j)
 {
     if (j->coverages > 0)
         fprintf(to, "\nlimits within their uncertainty of exact values, "
@@ -67,7 +67,7 @@ static void coverage_lines(FILE *to, const judgement *j)
 
 /* Prints the published values that are incompatible with limits that agree with the reference
  * value, without repetition. */
-static void contradictions(FILE *to, const sweep *s, const judgement *j)
+static void contradictions(FILE *to, const sweep *s, const evaluation *j)
 {
     for (int i = 0; i < j->verdicts; i++) {
         const verdict *v = &j->verdict[i];
@@ -81,16 +81,16 @@ static void contradictions(FILE *to, const sweep *s, const judgement *j)
             continue;
         const sweep_point *p = &s->point[s->series[v->series].point];
         fprintf(to, "\n%s", p->type->name);
-        paragraph_say(to, (int)strlen(p->type->name), 2,
-                      "%s%s, %s: the published value %.10g +- %.1g contradicts limits (%d), the "
-                      "first of them %.10g (%s)",
-                      p->text[0] != '\0' ? ": " : "", p->text, v->contradicted->quantity,
-                      v->contradicted->value, v->contradicted->uncertainty, count, v->fit.limit,
-                      s->series[v->series].formulation.key);
+        paragraph_printf(to, (int)strlen(p->type->name), 2,
+                         "%s%s, %s: the published value %.10g +- %.1g contradicts limits (%d), the "
+                         "first of them %.10g (%s)",
+                         p->text[0] != '\0' ? ": " : "", p->text, v->contradicted->quantity,
+                         v->contradicted->value, v->contradicted->uncertainty, count, v->fit.limit,
+                         s->series[v->series].formulation.key);
     }
 }
 
-static int count_contradicted(const judgement *j)
+static int count_contradicted(const evaluation *j)
 {
     int count = 0;
     for (int i = 0; i < j->verdicts; i++) {
@@ -102,7 +102,7 @@ static int count_contradicted(const judgement *j)
     return count;
 }
 
-void table_run_details(FILE *to, const sweep *s, const judgement *j)
+void table_run_details(FILE *to, const sweep *s, const evaluation *j)
 {
     contradictions(to, s, j);
     failed_cells(to, s);
@@ -110,7 +110,7 @@ void table_run_details(FILE *to, const sweep *s, const judgement *j)
 }
 
 /* Prints counts such as "9705 pass; 75 undecided". */
-static void print_kinds(FILE *to, const judgement *j)
+static void print_kinds(FILE *to, const evaluation *j)
 {
     int parts = 0;
     for (int k = 0; k < VERDICT_KINDS; k++)
@@ -120,7 +120,7 @@ static void print_kinds(FILE *to, const judgement *j)
                     verdict_name((verdict_kind)k));
 }
 
-static void print_verdicts(FILE *to, const judgement *j)
+static void print_verdicts(FILE *to, const evaluation *j)
 {
     const struct {
         int count;
@@ -131,8 +131,8 @@ static void print_verdicts(FILE *to, const judgement *j)
     int parts = 0, left = 0;
     paragraph words;
     FILE *line = paragraph_begin(&words, to);
-    fprintf(line, "%d verdict%s against reference values%s", j->judged, j->judged == 1 ? "" : "s",
-            j->judged > 0 ? ":" : "");
+    fprintf(line, "%d verdict%s against reference values%s", j->evaluated,
+            j->evaluated == 1 ? "" : "s", j->evaluated > 0 ? ":" : "");
     print_kinds(line, j);
     for (int i = 0; i < 3; i++)
         left += more[i].count > 0;
@@ -149,7 +149,7 @@ static void print_verdicts(FILE *to, const judgement *j)
     paragraph_end(&words, 0, 0);
 }
 
-void table_run(FILE *to, const sweep *s, const judgement *j, double seconds)
+void table_run(FILE *to, const sweep *s, const evaluation *j, double seconds)
 {
     const int contradicted = count_contradicted(j);
     fprintf(to, "%d cells, and %d more to measure their rounding scatter, in %.3g s",
@@ -331,20 +331,20 @@ static int width_of_names(const overview *o)
     return width;
 }
 
-/* Lists the cases without a row that have an evaluated run (`judged` 1) or have none (0). what:
+/* Lists the cases without a row that have an evaluated run (`evaluated` 1) or have none (0). what:
  * words after their number. */
-static void print_unshown(FILE *to, const overview *o, int judged, const char *what)
+static void print_unshown(FILE *to, const overview *o, int evaluated, const char *what)
 {
     paragraph words;
     int all = 0, named = 0;
     for (int r = 0; r < o->rows; r++)
-        all += !overview_shown(o, r) && overview_judged(o, r) == judged;
+        all += !overview_shown(o, r) && overview_evaluated(o, r) == evaluated;
     if (all == 0)
         return;
     FILE *list = paragraph_begin(&words, to);
     fprintf(list, "%d %s: ", all, what);
     for (int r = 0; r < o->rows; r++)
-        if (!overview_shown(o, r) && overview_judged(o, r) == judged)
+        if (!overview_shown(o, r) && overview_evaluated(o, r) == evaluated)
             fprintf(list, "%s%s", named++ > 0 ? ", " : "", o->row[r]->name);
     paragraph_end(&words, 0, 0);
 }

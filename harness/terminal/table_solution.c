@@ -30,12 +30,12 @@ static void predictions(FILE *to, const sweep_point *p, const truths *t)
         fprintf(to, " %-*s", UNIT, q->unit);
         table_percent(to, row != NULL ? verdict_error(q, q->prediction.value, row->value) : NAN);
         fputs("  ", to);
-        paragraph_say(to, column, INDENT, "%s, analytic", q->prediction.source);
+        paragraph_printf(to, column, INDENT, "%s, analytic", q->prediction.source);
     }
 }
 
 /* Returns 1 if the previous quantity has no value for the same reason. */
-static int is_told(const solve_result *r, int index)
+static int is_reported(const solve_result *r, int index)
 {
     return index > 0 && r->quantity[index - 1].status != STATUS_OK &&
            strcmp(r->quantity[index - 1].reason, r->quantity[index].reason) == 0;
@@ -70,7 +70,7 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
     if (v->status != STATUS_OK) {
         fprintf(to, "%*s ", VALUE, "-");
         paragraph_write(to, column, INDENT,
-                        is_told(&one->cell[0].solve, index) ? "likewise" : v->reason);
+                        is_reported(&one->cell[0].solve, index) ? "likewise" : v->reason);
         return;
     }
     const int zero = is_zero(&p->scene, index, &one->cell[0].solve);
@@ -114,8 +114,8 @@ static void unfinished_curves(FILE *to, const sweep_point *p, const solve_result
         if (p->scene.quantity[i].reduction != SCENE_CURVE || v->status == STATUS_OK)
             continue;
         const int column = fprintf(to, "%-*s %*s ", NAME, p->scene.quantity[i].name, VALUE, "-");
-        paragraph_say(to, column, INDENT, "%s%s", is_told(r, i) ? "likewise" : v->reason,
-                      v->curve.points > 0 ? "; the curve ends there" : "");
+        paragraph_printf(to, column, INDENT, "%s%s", is_reported(r, i) ? "likewise" : v->reason,
+                         v->curve.points > 0 ? "; the curve ends there" : "");
     }
 }
 
@@ -241,7 +241,7 @@ static void driven(FILE *to, const scene *s)
             put_driven(text, s, i, n->angle, "rxryrz", &count);
     }
     if (fclose(text) == 0 && count > 0)
-        paragraph_say(to, fprintf(to, "held by drives (%s): ", kinds), INDENT, "%s", words);
+        paragraph_printf(to, fprintf(to, "held by drives (%s): ", kinds), INDENT, "%s", words);
     free(words);
 }
 
@@ -311,12 +311,12 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     table_series(to, s, 0);
     count_steps(&c->counters, steps);
     const int at = fprintf(to, "%s", status_name(c->solve.status));
-    paragraph_say(to, at, INDENT,
-                  "%s%s; %d elements, %d free coordinates, %ld iterations%s, "
-                  "%ld factorisations, %.3g s set-up, %.3g s solution",
-                  c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason, c->size.elements,
-                  c->size.free, c->counters.iterations, steps, c->counters.factorisations,
-                  c->solve.seconds_setup, c->solve.seconds_solve);
+    paragraph_printf(to, at, INDENT,
+                     "%s%s; %d elements, %d free coordinates, %ld iterations%s, "
+                     "%ld factorisations, %.3g s set-up, %.3g s solution",
+                     c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason, c->size.elements,
+                     c->size.free, c->counters.iterations, steps, c->counters.factorisations,
+                     c->solve.seconds_setup, c->solve.seconds_solve);
     table_stability_paths(to, &p->scene, &c->solve);
     for (int i = 0; i < c->left_out_lines; i++)
         paragraph_write(to, fprintf(to, "not included: "), INDENT, c->left_out[i]);
@@ -375,8 +375,8 @@ void table_follow(FILE *to, const char *parameter, const follow_curves *c)
         fprintf(to, " %8s %-2d [Hz]", "mode", i + 1);
     fputc('\n', to);
     for (int k = 0; k < c->samples; k++) {
-        between += !c->sample[k].asked;
-        if (!c->sample[k].asked)
+        between += !c->sample[k].requested;
+        if (!c->sample[k].requested)
             continue;
         fprintf(to, "%-16.10g", c->sample[k].value);
         for (int i = 0; i < c->modes; i++)

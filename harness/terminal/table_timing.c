@@ -6,13 +6,13 @@
 
 /* Prints the lowest cost for all quantities of a point (`every` 1), or for the first quantity with
  * a reference value. Returns 0 if no quantity has a reference value. list[series]: work space. */
-static int table_cheapest(FILE *to, const sweep *, const judgement *, int point, int every,
-                          reached list[]);
+static int table_lowest_cost(FILE *to, const sweep *, const evaluation *, int point, int every,
+                             reached list[]);
 
 enum { NAME = 23 };
 
 /* Returns the verdict of a series on a quantity with a reference value; NULL: none. */
-static const verdict *judged_on(const judgement *j, int series_index, int quantity)
+static const verdict *verdict_on(const evaluation *j, int series_index, int quantity)
 {
     for (int i = 0; i < j->verdicts; i++)
         if (j->verdict[i].series == series_index && j->verdict[i].quantity == quantity &&
@@ -57,7 +57,7 @@ static void row(FILE *to, const sweep *s, const series *one, const verdict *v, i
         table_percent(to, error);
         fputc('\n', to);
     } else
-        paragraph_say(to, column, 6, " %s", c->solve.reason);
+        paragraph_printf(to, column, 6, " %s", c->solve.reason);
 }
 
 /* Returns the number of meshes of a series that were run; 0: the series does not belong to point
@@ -69,28 +69,28 @@ static int meshes_run(const series *one, int at)
 
 /* Returns the first quantity with a reference value for a formulation whose errors have not been
  * shown yet; -1: none. done[series] 1: the errors of the series have been shown. */
-static int next_quantity(const sweep *s, const judgement *j, int at, const char done[])
+static int next_quantity(const sweep *s, const evaluation *j, int at, const char done[])
 {
     for (int q = 0; q < s->point[at].scene.quantities; q++)
         for (int i = 0; i < s->seriess; i++)
-            if (!done[i] && meshes_run(&s->series[i], at) > 0 && judged_on(j, i, q) != NULL)
+            if (!done[i] && meshes_run(&s->series[i], at) > 0 && verdict_on(j, i, q) != NULL)
                 return q;
     return -1;
 }
 
-static void mark_shown(const sweep *s, const judgement *j, int at, int quantity, char done[])
+static void mark_shown(const sweep *s, const evaluation *j, int at, int quantity, char done[])
 {
     for (int i = 0; i < s->seriess; i++)
-        done[i] |= s->series[i].point == at && judged_on(j, i, quantity) != NULL;
+        done[i] |= s->series[i].point == at && verdict_on(j, i, quantity) != NULL;
 }
 
 /* Prints the errors in a quantity of all formulations that have a reference value of it. */
-static void errors_of(FILE *to, const sweep *s, const judgement *j, int at, int quantity)
+static void errors_of(FILE *to, const sweep *s, const evaluation *j, int at, int quantity)
 {
     fprintf(to, "  %-*s%5s %11s   of %s\n", NAME, "formulation", "n", "error",
             s->point[at].scene.quantity[quantity].name);
     for (int i = 0; i < s->seriess; i++) {
-        const verdict *v = judged_on(j, i, quantity);
+        const verdict *v = verdict_on(j, i, quantity);
         for (int k = 0; v != NULL && k < meshes_run(&s->series[i], at); k++) {
             subject(to, &s->series[i], k);
             table_percent(to, error_on(s, v, k));
@@ -99,7 +99,7 @@ static void errors_of(FILE *to, const sweep *s, const judgement *j, int at, int 
     }
 }
 
-static void rows(FILE *to, const sweep *s, const judgement *j, int at, char done[])
+static void rows(FILE *to, const sweep *s, const evaluation *j, int at, char done[])
 {
     const int first = next_quantity(s, j, at, done);
     if (first >= 0)
@@ -110,11 +110,11 @@ static void rows(FILE *to, const sweep *s, const judgement *j, int at, char done
             "tions", "ations", "sations", "[ms]", "[ms]", "noise", "error");
     for (int i = 0; i < s->seriess; i++)
         for (int k = 0; k < meshes_run(&s->series[i], at); k++)
-            row(to, s, &s->series[i], judged_on(j, i, first), k);
+            row(to, s, &s->series[i], verdict_on(j, i, first), k);
     for (int i = 0; i < s->seriess; i++)
         if (s->series[i].point == at && s->series[i].missing[0] != '\0')
-            paragraph_say(to, fprintf(to, "  %s: ", s->series[i].formulation.key), 4,
-                          "not timed, %s not modelled", s->series[i].missing);
+            paragraph_printf(to, fprintf(to, "  %s: ", s->series[i].formulation.key), 4,
+                             "not timed, %s not modelled", s->series[i].missing);
     for (int i = 0; i < s->seriess; i++) {
         const char *why = reach_unranked(s->series[i].formulation.type);
         if (meshes_run(&s->series[i], at) > 0 && why[0] != '\0')
@@ -190,7 +190,7 @@ static int is_selected(const sweep *s, int at)
     return found;
 }
 
-void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
+void table_timing(FILE *to, const sweep *s, const evaluation *j, int every_mesh)
 {
     reached *list = calloc((size_t)s->seriess + 1, sizeof *list);
     char *done = calloc((size_t)s->seriess + 1, 1);
@@ -205,7 +205,7 @@ void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh)
             rows(to, s, j, p, done);
         if (every_mesh)
             parts(to, s, p);
-        if (!table_cheapest(to, s, j, p, every_mesh, list))
+        if (!table_lowest_cost(to, s, j, p, every_mesh, list))
             fprintf(to, "  no reference value, and no agreement of formulations\n");
     }
     free(done);
@@ -233,11 +233,11 @@ static void way(FILE *to, const sweep *s, const reached *r)
  * in every round. */
 static void faster_ones(FILE *to, const sweep *s, const reached list[], int count, int ties)
 {
-    int told = 0;
+    int reported = 0;
     for (int i = ties; i < count && list[i].defect == NULL; i++)
         if (isfinite(list[i].cost) &&
             rounds_compare(time_of(s, &list[i]), time_of(s, &list[0])) < 0) {
-            fputs(told++ > 0 ? "; " : "; higher counted cost, but faster in every round: ", to);
+            fputs(reported++ > 0 ? "; " : "; higher counted cost, but faster in every round: ", to);
             way(to, s, &list[i]);
         }
 }
@@ -246,11 +246,11 @@ static void faster_ones(FILE *to, const sweep *s, const reached list[], int coun
 static void defective_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
     for (int i = 0; i < count; i++) {
-        int told = 0;
+        int reported = 0;
         const char *words = reach_defect_words(list[i].defect->kind);
         for (int k = 0; k < i; k++)
-            told |= strcmp(words, reach_defect_words(list[k].defect->kind)) == 0;
-        for (int k = told ? count : i; k < count; k++)
+            reported |= strcmp(words, reach_defect_words(list[k].defect->kind)) == 0;
+        for (int k = reported ? count : i; k < count; k++)
             if (strcmp(words, reach_defect_words(list[k].defect->kind)) == 0) {
                 if (k > i)
                     fputs("; ", to);
@@ -265,10 +265,10 @@ static void defective_ones(FILE *to, const sweep *s, const reached list[], int c
  * formulations that pass. */
 static int unranked_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
-    int i = 0, told = 0;
+    int i = 0, reported = 0;
     for (; i < count && list[i].defect == NULL; i++)
         if (!isfinite(list[i].cost)) {
-            fputs(told++ > 0 ? "; " : "; also within this error: ", to);
+            fputs(reported++ > 0 ? "; " : "; also within this error: ", to);
             way(to, s, &list[i]);
         }
     return i;
@@ -276,7 +276,7 @@ static int unranked_ones(FILE *to, const sweep *s, const reached list[], int cou
 
 /* Returns a text with the formulation that has the lowest counted work at a point, and the
  * formulations tied with it. The caller frees the text; NULL: out of memory. */
-static char *cheapest(const reach_question *q, reached list[])
+static char *lowest_cost(const reach_question *q, reached list[])
 {
     char *text = NULL;
     size_t size = 0;
@@ -302,7 +302,7 @@ static char *cheapest(const reach_question *q, reached list[])
     return text;
 }
 
-static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
+static int has_truth(const sweep *s, const evaluation *j, int at, int quantity)
 {
     for (int i = 0; i < j->verdicts; i++)
         if (s->series[j->verdict[i].series].point == at && j->verdict[i].quantity == quantity &&
@@ -312,17 +312,17 @@ static int has_truth(const sweep *s, const judgement *j, int at, int quantity)
 }
 
 /* The formulation with the lowest cost for a quantity, for every level. */
-typedef struct cheapest_answer {
-    int quantity, told; /* quantity; 1 if the answer has been printed */
+typedef struct lowest_cost_result {
+    int quantity, reported; /* quantity; 1 if the answer has been printed */
     char *text[REACH_LEVELS];
-} cheapest_answer;
+} lowest_cost_result;
 
 static int same_text(const char *a, const char *b)
 {
     return a != NULL && b != NULL && strcmp(a, b) == 0;
 }
 
-static int same_answer(const cheapest_answer *a, const cheapest_answer *b)
+static int same_answer(const lowest_cost_result *a, const lowest_cost_result *b)
 {
     int same = 1;
     for (int i = 0; i < REACH_LEVELS; i++)
@@ -332,7 +332,7 @@ static int same_answer(const cheapest_answer *a, const cheapest_answer *b)
 
 /* Writes one line for all quantities with the same answers as the first quantity, for example "u_x,
  * F_y within 10, 1 %: collocation, n = 1". Adjacent levels with equal answers are combined. */
-static void write_together(FILE *out, const scene *here, cheapest_answer a[], int count)
+static void write_together(FILE *out, const scene *here, lowest_cost_result a[], int count)
 {
     for (int level = 0, next; level < REACH_LEVELS; level = next) {
         paragraph words;
@@ -340,7 +340,7 @@ static void write_together(FILE *out, const scene *here, cheapest_answer a[], in
         const char *before = "";
         for (int i = 0; i < count; i++)
             if (i == 0 || same_answer(&a[i], &a[0])) {
-                a[i].told = 1;
+                a[i].reported = 1;
                 fprintf(to, "%s%s", before, here->quantity[a[i].quantity].name);
                 before = ", ";
             }
@@ -354,24 +354,25 @@ static void write_together(FILE *out, const scene *here, cheapest_answer a[], in
     }
 }
 
-static int table_cheapest(FILE *to, const sweep *s, const judgement *j, int at, int every,
-                          reached list[])
+static int table_lowest_cost(FILE *to, const sweep *s, const evaluation *j, int at, int every,
+                             reached list[])
 {
     const scene *here = &s->point[at].scene;
-    cheapest_answer *a = calloc((size_t)here->quantities + 1, sizeof *a);
+    lowest_cost_result *a = calloc((size_t)here->quantities + 1, sizeof *a);
     int count = 0;
     for (int q = 0; a != NULL && q < here->quantities && (every || count == 0); q++) {
         if (!has_truth(s, j, at, q))
             continue;
         a[count].quantity = q;
         for (int level = 0; level < REACH_LEVELS; level++) {
-            const reach_question asked = {s, j->verdict, j->verdicts, at, q, reach_level[level]};
-            a[count].text[level] = cheapest(&asked, list);
+            const reach_question requested = {s,  j->verdict, j->verdicts,
+                                              at, q,          reach_level[level]};
+            a[count].text[level] = lowest_cost(&requested, list);
         }
         count++;
     }
     for (int i = 0; i < count; i++)
-        if (!a[i].told)
+        if (!a[i].reported)
             write_together(to, here, &a[i], count - i);
     for (int i = 0; i < count * REACH_LEVELS; i++)
         free(a[i / REACH_LEVELS].text[i % REACH_LEVELS]);

@@ -80,20 +80,21 @@ static void print_subject(FILE *to, int number, const sweep_point *p, const seri
 
 static void print_numbers(FILE *to, const series *one, const verdict *v)
 {
-    char limit[ROUNDING_TEXT], doubt[ROUNDING_TEXT], truth_text[ROUNDING_TEXT],
+    char limit[ROUNDING_TEXT], uncertainty[ROUNDING_TEXT], truth_text[ROUNDING_TEXT],
         error[ROUNDING_TEXT], finest[ROUNDING_TEXT], known[ROUNDING_TEXT];
     if (!isfinite(v->finest) || v->truth == NULL)
         return;
     rounding_known(v->fit.limit, v->fit.limit_uncertainty, limit);
-    rounding_digits(v->fit.limit_uncertainty, 2, doubt);
+    rounding_digits(v->fit.limit_uncertainty, 2, uncertainty);
     rounding_known(v->truth->value, v->truth->uncertainty, truth_text);
     rounding_digits(v->truth->uncertainty, 2, known);
     rounding_known(v->finest, v->fit.limit_uncertainty, finest);
     rounding_percent(v->error, error);
-    paragraph_say(to, 0, INDENT,
-                  "limit %s +- %s, off by %s; reference %s +- %s (%s, %s); finest mesh, n = %d: %s",
-                  limit, doubt, error, truth_text, known, v->truth->kind, v->truth->source,
-                  one->mesh[verdict_meshes(one, v->quantity) - 1], finest);
+    paragraph_printf(
+        to, 0, INDENT,
+        "limit %s +- %s, off by %s; reference %s +- %s (%s, %s); finest mesh, n = %d: %s", limit,
+        uncertainty, error, truth_text, known, v->truth->kind, v->truth->source,
+        one->mesh[verdict_meshes(one, v->quantity) - 1], finest);
 }
 
 static void print_verdict(FILE *to, screen look, const sweep *s, const verdict *v, int number)
@@ -109,12 +110,12 @@ static void print_verdict(FILE *to, screen look, const sweep *s, const verdict *
     screen_put(to, look, SCREEN_BAD, verdict_name(v->kind));
     fprintf(to, ", expected %s\n",
             v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
-    paragraph_say(to, 0, INDENT, "%s", sentence);
+    paragraph_printf(to, 0, INDENT, "%s", sentence);
     print_numbers(to, one, v);
     if (v->reason[0] != '\0' && isfinite(v->finest)) /* otherwise in the sentence */
-        paragraph_say(to, 0, INDENT, "%s", v->reason);
+        paragraph_printf(to, 0, INDENT, "%s", v->reason);
     if (v->rule != NULL)
-        paragraph_say(to, 0, INDENT, "known deviation %s: %s", v->rule->name, v->rule->cause);
+        paragraph_printf(to, 0, INDENT, "known deviation %s: %s", v->rule->name, v->rule->cause);
     print_command(to, p, one, q->name);
 }
 
@@ -123,8 +124,8 @@ static void print_disagreement(FILE *to, const sweep *s, const agreement *a, int
     const series *one = &s->series[a->series];
     const sweep_point *p = &s->point[one->point];
     print_subject(to, number, p, one, p->scene.quantity[a->quantity].name);
-    paragraph_say(to, 0, INDENT, "n = %d: %.12g differs from the stored %.12g (%s)",
-                  one->mesh[a->mesh], a->value, a->truth->value, a->truth->source);
+    paragraph_printf(to, 0, INDENT, "n = %d: %.12g differs from the stored %.12g (%s)",
+                     one->mesh[a->mesh], a->value, a->truth->value, a->truth->source);
     print_command(to, p, one, p->scene.quantity[a->quantity].name);
 }
 
@@ -135,7 +136,7 @@ static void print_flaw(FILE *to, const sweep *s, const flaw *c, int number)
     char what[32];
     snprintf(what, sizeof what, "n = %d", one->mesh[c->mesh]);
     print_subject(to, number, p, one, what);
-    paragraph_say(to, 0, INDENT, "inconsistent run record: %s", c->why);
+    paragraph_printf(to, 0, INDENT, "inconsistent run record: %s", c->why);
     print_command(to, p, one, NULL);
 }
 
@@ -150,10 +151,10 @@ static void print_rules(FILE *to, const truths *t, int *number)
                       r->from != NULL ? ")" : "",
                       r->observed == 0 ? "was not observed"
                                        : "names a derived limit that no verdict has met");
-        paragraph_say(to, 0, INDENT, "formulations: %s", r->formulations);
-        paragraph_say(to, 0, INDENT, "cases: %s", r->cases);
-        paragraph_say(to, 0, INDENT, "quantities: %s", r->quantities);
-        paragraph_say(to, 0, INDENT, "cause: %s", r->cause);
+        paragraph_printf(to, 0, INDENT, "formulations: %s", r->formulations);
+        paragraph_printf(to, 0, INDENT, "cases: %s", r->cases);
+        paragraph_printf(to, 0, INDENT, "quantities: %s", r->quantities);
+        paragraph_printf(to, 0, INDENT, "cause: %s", r->cause);
     }
 }
 
@@ -170,20 +171,20 @@ static void print_unmet(FILE *to, const truths *t, int *number)
                       row->type->name, text[0] != '\0' ? ": " : "", text, row->quantity,
                       row->formulation[0] != '\0' ? ", " : "", row->formulation, row->source);
     }
-    if (t->strangers > 0) {
+    if (t->unknown_cases > 0) {
         print_heading(to, ++*number, "unknown cases in the reference values: %d; the first is %s",
-                      t->strangers, t->stranger);
+                      t->unknown_cases, t->unknown_case);
     }
 }
 
-void table_breaches(FILE *to, screen look, const judgement *j)
+void table_breaches(FILE *to, screen look, const evaluation *j)
 {
     for (int i = 0; i < j->breaches; i++) {
         screen_put(to, look, SCREEN_BAD, "INTERFACE VIOLATED");
         fputs(" by ", to);
         const char *key = j->breach[i].formulation;
         paragraph words;
-        paragraph_say(to, 22, INDENT, "%s: %s; for the full report:", key, j->breach[i].why);
+        paragraph_printf(to, 22, INDENT, "%s: %s; for the full report:", key, j->breach[i].why);
         FILE *line = paragraph_begin(&words, to);
         fprintf(line, "beamwork element-test -f %s", key);
         print_element(line, formulations_named(key, strcspn(key, ":")));
@@ -193,7 +194,7 @@ void table_breaches(FILE *to, screen look, const judgement *j)
         fputc('\n', to);
 }
 
-void table_unexpected(FILE *to, screen look, const sweep *s, const judgement *j, const truths *t)
+void table_unexpected(FILE *to, screen look, const sweep *s, const evaluation *j, const truths *t)
 {
     int number = 0;
     for (int i = 0; i < j->verdicts; i++)
@@ -309,8 +310,8 @@ static void write_block(FILE *to, const scene *s, const solve_result *r, int cou
         fputc('\n', to);
     }
     if (rows < first->points)
-        paragraph_say(to, 0, 2, "  %d of %d points; --format csv and json contain all points", rows,
-                      first->points);
+        paragraph_printf(to, 0, 2, "  %d of %d points; --format csv and json contain all points",
+                         rows, first->points);
 }
 
 void table_curves_values(FILE *to, const scene *s, const solve_result *r)
@@ -394,7 +395,7 @@ static void write_errors(FILE *to, const sweep *s, int quantity, int reference)
     for (int i = 0; i < s->seriess; i++)
         running += s->series[i].missing[0] == '\0';
     const int at = fprintf(to, "\n%s [%s] over %s [%s], ", q->name, q->unit, q->x.name, q->x.unit);
-    paragraph_say(
+    paragraph_printf(
         to, at - 1, 4,
         "largest error over the curve, relative to the largest value of the curve; reference: the "
         "finest mesh%s",

@@ -6,7 +6,7 @@
 
 #include "cases/scene/scene.h"
 
-enum { NAME = 23, LIMIT = 16, DOUBT = 7, ORDER = 5, MOST_RULES = 16 };
+enum { NAME = 23, LIMIT = 16, UNCERTAINTY = 7, ORDER = 5, MOST_RULES = 16 };
 
 /* The part of the table for one point. */
 typedef struct verdicts_block {
@@ -28,8 +28,8 @@ static const series *series_of(const verdicts_block *b, const verdict *v)
 
 static void print_columns(const verdicts_block *b)
 {
-    fprintf(b->to, "    %-*s %*s %*s %*s %12s %s\n", b->name, "formulation", LIMIT, "limit", DOUBT,
-            "+-", ORDER, "order", "error", "verdict");
+    fprintf(b->to, "    %-*s %*s %*s %*s %12s %s\n", b->name, "formulation", LIMIT, "limit",
+            UNCERTAINTY, "+-", ORDER, "order", "error", "verdict");
 }
 
 /* Prints the result of another model for a quantity with a reference value. */
@@ -37,7 +37,7 @@ static void print_other_model(const verdicts_block *b, const truth *other)
 {
     char value[ROUNDING_TEXT];
     rounding_known(other->value, other->uncertainty, value);
-    paragraph_say(b->to, 0, 4, "another model: %s (%s, %s)", value, other->kind, other->source);
+    paragraph_printf(b->to, 0, 4, "another model: %s (%s, %s)", value, other->kind, other->source);
 }
 
 /* Prints a quantity and the reference value that applies to this verdict and to the verdicts below.
@@ -105,7 +105,7 @@ static void verdict_words(verdicts_block *b, const verdict *v, char *text, size_
 static void print_verdict(verdicts_block *b, const verdict *v)
 {
     const char *name = series_of(b, v)->formulation.key;
-    const int column = 4 + b->name + LIMIT + DOUBT + ORDER + 3 + 12 + 1;
+    const int column = 4 + b->name + LIMIT + UNCERTAINTY + ORDER + 3 + 12 + 1;
     char words[160];
     const int begun = fprintf(b->to, "    %-*s", b->name, name);
     if (begun > 4 + b->name)
@@ -113,18 +113,18 @@ static void print_verdict(verdicts_block *b, const verdict *v)
     fputc(' ', b->to);
     table_known(b->to, LIMIT, v->fit.limit, v->fit.limit_uncertainty);
     fputc(' ', b->to);
-    table_digits(b->to, DOUBT, v->fit.limit_uncertainty, 2);
+    table_digits(b->to, UNCERTAINTY, v->fit.limit_uncertainty, 2);
     table_value(b->to, ORDER + 1, 2, 'f', v->fit.order);
     table_percent(b->to, v->error);
     verdict_words(b, v, words, sizeof words);
     fputc(' ', b->to);
     paragraph_write(b->to, column, 6, words);
     if (v->reason[0] != '\0' && v->kind != VERDICT_OTHER_MODEL) /* printed at the end */
-        paragraph_say(b->to, 0, 6, "%s", v->reason);
+        paragraph_printf(b->to, 0, 6, "%s", v->reason);
 }
 
 /* Prints the verdicts on a quantity in groups with the same reference value. */
-static void print_judged(verdicts_block *b, int quantity)
+static void print_evaluated(verdicts_block *b, int quantity)
 {
     const scene_quantity *q = &b->at->scene.quantity[quantity];
     for (int i = 0; i < b->count; i++) {
@@ -195,10 +195,10 @@ static void print_omissions(const verdicts_block *b)
 static void print_rules(const verdicts_block *b)
 {
     for (int i = 0; i < b->rules; i++)
-        paragraph_say(b->to, 0, 2, "[%d] %s: %s", i + 1, b->rule[i]->name, b->rule[i]->cause);
+        paragraph_printf(b->to, 0, 2, "[%d] %s: %s", i + 1, b->rule[i]->name, b->rule[i]->cause);
 }
 
-static void print_point(verdicts_block *b, const judgement *j, int index)
+static void print_point(verdicts_block *b, const evaluation *j, int index)
 {
     b->count = b->rules = b->name = 0;
     b->at = &b->s->point[index];
@@ -219,13 +219,13 @@ static void print_point(verdicts_block *b, const judgement *j, int index)
     b->name = b->name > 11 ? b->name : 11; /* width of the heading */
     print_columns(b);
     for (int q = 0; q < b->at->scene.quantities; q++)
-        print_judged(b, q);
+        print_evaluated(b, q);
     print_skipped(b);
     print_omissions(b);
     print_rules(b);
 }
 
-void table_verdicts(FILE *to, const sweep *s, const judgement *j)
+void table_verdicts(FILE *to, const sweep *s, const evaluation *j)
 {
     verdicts_block b = {
         .to = to, .s = s, .verdict = calloc((size_t)j->verdicts + 1, sizeof(verdict *))};
@@ -279,16 +279,16 @@ static void add_run(const solve_result *r, int first, int last, int begin, int e
  * text is "" if the whole path is stable or if its stability is unknown. */
 static void words_of_path(const solve_result *r, int analysis, char text[WORDS])
 {
-    int begin = -1, last = -1, runs = 0, told = 0;
+    int begin = -1, last = -1, runs = 0, reported = 0;
     text[0] = '\0';
     for (int i = 0; i < r->steps; i++)
         if (r->step[i].analysis == analysis) {
             begin = begin < 0 ? i : begin;
             last = i;
-            told |= r->step[i].stability != STEP_STABLE &&
-                    (r->step[i].negative_pivots > 0 || r->step[i].stability != STEP_OPEN);
+            reported |= r->step[i].stability != STEP_STABLE &&
+                        (r->step[i].negative_pivots > 0 || r->step[i].stability != STEP_OPEN);
         }
-    for (int i = begin; told && i >= 0 && i <= last; runs++) {
+    for (int i = begin; reported && i >= 0 && i <= last; runs++) {
         int end = i;
         while (end < last && r->step[end + 1].stability == r->step[i].stability)
             end++;
@@ -309,8 +309,8 @@ int table_stability_paths(FILE *to, const scene *s, const solve_result *r)
         if (words[0] == '\0')
             continue;
         const int column = fprintf(to, "%s: ", scene_called(s, SCENE_ANALYSES, i).text);
-        paragraph_say(to, column, 2, "%s (%s)", words,
-                      s->analysis[i].kind == SCENE_CONTINUATION ? "load factor" : "path");
+        paragraph_printf(to, column, 2, "%s (%s)", words,
+                         s->analysis[i].kind == SCENE_CONTINUATION ? "load factor" : "path");
         lines++;
     }
     return lines;
@@ -341,9 +341,9 @@ void table_stability_meshes(FILE *to, const sweep *s)
             char words[WORDS] = "";
             for (int a = 0; a < what->analyses && words[0] == '\0'; a++)
                 words_of_path(r, a, words);
-            paragraph_say(to, column, 4, "%s%s%s", words[0] != '\0' ? words : "stable all along",
-                          r->status != STATUS_OK ? "; " : "",
-                          r->status != STATUS_OK ? r->reason : "");
+            paragraph_printf(to, column, 4, "%s%s%s", words[0] != '\0' ? words : "stable all along",
+                             r->status != STATUS_OK ? "; " : "",
+                             r->status != STATUS_OK ? r->reason : "");
         }
     }
 }

@@ -17,7 +17,7 @@ int paragraph_columns(const char *text);
  * used in the first line. */
 void paragraph_write(FILE *to, int at, int indent, const char *text);
 /* Like paragraph_write, with the format and arguments of printf. */
-void paragraph_say(FILE *to, int at, int indent, const char *format, ...)
+void paragraph_printf(FILE *to, int at, int indent, const char *format, ...)
     __attribute__((format(printf, 4, 5)));
 
 /* A paragraph that is written in parts. Between begin and end, the caller writes to the returned
@@ -89,9 +89,9 @@ void table_overview(FILE *to, screen, const overview *);
 
 /* Prints the part after the long table: published values that are incompatible with limits, cells
  * without a solution, and the coverage of limits. */
-void table_run_details(FILE *to, const sweep *s, const judgement *j);
+void table_run_details(FILE *to, const sweep *s, const evaluation *j);
 /* Prints the counts. seconds: run time. */
-void table_run(FILE *to, const sweep *s, const judgement *j, double seconds);
+void table_run(FILE *to, const sweep *s, const evaluation *j, double seconds);
 /* Prints the concluding sentence, or nothing if there is none. */
 void table_run_end(FILE *to, screen, const char *sentence);
 
@@ -104,18 +104,18 @@ void table_solution(FILE *to, const sweep *s, const truths *t);
 
 /* Prints the times. every_mesh 1: prints a row for each mesh, and the lowest cost for every
  * quantity; 0: prints only default points and the first quantity. */
-void table_timing(FILE *to, const sweep *s, const judgement *j, int every_mesh);
+void table_timing(FILE *to, const sweep *s, const evaluation *j, int every_mesh);
 
 /* Unexpected results of a run in full, with commands that show them again. */
 
 /* Prints the formulations that violate the requirements of the interface. They precede all other
  * results. */
-void table_breaches(FILE *to, screen, const judgement *j);
+void table_breaches(FILE *to, screen, const evaluation *j);
 /* Prints unexpected results, or nothing if all results are as expected. */
-void table_unexpected(FILE *to, screen, const sweep *s, const judgement *j, const truths *t);
+void table_unexpected(FILE *to, screen, const sweep *s, const evaluation *j, const truths *t);
 
 /* Prints the verdicts of a run as text, with a block for each point. */
 
-void table_verdicts(FILE *to, const sweep *s, const judgement *j);
+void table_verdicts(FILE *to, const sweep *s, const evaluation *j);
 
 #endif

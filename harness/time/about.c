@@ -50,14 +50,14 @@ status abouts_alloc(abouts *a, fault *f)
     if (o->abouts == 0)
         return STATUS_OK;
     qsort(o->about, (size_t)o->abouts, sizeof *o->about, by_time);
-    TRY(instant_alloc(a->c->model, &a->at, f));
-    return instant_alloc(a->c->model, &a->room, f);
+    TRY(motion_state_alloc(a->c->model, &a->at, f));
+    return motion_state_alloc(a->c->model, &a->room, f);
 }
 
 void abouts_free(abouts *a)
 {
-    instant_free(&a->at);
-    instant_free(&a->room);
+    motion_state_free(&a->at);
+    motion_state_free(&a->room);
 }
 
 /* Returns the time of the next state in the outcome [s]; INFINITY: none. */
@@ -73,7 +73,7 @@ static status take(abouts *a, fault *f)
     const model *m = a->c->model;
     outcome_about *to = &a->out->about[a->next++];
     if (a->how->scheme == SCENE_CONSERVING)
-        TRY(launch_again(a->c, a->masses, a->how, &a->at, &a->room, f));
+        TRY(consistent_restart(a->c, a->masses, a->how, &a->at, &a->room, f));
     TRY(small_motions_of(&a->c->eq, a->masses, &a->at, to, f));
     const size_t count = (size_t)model_all_coordinates(m);
     to->rate = malloc((2 * count + 1) * sizeof *to->rate);
@@ -87,17 +87,17 @@ static status take(abouts *a, fault *f)
     return STATUS_OK;
 }
 
-status abouts_inside(abouts *a, const instant *from, const instant *to, fault *f)
+status abouts_inside(abouts *a, const motion_state *from, const motion_state *to, fault *f)
 {
     a->near = same_instant * (to->time - from->time);
     while (next_of(a) < to->time - a->near) {
-        TRY(aside_step(a->c, a->scheme, from, next_of(a), &a->at, f));
+        TRY(probe_step(a->c, a->scheme, from, next_of(a), &a->at, f));
         TRY(take(a, f));
     }
     return STATUS_OK;
 }
 
-status abouts_here(abouts *a, const instant *now, fault *f)
+status abouts_here(abouts *a, const motion_state *now, fault *f)
 {
     while (next_of(a) <= now->time + a->near) {
         if (next_of(a) < now->time - a->near)
@@ -105,7 +105,7 @@ status abouts_here(abouts *a, const instant *now, fault *f)
                              "an analysis is about the state at %g s, but the motion continues "
                              "from %g s; give a later time, or run the motion from its start",
                              next_of(a), now->time);
-        instant_copy(a->c->model, now, &a->at);
+        motion_state_copy(a->c->model, now, &a->at);
         TRY(take(a, f));
     }
     return STATUS_OK;

@@ -26,7 +26,7 @@ static double averaged(const alpha *s, double a, double before, double now)
 
 /* Sets the relation between rates and increment, and an initial guess of the increment that assumes
  * constant acceleration. */
-static void relate(alpha *s, const instant *from, double h, stage_rates *r)
+static void relate(alpha *s, const motion_state *from, double h, stage_rates *r)
 {
     for (int i = 0; i < s->stage.free; i++) {
         const double v = from->v[i], a = from->algorithm[i], vd = from->a[i];
@@ -38,8 +38,8 @@ static void relate(alpha *s, const instant *from, double h, stage_rates *r)
     }
 }
 
-static status error_of(alpha *s, const instant *from, const instant *to, double h, double *error,
-                       fault *f)
+static status error_of(alpha *s, const motion_state *from, const motion_state *to, double h,
+                       double *error, fault *f)
 {
     const model *m = s->stage.c->model;
     const double part = h * h * fabs(s->beta + (s->mass - s->force) / 2 - 1 / 6.0);
@@ -55,7 +55,7 @@ static status error_of(alpha *s, const instant *from, const instant *to, double 
 
 /* Sets the relation between strain rates and strains of damped members, which has the same form as
  * for positions. Computes the part of the strain rates that does not depend on the increment. */
-static void relate_strains(alpha *s, const instant *from, double h, instant *to)
+static void relate_strains(alpha *s, const motion_state *from, double h, motion_state *to)
 {
     const double g = s->gamma / (s->beta * h), kept = 1 - s->gamma / s->beta,
                  later = h * (1 - s->gamma / (2 * s->beta));
@@ -85,11 +85,11 @@ static double circulated(const model *m, const model_state *from, const model_st
 /* Sets the strain rates at the end of a step, and adds the dissipated energy. This energy follows
  * from the mean rates, because rates at the ends of steps oscillate about their mean if there is no
  * inertia. */
-static void damp(alpha *s, const instant *from, double h, instant *to)
+static void damp(alpha *s, const motion_state *from, double h, motion_state *to)
 {
     const double g = s->gamma / (s->beta * h), part = 1 / (s->beta * h * h);
     const model *m = s->stage.c->model;
-    const carried_masses *masses = s->stage.masses;
+    const frame_masses *masses = s->stage.masses;
     to->dissipated = from->dissipated +
                      h / 2 *
                          (inertia_damping_power(m, masses, from->state, from->v) +
@@ -131,8 +131,8 @@ static status check_turns(const alpha *s, double time, fault *f)
     return STATUS_OK;
 }
 
-static status step(motion_scheme *base, const instant *from, double h, instant *to, double *error,
-                   step_record *record, fault *f)
+static status step(motion_scheme *base, const motion_state *from, double h, motion_state *to,
+                   double *error, step_record *record, fault *f)
 {
     alpha *s = (alpha *)base;
     const model *m = s->stage.c->model;
@@ -150,11 +150,11 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
     kinematics_state_copy(m, from->state, to->state);
     kinematics_commit(m, to->state);
     relate_strains(s, from, h, to);
-    instant_recall(from, &s->stage.arrival);
+    motion_state_recall(from, &s->stage.newton_convergence);
     TRY(stage_solve(&s->stage, from->state, time, &r, to->state, record, f));
-    const feedback_step past = {h, from->time, kinks_before(m, time)};
+    const feedback_step past = {h, from->time, discontinuities_before(m, time)};
     feedback_integrate(&s->stage.c->eq, from->state, to->state, &past, to->state->feedback);
-    instant_remember(&s->stage.arrival, to);
+    motion_state_store(&s->stage.newton_convergence, to);
     TRY(check_turns(s, time, f));
     for (int i = 0; i < s->stage.all; i++)
         to->algorithm[i] = averaged(s, from->algorithm[i], from->a[i], to->a[i]);

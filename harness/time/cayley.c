@@ -273,7 +273,8 @@ static void columns_of(const cayley_step *s, const cayley_slopes *d, const cayle
     double back[3], Jl[9], first[3], swept[9], carried[9], apart[9], turned[9], more[9];
     for (int i = 0; i < 3; i++)
         back[i] = -at * y[3 + i];
-    turning_jacobian(back, Jl); /* derivative for increments after the rotation, in global axes */
+    rotation_rates_jacobian(back,
+                            Jl); /* derivative for increments after the rotation, in global axes */
     for (int i = 0; i < 9; i++)
         Jl[i] *= at;
     mat3_mul(Jl, d->own[j], out->by_phi);

@@ -14,12 +14,12 @@
 /* Finds rotations without inertia. REFUSED: no rotation has inertia. */
 static status conserving_massless(conserving *, fault *);
 /* Sets the rates at the end of a step. */
-static void conserving_rates(conserving *, const instant *from, double h, instant *to);
+static void conserving_rates(conserving *, const motion_state *from, double h, motion_state *to);
 
 enum { LEAST_ITERATIONS = 3 };
 
 /* Solves (S + column row^T) dx = residual. */
-static status direction(conserving *s, const instant *from, model_state *now, double h,
+static status direction(conserving *s, const motion_state *from, model_state *now, double h,
                         step_record *record, fault *f)
 {
     const size_t bytes = (size_t)s->all * sizeof *s->residual;
@@ -68,8 +68,8 @@ static double size_of(const conserving *s)
 /* Work space for the iteration of a step. */
 typedef struct solution {
     conserving *s;
-    const instant *from;
-    instant *to;
+    const motion_state *from;
+    motion_state *to;
     double time;
 } solution;
 
@@ -83,7 +83,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
     double *inc = one->to->algorithm;
     TRY(conserving_stresses(s, one->from, now, iteration, f));
     TRY(direction(s, one->from, now, s->h, record, f));
-    complement_keep(s->complement, now);
+    strain_update_begin(s->strain_update, now);
     const double inner = conserving_update(s, one->from, now);
     for (int c = 0; c < s->free; c++)
         s->step[c] += s->dx[c];
@@ -98,7 +98,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
 static void prepare(void *of, int iteration, double correction)
 {
     const solution *one = of;
-    complement_strains(one->s->complement, one->to->state, iteration, correction);
+    strain_update_apply(one->s->strain_update, one->to->state, iteration, correction);
 }
 
 static status accept(void *of, fault *f)
@@ -111,8 +111,8 @@ static status accept(void *of, fault *f)
                         : STATUS_OK;
 }
 
-static status step(motion_scheme *base, const instant *from, double h, instant *to, double *error,
-                   step_record *record, fault *f)
+static status step(motion_scheme *base, const motion_state *from, double h, motion_state *to,
+                   double *error, step_record *record, fault *f)
 {
     conserving *s = (conserving *)base;
     const model *m = s->of.c->model;
@@ -124,13 +124,13 @@ static status step(motion_scheme *base, const instant *from, double h, instant *
     conserving_increment(s, from->state, inc);
     increment_apply(m, from->state, inc, record->path, to->state);
     TRY(conserving_begin(s, from, f));
-    instant_recall(from, &s->arrival);
+    motion_state_recall(from, &s->newton_convergence);
     solution one = {s, from, to, record->path};
     newton_use use = newton_in_time(s->of.c, &one, correct, prepare);
     use.accept = accept;
     use.least = LEAST_ITERATIONS;
-    TRY(newton_iterate(s->of.c, &use, &s->arrival, record, f));
-    instant_remember(&s->arrival, to);
+    TRY(newton_iterate(s->of.c, &use, &s->newton_convergence, record, f));
+    motion_state_store(&s->newton_convergence, to);
     TRY(conserving_work(s, from, to, h, f));
     conserving_rates(s, from, h, to);
     drive_at(&s->of.c->eq, from->state, record->path, NULL, to->v, to->a);
@@ -154,10 +154,10 @@ static void release(motion_scheme *base)
     factor_free(s->factor);
     free(s->step);
     free(s->W);
-    free(s->evaluation);
-    complement_free(s->complement);
+    free(s->deformable_values);
+    strain_update_free(s->strain_update);
     massive_free(&s->massive);
-    carried_free(&s->masses);
+    frame_masses_free(&s->masses);
     free(s);
 }
 
@@ -210,7 +210,7 @@ static status refuse_constraint(const model *m, int node, const char *why, fault
 /* Checks the constraints. REFUSED: the rates at the ends of a step would violate a constraint. The
  * Cayley vectors of rotations with a given ratio do not have this ratio, and masses at a distance
  * from their nodes have independent velocities. */
-static status check_constraints(const model *m, const carried_masses *masses, fault *f)
+static status check_constraints(const model *m, const frame_masses *masses, fault *f)
 {
     if (model_mesh_of(m)->joined == NULL)
         return STATUS_OK;
@@ -246,7 +246,7 @@ static status allocate(conserving *s, fault *f)
 {
     const model *m = s->of.c->model;
     const sparse *pattern;
-    TRY(carried_floors(m, s->of.masses, &s->masses, f));
+    TRY(frame_masses_diaphragms(m, s->of.masses, &s->masses, f));
     s->of.masses = &s->masses;
     s->strains = model_springs(m) > 0 && model_strains(m) < SPRING_STRAINS ? SPRING_STRAINS
                                                                            : model_strains(m);
@@ -263,9 +263,9 @@ static status allocate(conserving *s, fault *f)
                       (size_t)(9 * s->of.masses->masses) + elastic,
                   sizeof *s->W);
     if (s->of.c->options->newton != NEWTON_DISPLACEMENT)
-        TRY(complement_alloc(&s->of.c->eq, &s->complement, f));
-    s->evaluation = malloc((size_t)chunk_size(m) * sizeof *s->evaluation);
-    if (s->step == NULL || s->W == NULL || s->evaluation == NULL)
+        TRY(strain_update_alloc(&s->of.c->eq, &s->strain_update, f));
+    s->deformable_values = malloc((size_t)chunk_size(m) * sizeof *s->deformable_values);
+    if (s->step == NULL || s->W == NULL || s->deformable_values == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     s->residual = s->step + all;
     s->column = s->residual + all;
@@ -301,8 +301,8 @@ status conserving_alloc(const scheme_request *request, motion_scheme **out, faul
     s->of = *request;
     s->free = size.free;
     s->all = size.free + size.driven;
-    arrival_start(request->c->options->criterion, model_leaves(request->c->model) != 0,
-                  size.elements, &s->arrival);
+    newton_convergence_start(request->c->options->criterion, model_leaves(request->c->model) != 0,
+                             size.elements, &s->newton_convergence);
     return allocate(s, f);
 }
 
@@ -336,9 +336,9 @@ static status conserving_massless(conserving *s, fault *f)
     const model *m = s->of.c->model;
     int heavy = 0, turning = 0;
     for (int k = 0; k < s->of.masses->masses; k++) {
-        const carried_mass *one = &s->of.masses->mass[k];
+        const frame_mass *one = &s->of.masses->mass[k];
         double centre[3], J[9];
-        carried_step_centre(m, one, centre, J);
+        frame_mass_step_centre(m, one, centre, J);
         heavy += null_space(J, s->massless + (size_t)(9 * k)) < 3;
         turning += turns_freely(m, one->frame);
     }
@@ -350,7 +350,7 @@ static status conserving_massless(conserving *s, fault *f)
 }
 
 /* Computes the rates of a sequence of angles for which the angular velocity is closest to w. */
-static void angle_rates(const model *m, int vertex, instant *to, const double w[3])
+static void angle_rates(const model *m, int vertex, motion_state *to, const double w[3])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
     const int n = v->angles;
@@ -379,7 +379,7 @@ static void angle_rates(const model *m, int vertex, instant *to, const double w[
 /* Replaces rates of motions without inertia by the mean rates of the step, because they would
  * otherwise change sign in every step. N[9]: projection onto the rotations without inertia; NULL:
  * no rotation has inertia. */
-static void without_inertia(const carried_mass *one, const double N[9], carried_step *p)
+static void without_inertia(const frame_mass *one, const double N[9], frame_mass_step *p)
 {
     double mean[3], back[3];
     for (int i = 0; i < 3; i++) {
@@ -396,7 +396,7 @@ static void without_inertia(const carried_mass *one, const double N[9], carried_
 
 /* Finds the released coordinates of an end that move its mass: three shifts, then three rotations.
  * heavy 1: the coordinate moves the mass. */
-static void heavy_ones(const model *m, const carried_mass *one, const carried_step *p,
+static void heavy_ones(const model *m, const frame_mass *one, const frame_mass_step *p,
                        const model_state *s, int heavy[6])
 {
     const double nothing = 1e-12;
@@ -418,19 +418,19 @@ static void heavy_ones(const model *m, const carried_mass *one, const carried_st
  * coordinates. The velocities are integrated separately, so these masses conserve energy and
  * momenta like the masses of nodes. The velocities differ from the rates by terms of second order
  * in the step size. */
-static void conserving_released_rates(const conserving *s, const instant *from, double h,
-                                      instant *to)
+static void conserving_released_rates(const conserving *s, const motion_state *from, double h,
+                                      motion_state *to)
 {
     const model *m = s->of.c->model;
-    const carried_masses *all = s->of.masses;
+    const frame_masses *all = s->of.masses;
     for (int k = 0; k < all->masses; k++) {
-        const carried_mass *one = &all->mass[k];
+        const frame_mass *one = &all->mass[k];
         const int *at = model_vertex(m, one->frame)->coordinate;
-        carried_step p;
+        frame_mass_step p;
         int heavy[6];
         if (one->frame < model_first_release(m))
             continue;
-        carried_step_of(s, from, to->state, h, one, &p);
+        frame_mass_step_of(s, from, to->state, h, one, &p);
         without_inertia(one, s->massless + (size_t)(9 * k), &p);
         double *own = to->ends + 6 * (one->frame - model_first_release(m));
         memcpy(own, p.v1, sizeof p.v1);
@@ -470,13 +470,13 @@ static void massless_together(const conserving *s, int vertex, double N[9])
             turns++;
         }
     for (int k = 0; k < s->of.masses->masses; k++) {
-        const carried_mass *one = &s->of.masses->mass[k];
+        const frame_mass *one = &s->of.masses->mass[k];
         const mesh_vertex *other = model_vertex(m, one->frame);
         double centre[3], J[9], axis[3];
         if (single == NONE || memcmp(other->coordinate + SCENE_RX, v->coordinate + SCENE_RX,
                                      3 * sizeof *v->coordinate) != 0)
             continue;
-        carried_step_centre(m, one, centre, J);
+        frame_mass_step_centre(m, one, centre, J);
         for (int i = 0; i < 9; i++)
             sum[i] += J[i];
         for (int i = 0; i < 3; i++)
@@ -495,7 +495,8 @@ static void massless_together(const conserving *s, int vertex, double N[9])
 /* Sets the rates of translations in constraints. Without mass at the nodes that a translation
  * moves, the rate is the mean rate of the step. In-plane translations of a diaphragm are excluded:
  * they follow from its centre of mass. */
-static void rates_together(const conserving *s, const instant *from, double h, instant *to)
+static void rates_together(const conserving *s, const motion_state *from, double h,
+                           motion_state *to)
 {
     const model *m = s->of.c->model;
     for (int i = 0; i < model_scene(m)->nodes; i++)
@@ -514,22 +515,21 @@ static void rates_together(const conserving *s, const instant *from, double h, i
 
 /* Sets the rates after a step. The rates of a frame follow from the motion of its centre of mass
  * if it has mass, otherwise from the motion of the frame. */
-static void conserving_rates(conserving *s, const instant *from, double h, instant *to)
+static void conserving_rates(conserving *s, const motion_state *from, double h, motion_state *to)
 {
     const model *m = s->of.c->model;
-    const carried_masses *all = s->of.masses;
+    const frame_masses *all = s->of.masses;
     for (int i = 0, k = 0; i < model_first_release(m); i++) {
-        const carried_mass plain = {.frame = i};
+        const frame_mass plain = {.frame = i};
         const int *at = model_vertex(m, i)->coordinate;
         while (k < all->masses && all->mass[k].frame < i)
             k++;
-        const carried_mass *one =
-            k < all->masses && all->mass[k].frame == i ? &all->mass[k] : &plain;
+        const frame_mass *one = k < all->masses && all->mass[k].frame == i ? &all->mass[k] : &plain;
         if (model_vertex(m, i)->body != i)
             continue;
-        carried_step p;
+        frame_mass_step p;
         double w[3], turned[3];
-        carried_step_of(s, from, to->state, h, one, &p);
+        frame_mass_step_of(s, from, to->state, h, one, &p);
         double N[9];
         const int with = turns_with(m, i);
         if (with)

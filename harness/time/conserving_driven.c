@@ -12,12 +12,12 @@ typedef struct centre_rates {
     double R[9], J[9], arm[3], v[3], W[3];
 } centre_rates;
 
-static void rates_of(const model *m, const model_state *s, const carried_mass *one,
-                     const double v[], centre_rates *out)
+static void rates_of(const model *m, const model_state *s, const frame_mass *one, const double v[],
+                     centre_rates *out)
 {
     frame_rates r;
     double centre[3], turned[3];
-    carried_step_centre(m, one, centre, out->J);
+    frame_mass_step_centre(m, one, centre, out->J);
     forms_rates(m, s, one->frame, v, NULL, &r);
     memcpy(out->R, r.R, sizeof r.R);
     mat3_mul_vec(r.R, centre, out->arm);
@@ -27,7 +27,7 @@ static void rates_of(const model *m, const model_state *s, const carried_mass *o
         out->v[i] = r.v[i] + turned[i];
 }
 
-static double energy_of(const carried_mass *one, const double J[9], const double v[3],
+static double energy_of(const frame_mass *one, const double J[9], const double v[3],
                         const double W[3])
 {
     double sum = dense_quadratic(3, J, W) / 2;
@@ -38,7 +38,7 @@ static double energy_of(const carried_mass *one, const double J[9], const double
 
 /* Adds the momenta of a mass, multiplied by `factor`, to out[free + driven], in the coordinates of
  * forms_rates. */
-static void add_momenta(const model *m, const model_state *s, const carried_mass *one,
+static void add_momenta(const model *m, const model_state *s, const frame_mass *one,
                         const centre_rates *of, double factor, double out[])
 {
     double P[6], H[3], spun[3], lever[3];
@@ -70,7 +70,7 @@ static void momenta_of(const conserving *s, const model_state *now, const double
     const model *m = s->of.c->model;
     memset(out, 0, (size_t)s->all * sizeof *out);
     for (int k = 0; k < s->of.masses->masses; k++) {
-        const carried_mass *one = &s->of.masses->mass[k];
+        const frame_mass *one = &s->of.masses->mass[k];
         centre_rates of;
         if (one->frame >= model_first_release(m))
             continue;
@@ -86,7 +86,7 @@ static void diagonal_of(const conserving *s, const model_state *now, double unit
     memset(out, 0, (size_t)s->all * sizeof *out);
     memset(unit, 0, (size_t)s->all * sizeof *unit);
     for (int k = 0; k < s->of.masses->masses; k++) {
-        const carried_mass *one = &s->of.masses->mass[k];
+        const frame_mass *one = &s->of.masses->mass[k];
         for (int c = 0; c < 6 && one->frame < model_first_release(m); c++) {
             const int at = model_vertex(m, one->frame)->coordinate[c];
             centre_rates of;
@@ -102,19 +102,19 @@ static void diagonal_of(const conserving *s, const model_state *now, double unit
 
 /* Subtracts from out[free + driven] the change of the momenta by the prescribed rates in `to`.
  * Returns the number of masses with prescribed coordinates. */
-static int subtract_change(const conserving *s, const instant *from, double h, const instant *to,
-                           double out[])
+static int subtract_change(const conserving *s, const motion_state *from, double h,
+                           const motion_state *to, double out[])
 {
     const model *m = s->of.c->model;
     int driven = 0;
     for (int k = 0; k < s->of.masses->masses; k++) {
-        const carried_mass *one = &s->of.masses->mass[k];
-        carried_step p;
+        const frame_mass *one = &s->of.masses->mass[k];
+        frame_mass_step p;
         centre_rates of;
         if (one->frame >= model_first_release(m) || !is_driven(m, one->frame))
             continue;
         driven++;
-        carried_step_of(s, from, to->state, h, one, &p);
+        frame_mass_step_of(s, from, to->state, h, one, &p);
         rates_of(m, to->state, one, to->v, &of);
         for (int i = 0; i < 3; i++) {
             of.v[i] -= p.v1[i];
@@ -136,7 +136,7 @@ static double square_of(const conserving *s, const double x[], const double diag
 
 /* The method of conjugate gradients solves for the change of the free rates, because few of them
  * are coupled. */
-void conserving_free_rates(conserving *s, const instant *from, double h, instant *to)
+void conserving_free_rates(conserving *s, const motion_state *from, double h, motion_state *to)
 {
     const double rounding = 1e-30, /* square of a relative rounding error */
         nothing = 1e-10;           /* motions with less inertia have none */
@@ -172,18 +172,19 @@ void conserving_free_rates(conserving *s, const instant *from, double h, instant
         to->a[c] = to->algorithm[c] = (to->v[c] - from->v[c]) / h;
 }
 
-double conserving_impulses(const conserving *s, const instant *from, double h, const instant *to)
+double conserving_impulses(const conserving *s, const motion_state *from, double h,
+                           const motion_state *to)
 {
     const model *m = s->of.c->model;
     const int joined = model_mesh_of(m)->joined != NULL;
     double sum = 0;
     for (int k = 0; k < s->of.masses->masses && s->all > s->free; k++) {
-        const carried_mass *one = &s->of.masses->mass[k];
-        carried_step p;
+        const frame_mass *one = &s->of.masses->mass[k];
+        frame_mass_step p;
         centre_rates of;
         if (one->frame >= model_first_release(m) || !(joined || is_driven(m, one->frame)))
             continue;
-        carried_step_of(s, from, to->state, h, one, &p);
+        frame_mass_step_of(s, from, to->state, h, one, &p);
         rates_of(m, to->state, one, to->v, &of);
         sum += energy_of(one, p.J, of.v, of.W) - energy_of(one, p.J, p.v1, p.W1);
     }

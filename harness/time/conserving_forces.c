@@ -14,7 +14,7 @@ enum { N = ELEMENT_MAX_COORDINATES, M = DEFORMABLE_STRAINS };
 
 /* Computes the terms of sigma_m that do not depend on the gaps: (sigma_n + P'(e))/2 + k W d, and
  * V d/h for damping. */
-static void middle_of(const conserving *s, evaluation *v)
+static void middle_of(const conserving *s, deformable_values *v)
 {
     const deformable *of = &v->of;
     double Wd[M];
@@ -31,7 +31,7 @@ static void middle_of(const conserving *s, evaluation *v)
 /* Computes the gaps and sigma_m, which includes the contribution of the gaps unless they are
  * rounding errors. Returns the incompatibility: the largest gap of the strains, divided by the
  * reference length. */
-static double gaps_of(const conserving *s, const double J[], evaluation *v, double sigma[])
+static double gaps_of(const conserving *s, const double J[], deformable_values *v, double sigma[])
 {
     const deformable *of = &v->of;
     double d[M], C_e[M], W_d[M], largest = 0;
@@ -59,7 +59,7 @@ static double gaps_of(const conserving *s, const double J[], evaluation *v, doub
 /* Adds to out[n x n] the geometric stiffness at point g, multiplied by the derivative of x(s). H is
  * in the exponential chart. The derivative of a moment m with respect to spatial increments is less
  * by m~/2. */
-static void add_curved_strains(const cayley_slopes *by, int g, evaluation *v, double out[])
+static void add_curved_strains(const cayley_slopes *by, int g, deformable_values *v, double out[])
 {
     const deformable *of = &v->of;
     const int n = of->coordinates;
@@ -78,7 +78,7 @@ static void add_curved_strains(const cayley_slopes *by, int g, evaluation *v, do
 
 /* Computes the derivatives k_e and k_d of k with respect to the strains and d. Adds k_e . gap_e
  * + k_d . gap_d to s->missing, and sets the column and the row. */
-static void add_scalar(conserving *s, const double J[], evaluation *v)
+static void add_scalar(conserving *s, const double J[], deformable_values *v)
 {
     const deformable *of = &v->of;
     const int n = of->coordinates, strains = of->strains;
@@ -102,8 +102,8 @@ static void add_scalar(conserving *s, const double J[], evaluation *v)
 
 /* Transforms the equations to the coordinates that move the nodes of the element. F[7 nodes]:
  * forces due to `middle`. */
-static void to_coordinates(const conserving *s, const instant *from, const model_state *now,
-                           const double F[], evaluation *v)
+static void to_coordinates(const conserving *s, const motion_state *from, const model_state *now,
+                           const double F[], deformable_values *v)
 {
     const mesh_element *el = v->of.el;
     const model *m = s->of.c->model;
@@ -114,21 +114,21 @@ static void to_coordinates(const conserving *s, const instant *from, const model
         dense_widen(mesh_own_coordinates(el), el->columns, v->K);
     for (int j = 0; j < el->nodes; j++) {
         const int at = NODE_COORDINATES * j;
-        frame_place p;
-        if (place_plain(m, el->vertex[j]))
+        frame_motion p;
+        if (frame_motion_is_plain(m, el->vertex[j]))
             continue;
-        place_of(s, from->state, now, el->vertex[j], F + at, &p);
-        place_forces(&p, at, own, v->force);
-        place_forces(&p, at, own, v->column);
-        place_row(&p, at, own, v->row);
-        place_matrix(&p, el->columns, at, own, v->K);
+        frame_motion_of(s, from->state, now, el->vertex[j], F + at, &p);
+        frame_motion_forces(&p, at, own, v->force);
+        frame_motion_forces(&p, at, own, v->column);
+        frame_motion_row(&p, at, own, v->row);
+        frame_motion_matrix(&p, el->columns, at, own, v->K);
         own += p.columns - 6;
     }
 }
 
 /* Computes the equations of one evaluated element or spring. Returns its incompatibility. */
-static double equations_of(conserving *s, const instant *from, const model_state *now,
-                           evaluation *v)
+static double equations_of(conserving *s, const motion_state *from, const model_state *now,
+                           deformable_values *v)
 {
     const deformable *of = &v->of;
     const int n = of->coordinates, strains = of->strains;
@@ -158,7 +158,7 @@ static double equations_of(conserving *s, const instant *from, const model_state
     return incompatibility;
 }
 
-static void add(conserving *s, evaluation *v)
+static void add(conserving *s, deformable_values *v)
 {
     const mesh_element *el = v->of.el;
     if (v->of.spring != NULL)
@@ -172,7 +172,7 @@ static void add(conserving *s, evaluation *v)
     assemble_vector(el, v->row, s->row);
 }
 
-void conserving_forces(conserving *s, const instant *from, model_state *now,
+void conserving_forces(conserving *s, const motion_state *from, model_state *now,
                        double *incompatibility)
 {
     const int all = deformable_count(s);
@@ -180,14 +180,14 @@ void conserving_forces(conserving *s, const instant *from, model_state *now,
     for (int first = 0; first < all;) {
         const int count = deformable_together(s, first);
         for (int k = 0; k < count; k++) {
-            s->evaluation[k].of = deformable_at(s, from, now, first + k);
-            middle_of(s, &s->evaluation[k]);
+            s->deformable_values[k].of = deformable_at(s, from, now, first + k);
+            middle_of(s, &s->deformable_values[k]);
         }
-        deformable_evaluate(s, from, now, count, s->evaluation);
+        deformable_evaluate(s, from, now, count, s->deformable_values);
         for (int k = 0; k < count; k++) {
             *incompatibility =
-                fmax(*incompatibility, equations_of(s, from, now, &s->evaluation[k]));
-            add(s, &s->evaluation[k]);
+                fmax(*incompatibility, equations_of(s, from, now, &s->deformable_values[k]));
+            add(s, &s->deformable_values[k]);
         }
         first += count;
     }
@@ -275,12 +275,12 @@ static void take(void *context, const applied *what)
     const loaded *of = context;
     conserving *s = of->s;
     double dr[3], c[3], F[6], K[36] = {0};
-    place_step(s, of->from, of->now, what->vertex, dr, c);
+    frame_motion_step(s, of->from, of->now, what->vertex, dr, c);
     loads_middle_of(of, what, c, F, K);
-    place_add(s, of->from, of->now, what->vertex, F, K, of->out);
+    frame_motion_add(s, of->from, of->now, what->vertex, F, K, of->out);
 }
 
-void conserving_loads(conserving *s, const instant *from, const model_state *now, double h,
+void conserving_loads(conserving *s, const motion_state *from, const model_state *now, double h,
                       double out[])
 {
     const model *m = s->of.c->model;
@@ -294,7 +294,7 @@ void conserving_loads(conserving *s, const instant *from, const model_state *now
 /* Updates the strains at the end of the step and inside the step with Newton's corrections. */
 
 /* Computes the corrections of dr, c and da of the nodes of an element: local[7 nodes]. */
-static void own_increments(const conserving *s, const instant *from, const model_state *now,
+static void own_increments(const conserving *s, const motion_state *from, const model_state *now,
                            const mesh_element *el, double local[])
 {
     const model *m = s->of.c->model;
@@ -302,11 +302,11 @@ static void own_increments(const conserving *s, const instant *from, const model
     for (int k = 0; k < own; k++)
         local[k] = el->index[k] == NONE ? 0 : s->dx[el->index[k]];
     for (int j = 0; j < el->nodes && !el->plain; j++) {
-        double moved[PLACE_MOST], *at = local + NODE_COORDINATES * j;
-        frame_place p;
-        if (place_plain(m, el->vertex[j]))
+        double moved[FRAME_MOTION_MOST], *at = local + NODE_COORDINATES * j;
+        frame_motion p;
+        if (frame_motion_is_plain(m, el->vertex[j]))
             continue;
-        place_of(s, from->state, now, el->vertex[j], NULL, &p);
+        frame_motion_of(s, from->state, now, el->vertex[j], NULL, &p);
         for (int k = 0; k < p.columns; k++) {
             const int index = el->index[k < 6 ? NODE_COORDINATES * j + k : own++];
             moved[k] = index == NONE ? 0 : s->dx[index];
@@ -315,7 +315,7 @@ static void own_increments(const conserving *s, const instant *from, const model
     }
 }
 
-double conserving_update(conserving *s, const instant *from, model_state *now)
+double conserving_update(conserving *s, const motion_state *from, model_state *now)
 {
     const model *m = s->of.c->model;
     double largest = 0;
@@ -379,7 +379,7 @@ static int moves_by_drivers(const conserving *s)
 
 /* Returns the energy [J] that the damping stresses dissipate in the step: the sum of d . V d/h.
  */
-static double dissipated(const conserving *s, const instant *from, model_state *now)
+static double dissipated(const conserving *s, const motion_state *from, model_state *now)
 {
     double sum = 0;
     for (int i = 0; i < deformable_count(s) && s->of.c->run->damping != NULL; i++) {
@@ -390,7 +390,8 @@ static double dissipated(const conserving *s, const instant *from, model_state *
     return sum;
 }
 
-status conserving_work(conserving *s, const instant *from, instant *to, double h, fault *f)
+status conserving_work(conserving *s, const motion_state *from, motion_state *to, double h,
+                       fault *f)
 {
     const size_t bytes = (size_t)s->all * sizeof *s->residual;
     const int behind = 3; /* an iteration in which conserving_stresses uses k */
@@ -420,7 +421,7 @@ status conserving_work(conserving *s, const instant *from, instant *to, double h
  * start and from the mean rate m: r1 = (3 m - r0)/2 + h s0/4, s1 = (m - r0)/h + s0/2. The result is
  * of second order, even if there is no inertia. An initial error disappears after two steps. With
  * r1 = 2 m - r0, this error would persist. */
-void conserving_damped(const conserving *s, const instant *from, double h, instant *to)
+void conserving_damped(const conserving *s, const motion_state *from, double h, motion_state *to)
 {
     const model *m = s->of.c->model;
     const int elements = model_elements(m);

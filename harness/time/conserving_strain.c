@@ -48,7 +48,7 @@ static status middle_stress_of(const equations *eq, int count, const int index[]
     return STATUS_OK;
 }
 
-static void begin_spring(conserving *s, const instant *from, int i)
+static void begin_spring(conserving *s, const motion_state *from, int i)
 {
     deformable of = deformable_at(s, from, from->state, i);
     node_state x[ELEMENT_MAX_NODES];
@@ -62,7 +62,7 @@ static void begin_spring(conserving *s, const instant *from, int i)
     s->energy[i] = spring_energy(of.spring->spring, of.e);
 }
 
-status conserving_begin(conserving *s, const instant *from, fault *f)
+status conserving_begin(conserving *s, const motion_state *from, fault *f)
 {
     const model *m = s->of.c->model;
     const double *e[CHUNK_MOST] = {NULL};
@@ -104,7 +104,7 @@ static void take_energy(conserving *s, const deformable *of, double energy, scal
     sum->size += dense_quadratic(of->strains, of->W, of->e);
 }
 
-static status stress_together(conserving *s, const instant *from, model_state *now, int first,
+static status stress_together(conserving *s, const motion_state *from, model_state *now, int first,
                               int count, scalar_parts *sum, fault *f)
 {
     const model *m = s->of.c->model;
@@ -131,7 +131,7 @@ static status stress_together(conserving *s, const instant *from, model_state *n
     return STATUS_OK;
 }
 
-static void stress_spring(conserving *s, const instant *from, model_state *now, int i,
+static void stress_spring(conserving *s, const motion_state *from, model_state *now, int i,
                           scalar_parts *sum)
 {
     const deformable of = deformable_at(s, from, now, i);
@@ -145,7 +145,7 @@ static void stress_spring(conserving *s, const instant *from, model_state *now, 
 }
 
 /* Returns the kinetic energy plus the absolute strain energies [J] at the start of the step. */
-static double size_of_energy(const conserving *s, const instant *from)
+static double size_of_energy(const conserving *s, const motion_state *from)
 {
     inertia_balance moving;
     inertia_of(s->of.c->model, s->of.masses, from->state, from->v,
@@ -156,7 +156,7 @@ static double size_of_energy(const conserving *s, const instant *from)
     return sum;
 }
 
-status conserving_stresses(conserving *s, const instant *from, model_state *now, int iteration,
+status conserving_stresses(conserving *s, const motion_state *from, model_state *now, int iteration,
                            fault *f)
 {
     const model *m = s->of.c->model;
@@ -201,7 +201,7 @@ static int only_turns(const model *m, int frame)
     return held_of(m, frame, held) == 0 && held[0];
 }
 
-void carried_step_centre(const model *m, const carried_mass *one, double centre[3], double J[9])
+void frame_mass_step_centre(const model *m, const frame_mass *one, double centre[3], double J[9])
 {
     if (only_turns(m, one->frame)) {
         memset(centre, 0, 3 * sizeof *centre);
@@ -218,15 +218,15 @@ void carried_step_centre(const model *m, const carried_mass *one, double centre[
                 one->inertia[3 * i + j] - ((i == j ? square : 0) - one->moment[i] * centre[j]);
 }
 
-void carried_step_of(const conserving *s, const instant *from, const model_state *now, double h,
-                     const carried_mass *one, carried_step *out)
+void frame_mass_step_of(const conserving *s, const motion_state *from, const model_state *now,
+                        double h, const frame_mass *one, frame_mass_step *out)
 {
     const model *m = s->of.c->model;
     double dr[3], swept[3], body[3], turned[3];
     int held[3] = {0};
     frame_rates r;
-    carried_step_centre(m, one, out->centre, out->J);
-    out->rides = held_of(m, one->frame, held);
+    frame_mass_step_centre(m, one, out->centre, out->J);
+    out->partly_fixed = held_of(m, one->frame, held);
     for (int k = 0; k < 9; k++)
         out->held[k] = k % 4 == 0 && held[k / 3];
     kinematics_turn_back(model_vertex(m, one->frame), out->held);
@@ -235,7 +235,7 @@ void carried_step_of(const conserving *s, const instant *from, const model_state
     rotation_matrix(&now->q[4 * one->frame], out->R1);
     mat3_mul_vec(out->Rn, out->centre, out->before);
     mat3_mul_vec(out->R1, out->centre, out->after);
-    place_step(s, from->state, now, one->frame, dr, out->c);
+    frame_motion_step(s, from->state, now, one->frame, dr, out->c);
     for (int i = 0; i < 3; i++)
         out->mean[i] = (out->before[i] + out->after[i]) / 2;
     vec3_cross(r.w, out->before, turned);
@@ -253,11 +253,11 @@ void carried_step_of(const conserving *s, const instant *from, const model_state
         out->v1[i] = 2 * (dr[i] + swept[i]) / h - out->v0[i];
         out->W1[i] = 2 * body[i] / h - out->W0[i];
     }
-    carried_step_follow(one, out);
+    frame_mass_step_follow(one, out);
 }
 
 /* Computes the mean force and moment F[6] on the frame that accelerate the mass in the step. */
-static void forces_of(const carried_mass *one, const carried_step *p, double h, double F[6])
+static void forces_of(const frame_mass *one, const frame_mass_step *p, double h, double F[6])
 {
     double H0[3], H1[3], spun0[3], spun1[3], lever[3];
     mat3_mul_vec(p->J, p->W0, H0);
@@ -268,11 +268,11 @@ static void forces_of(const carried_mass *one, const carried_step *p, double h, 
         F[i] = (one->mass - one->less[i]) * (p->v1[i] - p->v0[i]) / h;
     vec3_cross(p->mean, F, lever);
     for (int i = 0; i < 3; i++)
-        F[3 + i] = (spun1[i] - spun0[i]) / h + lever[i] + (p->rides ? p->late[i] : 0);
+        F[3 + i] = (spun1[i] - spun0[i]) / h + lever[i] + (p->partly_fixed ? p->late[i] : 0);
 }
 
 /* Computes K[6 x 6], the derivative of F with respect to dr and c. */
-static void tangent_of(const carried_mass *one, const carried_step *p, double h, const double F[6],
+static void tangent_of(const frame_mass *one, const frame_mass_step *p, double h, const double F[6],
                        double K[36])
 {
     const double b = 2 / (h * h);
@@ -290,7 +290,7 @@ static void tangent_of(const carried_mass *one, const carried_step *p, double h,
     cayley_skew(spun, A);
     mat3_mul(A, T, turn);
     cayley_skew(p->mean, mean);
-    carried_step_sway(p, h, T, swept, sway);
+    frame_mass_step_sway(p, h, T, swept, sway);
     for (int k = 0; k < 9; k++)
         heavy[k] = (one->mass - one->less[k / 3]) * sway[k];
     mat3_mul(mean, heavy, lever);
@@ -304,23 +304,23 @@ static void tangent_of(const carried_mass *one, const carried_step *p, double h,
             K[6 * (3 + i) + j] = (one->mass - one->less[j]) * b * mean[k];
             K[6 * (3 + i) + 3 + j] = b * RJR[k] - turn[k] / h - b * lever[k] + more[k] / 2;
         }
-    carried_step_late(one, p, h, T, sway, K);
+    frame_mass_step_late(one, p, h, T, sway, K);
 }
 
-void conserving_inertia(conserving *s, const instant *from, const model_state *now, double h)
+void conserving_inertia(conserving *s, const motion_state *from, const model_state *now, double h)
 {
     const model *m = s->of.c->model;
-    const carried_masses *all = s->of.masses;
+    const frame_masses *all = s->of.masses;
     for (int k = 0; k < all->masses; k++) {
-        const carried_mass *one = &all->mass[k];
-        carried_step p;
+        const frame_mass *one = &all->mass[k];
+        frame_mass_step p;
         double F[6], K[36];
-        carried_step_of(s, from, now, h, one, &p);
+        frame_mass_step_of(s, from, now, h, one, &p);
         forces_of(one, &p, h, F);
         tangent_of(one, &p, h, F, K);
         for (int i = 0; i < 6; i++)
             F[i] = -F[i];
-        place_add(s, from->state, now, one->frame, F, K, s->residual);
+        frame_motion_add(s, from->state, now, one->frame, F, K, s->residual);
     }
     for (int i = 0; i < model_warps(m); i++) {
         const int c = model_warp(m, i);
@@ -396,7 +396,7 @@ static void predict_turn(conserving *s, const frame_rates *r, const int at[3], d
 /* For a node that rotates freely, computes dr = h/2 (v + cay(c) v): the velocity rotates with the
  * node. cay(c) v - v = (c x v + c x (c x v)/2)/(1 + c.c/4). Increments of other free coordinates
  * are h v. */
-void conserving_predict(conserving *s, const instant *from, double h)
+void conserving_predict(conserving *s, const motion_state *from, double h)
 {
     const model *m = s->of.c->model;
     for (int c = 0; c < s->free; c++)

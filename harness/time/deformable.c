@@ -22,7 +22,7 @@ int deformable_together(const conserving *s, int first)
     return count;
 }
 
-deformable deformable_at(const conserving *s, const instant *from, model_state *now, int i)
+deformable deformable_at(const conserving *s, const motion_state *from, model_state *now, int i)
 {
     const model *m = s->of.c->model;
     const size_t at = (size_t)i, n = (size_t)s->strains, first = at * (size_t)model_strains(m);
@@ -59,8 +59,8 @@ deformable deformable_at(const conserving *s, const instant *from, model_state *
     return of;
 }
 
-static void place_turn(const model *m, const double at[DEFORMABLE_POINTS], const instant *from,
-                       const model_state *now, evaluation *v)
+static void place_turn(const model *m, const double at[DEFORMABLE_POINTS], const motion_state *from,
+                       const model_state *now, deformable_values *v)
 {
     if (v->of.spring == NULL)
         return;
@@ -75,8 +75,8 @@ static void place_turn(const model *m, const double at[DEFORMABLE_POINTS], const
 }
 
 /* Sets the states of the nodes at the ends of the step and at the points inside it. */
-static void place_nodes(const conserving *s, const instant *from, const model_state *now,
-                        evaluation *v)
+static void place_nodes(const conserving *s, const motion_state *from, const model_state *now,
+                        deformable_values *v)
 {
     static const double at[DEFORMABLE_POINTS] = {0.21132486540518711775, 0.78867513459481288225};
     const model *m = s->of.c->model;
@@ -85,7 +85,7 @@ static void place_nodes(const conserving *s, const instant *from, const model_st
     kinematics_gather(m, from->state, el, v->first);
     kinematics_gather(m, now, el, v->last);
     for (int j = 0; j < el->nodes; j++) {
-        place_step(s, from->state, now, el->vertex[j], dr[j], c[j]);
+        frame_motion_step(s, from->state, now, el->vertex[j], dr[j], c[j]);
         da[j] = el->warp[j] == NONE ? 0 : s->step[model_warp(m, el->warp[j])];
     }
     cayley_begin(el->nodes, el->nodes == 1, v->first, dr, c, da, &v->step);
@@ -95,21 +95,21 @@ static void place_nodes(const conserving *s, const instant *from, const model_st
 }
 
 /* Returns the states of the nodes at a point; point DEFORMABLE_POINTS: at the end of the step. */
-static const node_state *nodes_of(const evaluation *v, int point)
+static const node_state *nodes_of(const deformable_values *v, int point)
 {
     return point < DEFORMABLE_POINTS ? v->point[point].x : v->last;
 }
 
 /* Returns the outputs to be computed at a point: e and J at the end of the step (point
  * DEFORMABLE_POINTS), and J and H at the points before it. */
-static strain_output wanted(evaluation *v, int point)
+static strain_output wanted(deformable_values *v, int point)
 {
     return point < DEFORMABLE_POINTS
                ? (strain_output){.J = v->J[point], .s = v->middle, .H = v->H[point]}
                : (strain_output){.e = v->D, .J = v->of.J};
 }
 
-static void strains_alone(const model *m, int point, evaluation *v)
+static void strains_alone(const model *m, int point, deformable_values *v)
 {
     strain_output out = wanted(v, point);
     if (v->of.spring != NULL)
@@ -118,7 +118,7 @@ static void strains_alone(const model *m, int point, evaluation *v)
         model_type(m)->strain(model_kind(m, v->of.el->kind)->data, nodes_of(v, point), &out);
 }
 
-static void strains_together(const model *m, int point, int count, evaluation v[])
+static void strains_together(const model *m, int point, int count, deformable_values v[])
 {
     const element_data *data[CHUNK_MOST];
     node_state x[CHUNK_MOST * ELEMENT_MAX_NODES];
@@ -145,8 +145,8 @@ static void behind_turns(const deformable *of, const cayley_step *step)
     }
 }
 
-void deformable_evaluate(const conserving *s, const instant *from, const model_state *now,
-                         int count, evaluation v[])
+void deformable_evaluate(const conserving *s, const motion_state *from, const model_state *now,
+                         int count, deformable_values v[])
 {
     const model *m = s->of.c->model;
     for (int k = 0; k < count; k++)
@@ -175,8 +175,9 @@ static void add_at(const double rho[3], const double F[6], double out[6])
 
 /* Adds to F[6] the inertia forces of elements with consistent mass at the nodes that the body
  * `node` moves, with moments about `place`. */
-static void add_spread(const model *m, const model_state *s, const shares_motion *motion, int node,
-                       const double place[3], double F[6])
+static void add_spread(const model *m, const model_state *s,
+                       const inertia_resultants_motion *motion, int node, const double place[3],
+                       double F[6])
 {
     for (int i = 0; i < model_elements(m); i++) {
         const mesh_element *el = model_element(m, i);
@@ -185,7 +186,7 @@ static void add_spread(const model *m, const model_state *s, const shares_motion
             if (model_vertex(m, el->vertex[k])->body != node)
                 continue;
             if (!known++)
-                spread_force(m, i, s, motion->v, motion->a, taken);
+                consistent_mass_force(m, i, s, motion->v, motion->a, taken);
             kinematics_position(m, s, el->vertex[k], rho);
             for (int c = 0; c < 3; c++)
                 rho[c] -= place[c];
@@ -194,12 +195,13 @@ static void add_spread(const model *m, const model_state *s, const shares_motion
     }
 }
 
-status shares_node(const model *m, const model_state *s, const shares_motion *motion, int node,
-                   double F[6], fault *f)
+status inertia_resultants_node(const model *m, const model_state *s,
+                               const inertia_resultants_motion *motion, int node, double F[6],
+                               fault *f)
 {
-    carried_masses all;
+    frame_masses all;
     double place[3], rho[3];
-    TRY(motion->spread ? carried_alloc_spread(m, &all, f) : carried_alloc(m, &all, f));
+    TRY(motion->spread ? frame_masses_alloc_bodies(m, &all, f) : frame_masses_alloc(m, &all, f));
     kinematics_position(m, s, node, place);
     if (motion->spread)
         add_spread(m, s, motion, node, place, F);
@@ -214,21 +216,21 @@ status shares_node(const model *m, const model_state *s, const shares_motion *mo
             rho[i] -= place[i];
         add_at(rho, one, F);
     }
-    carried_free(&all);
+    frame_masses_free(&all);
     return STATUS_OK;
 }
 
 /* Computes the inertia force on node k of an element, including warping. *share: part of the
  * element's mass that is lumped at the node. */
-static void force_of(const model *m, const model_state *s, const shares_motion *motion, int element,
-                     int k, double F[7], carried_mass *share)
+static void force_of(const model *m, const model_state *s, const inertia_resultants_motion *motion,
+                     int element, int k, double F[7], frame_mass *share)
 {
     const mesh_element *el = model_element(m, element);
     double taken[ELEMENT_MAX_COORDINATES], warping;
     frame_rates r;
-    carried_share(m, el, k, share, &warping);
+    frame_masses_share(m, el, k, share, &warping);
     if (motion->spread) {
-        spread_force(m, element, s, motion->v, motion->a, taken);
+        consistent_mass_force(m, element, s, motion->v, motion->a, taken);
         memcpy(F, taken + NODE_COORDINATES * k, 7 * sizeof *F);
         return;
     }
@@ -237,13 +239,14 @@ static void force_of(const model *m, const model_state *s, const shares_motion *
     F[6] = el->warp[k] != NONE ? warping * motion->a[model_warp(m, el->warp[k])] : 0;
 }
 
-void shares_along(const model *m, const model_state *s, const shares_motion *motion, int element,
-                  double density[ELEMENT_MAX_NODES][6])
+void inertia_resultants_along(const model *m, const model_state *s,
+                              const inertia_resultants_motion *motion, int element,
+                              double density[ELEMENT_MAX_NODES][6])
 {
     const mesh_element *el = model_element(m, element);
     const double *part = motion->spread ? model_shares(m) : el->share;
     for (int k = 0; k < el->nodes; k++) {
-        carried_mass share;
+        frame_mass share;
         double F[7];
         force_of(m, s, motion, element, k, F, &share);
         for (int i = 0; i < 6; i++)
@@ -273,14 +276,15 @@ static void add_couple(const model *m, const model_state *s, int element, double
     }
 }
 
-void shares_ends(const model *m, const model_state *s, const shares_motion *motion, int element,
-                 double ends[2][7])
+void inertia_resultants_ends(const model *m, const model_state *s,
+                             const inertia_resultants_motion *motion, int element,
+                             double ends[2][7])
 {
     const mesh_element *el = model_element(m, element);
     double whole[2][7];
     for (int e = 0; e < 2; e++) {
         const int k = e ? el->nodes - 1 : 0;
-        carried_mass share;
+        frame_mass share;
         double F[7];
         force_of(m, s, motion, element, k, F, &share);
         for (int i = 0; i < 7; i++) {

@@ -15,7 +15,7 @@
  * remains in `at`. */
 static int explicit_rates(double t, const double y[], double dydt[], void *context);
 /* Checks the masses. REFUSED: a coordinate of the undeformed model has no inertia. */
-static status explicit_check(const model *, const carried_masses *, fault *);
+static status explicit_check(const model *, const frame_masses *, fault *);
 
 static double error_of(const explicit_scheme *s)
 {
@@ -30,7 +30,7 @@ static int size_of(const explicit_scheme *s)
     return 2 * s->free + 2 + feedback_count(&s->of.c->eq);
 }
 
-static int advance(explicit_scheme *s, const instant *from, double h)
+static int advance(explicit_scheme *s, const motion_state *from, double h)
 {
     const gsl_odeiv2_system of_motion = {
         .function = explicit_rates, .dimension = (size_t)size_of(s), .params = s};
@@ -44,14 +44,14 @@ static int advance(explicit_scheme *s, const instant *from, double h)
                                  &of_motion);
 }
 
-static status step(motion_scheme *base, const instant *from, double h, instant *to, double *error,
-                   step_record *record, fault *f)
+static status step(motion_scheme *base, const motion_state *from, double h, motion_state *to,
+                   double *error, step_record *record, fault *f)
 {
     explicit_scheme *s = (explicit_scheme *)base;
     const model *m = s->of.c->model;
     s->from = from;
     s->at = to;
-    s->end = kinks_before(m, record->path);
+    s->end = discontinuities_before(m, record->path);
     s->outcome = STATUS_OK;
     if (s->of.c->run->damping != NULL) /* dashpots depend on the rates of the coordinates */
         damping_follow(&s->of.c->eq, 0, s->of.c->run->damping->none, NULL);
@@ -109,7 +109,8 @@ status explicit_alloc(const scheme_request *request, motion_scheme **out, fault 
     if (s == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     *out = &s->base;
-    s->base = (motion_scheme){.order = 8, .degree = BETWEEN_QUINTIC, .step = step, .free = release};
+    s->base =
+        (motion_scheme){.order = 8, .degree = DENSE_OUTPUT_QUINTIC, .step = step, .free = release};
     s->of = *request;
     s->free = size.free;
     s->all = size.free + size.driven;
@@ -119,7 +120,7 @@ status explicit_alloc(const scheme_request *request, motion_scheme **out, fault 
 
 /* Computes the mass matrix M[count x count] of the free coordinates of a frame, and their indices
  * of[count]. Returns count. */
-static int block(const model *m, const carried_masses *masses, int index, const model_state *s,
+static int block(const model *m, const frame_masses *masses, int index, const model_state *s,
                  const double v[], int of[6], double M[36])
 {
     const int *at = model_vertex(m, masses->mass[index].frame)->coordinate;
@@ -141,7 +142,7 @@ static int block(const model *m, const carried_masses *masses, int index, const 
 }
 
 /* Like explicit_accelerate, for bodies that constraints join. */
-static status accelerate_joined(const model *m, const carried_masses *masses, int body,
+static status accelerate_joined(const model *m, const frame_masses *masses, int body,
                                 const model_state *s, const double residual[], body_mass *g,
                                 double a[], fault *f)
 {
@@ -171,7 +172,7 @@ static status accelerate_joined(const model *m, const carried_masses *masses, in
     return STATUS_OK;
 }
 
-static void accelerate_warps(const model *m, const carried_masses *masses, const double residual[],
+static void accelerate_warps(const model *m, const frame_masses *masses, const double residual[],
                              double a[])
 {
     for (int w = 0; w < model_warps(m); w++) {
@@ -181,9 +182,8 @@ static void accelerate_warps(const model *m, const carried_masses *masses, const
     }
 }
 
-static status accelerate_together(const model *m, const carried_masses *masses,
-                                  const model_state *s, const double residual[], double a[],
-                                  fault *f)
+static status accelerate_together(const model *m, const frame_masses *masses, const model_state *s,
+                                  const double residual[], double a[], fault *f)
 {
     body_mass g;
     TRY(body_mass_alloc(m, &g, f));
@@ -198,9 +198,8 @@ static status accelerate_together(const model *m, const carried_masses *masses,
 
 /* Computes a[free] = M^-1 residual. The residual includes the effect of the prescribed
  * accelerations in a. SINGULAR: two axes of a sequence of angles coincide. */
-static status explicit_accelerate(const model *m, const carried_masses *masses,
-                                  const model_state *s, const double v[], const double residual[],
-                                  double a[], fault *f)
+static status explicit_accelerate(const model *m, const frame_masses *masses, const model_state *s,
+                                  const double v[], const double residual[], double a[], fault *f)
 {
     if (model_mesh_of(m)->joined != NULL)
         return accelerate_together(m, masses, s, residual, a, f);
@@ -274,7 +273,7 @@ static status check_vertex(const model *m, int index, const int heavy[], fault *
 
 /* Marks the free coordinates that have inertia independently of the previous coordinates of their
  * frame. */
-static void mark(const model *m, const carried_masses *masses, const double rest[], int heavy[])
+static void mark(const model *m, const frame_masses *masses, const double rest[], int heavy[])
 {
     for (int k = 0; k < masses->masses; k++) {
         int of[6];
@@ -294,7 +293,7 @@ static void mark(const model *m, const carried_masses *masses, const double rest
 }
 
 /* Like explicit_check, for bodies that constraints join. Their masses are combined. */
-static status check_joined(const model *m, const carried_masses *masses, fault *f)
+static status check_joined(const model *m, const frame_masses *masses, fault *f)
 {
     const double rounding = 1e-13;
     status outcome = STATUS_OK;
@@ -314,7 +313,7 @@ static status check_joined(const model *m, const carried_masses *masses, fault *
     return outcome;
 }
 
-static status explicit_check(const model *m, const carried_masses *masses, fault *f)
+static status explicit_check(const model *m, const frame_masses *masses, fault *f)
 {
     const size_t all = (size_t)model_all_coordinates(m) + 1;
     for (int i = 0; i < model_scene(m)->members; i++)
@@ -349,8 +348,8 @@ static status explicit_check(const model *m, const carried_masses *masses, fault
     return outcome;
 }
 
-/* Computes inc' = X v, where X is turning_inverse for rotations in the axes of the frame, and 1
- * otherwise. */
+/* Computes inc' = X v, where X is rotation_rates_inverse for rotations in the axes of the frame,
+ * and 1 otherwise. */
 static void turn_rates(const explicit_scheme *s, const double inc[], const double v[],
                        double rate[])
 {
@@ -366,7 +365,7 @@ static void turn_rates(const explicit_scheme *s, const double inc[], const doubl
             t[k] = inc[at[k]];
             W[k] = v[at[k]];
         }
-        turning_inverse(t, inverse);
+        rotation_rates_inverse(t, inverse);
         mat3_mul_vec(inverse, W, turned);
         for (int k = 0; k < 3; k++)
             rate[at[k]] = turned[k];
@@ -375,7 +374,7 @@ static void turn_rates(const explicit_scheme *s, const double inc[], const doubl
 
 /* Solves for the inner unknowns of an element at given strains with Newton's method. The function
  * `update` of the element computes the corrections. */
-static status settle_rates(const explicit_scheme *s, int i, double time, fault *f)
+static status consistent_rates(const explicit_scheme *s, int i, double time, fault *f)
 {
     enum { MOST = 30 };
     const double none = 1e-15;
@@ -409,7 +408,7 @@ static status accelerations(explicit_scheme *s, double time, fault *f)
                              .history = model_history_of(m, s->at->state, i)});
         free_strain_subtract(&s->of.c->eq, i, time,
                              s->at->state->e + (size_t)i * (size_t)model_strains(m));
-        TRY(settle_rates(s, i, time, f));
+        TRY(consistent_rates(s, i, time, f));
     }
     TRY(linearise_make_compatible(&s->of.c->eq, s->at->state, f));
     feedback_take(&s->of.c->eq, s->at->state, s->at->v, time);
@@ -468,7 +467,7 @@ static int is_driven(const model *m, const mesh_element *el)
     return 0;
 }
 
-status work_alloc(const equations *eq, const carried_masses *masses, outer_work *w, fault *f)
+status work_alloc(const equations *eq, const frame_masses *masses, outer_work *w, fault *f)
 {
     const model *m = eq->m;
     *w = (outer_work){
@@ -547,13 +546,14 @@ double work_power(outer_work *w, const model_state *s, const double v[], const d
     return product(w, s, along);
 }
 
-double work_trapezoid(outer_work *w, const instant *from, const instant *to, const double inc[])
+double work_trapezoid(outer_work *w, const motion_state *from, const motion_state *to,
+                      const double inc[])
 {
     return (work_power(w, from->state, from->v, from->a, from->time, inc) +
-            work_power(w, to->state, to->v, to->a, kinks_before(w->m, to->time), inc)) /
+            work_power(w, to->state, to->v, to->a, discontinuities_before(w->m, to->time), inc)) /
                2 +
            free_strain_work(w->eq, from->state, from->time, to->state,
-                            kinks_before(w->m, to->time));
+                            discontinuities_before(w->m, to->time));
 }
 
 static double first_behind(const scene_function *f, double time)
@@ -565,7 +565,7 @@ static double first_behind(const scene_function *f, double time)
     return next;
 }
 
-double kinks_next(const model *m, double time)
+double discontinuities_next(const model *m, double time)
 {
     const scene *s = model_scene(m);
     double next = INFINITY;
@@ -576,8 +576,8 @@ double kinks_next(const model *m, double time)
     return next;
 }
 
-double kinks_before(const model *m, double time)
+double discontinuities_before(const model *m, double time)
 {
     const double before = nextafter(time, -INFINITY);
-    return kinks_next(m, before) == time ? before : time;
+    return discontinuities_next(m, before) == time ? before : time;
 }

@@ -33,7 +33,7 @@ static void turn_row(const model *m, const model_state *s, int node, int k, doub
     for (int i = 0; i < 3; i++)
         t[i] = kinematics_component(m, s, node, SCENE_RX + i);
     /* maps rates in the axes of the node; the transposed matrix maps rates in fixed axes */
-    turning_inverse(t, inverse);
+    rotation_rates_inverse(t, inverse);
     for (int i = 0; i < 3; i++)
         row[i] = inverse[3 * i + k];
 }

@@ -78,7 +78,7 @@ static void add_turn(const model_state *now, int index, const mesh_vertex *v, co
     three(v, inc, at);
     rotation_matrix(&now->q[4 * index], R);
     mat3_transpose_mul_vec(R, spatial, moved);
-    turning_add(at, moved);
+    rotation_rates_add(at, moved);
     for (int k = 0; k < 3; k++)
         inc[v->coordinate[SCENE_RX + k]] = at[k];
 }
@@ -138,8 +138,8 @@ static void drive_vector(const equations *eq, const model_state *from, int index
         rate[k] = at[1];
         second[k] = at[2];
     }
-    turning_jacobian(t, Jr);
-    turning_derivative(t, rate, D);
+    rotation_rates_jacobian(t, Jr);
+    rotation_rates_derivative(t, rate, D);
     mat3_mul_vec(Jr, rate, W);
     mat3_mul_vec(Jr, second, Wd);
     mat3_mul_vec(D, rate, more);
@@ -220,14 +220,14 @@ static void polynomial(const double t[3], double p, double q, double r, double o
             out[3 * i + j] = (i == j ? p - r * square : 0) + q * skew[3 * i + j] + r * t[i] * t[j];
 }
 
-void turning_jacobian(const double t[3], double Jr[9])
+void rotation_rates_jacobian(const double t[3], double Jr[9])
 {
     double b, c, db, dc;
     coefficients(vec3_norm(t), &b, &c, &db, &dc);
     polynomial(t, 1, -b, c, Jr);
 }
 
-void turning_inverse(const double t[3], double inverse[9])
+void rotation_rates_inverse(const double t[3], double inverse[9])
 {
     const double x = vec3_norm(t), s = x * x;
     const double r =
@@ -236,7 +236,7 @@ void turning_inverse(const double t[3], double inverse[9])
 }
 
 /* Jr y = y - b t x y + c t x (t x y) */
-void turning_derivative(const double t[3], const double y[3], double D[9])
+void rotation_rates_derivative(const double t[3], const double y[3], double D[9])
 {
     double b, c, db, dc, ty[3], tty[3];
     coefficients(vec3_norm(t), &b, &c, &db, &dc);
@@ -250,7 +250,7 @@ void turning_derivative(const double t[3], const double y[3], double D[9])
                            c * ((i == j ? along : 0) + t[i] * y[j] - 2 * y[i] * t[j]);
 }
 
-void turning_add(double t[3], const double d[3])
+void rotation_rates_add(double t[3], const double d[3])
 {
     double p[4], q[4];
     rotation_exp(t, p);

@@ -20,13 +20,13 @@ static void turn_tensor(const double R[9], const double J0[9], double J[9])
             J[3 * i + j] = vec3_dot(&half[3 * i], &R[3 * j]);
 }
 
-static void at_frame(const carried_mass *one, const double R[9], spatial *out)
+static void at_frame(const frame_mass *one, const double R[9], spatial *out)
 {
     mat3_mul_vec(R, one->moment, out->c);
     turn_tensor(R, one->inertia, out->J);
 }
 
-void inertia_force_at(const carried_mass *one, const frame_rates *r, double F[6])
+void inertia_force_at(const frame_mass *one, const frame_rates *r, double F[6])
 {
     spatial s;
     double alpha_c[3], w_c[3], w_w_c[3], c_a[3], J_alpha[3], J_w[3], w_J_w[3];
@@ -46,7 +46,7 @@ void inertia_force_at(const carried_mass *one, const frame_rates *r, double F[6]
 
 /* Computes the rates of a frame. The acceleration includes mass-proportional damping: M (a +
  * damping v). */
-static void damped_rates(const model *m, const carried_masses *all, int index, const model_state *s,
+static void damped_rates(const model *m, const frame_masses *all, int index, const model_state *s,
                          const double v[], const double a[], frame_rates *r)
 {
     inertia_rates(m, s, all->mass[index].frame, v, a, r);
@@ -56,7 +56,7 @@ static void damped_rates(const model *m, const carried_masses *all, int index, c
     }
 }
 
-void inertia_force(const model *m, const carried_mass *one, const model_state *s, const double v[],
+void inertia_force(const model *m, const frame_mass *one, const model_state *s, const double v[],
                    const double a[], double F[6])
 {
     frame_rates r;
@@ -64,11 +64,11 @@ void inertia_force(const model *m, const carried_mass *one, const model_state *s
     inertia_force_at(one, &r, F);
 }
 
-void inertia_subtract(const model *m, const carried_masses *all, const model_state *s,
+void inertia_subtract(const model *m, const frame_masses *all, const model_state *s,
                       const double v[], const double a[], double out[])
 {
     if (all->spread)
-        spread_subtract(m, s, v, a, all->damping, out);
+        consistent_mass_subtract(m, s, v, a, all->damping, out);
     for (int k = 0; k < all->masses; k++) {
         double F[6];
         frame_rates r;
@@ -97,7 +97,7 @@ static void skew(const double v[3], double A[9])
  * increments of its position and rotation (exponential chart, at fixed rates in its axes), with
  * respect to its velocity, and with respect to its acceleration. `place` includes the effect of
  * rotating axes on velocity and acceleration. */
-static void parts_of(const carried_mass *one, const frame_rates *r, const double F[6],
+static void parts_of(const frame_mass *one, const frame_rates *r, const double F[6],
                      inertia_parts *out)
 {
     spatial s;
@@ -143,10 +143,10 @@ static void inertia_identity(double A[9])
     memcpy(A, one, sizeof one);
 }
 
-void inertia_frame(const model *m, const carried_masses *all, int index, const model_state *s,
+void inertia_frame(const model *m, const frame_masses *all, int index, const model_state *s,
                    const double v[], const double a[], inertia_parts *out)
 {
-    const carried_mass *one = &all->mass[index];
+    const frame_mass *one = &all->mass[index];
     frame_rates r;
     double F[6];
     damped_rates(m, all, index, s, v, a, &r);
@@ -182,7 +182,7 @@ static void rows(const double turn[9], double K[36])
     }
 }
 
-void inertia_finish(const model *m, const carried_masses *all, int index, const inertia_parts *p,
+void inertia_finish(const model *m, const frame_masses *all, int index, const inertia_parts *p,
                     double rate, double place, double K[36])
 {
     double column[6] = {0};
@@ -218,13 +218,13 @@ static void released_tangent(const model *m, int vertex, const model_state *s,
             assemble_subtract(S, of.index[i], of.index[j], -K[of.count * i + j]);
 }
 
-void inertia_add_tangent(const equations *eq, const carried_masses *all, const model_state *s,
+void inertia_add_tangent(const equations *eq, const frame_masses *all, const model_state *s,
                          const double v[], const double a[], const inertia_relation *with,
                          sparse *S)
 {
     const model *m = eq->m;
     if (all->spread)
-        spread_add_tangent(eq, s, v, a, all->damping, with, S);
+        consistent_mass_add_tangent(eq, s, v, a, all->damping, with, S);
     for (int k = 0; k < all->masses; k++) {
         const int vertex = all->mass[k].frame;
         const int *at = model_vertex(m, vertex)->coordinate;
@@ -254,14 +254,14 @@ void inertia_add_tangent(const equations *eq, const carried_masses *all, const m
     }
 }
 
-void inertia_of(const model *m, const carried_masses *all, const model_state *s, const double v[],
+void inertia_of(const model *m, const frame_masses *all, const model_state *s, const double v[],
                 const double ends[], inertia_balance *out)
 {
     memset(out, 0, sizeof *out);
     if (all->spread)
-        spread_add_balance(m, s, v, &out->kinetic, out->momentum, out->angular);
+        consistent_mass_add_balance(m, s, v, &out->kinetic, out->momentum, out->angular);
     for (int k = 0; k < all->masses; k++) {
-        const carried_mass *one = &all->mass[k];
+        const frame_mass *one = &all->mass[k];
         frame_rates r;
         spatial at;
         double w_c[3], p[3], Jw[3], c_v[3], position[3], r_p[3];
@@ -289,7 +289,7 @@ void inertia_of(const model *m, const carried_masses *all, const model_state *s,
     }
 }
 
-double inertia_damping_power(const model *m, const carried_masses *all, const model_state *s,
+double inertia_damping_power(const model *m, const frame_masses *all, const model_state *s,
                              const double v[])
 {
     inertia_balance moving;
@@ -322,7 +322,7 @@ static status stored(const equations *eq, const model_state *s, double time, dou
     return STATUS_OK;
 }
 
-status balance_of(const equations *eq, const carried_masses *masses, const instant *at,
+status balance_of(const equations *eq, const frame_masses *masses, const motion_state *at,
                   double out[SCENE_BALANCES], fault *f)
 {
     const model *m = eq->m;

@@ -14,12 +14,12 @@ static const double massless_nothing = 1e-14;
 /* Operations on the mass matrix of a body. */
 typedef enum massless_task { COUNT, STIFFEST, KEEP_FORCES, KEEP_MOTION, ACCELERATE } massless_task;
 
-typedef struct wish {
+typedef struct null_space_task {
     massless_task task;
     const double *given; /* [free] diagonal of a stiffness, or forces */
     double *changed;     /* [free] forces, increments, or accelerations */
     double stiffest;
-} wish;
+} null_space_task;
 
 /* Projects x[free] onto the null space of M. Its basis vectors are the columns of g->M with
  * eigenvalues up to `none`. forces 1: x contains forces; 0: increments. */
@@ -71,8 +71,8 @@ static double stiffest(const body_mass *g, double none, const double diagonal[],
 
 /* Performs the task for a body and the bodies that constraints join to it. Returns the rank of
  * their mass matrix. */
-static int visit(const model *m, const carried_masses *all, int body, const model_state *s,
-                 body_mass *g, wish *of)
+static int visit(const model *m, const frame_masses *all, int body, const model_state *s,
+                 body_mass *g, null_space_task *of)
 {
     const double none = massless_nothing * body_mass_of(m, all, body, s, g);
     const int n = g->count, rank = body_mass_rank(g, none);
@@ -88,7 +88,8 @@ static int visit(const model *m, const carried_masses *all, int body, const mode
     return rank;
 }
 
-static int warping(const model *m, const carried_masses *all, const model_state *s, wish *of)
+static int warping(const model *m, const frame_masses *all, const model_state *s,
+                   null_space_task *of)
 {
     int heavy = 0;
     for (int i = 0; i < model_warps(m); i++) {
@@ -109,8 +110,8 @@ static int warping(const model *m, const carried_masses *all, const model_state 
 
 /* Performs the task for all bodies. *out: number of free coordinates minus the rank of their
  * masses. */
-static status walk(const model *m, const carried_masses *all, const model_state *s, wish *of,
-                   int *out, fault *f)
+static status walk(const model *m, const frame_masses *all, const model_state *s,
+                   null_space_task *of, int *out, fault *f)
 {
     int heavy = 0;
     body_mass g;
@@ -123,35 +124,35 @@ static status walk(const model *m, const carried_masses *all, const model_state 
     return STATUS_OK;
 }
 
-status massless_count(const model *m, const carried_masses *all, const model_state *s, int *out,
+status massless_count(const model *m, const frame_masses *all, const model_state *s, int *out,
                       fault *f)
 {
-    wish of = {.task = COUNT};
+    null_space_task of = {.task = COUNT};
     return walk(m, all, s, &of, out, f);
 }
 
-status massless_forces(const model *m, const carried_masses *all, const model_state *s,
+status massless_forces(const model *m, const frame_masses *all, const model_state *s,
                        double force[], fault *f)
 {
-    wish of = {.task = KEEP_FORCES, .changed = force};
+    null_space_task of = {.task = KEEP_FORCES, .changed = force};
     int count;
     return walk(m, all, s, &of, &count, f);
 }
 
-status massless_motion(const model *m, const carried_masses *all, const model_state *s, double dx[],
+status massless_motion(const model *m, const frame_masses *all, const model_state *s, double dx[],
                        fault *f)
 {
-    wish of = {.task = KEEP_MOTION, .changed = dx};
+    null_space_task of = {.task = KEEP_MOTION, .changed = dx};
     int count;
     return walk(m, all, s, &of, &count, f);
 }
 
 /* Finds the largest ratio of stiffness to inertia [1/s^2]. diagonal[free]: diagonal of the
  * stiffness matrix. */
-static status massless_stiffest(const model *m, const carried_masses *all, const model_state *s,
+static status massless_stiffest(const model *m, const frame_masses *all, const model_state *s,
                                 const double diagonal[], double *out, fault *f)
 {
-    wish of = {.task = STIFFEST, .given = diagonal};
+    null_space_task of = {.task = STIFFEST, .given = diagonal};
     int count;
     TRY(walk(m, all, s, &of, &count, f));
     *out = of.stiffest;
@@ -187,7 +188,7 @@ static void massless_own_axes(const model *m, const model_state *s, double a[])
     turn_axes(m, s, 0, a);
 }
 
-status massless_drop(const model *m, const carried_masses *all, const model_state *s, double a[],
+status massless_drop(const model *m, const frame_masses *all, const model_state *s, double a[],
                      fault *f)
 {
     const size_t size = (size_t)model_unknowns(m) * sizeof *a;
@@ -204,10 +205,10 @@ status massless_drop(const model *m, const carried_masses *all, const model_stat
     return outcome;
 }
 
-status massless_accelerate(const model *m, const carried_masses *all, const model_state *s,
+status massless_accelerate(const model *m, const frame_masses *all, const model_state *s,
                            const double force[], double a[], fault *f)
 {
-    wish of = {.task = ACCELERATE, .given = force, .changed = a};
+    null_space_task of = {.task = ACCELERATE, .given = force, .changed = a};
     int count;
     TRY(walk(m, all, s, &of, &count, f));
     massless_own_axes(m, s, a);
@@ -232,7 +233,7 @@ static int is_whole(const model *m, int i, int block)
 
 /* Computes column k of the projections of all bodies at once, because bodies do not affect each
  * other. */
-static status column(const model *m, const carried_masses *masses, const model_state *s, int block,
+static status column(const model *m, const frame_masses *masses, const model_state *s, int block,
                      int k, double dx[], massive *h, fault *f)
 {
     memset(dx, 0, (size_t)model_unknowns(m) * sizeof *dx);
@@ -304,7 +305,7 @@ status motion_undefined(const scene *s, const scene_quantity *q, fault *f)
                      q->name, scene_name(s, SCENE_NODES, scene_component_of(q)->node).text);
 }
 
-status massless_readings(const model *m, const carried_masses *masses, const model_state *s,
+status massless_readings(const model *m, const frame_masses *masses, const model_state *s,
                          int analysis, unsigned char **undefined, fault *f)
 {
     const scene *of = model_scene(m);
@@ -331,7 +332,7 @@ status massless_readings(const model *m, const carried_masses *masses, const mod
                : outcome;
 }
 
-status massive_of(const model *m, const carried_masses *masses, const model_state *s, massive *h,
+status massive_of(const model *m, const frame_masses *masses, const model_state *s, massive *h,
                   fault *f)
 {
     int count;
@@ -397,7 +398,7 @@ static double *diagonal_of(const sparse *S, double out[])
 }
 
 /* Computes the unbalanced forces for the known accelerations. K NULL: not requested. */
-static status forces(motion_stage *s, instant *now, sparse *K, fault *f)
+static status forces(motion_stage *s, motion_state *now, sparse *K, fault *f)
 {
     const model *m = s->c->model;
     model_linearisation lin = {.path = now->time, .K = K, .residual = s->residual};
@@ -410,19 +411,19 @@ static status forces(motion_stage *s, instant *now, sparse *K, fault *f)
 }
 
 /* Workspace of the iteration. */
-typedef struct settle_solution {
+typedef struct massless_solution {
     motion_stage *s;
     const double *zero;
-    instant *now;
+    motion_state *now;
     double b, *moved;
-} settle_solution;
+} massless_solution;
 
 static status correct(void *of, int iteration, newton_correction *out, step_record *record,
                       fault *f)
 {
-    settle_solution *one = of;
+    massless_solution *one = of;
     motion_stage *s = one->s;
-    instant *now = one->now;
+    motion_state *now = one->now;
     const model *m = s->c->model;
     (void)iteration;
     (void)record;
@@ -444,13 +445,14 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
     return STATUS_OK;
 }
 
-static status balance(motion_stage *s, const double zero[], instant *now, double moved[], fault *f)
+static status balance(motion_stage *s, const double zero[], motion_state *now, double moved[],
+                      fault *f)
 {
-    settle_solution one = {s, zero, now, 0, moved};
+    massless_solution one = {s, zero, now, 0, moved};
     step_record record = {.path = now->time};
     const newton_use use = newton_in_time(s->c, &one, correct, NULL);
-    instant_recall(now, &s->arrival);
-    const status outcome = newton_iterate(s->c, &use, &s->arrival, &record, f);
+    motion_state_recall(now, &s->newton_convergence);
+    const status outcome = newton_iterate(s->c, &use, &s->newton_convergence, &record, f);
     history_drop_step(s->c->result, &record);
     if (outcome == STATUS_NOT_CONVERGED)
         return fault_set(f, outcome,
@@ -459,7 +461,7 @@ static status balance(motion_stage *s, const double zero[], instant *now, double
                          "inertia, or reduce the angular velocity",
                          now->time, record.correction, record.iterations);
     if (outcome == STATUS_OK)
-        instant_remember(&s->arrival, now);
+        motion_state_store(&s->newton_convergence, now);
     return outcome;
 }
 
@@ -476,7 +478,8 @@ static int mark(const model *m, const mesh_element *el, unsigned char of[])
 
 /* Marks in of[free] the coordinates that relax slowly: those of elements and springs whose damping
  * time is at least 1e-3 h, where h is the size of a step. Returns their number. */
-static int creeping(const equations *eq, const model_state *state, double h, unsigned char of[])
+static int mark_overdamped(const equations *eq, const model_state *state, double h,
+                           unsigned char of[])
 {
     const double part = 1e-3;
     const model *m = eq->m;
@@ -503,8 +506,8 @@ static int creeping(const equations *eq, const model_state *state, double h, uns
 
 /* Finds the equilibrium with damping forces as if the displacement took the time softness * h. If
  * softness is small, coordinates with damping hardly move. */
-static status give_way(motion_stage *s, const double zero[], double h, double softness,
-                       instant *now, double moved[], fault *f)
+static status relax(motion_stage *s, const double zero[], double h, double softness,
+                    motion_state *now, double moved[], fault *f)
 {
     damping_follow(&s->c->eq, 1 / (softness * h), now->strain, now->state);
     return balance(s, zero, now, moved, f);
@@ -514,46 +517,48 @@ static status give_way(motion_stage *s, const double zero[], double h, double so
  * of coordinates without damping, starting from the state before this displacement. Gaps between
  * D(x) and e that iterations have left are closed first, because they would act as a displacement.
  * */
-static status creep(motion_stage *s, const double zero[], double h, instant *now, double moved[],
-                    const unsigned char of[], fault *f)
+static status overdamped_rates(motion_stage *s, const double zero[], double h, motion_state *now,
+                               double moved[], const unsigned char of[], fault *f)
 {
-    const double telling = 1e-6, nothing = 1e-9;
+    const double probe_softness = 1e-6, nothing = 1e-9;
     const model *m = s->c->model;
     model_state *before = NULL;
     TRY(linearise_make_compatible(&s->c->eq, now->state, f));
     status outcome = kinematics_state_alloc(m, &before, f);
     if (outcome == STATUS_OK) {
         kinematics_state_copy(m, now->state, before);
-        outcome = give_way(s, zero, h, telling, now, moved, f);
+        outcome = relax(s, zero, h, probe_softness, now, moved, f);
     }
     if (outcome == STATUS_OK) {
         massless_own_axes(m, now->state, moved);
         for (int c = 0; c < s->free; c++)
-            now->v[c] += of[c] ? moved[c] / (telling * h) : 0;
+            now->v[c] += of[c] ? moved[c] / (probe_softness * h) : 0;
         kinematics_state_copy(m, before, now->state);
         outcome = damping_now(&s->c->eq, now, f);
     }
     kinematics_state_free(before);
     TRY(outcome);
-    TRY(give_way(s, zero, h, nothing, now, moved, f));
+    TRY(relax(s, zero, h, nothing, now, moved, f));
     return damping_now(&s->c->eq, now, f);
 }
 
-static status find_balance(motion_stage *s, const double zero[], double h, instant *now, fault *f)
+static status find_balance(motion_stage *s, const double zero[], double h, motion_state *now,
+                           fault *f)
 {
     double *moved = calloc((size_t)s->free + 1, sizeof *moved);
     unsigned char *of = calloc((size_t)s->free + 1, 1);
     status outcome = fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     if (moved != NULL && of != NULL)
-        outcome = s->c->run->damping != NULL && creeping(&s->c->eq, now->state, h, of) > 0
-                      ? creep(s, zero, h, now, moved, of, f)
+        outcome = s->c->run->damping != NULL && mark_overdamped(&s->c->eq, now->state, h, of) > 0
+                      ? overdamped_rates(s, zero, h, now, moved, of, f)
                       : balance(s, zero, now, moved, f);
     free(moved);
     free(of);
     return outcome;
 }
 
-status settle(motion_stage *s, const double zero[], double h, instant *now, fault *f)
+status consistent_massless(motion_stage *s, const double zero[], double h, motion_state *now,
+                           fault *f)
 {
     const model *m = s->c->model;
     memset(now->a, 0, (size_t)s->free * sizeof *now->a);

@@ -16,33 +16,34 @@ double means_node(double a, double b, int i)
     return i == 0 ? a : i == MEANS_NODES - 1 ? b : (a + b) / 2 + (b - a) / 2 * node_of[i];
 }
 
-double watched_value(watches *s, const watched *one, double time)
+double observer_value(observers *s, const observer *one, double time)
 {
-    return one->aside ? asides_reading(&s->asides, one->q, time)
-                      : between_reading(&s->inside, one->q, time, &s->at);
+    return one->by_probe ? probe_steps_reading(&s->probe_steps, one->q, time)
+                         : dense_output_reading(&s->inside, one->q, time, &s->at);
 }
 
-status watched_disagreement(watches *s, const watched *one, const instant *from, double time,
-                            double *out, fault *f)
+status observer_disagreement(observers *s, const observer *one, const motion_state *from,
+                             double time, double *out, fault *f)
 {
-    const double here = watched_value(s, one, time);
+    const double here = observer_value(s, one, time);
     *out = 0;
-    if (one->aside || reading_is_slope(one->q) || time <= from->time || time >= s->inside.to->time)
+    if (one->by_probe || reading_is_slope(one->q) || time <= from->time ||
+        time >= s->inside.to->time)
         return STATUS_OK;
-    const status outcome = aside_step(s->c, s->scheme, from, time, &s->at, f);
+    const status outcome = probe_step(s->c, s->scheme, from, time, &s->at, f);
     if (outcome == STATUS_OK)
         *out = fabs(reading_of(s->c->model, one->q, s->at.state, s->at.v, s->at.a) - here);
     return outcome == STATUS_FAULT ? outcome : STATUS_OK;
 }
 
-static int is_square(const watched *one)
+static int is_square(const observer *one)
 {
     return one->q->reduction == SCENE_RMS;
 }
 
 /* Returns the value to be integrated. A root mean square is computed relative to the largest value
  * so far, so its square does not overflow. */
-static double integrand(const watched *one, double value)
+static double integrand(const observer *one, double value)
 {
     if (!is_square(one))
         return value;
@@ -50,20 +51,20 @@ static double integrand(const watched *one, double value)
 }
 
 /* Changes the scale of the integrals of a root mean square if a value is the largest so far. */
-static void rescale(watched *one, double value)
+static void rescale(observer *one, double value)
 {
     if (!is_square(one) || !(fabs(value) > one->largest))
         return;
     const double times = pow(one->largest / fabs(value), 2);
     one->sum *= times;
-    one->doubt *= times;
+    one->add_error *= times;
     one->worst *= times;
     one->largest = fabs(value);
 }
 
 /* Adds the integral from a to b by six-point Gauss quadrature, which is exact for squares of
  * fifth-degree polynomials. */
-static void add_inside(watches *s, watched *one, double a, double b)
+static void add_inside(observers *s, observer *one, double a, double b)
 {
     static const double x[] = {0.23861918608319690863, 0.66120938646626451366,
                                0.93246951420315202781},
@@ -72,25 +73,25 @@ static void add_inside(watches *s, watched *one, double a, double b)
     const double half = (b - a) / 2, middle = (a + b) / 2;
     for (int i = 0; i < 3; i++)
         for (int side = -1; side <= 1; side += 2) {
-            const double value = watched_value(s, one, middle + side * half * x[i]);
+            const double value = observer_value(s, one, middle + side * half * x[i]);
             rescale(one, value);
             one->sum += half * w[i] * integrand(one, value);
         }
 }
 
-/* Compares the polynomial with a side step at the middle of every eighth step. */
-static status check_inside(watches *s, watched *one, const instant *from, double a, double b,
-                           fault *f)
+/* Compares the polynomial with a probe step at the middle of every eighth step. */
+static status check_inside(observers *s, observer *one, const motion_state *from, double a,
+                           double b, fault *f)
 {
     double error = 0;
     if (one->parts++ % 8 != 0)
         return STATUS_OK;
-    TRY(watched_disagreement(s, one, from, (a + b) / 2, &error, f));
+    TRY(observer_disagreement(s, one, from, (a + b) / 2, &error, f));
     one->apart = fmax(one->apart, error);
     return STATUS_OK;
 }
 
-static double lobatto(const watched *one, const means_part *p)
+static double lobatto(const observer *one, const means_part *p)
 {
     double sum = 0;
     for (int i = 0; i < MEANS_NODES; i++)
@@ -128,7 +129,7 @@ static int continues(const means_part *a, const means_part *b)
 }
 
 /* Returns the integral by Lobatto's rule minus the integral by Simpson's rule. */
-static double apart_from_simpson(const watched *one, const means_part *p)
+static double apart_from_simpson(const observer *one, const means_part *p)
 {
     const double simpson =
         integrand(one, p->value[0]) + 4 * integrand(one, p->value[2]) + integrand(one, p->value[4]);
@@ -138,7 +139,7 @@ static double apart_from_simpson(const watched *one, const means_part *p)
 /* Returns the difference between two integrals over two steps: the integral of the polynomial
  * through all points except the middle of each step, and the integral by Lobatto's rule. The
  * difference has the order of the rule, and exceeds its error even if the slope jumps. */
-static double apart_from_both(const watched *one, const means_part *a, const means_part *b)
+static double apart_from_both(const observer *one, const means_part *a, const means_part *b)
 {
     double t[MOST], value[MOST];
     int points = 0;
@@ -155,12 +156,12 @@ static double apart_from_both(const watched *one, const means_part *a, const mea
 
 /* Updates the error estimate of Lobatto's rule from pairs of successive steps. A single step is
  * used only at the start. */
-static void doubt(watched *one, const means_part *now)
+static void add_error(observer *one, const means_part *now)
 {
     const int pairs = one->holds && continues(&one->past, now);
     if (pairs)
-        one->doubt += apart_from_both(one, &one->past, now);
-    one->worst = fmax(pairs && one->parts == 1 ? 0 : one->worst, fabs(one->doubt));
+        one->add_error += apart_from_both(one, &one->past, now);
+    one->worst = fmax(pairs && one->parts == 1 ? 0 : one->worst, fabs(one->add_error));
     if (one->parts == 0)
         one->worst = fabs(apart_from_simpson(one, now));
     one->parts = pairs ? 2 : one->parts > 0 ? one->parts : 1;
@@ -168,14 +169,14 @@ static void doubt(watched *one, const means_part *now)
     one->holds = !pairs;
 }
 
-/* Adds the integral from a to b by Lobatto's rule, for forces and energies, which come from side
+/* Adds the integral from a to b by Lobatto's rule, for forces and energies, which come from probe
  * steps. */
-static void add_aside(watches *s, watched *one, double a, double b)
+static void add_from_probes(observers *s, observer *one, double a, double b)
 {
     means_part now;
     for (int i = 0; i < MEANS_NODES; i++) {
         now.time[i] = means_node(a, b, i);
-        now.value[i] = watched_value(s, one, now.time[i]);
+        now.value[i] = observer_value(s, one, now.time[i]);
         if (isnan(now.value[i])) {
             one->sum = NAN;
             return;
@@ -183,13 +184,14 @@ static void add_aside(watches *s, watched *one, double a, double b)
         rescale(one, now.value[i]);
     }
     one->sum += lobatto(one, &now);
-    doubt(one, &now);
+    add_error(one, &now);
 }
 
-status means_add(watches *s, watched *one, const instant *from, double a, double b, fault *f)
+status means_add(observers *s, observer *one, const motion_state *from, double a, double b,
+                 fault *f)
 {
-    if (one->aside)
-        add_aside(s, one, a, b);
+    if (one->by_probe)
+        add_from_probes(s, one, a, b);
     else {
         add_inside(s, one, a, b);
         TRY(check_inside(s, one, from, a, b, f));

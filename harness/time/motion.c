@@ -26,18 +26,18 @@ typedef struct motion_course {
     double path; /* path parameter of the static state from which the motion starts; NAN: none */
     /* end of the previous motion, which this motion continues; NULL: none */
     const outcome_end *from;
-    carried_masses masses;
+    frame_masses masses;
     run_damping damping;
     outer_work work;
     motion_scheme *scheme;
-    instant now, next;
+    motion_state now, next;
     double h, least; /* [s] size of the next step, and smallest step size */
     /* [s] exact time minus now.time; without it, the rounding error of now.time would grow with
      * each step */
     double rest;
     stations stations;
-    watches watches;
-    peaks peaks;
+    observers observers;
+    extrema extrema;
     frames frames;
     abouts abouts;
     outcome_motion *out;
@@ -48,10 +48,10 @@ typedef struct motion_course {
     extent extent, reaches; /* extent so far, and extent including the trial step */
     double rounding;        /* [J] rounding error of the energy */
     int quiet;              /* number of steps since the last discontinuity of the loads */
-    int unjudged;           /* number of steps whose balance has not been checked */
+    int unchecked;          /* number of steps whose balance has not been checked */
 } motion_course;
 
-static status balance_at(motion_course *w, const instant *at, double balance[SCENE_BALANCES],
+static status balance_at(motion_course *w, const motion_state *at, double balance[SCENE_BALANCES],
                          fault *f)
 {
     TRY(balance_of(&w->c->eq, &w->masses, at, balance, f));
@@ -87,13 +87,13 @@ static status keep_step(motion_course *w, const step_record *record, double erro
     TRY(history_add_step(w->c->result, record, f));
     w->c->run->counters.steps++;
     TRY(stations_inside(&w->stations, &w->now, &w->next, f));
-    TRY(watches_step(&w->watches, &w->now, &w->next, f));
+    TRY(observers_step(&w->observers, &w->now, &w->next, f));
     TRY(frames_step(&w->frames, w->scheme->degree, &w->now, &w->next, f));
     TRY(abouts_inside(&w->abouts, &w->now, &w->next, f));
-    instant_copy(w->c->model, &w->next, &w->now);
+    motion_state_copy(w->c->model, &w->next, &w->now);
     w->extent = w->reaches;
     TRY(record_step(w, record, error, f));
-    return peaks_here(&w->peaks, &w->now, w->balance, last, f);
+    return extrema_here(&w->extrema, &w->now, w->balance, last, f);
 }
 
 /* Returns the end [s] of the last motion in the chain of continued motions. */
@@ -128,7 +128,7 @@ static int allowed(motion_course *w, double step, double error)
 
 /* Returns 1 if the balance is checked. The first steps of generalized-alpha after a jump of the
  * loads gain energy, even if they are very short. */
-static int looks(const motion_course *w)
+static int checks_flutter(const motion_course *w)
 {
     return w->how->tolerance > 0 && !model_absolute(w->c->model) &&
            (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);
@@ -137,10 +137,10 @@ static int looks(const motion_course *w)
 /* Detects energy that is gained without cause, for example because of unresolved modes. Shorter
  * steps reduce such a gain. *grows: 1 if the gain in this step, or in this and previous steps, is
  * larger than allowed. Fixed steps are not checked. */
-static status watch(motion_course *w, int *grows, fault *f)
+static status check_growth(motion_course *w, int *grows, fault *f)
 {
     *grows = 0;
-    if (!looks(w))
+    if (!checks_flutter(w))
         return STATUS_OK;
     TRY(balance_at(w, &w->next, w->ahead, f));
     w->looked_ahead = 1;
@@ -181,7 +181,7 @@ static status take_step(motion_course *w, double target, fault *f)
             outcome = newton_accept(w->c->model, w->now.state, w->next.state, f);
         right &= outcome == STATUS_OK;
         if (right)
-            outcome = watch(w, &grows, f);
+            outcome = check_growth(w, &grows, f);
         if (right && outcome == STATUS_OK && !grows) {
             lengthen(w, step, whole, rejected);
             w->rest = last ? 0 : w->now.time - record.path + (step + w->rest);
@@ -209,24 +209,24 @@ static status take_step(motion_course *w, double target, fault *f)
 /* Restarts the integration after a discontinuity of the loads. */
 static status jump(motion_course *w, fault *f)
 {
-    TRY(launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f));
-    peaks_jump(&w->peaks);
-    return peaks_here(&w->peaks, &w->now, w->balance, 0, f);
+    TRY(consistent_restart(w->c, &w->masses, w->how, &w->now, &w->next, f));
+    extrema_jump(&w->extrema);
+    return extrema_here(&w->extrema, &w->now, w->balance, 0, f);
 }
 
 /* Checks the energy balance at the end of a step. The first steps after the start or after a jump
  * of the loads are checked together with later steps, unless frequent jumps leave 2 ACCOUNT_STEPS
  * steps unchecked. */
-static status judge(motion_course *w, double end, fault *f)
+static status check_balance(motion_course *w, double end, fault *f)
 {
-    if (w->quiet <= ACCOUNT_STEPS && w->unjudged < 2 * ACCOUNT_STEPS && w->now.time < end) {
-        w->unjudged++;
+    if (w->quiet <= ACCOUNT_STEPS && w->unchecked < 2 * ACCOUNT_STEPS && w->now.time < end) {
+        w->unchecked++;
         return STATUS_OK;
     }
-    w->unjudged = 0;
+    w->unchecked = 0;
     if (model_absolute(w->c->model)) /* there may be no energy */
         return STATUS_OK;
-    return account_judge(&w->account, w->how, w->now.time, w->balance, w->rounding, f);
+    return account_check(&w->account, w->how, w->now.time, w->balance, w->rounding, f);
 }
 
 static status integrate(motion_course *w, fault *f)
@@ -238,10 +238,10 @@ static status integrate(motion_course *w, fault *f)
     TRY(frames_begin(&w->frames, &w->now, f));
     TRY(abouts_here(&w->abouts, &w->now, f));
     while (w->now.time < end) {
-        const double kink = kinks_next(w->c->model, w->now.time);
+        const double kink = discontinuities_next(w->c->model, w->now.time);
         TRY(stop_check(f));
         TRY(take_step(w, fmin(end, kink), f));
-        TRY(judge(w, end, f));
+        TRY(check_balance(w, end, f));
         w->quiet *= w->now.time != kink;
         if (w->now.time == kink)
             TRY(jump(w, f));
@@ -269,7 +269,7 @@ static status go_on(motion_course *w, fault *f)
     w->quiet = control.quiet;
     w->extent = control.extent;
     return former->scheme != w->how->scheme
-               ? launch_again(w->c, &w->masses, w->how, &w->now, &w->next, f)
+               ? consistent_restart(w->c, &w->masses, w->how, &w->now, &w->next, f)
                : STATUS_OK;
 }
 
@@ -317,8 +317,8 @@ static status solve(motion_course *w, fault *f)
     scene_rotating_frame frame;
     const model *m = w->c->model;
     TRY(checks_of(w->c, w->analysis, f));
-    TRY(model_spreads(m, w->analysis) ? carried_alloc_spread(m, &w->masses, f)
-                                      : carried_alloc(m, &w->masses, f));
+    TRY(model_spreads(m, w->analysis) ? frame_masses_alloc_bodies(m, &w->masses, f)
+                                      : frame_masses_alloc(m, &w->masses, f));
     w->masses.damping = w->c->scene->analysis[w->analysis].damping.mass;
     TRY(damping_begin(&w->c->eq, &w->damping, f));
     TRY(feedback_begin(&w->c->eq, f));
@@ -326,27 +326,27 @@ static status solve(motion_course *w, fault *f)
     const scheme_request request = {w->c, &w->masses, w->how, &w->work, w->how->tolerance > 0};
     w->rounding = balance_rounding(m);
     TRY(integrator_alloc(&request, &w->scheme, f));
-    TRY(instant_alloc(m, &w->now, f));
-    TRY(instant_alloc(m, &w->next, f));
+    TRY(motion_state_alloc(m, &w->now, f));
+    TRY(motion_state_alloc(m, &w->next, f));
     TRY(kinematics_state_alloc(m, &w->extent.begin, f));
     w->stations = (stations){.c = w->c,
                              .analysis = w->analysis,
                              .masses = &w->masses,
                              .scheme = w->scheme,
                              .out = w->out};
-    w->watches = (watches){.c = w->c,
+    w->observers = (observers){.c = w->c,
+                               .analysis = w->analysis,
+                               .scheme = w->scheme,
+                               .masses = &w->masses,
+                               .out = w->out};
+    TRY(stations_alloc(&w->stations, f));
+    TRY(observers_alloc(&w->observers, f));
+    w->extrema = (extrema){.c = w->c,
                            .analysis = w->analysis,
                            .scheme = w->scheme,
                            .masses = &w->masses,
                            .out = w->out};
-    TRY(stations_alloc(&w->stations, f));
-    TRY(watches_alloc(&w->watches, f));
-    w->peaks = (peaks){.c = w->c,
-                       .analysis = w->analysis,
-                       .scheme = w->scheme,
-                       .masses = &w->masses,
-                       .out = w->out};
-    TRY(peaks_alloc(&w->peaks, f));
+    TRY(extrema_alloc(&w->extrema, f));
     w->abouts = (abouts){.c = w->c,
                          .analysis = w->analysis,
                          .masses = &w->masses,
@@ -367,26 +367,26 @@ static status solve(motion_course *w, fault *f)
         kinematics_state_copy(m, w->now.state, w->extent.begin);
     extent_begin(&w->extent, m);
     if (w->from == NULL)
-        TRY(launch_turning(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
+        TRY(initial_conditions_rotating(w->c, &w->masses, w->how, &frame, &w->now, &w->next, f));
     TRY(record_step(w, &start, 0, f));
-    TRY(peaks_here(&w->peaks, &w->now, w->balance, 0, f));
+    TRY(extrema_here(&w->extrema, &w->now, w->balance, 0, f));
     return integrate(w, f);
 }
 
 static void release(motion_course *w)
 {
-    instant_free(&w->now);
-    instant_free(&w->next);
+    motion_state_free(&w->now);
+    motion_state_free(&w->next);
     kinematics_state_free(w->extent.begin);
-    watches_end(&w->watches);
-    peaks_end(&w->peaks);
+    observers_end(&w->observers);
+    extrema_end(&w->extrema);
     stations_free(&w->stations);
-    watches_free(&w->watches);
-    peaks_free(&w->peaks);
+    observers_free(&w->observers);
+    extrema_free(&w->extrema);
     abouts_free(&w->abouts);
     frames_free(&w->frames);
     integrator_free(w->scheme);
-    carried_free(&w->masses);
+    frame_masses_free(&w->masses);
     work_free(&w->work);
     damping_end(&w->c->eq, &w->damping);
 }
@@ -408,8 +408,8 @@ static status run(analysis_context *c, int analysis, double *scale, int *again, 
     w.out = outcome_motion_in(o);
     w.extent.scale = *scale;
     status result = solve(&w, f);
-    const int went = result == STATUS_OK || result == STATUS_NOT_CONVERGED;
-    *again = went && w.how->tolerance > 0 && w.out->steps > 1 &&
+    const int has_run = result == STATUS_OK || result == STATUS_NOT_CONVERGED;
+    *again = has_run && w.how->tolerance > 0 && w.out->steps > 1 &&
              extent_is_less(&w.extent, w.how->tolerance, scale);
     if (result != STATUS_FAULT && !*again &&
         history_add_motion(c->result, analysis, w.path, w.out, f) != STATUS_OK)
@@ -443,15 +443,15 @@ status motion_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
 
 status frames_alloc(frames *p, int count, fault *f)
 {
-    TRY(between_alloc(p->eq, &p->inside, f));
-    TRY(instant_alloc(p->m, &p->at, f));
+    TRY(dense_output_alloc(p->eq, &p->inside, f));
+    TRY(motion_state_alloc(p->m, &p->at, f));
     return outcome_stations(p->to, count, f);
 }
 
 void frames_free(frames *p)
 {
-    between_free(&p->inside);
-    instant_free(&p->at);
+    dense_output_free(&p->inside);
+    motion_state_free(&p->at);
 }
 
 /* Returns the time of the next frame; INFINITY: none. */
@@ -463,21 +463,21 @@ static double next_of(const frames *p)
     return next == last ? p->end : p->begin + next * (p->end - p->begin) / last;
 }
 
-status frames_begin(frames *p, const instant *now, fault *f)
+status frames_begin(frames *p, const motion_state *now, fault *f)
 {
     return p->to->stations > 0 ? outcome_keep(p->to, p->m, now->state, 1, now->time, f) : STATUS_OK;
 }
 
-status frames_step(frames *p, between_degree degree, const instant *from, const instant *to,
-                   fault *f)
+status frames_step(frames *p, dense_output_degree degree, const motion_state *from,
+                   const motion_state *to, fault *f)
 {
     if (next_of(p) <= to->time)
-        between_take(&p->inside, degree, from, to);
+        dense_output_set(&p->inside, degree, from, to);
     while (next_of(p) <= to->time) {
         const double time = next_of(p);
         const model_state *state = to->state;
         if (time < to->time) {
-            between_at(&p->inside, time, &p->at);
+            dense_output_at(&p->inside, time, &p->at);
             state = p->at.state;
         }
         TRY(outcome_keep(p->to, p->m, state, 1, time, f));

@@ -9,13 +9,13 @@
 /* Computes the error of positions due to a completed step, with the norm of model.h. The error
  * satisfies [g^2 M + K] error = F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)) at the
  * start of the step, where g = 1/(l h) and l is the real eigenvalue of A. room: work space. */
-static status radau_error(radau *, const instant *from, double h, instant *room, double *error,
-                          fault *);
+static status radau_error(radau *, const motion_state *from, double h, motion_state *room,
+                          double *error, fault *);
 
 /* Work space for the iteration of the stages. */
 typedef struct radau_solution {
     radau *r;
-    const instant *from;
+    const motion_state *from;
     double h;
 } radau_solution;
 
@@ -30,7 +30,7 @@ static void advance(const radau_solution *of, const step_record *record, newton_
         memset(r->dx, 0, (size_t)r->all * sizeof *r->dx);
         memcpy(r->dx, r->residual + (size_t)i * (size_t)r->free, (size_t)r->free * sizeof *r->dx);
         increment_add(m, one->state, r->dx, one->inc);
-        complement_keep(one->complement, one->state);
+        strain_update_begin(one->strain_update, one->state);
         out->size = larger(
             out->size, advance_state(&r->of.c->eq, &one->memory, one->state, r->dx, time, &stress));
         out->stress.largest = fmax(out->stress.largest, stress.largest);
@@ -43,7 +43,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
 {
     const radau_solution *one = of;
     radau *r = one->r;
-    const int fresh = iteration == 1 || !stage_stands(&r->arrival);
+    const int fresh = iteration == 1 || !stage_stands(&r->newton_convergence);
     TRY(radau_equations(r, fresh, one->from, one->h, record, f));
     if (fresh)
         TRY(context_factor(r->of.c, r->factor, &r->S.whole, f));
@@ -59,17 +59,19 @@ static void prepare(void *of, int iteration, double correction)
 {
     radau *r = ((const radau_solution *)of)->r;
     for (int i = 0; i < STAGES; i++)
-        complement_strains(r->stage[i].complement, r->stage[i].state, iteration, correction);
+        strain_update_apply(r->stage[i].strain_update, r->stage[i].state, iteration, correction);
 }
 
 /* Returns the work [J] of external forces in the step, by the quadrature of the scheme over the
  * stages. */
-static double work_of_stages(radau *r, const instant *from, double h, const step_record *record)
+static double work_of_stages(radau *r, const motion_state *from, double h,
+                             const step_record *record)
 {
     double sum = 0;
     for (int i = 0; i < STAGES; i++) {
         const radau_stage *one = &r->stage[i];
-        const double time = kinks_before(r->of.c->model, radau_time(r, from, h, i, record));
+        const double time =
+            discontinuities_before(r->of.c->model, radau_time(r, from, h, i, record));
         sum += h * r->weights[i] *
                (work_power(r->of.work, one->state, one->v, one->a, time, one->v) +
                 free_strain_power(&r->of.c->eq, one->state, time));
@@ -77,7 +79,7 @@ static double work_of_stages(radau *r, const instant *from, double h, const step
     return sum;
 }
 
-static status solve(radau *r, const instant *from, double h, instant *to, double *error,
+static status solve(radau *r, const motion_state *from, double h, motion_state *to, double *error,
                     step_record *record, fault *f)
 {
     const model *m = r->of.c->model;
@@ -93,12 +95,12 @@ static status solve(radau *r, const instant *from, double h, instant *to, double
         increment_apply(m, from->state, one->inc, time, one->state);
     }
     radau_rates(r, from, h);
-    instant_recall(from, &r->arrival);
+    motion_state_recall(from, &r->newton_convergence);
     radau_solution one = {r, from, h};
     const newton_use use = newton_in_time(r->of.c, &one, correct, prepare);
-    TRY(newton_iterate(r->of.c, &use, &r->arrival, record, f));
+    TRY(newton_iterate(r->of.c, &use, &r->newton_convergence, record, f));
     radau_integrate(r, from, h, record);
-    instant_remember(&r->arrival, to);
+    motion_state_store(&r->newton_convergence, to);
     const radau_stage *last = &r->stage[STAGES - 1];
     if (r->of.estimate)
         TRY(radau_error(r, from, h, to, error, f));
@@ -112,8 +114,8 @@ static status solve(radau *r, const instant *from, double h, instant *to, double
     return STATUS_OK;
 }
 
-static status step(motion_scheme *base, const instant *from, double h, instant *to, double *error,
-                   step_record *record, fault *f)
+static status step(motion_scheme *base, const motion_state *from, double h, motion_state *to,
+                   double *error, step_record *record, fault *f)
 {
     radau *r = (radau *)base;
     *error = 0;
@@ -129,7 +131,7 @@ static void release(motion_scheme *base)
         kinematics_state_free(r->stage[i].state);
         free(r->stage[i].inc);
         linear_memory_free(&r->stage[i].memory);
-        complement_free(r->stage[i].complement);
+        strain_update_free(r->stage[i].strain_update);
     }
     sparse_free_values(&r->K);
     factor_free(r->factor);
@@ -154,7 +156,7 @@ static status allocate_stage(radau *r, radau_stage *one, fault *f)
     one->v = one->rate + all;
     one->a = one->v + all;
     if (r->of.c->options->newton != NEWTON_DISPLACEMENT)
-        TRY(complement_alloc(&r->of.c->eq, &one->complement, f));
+        TRY(strain_update_alloc(&r->of.c->eq, &one->strain_update, f));
     return kinematics_state_alloc(m, &one->state, f);
 }
 
@@ -181,7 +183,7 @@ static status allocate(radau *r, fault *f)
 status radau_alloc(const scheme_request *request, motion_scheme **out, fault *f)
 {
     const radau begin = {
-        .base = {.order = 4, .degree = BETWEEN_QUINTIC, .step = step, .free = release},
+        .base = {.order = 4, .degree = DENSE_OUTPUT_QUINTIC, .step = step, .free = release},
         .of = *request};
     radau *r = malloc(sizeof *r);
     *out = NULL;
@@ -192,14 +194,14 @@ status radau_alloc(const scheme_request *request, motion_scheme **out, fault *f)
     const model_size size = model_sizes(request->c->model);
     r->free = size.free;
     r->all = size.free + size.driven;
-    arrival_start(request->c->options->criterion, model_leaves(request->c->model) != 0,
-                  size.elements, &r->arrival);
+    newton_convergence_start(request->c->options->criterion, model_leaves(request->c->model) != 0,
+                             size.elements, &r->newton_convergence);
     radau_coefficients(r);
     return allocate(r, f);
 }
 
-static status radau_error(radau *r, const instant *from, double h, instant *room, double *error,
-                          fault *f)
+static status radau_error(radau *r, const motion_state *from, double h, motion_state *room,
+                          double *error, fault *f)
 {
     const model *m = r->of.c->model;
     const double s = sqrt(6), l = 0.2748888295956773677478286,

@@ -13,7 +13,7 @@ static void radau_in_space(const radau *, int vertex, int i, const double B[9], 
 /* Adds the consistent masses to S. */
 static void radau_spread(radau *, double h);
 /* Adds the damping of members to the residual and, if fresh is 1, to S. */
-static void radau_damp(radau *, int fresh, const instant *from, double h);
+static void radau_damp(radau *, int fresh, const motion_state *from, double h);
 
 /* Adds the derivatives of the inertia forces on a frame in stage i to the blocks (i, k) for all k.
  * */
@@ -96,14 +96,15 @@ static void add_warps(radau *r, double h)
     }
 }
 
-void radau_integrate(radau *r, const instant *from, double h, const step_record *record)
+void radau_integrate(radau *r, const motion_state *from, double h, const step_record *record)
 {
     const equations *eq = &r->of.c->eq;
     const int count = feedback_count(eq);
     double *error = r->errors; /* [STAGES x count] */
     for (int j = 0; j < STAGES && count > 0; j++)
         feedback_errors(eq, r->stage[j].state,
-                        kinks_before(eq->m, radau_time(r, from, h, j, record)), error + count * j);
+                        discontinuities_before(eq->m, radau_time(r, from, h, j, record)),
+                        error + count * j);
     for (int i = 0; i < STAGES; i++)
         for (int k = 0; k < count; k++) {
             double *z = &r->stage[i].state->feedback[k];
@@ -136,7 +137,7 @@ static void add_feedback(radau *r, double h, int i)
     }
 }
 
-status radau_equations(radau *r, int fresh, const instant *from, double h, step_record *record,
+status radau_equations(radau *r, int fresh, const motion_state *from, double h, step_record *record,
                        fault *f)
 {
     const model *m = r->of.c->model;
@@ -146,7 +147,8 @@ status radau_equations(radau *r, int fresh, const instant *from, double h, step_
     radau_integrate(r, from, h, record);
     for (int i = 0; i < STAGES; i++) {
         radau_stage *one = &r->stage[i];
-        model_linearisation lin = {.path = kinks_before(m, radau_time(r, from, h, i, record)),
+        model_linearisation lin = {.path =
+                                       discontinuities_before(m, radau_time(r, from, h, i, record)),
                                    .K = fresh ? &r->K : NULL,
                                    .residual = r->dx};
         if (r->of.c->options->newton == NEWTON_DISPLACEMENT)
@@ -217,13 +219,13 @@ static int is_free_turn(const model *m, int vertex)
            forms_of(m, vertex) == FORM_BODY && v->coordinate[SCENE_RX] < model_unknowns(m);
 }
 
-double radau_time(const radau *r, const instant *from, double h, int stage,
+double radau_time(const radau *r, const motion_state *from, double h, int stage,
                   const step_record *record)
 {
     return stage == STAGES - 1 ? record->path : from->time + r->node[stage] * h;
 }
 
-void radau_rates(radau *r, const instant *from, double h)
+void radau_rates(radau *r, const motion_state *from, double h)
 {
     const model *m = r->of.c->model;
     for (int i = 0; i < STAGES; i++) {
@@ -241,7 +243,7 @@ void radau_rates(radau *r, const instant *from, double h)
                 continue;
             three(at, one->inc, t);
             three(at, one->rate, rate);
-            turning_jacobian(t, Jr);
+            rotation_rates_jacobian(t, Jr);
             mat3_mul_vec(Jr, rate, W);
             for (int k = 0; k < 3; k++)
                 one->v[at[SCENE_RX + k]] = W[k];
@@ -270,8 +272,8 @@ static void gains(const radau *r, int vertex, double h, int j, int k, double *tr
     double t[3], rate[3], D[9];
     three(model_vertex(m, vertex)->coordinate, r->stage[j].inc, t);
     three(model_vertex(m, vertex)->coordinate, r->stage[j].rate, rate);
-    turning_jacobian(t, turn);
-    turning_derivative(t, rate, D);
+    rotation_rates_jacobian(t, turn);
+    rotation_rates_derivative(t, rate, D);
     for (int i = 0; i < 9; i++)
         turn[i] = b * turn[i] + (j == k ? D[i] : 0);
 }
@@ -312,7 +314,7 @@ typedef struct damped {
     double gained[ELEMENT_MAX_STRAINS]; /* increases of the strains since the start of the step */
 } damped;
 
-static void take(radau *r, const instant *from, int stage, int element, damped *out)
+static void take(radau *r, const motion_state *from, int stage, int element, damped *out)
 {
     const model *m = r->of.c->model;
     const mesh_element *el = model_element(m, element);
@@ -375,7 +377,7 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, const doubl
 
 /* Like add_stress and add_blocks, for a dashpot, whose stress is not stored in a slot. The tangent
  * includes the effect of the rotation of its axes on its force. */
-static void damp_spring(radau *r, int fresh, const instant *from, double h, int spring)
+static void damp_spring(radau *r, int fresh, const motion_state *from, double h, int spring)
 {
     enum { SIX = SPRING_STRAINS, X = ELEMENT_MAX_COORDINATES };
     const model *m = r->of.c->model;
@@ -414,7 +416,7 @@ static void damp_spring(radau *r, int fresh, const instant *from, double h, int 
     }
 }
 
-static void radau_damp(radau *r, int fresh, const instant *from, double h)
+static void radau_damp(radau *r, int fresh, const motion_state *from, double h)
 {
     const model *m = r->of.c->model;
     for (int i = 0; i < model_elements(m) && r->of.c->run->damping != NULL; i++) {
@@ -437,7 +439,7 @@ static void radau_damp(radau *r, int fresh, const instant *from, double h)
 
 /* Computes out = sum_j weight_j (e_j - e_0) for the strains of elements and the deformations of
  * springs. */
-static void sum_strains(const radau *r, const instant *from, const double weight[STAGES],
+static void sum_strains(const radau *r, const motion_state *from, const double weight[STAGES],
                         double out[])
 {
     const model *m = r->of.c->model;
@@ -462,7 +464,7 @@ static void sum_strains(const radau *r, const instant *from, const double weight
 }
 
 /* Returns the energy [J] absorbed in a step by springs without a potential. */
-static double circulated(const radau *r, const instant *from)
+static double circulated(const radau *r, const motion_state *from)
 {
     enum { SIX = SPRING_STRAINS };
     const model *m = r->of.c->model;
@@ -485,7 +487,7 @@ static double circulated(const radau *r, const instant *from)
     return sum;
 }
 
-double radau_dissipated(const radau *r, const instant *from, double h, double room[])
+double radau_dissipated(const radau *r, const motion_state *from, double h, double room[])
 {
     double sum = circulated(r, from);
     for (int i = 0; i < STAGES; i++)
@@ -502,7 +504,7 @@ double radau_dissipated(const radau *r, const instant *from, double h, double ro
     return sum;
 }
 
-void radau_damp_error(const radau *r, const instant *from, double h, const double e[STAGES],
+void radau_damp_error(const radau *r, const motion_state *from, double h, const double e[STAGES],
                       double g, double room[])
 {
     double weight[STAGES];
@@ -519,8 +521,8 @@ void radau_damp_error(const radau *r, const instant *from, double h, const doubl
 
 /* Computes the derivative of the motion of a node in stage i with respect to spatial increments
  * of its coordinates in stage k. */
-static void motions_of(const radau *r, const spread_parts *p, int node, double h, int i, int k,
-                       spread_motion *rates, spread_motion *accelerations)
+static void motions_of(const radau *r, const consistent_mass_parts *p, int node, double h, int i,
+                       int k, consistent_mass_motion *rates, consistent_mass_motion *accelerations)
 {
     const int vertex = p->el->vertex[node], body = model_vertex(r->of.c->model, vertex)->body;
     radau_relation of;
@@ -542,23 +544,23 @@ static void motions_of(const radau *r, const spread_parts *p, int node, double h
 static void add_element(radau *r, int element, double h, int i)
 {
     const model *m = r->of.c->model;
-    spread_parts p;
-    spread_motion rates[ELEMENT_MAX_NODES], accelerations[ELEMENT_MAX_NODES],
+    consistent_mass_parts p;
+    consistent_mass_motion rates[ELEMENT_MAX_NODES], accelerations[ELEMENT_MAX_NODES],
         place[ELEMENT_MAX_NODES];
-    spread_element(m, element, r->stage[i].state, r->stage[i].v, r->stage[i].a,
-                   r->of.masses->damping, &p);
-    spread_place(m, &p, place);
+    consistent_mass_element(m, element, r->stage[i].state, r->stage[i].v, r->stage[i].a,
+                            r->of.masses->damping, &p);
+    consistent_mass_place(m, &p, place);
     for (int k = 0; k < STAGES; k++) {
         double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES];
         memset(K, 0, (size_t)(p.columns * p.columns) * sizeof *K);
         for (int node = 0; node < p.el->nodes; node++)
             motions_of(r, &p, node, h, i, k, &rates[node], &accelerations[node]);
-        spread_times(m, &p, p.acceleration, accelerations, K);
-        spread_times(m, &p, p.velocity, rates, K);
+        consistent_mass_times(m, &p, p.acceleration, accelerations, K);
+        consistent_mass_times(m, &p, p.velocity, rates, K);
         if (i == k)
-            spread_times(m, &p, p.place, place, K);
-        spread_rows(&p, K);
-        spread_swing(m, &p, r->B[STAGES * i + k] / h, i == k, K);
+            consistent_mass_times(m, &p, p.place, place, K);
+        consistent_mass_rows(&p, K);
+        consistent_mass_swing(m, &p, r->B[STAGES * i + k] / h, i == k, K);
         stages_add_element(&r->S, i, k, assemble_of(r->of.c->run->patterns, &r->K), element, K);
     }
 }

@@ -14,7 +14,7 @@
 typedef struct read_state {
     quantity_state as;
     const reading *from;
-    shares_motion motion;
+    inertia_resultants_motion motion;
     internal_state section;
     status *outcome; /* status of the first force that could not be computed; OK: none */
     fault *f;
@@ -132,7 +132,7 @@ static status reaction_in(const read_state *s, int node, int component, double *
     linearise_node_force(eq, s->section.s, s->section.sigma, node, F);
     loads_at_node(eq, s->section.s, s->section.path, node, L);
     if (s->section.moving != NULL) {
-        TRY(shares_node(eq->m, s->section.s, &s->motion, node, F, f));
+        TRY(inertia_resultants_node(eq->m, s->section.s, &s->motion, node, F, f));
         TRY(dashpots_at_node(eq->m, s->section.s, s->motion.v, node, F, f));
     }
     *out = loads_reaction(eq->m, node, component, F, L);
@@ -234,13 +234,13 @@ static double compliance_in(const quantity_state *s, int row, int column)
 static void inertia_at_ends(const void *context, int element, double ends[2][7])
 {
     const read_state *s = context;
-    shares_ends(s->from->eq->m, s->from->state, &s->motion, element, ends);
+    inertia_resultants_ends(s->from->eq->m, s->from->state, &s->motion, element, ends);
 }
 
 static void inertia_along(const void *context, int element, double density[ELEMENT_MAX_NODES][6])
 {
     const read_state *s = context;
-    shares_along(s->from->eq->m, s->from->state, &s->motion, element, density);
+    inertia_resultants_along(s->from->eq->m, s->from->state, &s->motion, element, density);
 }
 
 int reading_is_kinematic(const scene_quantity *q)
@@ -318,7 +318,7 @@ static status read_whole(const reading *from, const scene_quantity *q, const dou
     const double at = from->x != NULL       ? 1
                       : from->state != NULL ? kinematics_state_path(from->state)
                                             : NAN,
-                 path = from->before ? kinks_before(from->eq->m, at) : at;
+                 path = from->before ? discontinuities_before(from->eq->m, at) : at;
     read_state s = {.as = places_of(from),
                     .from = from,
                     .motion = {from->v, a, moves && model_spreads(from->eq->m, q->analysis)},

@@ -526,7 +526,7 @@ status dashpots_at_node(const model *m, const model_state *s, const double v[], 
     return STATUS_OK;
 }
 
-status damping_now(const equations *eq, instant *now, fault *f)
+status damping_now(const equations *eq, motion_state *now, fault *f)
 {
     const model *m = eq->m;
     if (now->strain == NULL)

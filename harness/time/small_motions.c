@@ -23,8 +23,8 @@ static const double turn_by = 0.02;
 typedef struct small_motions {
     const equations *eq;
     const model *m;
-    const carried_masses *masses;
-    const instant *now;
+    const frame_masses *masses;
+    const motion_state *now;
     outcome_about *out;
     int all;
     model_state *moved;
@@ -35,7 +35,7 @@ typedef struct small_motions {
     char *odd;
 } small_motions;
 
-static status alloc(const equations *eq, const carried_masses *masses, const instant *now,
+static status alloc(const equations *eq, const frame_masses *masses, const motion_state *now,
                     outcome_about *out, small_motions *s, fault *f)
 {
     const sparse *pattern;
@@ -214,9 +214,9 @@ static void put_odd(small_motions *s, int rate, sparse *A)
  * first serves as work space. */
 static void add_inertia(small_motions *s)
 {
-    const instant *now = s->now;
+    const motion_state *now = s->now;
     outcome_about *out = s->out;
-    carried_masses undamped = *s->masses;
+    frame_masses undamped = *s->masses;
     undamped.damping = 0;
     mark_odd(s);
     inertia_add_tangent(s->eq, &undamped, now->state, s->zero, NULL,
@@ -224,7 +224,7 @@ static void add_inertia(small_motions *s)
     inertia_add_tangent(s->eq, s->masses, now->state, now->v, now->a,
                         &(inertia_relation){0, 0, s->zero}, &out->G);
     if (s->masses->spread)
-        spread_add_omitted(s->eq, now->state, now->v, now->a, s->masses->damping, &out->G);
+        consistent_mass_add_omitted(s->eq, now->state, now->v, now->a, s->masses->damping, &out->G);
     put_odd(s, 0, &out->G);
     add(&out->G, 1, &out->K);
     sparse_zero(&out->G);
@@ -381,7 +381,7 @@ static status add_damping(small_motions *s, fault *f)
 
 /* Makes the strains compatible with the positions, then computes the stresses from the strains and
  * their rates. */
-static status make_compatible(const equations *eq, instant *now, fault *f)
+static status make_compatible(const equations *eq, motion_state *now, fault *f)
 {
     const model *m = eq->m;
     const size_t n = (size_t)model_strains(m);
@@ -414,7 +414,7 @@ static status fill(small_motions *s, fault *f)
     return add_damping(s, f);
 }
 
-status small_motions_of(const equations *eq, const carried_masses *masses, instant *now,
+status small_motions_of(const equations *eq, const frame_masses *masses, motion_state *now,
                         outcome_about *out, fault *f)
 {
     run_damping *const damping = eq->run->damping;

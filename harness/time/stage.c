@@ -6,7 +6,7 @@
 
 #include "elements/math/dense.h"
 
-status stage_alloc(analysis_context *c, const carried_masses *masses, motion_stage *s, fault *f)
+status stage_alloc(analysis_context *c, const frame_masses *masses, motion_stage *s, fault *f)
 {
     const model_size size = model_sizes(c->model);
     const sparse *pattern;
@@ -16,13 +16,14 @@ status stage_alloc(analysis_context *c, const carried_masses *masses, motion_sta
     s->masses = masses;
     s->free = size.free;
     s->all = size.free + size.driven;
-    arrival_start(c->options->criterion, model_leaves(c->model) != 0, size.elements, &s->arrival);
+    newton_convergence_start(c->options->criterion, model_leaves(c->model) != 0, size.elements,
+                             &s->newton_convergence);
     s->residual = calloc(all, sizeof *s->residual);
     s->dx = calloc(all, sizeof *s->dx);
     if (s->residual == NULL || s->dx == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     if (c->options->newton != NEWTON_DISPLACEMENT)
-        TRY(complement_alloc(&c->eq, &s->complement, f));
+        TRY(strain_update_alloc(&c->eq, &s->strain_update, f));
     TRY(assemble_pattern_in_time(c->model, c->run->patterns, &pattern, f));
     TRY(sparse_alloc_like(pattern, &s->S, f));
     return factor_alloc(pattern, &s->factor, f);
@@ -32,12 +33,12 @@ void stage_free(motion_stage *s)
 {
     free(s->residual);
     free(s->dx);
-    complement_free(s->complement);
+    strain_update_free(s->strain_update);
     sparse_free_values(&s->S);
     factor_free(s->factor);
 }
 
-int stage_stands(const arrival *a)
+int stage_stands(const newton_convergence *a)
 {
     const double near = 1e-4, slow = 0.1;
     return a->correction <= near && a->stress_change <= near && a->correction <= slow * a->before;
@@ -72,7 +73,7 @@ static status direction(motion_stage *s, int fresh, double time, const stage_rat
                         model_state *now, step_record *record, fault *f)
 {
     const model *m = s->c->model;
-    model_linearisation lin = {.path = s->begins ? time : kinks_before(m, time),
+    model_linearisation lin = {.path = s->begins ? time : discontinuities_before(m, time),
                                .K = fresh ? &s->S : NULL,
                                .residual = s->residual};
     const inertia_relation with = {r->b, r->g, r->inc};
@@ -106,12 +107,13 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
     const stage_solution *one = of;
     motion_stage *s = one->s;
     const model *m = s->c->model;
-    const int fresh = iteration == 1 || !stage_stands(&s->arrival);
-    const feedback_step past = {one->r->h, one->time - one->r->h, kinks_before(m, one->time)};
+    const int fresh = iteration == 1 || !stage_stands(&s->newton_convergence);
+    const feedback_step past = {one->r->h, one->time - one->r->h,
+                                discontinuities_before(m, one->time)};
     feedback_integrate(&s->c->eq, one->from, one->now, &past, one->now->feedback);
     TRY(direction(s, fresh, one->time, one->r, one->now, record, f));
     increment_add(m, one->now, s->dx, one->r->inc);
-    complement_keep(s->complement, one->now);
+    strain_update_begin(s->strain_update, one->now);
     out->at = one->time;
     out->size =
         advance_state(&s->c->eq, &s->c->run->memory, one->now, s->dx, one->time, &out->stress);
@@ -122,7 +124,7 @@ static status correct(void *of, int iteration, newton_correction *out, step_reco
 static void prepare(void *of, int iteration, double correction)
 {
     const stage_solution *one = of;
-    complement_strains(one->s->complement, one->now, iteration, correction);
+    strain_update_apply(one->s->strain_update, one->now, iteration, correction);
 }
 
 status stage_solve(motion_stage *s, const model_state *from, double time, stage_rates *r,
@@ -132,12 +134,12 @@ status stage_solve(motion_stage *s, const model_state *from, double time, stage_
     const newton_use use = newton_in_time(s->c, &one, correct, prepare);
     increment_apply(s->c->model, from, r->inc, time, now);
     rates_of(s, r);
-    return newton_iterate(s->c, &use, &s->arrival, record, f);
+    return newton_iterate(s->c, &use, &s->newton_convergence, record, f);
 }
 
 enum { MOST = ELEMENT_MAX_STRAINS };
 
-struct complement {
+struct strain_update {
     const equations *eq;
     const model *m;
     double *before; /* [elements x strains] strains for which the stresses were linearised */
@@ -173,11 +175,11 @@ static int wanted(const model *m)
     return 0;
 }
 
-status complement_alloc(const equations *eq, complement **out, fault *f)
+status strain_update_alloc(const equations *eq, strain_update **out, fault *f)
 {
     const model *m = eq->m;
     const size_t strains = (size_t)model_elements(m) * (size_t)model_strains(m);
-    complement *c = NULL;
+    strain_update *c = NULL;
     *out = NULL;
     if (!wanted(m))
         return STATUS_OK;
@@ -192,12 +194,12 @@ status complement_alloc(const equations *eq, complement **out, fault *f)
     return STATUS_OK;
 }
 
-void complement_free(complement *c)
+void strain_update_free(strain_update *c)
 {
     free(c);
 }
 
-void complement_keep(complement *c, const model_state *s)
+void strain_update_begin(strain_update *c, const model_state *s)
 {
     if (c != NULL)
         memcpy(c->before, s->e,
@@ -205,13 +207,13 @@ void complement_keep(complement *c, const model_state *s)
 }
 
 /* Data of the iteration of an element towards its target stresses. */
-typedef struct complement_way {
+typedef struct strain_update_search {
     const equations *eq;
     const model *m;
     int element;
     double near;                                 /* [N] distance below which stresses agree */
     double e[MOST], sigma[MOST], C[MOST * MOST]; /* P' and P'' at e */
-} complement_way;
+} strain_update_search;
 
 /* Returns a distance that is small enough: below this distance, Newton's method converges as fast
  * from the strains as from the stresses. */
@@ -236,7 +238,7 @@ static double gap_of(int n, const double goal[], const double sigma[], double ga
     return isfinite(sum) ? largest : NAN;
 }
 
-static int evaluate(complement_way *w)
+static int evaluate(strain_update_search *w)
 {
     w->eq->run->counters.stress_evaluations++;
     return model_type(w->m)->stress(model_kind_of(w->m, w->element)->data, w->e, NULL,
@@ -245,7 +247,7 @@ static int evaluate(complement_way *w)
 
 /* Computes e += C^-1 gap. Strains without stiffness, such as warping strains, do not change.
  * Returns 0 if C is singular. */
-static int move(complement_way *w, double gap[])
+static int move(strain_update_search *w, double gap[])
 {
     const int n = model_strains(w->m);
     int pivot[MOST];
@@ -267,7 +269,7 @@ static int move(complement_way *w, double gap[])
 }
 
 /* Runs Newton's method as long as the gap decreases. Returns 1 if the stresses reach the goal. */
-static int arrive(complement_way *w, const double goal[])
+static int reach_target(strain_update_search *w, const double goal[])
 {
     enum { MOST_ITERATIONS = 8 };
     const double contracts = 0.3;
@@ -286,12 +288,12 @@ static int arrive(complement_way *w, const double goal[])
 
 /* Moves the stresses in steps from their present values to the target stresses. Returns 1 if they
  * reach the target. */
-static int follow(complement_way *w, const double goal[])
+static int follow(strain_update_search *w, const double goal[])
 {
     const int n = model_strains(w->m);
     const double shortest = 1.0 / 256, longest = 0.5;
     double part = longest, begin[MOST], target[MOST], gap[MOST];
-    complement_way at = *w;
+    strain_update_search at = *w;
     if (!evaluate(&at))
         return 0;
     memcpy(begin, at.sigma, sizeof begin);
@@ -301,7 +303,7 @@ static int follow(complement_way *w, const double goal[])
             target[i] = next < 1 ? begin[i] + next * (goal[i] - begin[i]) : goal[i];
         *w = at;
         gap_of(n, target, at.sigma, gap);
-        if (move(w, gap) && arrive(w, target)) {
+        if (move(w, gap) && reach_target(w, target)) {
             at = *w;
             done = next;
             part = fmin(longest, 2 * part);
@@ -314,7 +316,8 @@ static int follow(complement_way *w, const double goal[])
 /* Returns the target stresses for the strains of an element; NULL: the element has no stresses at
  * e. They are the stresses of the state or, if there is damping, the part that depends only on
  * strains: P'(e) + P''(e) de, where e are the strains before the increment. */
-static const double *goal_of(const complement *c, const model_state *s, int element, double room[])
+static const double *target_of(const strain_update *c, const model_state *s, int element,
+                               double room[])
 {
     const model *m = c->m;
     const size_t first = (size_t)element * (size_t)model_strains(m);
@@ -333,13 +336,13 @@ static const double *goal_of(const complement *c, const model_state *s, int elem
     return room;
 }
 
-static void find(const complement *c, int element, const double sigma[], double e[])
+static void find(const strain_update *c, int element, const double sigma[], double e[])
 {
     const size_t n = (size_t)model_strains(c->m);
-    complement_way w = {
+    strain_update_search w = {
         .eq = c->eq, .m = c->m, .element = element, .near = near_of(model_strains(c->m), sigma)};
     memcpy(w.e, e, n * sizeof *e);
-    if (arrive(&w, sigma)) {
+    if (reach_target(&w, sigma)) {
         memcpy(e, w.e, n * sizeof *e);
         return;
     }
@@ -349,7 +352,7 @@ static void find(const complement *c, int element, const double sigma[], double 
 }
 
 /* Marks the elements of a batch whose stresses already agree. */
-static void settled(const complement *c, const model_state *s, int count, const int index[],
+static void settled(const strain_update *c, const model_state *s, int count, const int index[],
                     const double *const goal[], int is[])
 {
     const model *m = c->m;
@@ -376,7 +379,7 @@ static void settled(const complement *c, const model_state *s, int count, const 
 
 /* Updates the strains of elements [first, end). Returns 1 if the stresses of all these elements
  * agree. */
-static int follow_stresses(const complement *c, model_state *s, int first, int end)
+static int follow_stresses(const strain_update *c, model_state *s, int first, int end)
 {
     const size_t n = (size_t)model_strains(c->m);
     unsigned char done[CHUNK_WINDOW] = {0};
@@ -385,7 +388,7 @@ static int follow_stresses(const complement *c, model_state *s, int first, int e
     const double *goal[CHUNK_MOST];
     while ((count = chunk_next(c->m, first, end, done, index)) > 0) {
         for (int k = 0; k < count; k++)
-            goal[k] = goal_of(c, s, index[k], room[k]);
+            goal[k] = target_of(c, s, index[k], room[k]);
         settled(c, s, count, index, goal, is);
         for (int k = 0; k < count; k++)
             if (!is[k]) {
@@ -396,7 +399,7 @@ static int follow_stresses(const complement *c, model_state *s, int first, int e
     return all;
 }
 
-void complement_strains(complement *c, model_state *s, int iteration, double correction)
+void strain_update_apply(strain_update *c, model_state *s, int iteration, double correction)
 {
     int all = 1;
     if (c == NULL || (iteration > 1 && correction <= c->settled))

@@ -28,7 +28,7 @@ static int coupled(const model *m, const int frame_of[], const double warping[],
 /* Sets the columns of stage k, one after the other. Returns the number of entries. row NULL: only
  * counts the entries. */
 static int fill(const equations *eq, const sparse *single, const int frame_of[],
-                const carried_masses *masses, stages_matrix *out, int *row)
+                const frame_masses *masses, stages_matrix *out, int *row)
 {
     const model *m = eq->m;
     const int n = out->n, full = model_releases(m) > 0 || eq->run->damping != NULL ||
@@ -58,7 +58,7 @@ static int fill(const equations *eq, const sparse *single, const int frame_of[],
     return count;
 }
 
-static status make(const equations *eq, const carried_masses *masses, const sparse *single,
+static status make(const equations *eq, const frame_masses *masses, const sparse *single,
                    int frame_of[], stages_matrix *out, fault *f)
 {
     const model *m = eq->m;
@@ -84,7 +84,7 @@ static status make(const equations *eq, const carried_masses *masses, const spar
     return STATUS_OK;
 }
 
-status stages_alloc(const equations *eq, const carried_masses *masses, const sparse *single,
+status stages_alloc(const equations *eq, const frame_masses *masses, const sparse *single,
                     stages_matrix *out, fault *f)
 {
     const model *m = eq->m;
@@ -190,7 +190,7 @@ static void take(const body_mass *g, int row, int column, double mass)
         g->M[g->count * i + j] += mass * g->unit[i] * g->unit[j];
 }
 
-static double add_mass(const model *m, const carried_masses *all, int index, const model_state *s,
+static double add_mass(const model *m, const frame_masses *all, int index, const model_state *s,
                        const body_mass *g)
 {
     const int vertex = all->mass[index].frame;
@@ -221,19 +221,19 @@ static double add_element(const model *m, int element, int body, const model_sta
                           const body_mass *g)
 {
     const mesh_element *el = model_element(m, element);
-    spread_motion by[ELEMENT_MAX_NODES];
+    consistent_mass_motion by[ELEMENT_MAX_NODES];
     double K[MODEL_MAX_COORDINATES * MODEL_MAX_COORDINATES], largest = 0;
-    spread_parts p;
+    consistent_mass_parts p;
     int beside = 0;
     for (int k = 0; k < el->nodes; k++)
         beside |= first_of(m, el->vertex[k]) == body;
     if (!beside)
         return 0;
-    spread_masses(m, element, s, &p);
-    spread_place(m, &p, by);
+    consistent_mass_masses(m, element, s, &p);
+    consistent_mass_place(m, &p, by);
     memset(K, 0, (size_t)(p.columns * p.columns) * sizeof *K);
-    spread_times(m, &p, p.acceleration, by, K);
-    spread_rows(&p, K);
+    consistent_mass_times(m, &p, p.acceleration, by, K);
+    consistent_mass_rows(&p, K);
     for (int i = 0; i < p.columns; i++)
         for (int j = 0; j < p.columns; j++)
             take(g, el->index[i], el->index[j], K[p.columns * i + j]);
@@ -246,22 +246,22 @@ static double add_element(const model *m, int element, int body, const model_sta
     return largest;
 }
 
-double body_mass_warps(const model *m, const carried_masses *all, int warp, const model_state *s)
+double body_mass_warps(const model *m, const frame_masses *all, int warp, const model_state *s)
 {
     double mass = all->warping[model_warp(m, warp)];
     for (int i = 0; i < model_elements(m) && all->spread; i++)
         for (int k = 0; k < model_element(m, i)->nodes; k++) {
             const int at = NODE_COORDINATES * k + 6;
-            spread_parts p;
+            consistent_mass_parts p;
             if (model_element(m, i)->warp[k] != warp)
                 continue;
-            spread_masses(m, i, s, &p);
+            consistent_mass_masses(m, i, s, &p);
             mass += p.acceleration[model_own_coordinates(m) * at + at];
         }
     return mass;
 }
 
-double body_mass_of(const model *m, const carried_masses *all, int body, const model_state *s,
+double body_mass_of(const model *m, const frame_masses *all, int body, const model_state *s,
                     body_mass *g)
 {
     double largest = 0;

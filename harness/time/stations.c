@@ -15,7 +15,7 @@ typedef struct between_ends {
     double whole, rate[2], second[2];
 } between_ends;
 
-status between_alloc(const equations *eq, step_between *b, fault *f)
+status dense_output_alloc(const equations *eq, dense_output *b, fault *f)
 {
     const model *m = eq->m;
     const model_size size = model_sizes(m);
@@ -30,13 +30,13 @@ status between_alloc(const equations *eq, step_between *b, fault *f)
                : fault_set(f, STATUS_FAULT, "out of memory for the time integration");
 }
 
-void between_free(step_between *b)
+void dense_output_free(dense_output *b)
 {
     free(b->part);
     free(b->room);
 }
 
-static void put(const step_between *b, int coordinate, const between_ends *e)
+static void put(const dense_output *b, int coordinate, const between_ends *e)
 {
     double *part = b->part + PARTS * (size_t)coordinate;
     const double D = e->whole, r = e->rate[0], t = e->rate[1], p = e->second[0], q = e->second[1];
@@ -44,14 +44,14 @@ static void put(const step_between *b, int coordinate, const between_ends *e)
     const double quintic[PARTS] = {r, p / 2, 10 * D - 6 * r - 4 * t - 1.5 * p + 0.5 * q,
                                    8 * r + 7 * t + 1.5 * p - q - 15 * D,
                                    6 * D - 3 * r - 3 * t - 0.5 * p + 0.5 * q};
-    memcpy(part, b->degree == BETWEEN_CUBIC ? cubic : quintic, sizeof cubic);
+    memcpy(part, b->degree == DENSE_OUTPUT_CUBIC ? cubic : quintic, sizeof cubic);
 }
 
 /* Sets the polynomial of a coordinate whose increments add up. It increases by `whole` in the step.
  * */
-static void put_plain(const step_between *b, int c, double whole, double h)
+static void put_plain(const dense_output *b, int c, double whole, double h)
 {
-    const instant *from = b->from, *to = b->to;
+    const motion_state *from = b->from, *to = b->to;
     if (c == NONE)
         return;
     put(b, c,
@@ -64,9 +64,9 @@ static void vector_rates(const double t[3], const double W[3], const double Wd[3
                          double second[3])
 {
     double inverse[9], D[9], more[3];
-    turning_inverse(t, inverse);
+    rotation_rates_inverse(t, inverse);
     mat3_mul_vec(inverse, W, rate);
-    turning_derivative(t, rate, D);
+    rotation_rates_derivative(t, rate, D);
     mat3_mul_vec(D, rate, more);
     for (int k = 0; k < 3; k++)
         more[k] = Wd[k] - more[k];
@@ -75,7 +75,7 @@ static void vector_rates(const double t[3], const double W[3], const double Wd[3
 
 /* Computes the rotation vector of a vertex from the start to the end of the step, in its axes at
  * the start. */
-static void turn_of(const step_between *b, int vertex, double t[3])
+static void turn_of(const dense_output *b, int vertex, double t[3])
 {
     double back[4], q[4];
     rotation_conjugate(&b->from->state->q[4 * vertex], back);
@@ -83,10 +83,10 @@ static void turn_of(const step_between *b, int vertex, double t[3])
     rotation_log(q, t);
 }
 
-static void put_turn(const step_between *b, int vertex, double h)
+static void put_turn(const dense_output *b, int vertex, double h)
 {
     const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
-    const instant *end[2] = {b->from, b->to};
+    const motion_state *end[2] = {b->from, b->to};
     double t[2][3] = {{0}}, rate[2][3], second[2][3];
     turn_of(b, vertex, t[1]);
     for (int i = 0; i < 2; i++) {
@@ -104,7 +104,7 @@ static void put_turn(const step_between *b, int vertex, double h)
 }
 
 /* Interpolates a ball joint linearly, because it has no rates. */
-static void put_ball(const step_between *b, int vertex)
+static void put_ball(const dense_output *b, int vertex)
 {
     const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
     double t[3];
@@ -113,7 +113,7 @@ static void put_ball(const step_between *b, int vertex)
         put(b, at[k], &(between_ends){t[k], {t[k], t[k]}, {0, 0}});
 }
 
-static void put_release(const step_between *b, int vertex, double h)
+static void put_release(const dense_output *b, int vertex, double h)
 {
     const model *m = b->m;
     const mesh_release *r = release_of(m, vertex);
@@ -129,7 +129,8 @@ static void put_release(const step_between *b, int vertex, double h)
         put_ball(b, vertex);
 }
 
-void between_take(step_between *b, between_degree degree, const instant *from, const instant *to)
+void dense_output_set(dense_output *b, dense_output_degree degree, const motion_state *from,
+                      const motion_state *to)
 {
     const model *m = b->m;
     const double h = to->time - from->time;
@@ -162,8 +163,8 @@ void between_take(step_between *b, between_degree degree, const instant *from, c
 }
 
 /* Computes the body rates of rotations from the rates of their rotation vectors. */
-static void turn_rates(const step_between *b, int vertex, const double inc[], const double rate[],
-                       const double second[], instant *at)
+static void turn_rates(const dense_output *b, int vertex, const double inc[], const double rate[],
+                       const double second[], motion_state *at)
 {
     const int *index = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
     double t[3], first[3], then[3], Jr[9], D[9], W[3], Wd[3], more[3];
@@ -172,8 +173,8 @@ static void turn_rates(const step_between *b, int vertex, const double inc[], co
         first[k] = index[k] != NONE ? rate[index[k]] : 0;
         then[k] = index[k] != NONE ? second[index[k]] : 0;
     }
-    turning_jacobian(t, Jr);
-    turning_derivative(t, first, D);
+    rotation_rates_jacobian(t, Jr);
+    rotation_rates_derivative(t, first, D);
     mat3_mul_vec(Jr, first, W);
     mat3_mul_vec(Jr, then, Wd);
     mat3_mul_vec(D, first, more);
@@ -190,7 +191,7 @@ static void blend(size_t count, double s, const double from[], const double to[]
         out[i] = (1 - s) * from[i] + s * to[i];
 }
 
-static void blend_elements(const step_between *b, double s, model_state *at)
+static void blend_elements(const dense_output *b, double s, model_state *at)
 {
     const model *m = b->m;
     const model_state *from = b->from->state, *to = b->to->state;
@@ -202,7 +203,7 @@ static void blend_elements(const step_between *b, double s, model_state *at)
 }
 
 /* Sets positions and rates at a time [s] inside the step or near the step. */
-static void between_places(const step_between *b, double time, instant *at)
+static void between_places(const dense_output *b, double time, motion_state *at)
 {
     const model *m = b->m;
     const int all = model_all_coordinates(m);
@@ -219,7 +220,7 @@ static void between_places(const step_between *b, double time, instant *at)
     for (int i = 0; i < model_first_release(m); i++)
         if (model_vertex(m, i)->body == i && model_vertex(m, i)->angles == 0)
             turn_rates(b, i, inc, rate, second, at);
-    if (b->degree == BETWEEN_CUBIC)
+    if (b->degree == DENSE_OUTPUT_CUBIC)
         blend((size_t)all, s, b->from->a, b->to->a, at->a);
     drive_at(b->eq, b->from->state, time, inc, at->v, at->a);
     memcpy(at->algorithm, at->a, (size_t)all * sizeof *at->a);
@@ -250,7 +251,8 @@ static double slope_of(const double value[SLOPE], double x)
     return sum;
 }
 
-double between_reading(const step_between *b, const scene_quantity *q, double time, instant *at)
+double dense_output_reading(const dense_output *b, const scene_quantity *q, double time,
+                            motion_state *at)
 {
     const double begin = b->from->time, h = b->to->time - begin;
     const int slope = reading_is_slope(q);
@@ -262,7 +264,7 @@ double between_reading(const step_between *b, const scene_quantity *q, double ti
     return slope ? slope_of(value, (time - begin) / h) / h : value[0];
 }
 
-void between_at(const step_between *b, double time, instant *at)
+void dense_output_at(const dense_output *b, double time, motion_state *at)
 {
     between_places(b, time, at);
     blend_elements(b, (time - b->from->time) / (b->to->time - b->from->time), at->state);
@@ -280,7 +282,7 @@ static int is_slope(const stations *s, int quantity)
 
 /* Computes slopes at the stations of a step and at its end. After the first step, also computes the
  * slopes at time 0. */
-static void take_slopes(stations *s, const instant *from, const instant *to)
+static void take_slopes(stations *s, const motion_state *from, const motion_state *to)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
     const double near = same_instant * (to->time - from->time);
@@ -288,35 +290,36 @@ static void take_slopes(stations *s, const instant *from, const instant *to)
     while (first > 0 && s->sloped == 0 && path->value[first - 1] >= from->time - near)
         first--;
     s->sloped = 1;
-    between_take(&s->inside, s->scheme->degree, from, to);
+    dense_output_set(&s->inside, s->scheme->degree, from, to);
     for (int i = first; i < path->stations && path->value[i] <= to->time + near; i++)
         for (int q = 0; q < s->c->scene->quantities; q++)
             if (is_slope(s, q))
                 s->out->slope[(size_t)q * (size_t)path->stations + (size_t)i] =
-                    between_reading(&s->inside, &s->c->scene->quantity[q], path->value[i], &s->at);
+                    dense_output_reading(&s->inside, &s->c->scene->quantity[q], path->value[i],
+                                         &s->at);
 }
 
 status stations_alloc(stations *s, fault *f)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
-    TRY(between_alloc(&s->c->eq, &s->inside, f));
-    TRY(instant_alloc(s->c->model, &s->at, f));
+    TRY(dense_output_alloc(&s->c->eq, &s->inside, f));
+    TRY(motion_state_alloc(s->c->model, &s->at, f));
     TRY(outcome_stations(&s->out->path, path->stations, f));
-    s->out->instant = calloc((size_t)path->stations + 1, sizeof *s->out->instant);
+    s->out->at_station = calloc((size_t)path->stations + 1, sizeof *s->out->at_station);
     for (int i = 0; i < s->c->scene->quantities; i++)
         s->slopes |= is_slope(s, i);
     if (s->slopes)
         s->out->slope =
             calloc((size_t)s->c->scene->quantities * (size_t)path->stations, sizeof *s->out->slope);
-    return s->out->instant != NULL && (s->out->slope != NULL || !s->slopes)
+    return s->out->at_station != NULL && (s->out->slope != NULL || !s->slopes)
                ? STATUS_OK
                : fault_set(f, STATUS_FAULT, "out of memory for states of a motion");
 }
 
 void stations_free(stations *s)
 {
-    between_free(&s->inside);
-    instant_free(&s->at);
+    dense_output_free(&s->inside);
+    motion_state_free(&s->at);
 }
 
 /* Returns the time of the next station; INFINITY: none. */
@@ -327,12 +330,13 @@ static double next_of(const stations *s)
     return next < path->stations ? path->value[next] : INFINITY;
 }
 
-static status keep(stations *s, const instant *at, const double balance[SCENE_BALANCES], fault *f)
+static status keep(stations *s, const motion_state *at, const double balance[SCENE_BALANCES],
+                   fault *f)
 {
     const model *m = s->c->model;
     const model_size size = model_sizes(m);
     const size_t bytes = (size_t)(size.free + size.driven + 1) * sizeof(double);
-    outcome_instant *to = &s->out->instant[s->out->path.reached];
+    outcome_instant *to = &s->out->at_station[s->out->path.reached];
     to->rate = malloc(2 * bytes);
     if (to->rate == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a state of a motion");
@@ -358,17 +362,17 @@ static int reads_forces(const stations *s, double time)
     return 0;
 }
 
-/* Writes a station from a side step that starts at the start of the step of the motion. */
-static status step_to(stations *s, const instant *from, double time, fault *f)
+/* Writes a station from a probe step that starts at the start of the step of the motion. */
+static status step_to(stations *s, const motion_state *from, double time, fault *f)
 {
     double balance[SCENE_BALANCES];
-    TRY(aside_step(s->c, s->scheme, from, time, &s->at, f));
+    TRY(probe_step(s->c, s->scheme, from, time, &s->at, f));
     TRY(balance_of(&s->c->eq, s->masses, &s->at, balance, f));
     balance[SCENE_DRIFT] -= s->out->origin;
     return keep(s, &s->at, balance, f);
 }
 
-status stations_inside(stations *s, const instant *from, const instant *to, fault *f)
+status stations_inside(stations *s, const motion_state *from, const motion_state *to, fault *f)
 {
     const double end = to->time - same_instant * (to->time - from->time);
     double none[SCENE_BALANCES];
@@ -383,14 +387,14 @@ status stations_inside(stations *s, const instant *from, const instant *to, faul
             continue;
         }
         if (!taken++)
-            between_take(&s->inside, s->scheme->degree, from, to);
-        between_at(&s->inside, next_of(s), &s->at);
+            dense_output_set(&s->inside, s->scheme->degree, from, to);
+        dense_output_at(&s->inside, next_of(s), &s->at);
         TRY(keep(s, &s->at, none, f));
     }
     return STATUS_OK;
 }
 
-status stations_here(stations *s, const instant *now, const double balance[SCENE_BALANCES],
+status stations_here(stations *s, const motion_state *now, const double balance[SCENE_BALANCES],
                      fault *f)
 {
     const double tolerance =

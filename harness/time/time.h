@@ -9,7 +9,7 @@
 
 /* State of a motion at one time. */
 
-typedef struct instant {
+typedef struct motion_state {
     double time; /* [s] */
     model_state *state;
     double *v, *a; /* [free + driven] rates and their derivatives, as defined in time_impl.h */
@@ -25,57 +25,58 @@ typedef struct instant {
     double *ends;
     int ends_known;    /* 0: the values of `ends` are not set and follow from v */
     double *algorithm; /* [free + driven] accelerations that generalized-alpha averages */
-} instant;
+} motion_state;
 
-status instant_alloc(const model *, instant *, fault *);
-void instant_free(instant *);
-void instant_copy(const model *, const instant *from, instant *to);
+status motion_state_alloc(const model *, motion_state *, fault *);
+void motion_state_free(motion_state *);
+void motion_state_copy(const model *, const motion_state *from, motion_state *to);
 /* Returns the number of values in `ends`. */
-size_t instant_ends(const model *);
+size_t motion_state_ends(const model *);
 
 /* A motion inside one step, interpolated by a polynomial of the increment of every coordinate. For
  * rotations, the increment is a rotation vector in the axes of the frame at the start. The
  * polynomial matches positions and rates at both ends. It also matches accelerations if their order
  * equals that of the rates. Prescribed coordinates follow from their drivers. */
 
-typedef enum between_degree {
+typedef enum dense_output_degree {
     /* matches positions and rates: the error inside a step is of order 4, and accelerations are
      * linear */
-    BETWEEN_CUBIC,
-    BETWEEN_QUINTIC /* also matches accelerations: the error is of order 6 */
-} between_degree;
+    DENSE_OUTPUT_CUBIC,
+    DENSE_OUTPUT_QUINTIC /* also matches accelerations: the error is of order 6 */
+} dense_output_degree;
 
-typedef struct step_between {
+typedef struct dense_output {
     const equations *eq;
     const model *m;
-    const instant *from, *to;
-    between_degree degree;
+    const motion_state *from, *to;
+    dense_output_degree degree;
     double *part; /* [free + driven] x 5: coefficients of s, s^2 .. s^5, where s = 0 .. 1 along the
                      step */
     double *room; /* [3 x (free + driven)] */
-} step_between;
+} dense_output;
 
 /* Computes the whole state. Strains, stresses and inner unknowns are interpolated linearly. This is
  * accurate enough for pictures, but not for forces. */
-void between_at(const step_between *, double time, instant *at);
+void dense_output_at(const dense_output *, double time, motion_state *at);
 
 /* Masses at the frames of a model: lumped masses of the elements, and rigid bodies. All masses that
  * are rigidly attached to a frame are combined into one mass with a centre and a tensor. */
 
 /* Mass at a frame, in axes that rotate with the frame and are parallel to the global axes in the
  * undeformed state. */
-typedef struct carried_mass {
+typedef struct frame_mass {
     int frame;         /* vertex that has coordinates, or vertex of a released end */
     double mass;       /* [kg] */
     double moment[3];  /* [kg m] mass times the position of the centre relative to the frame */
     double inertia[9]; /* [kg m^2] moment of inertia about the frame */
-    /* part of `mass` that translations along each global axis do not move (carried_floors) */
+    /* part of `mass` that translations along each global axis do not move (frame_masses_diaphragms)
+     */
     double less[3];
-} carried_mass;
+} frame_mass;
 
-typedef struct carried_masses {
+typedef struct frame_masses {
     int masses;
-    carried_mass *mass; /* [masses] a mass for each frame that has mass */
+    frame_mass *mass; /* [masses] a mass for each frame that has mass */
     /* [coordinates] mass of warping amplitudes [kg m^4]; 0 for other coordinates */
     double *warping;
     double total; /* [kg] total mass */
@@ -83,45 +84,45 @@ typedef struct carried_masses {
     int spread;
     /* [1/s] mass-proportional damping: ratio of force to momentum, including the elements */
     double damping;
-} carried_masses;
+} frame_masses;
 
 /* Lumps half of the mass of a two-node element at each node. Elements with three nodes have the
  * weights of Simpson's rule (Jonker, Eq. 73). The mass of a released end moves with the rotations
  * and shifts of this end. */
-status carried_alloc(const model *, carried_masses *, fault *);
-/* Like carried_alloc, but with rigid bodies only. The elements have consistent masses. */
-status carried_alloc_spread(const model *, carried_masses *, fault *);
+status frame_masses_alloc(const model *, frame_masses *, fault *);
+/* Like frame_masses_alloc, but with rigid bodies only. The elements have consistent masses. */
+status frame_masses_alloc_bodies(const model *, frame_masses *, fault *);
 /* Copies the masses. Nodes of a diaphragm transfer their masses and inertia to the master, except
  * for motions along the normal. The diaphragm must not tilt. */
-status carried_floors(const model *, const carried_masses *, carried_masses *, fault *);
-void carried_free(carried_masses *);
+status frame_masses_diaphragms(const model *, const frame_masses *, frame_masses *, fault *);
+void frame_masses_free(frame_masses *);
 /* Computes a node's share of the mass of an element, with the moment of inertia about the node, and
  * the mass [kg m^4] of the warping amplitude of the node. */
 struct mesh_element;
-void carried_share(const model *, const struct mesh_element *, int node, carried_mass *,
-                   double *warping);
+void frame_masses_share(const model *, const struct mesh_element *, int node, frame_mass *,
+                        double *warping);
 
 /* Work of external forces, which are loads and reactions at prescribed coordinates. */
 
 typedef struct outer_work {
     const equations *eq;
     const model *m;
-    const carried_masses *masses;
+    const frame_masses *masses;
     double *force, *holding; /* [free + driven] work space */
     double *dashpots;        /* [dashpots_room] */
     int elements, *element;  /* elements that have prescribed coordinates */
 } outer_work;
 
-status work_alloc(const equations *, const carried_masses *, outer_work *, fault *);
+status work_alloc(const equations *, const frame_masses *, outer_work *, fault *);
 void work_free(outer_work *);
 
 /* Interface of all time integrators: a step from one state of a motion to the next. */
 
 typedef struct scheme_request {
     analysis_context *c;
-    const carried_masses *masses;
+    const frame_masses *masses;
     const scene_motion *how;
-    outer_work *work; /* computes the work of external forces for instant.work */
+    outer_work *work; /* computes the work of external forces for motion_state.work */
     int estimate;     /* 1: an error estimate is requested for each step */
 } scheme_request;
 
@@ -134,12 +135,12 @@ struct motion_scheme {
     /* motions without inertia, which the error excludes (metric_distance); NULL: none, or unknown
      * before the first step */
     const double *light;
-    between_degree
+    dense_output_degree
         degree; /* interpolation inside a step; quintic if accelerations are as accurate as rates */
     /* Makes a step of h [s]. *error: estimated error of the positions, with the norm of
      * metric_distance. NOT_CONVERGED: `to` is invalid, and `from` has not changed. */
-    status (*step)(motion_scheme *, const instant *from, double h, instant *to, double *error,
-                   step_record *, fault *);
+    status (*step)(motion_scheme *, const motion_state *from, double h, motion_state *to,
+                   double *error, step_record *, fault *);
     void (*free)(motion_scheme *);
 };
 

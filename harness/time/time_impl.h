@@ -1,10 +1,11 @@
 /* Internal interfaces of time/.
  *
- * Sections, in this order: alpha; aside (a step next to those of the motion); balance; body
- * mass; cayley; complement; inertia (relations of rates); forms; carried masses; massive;
- * conserving; deformable; drive; explicit; extent; frames; increment; integrator; kinks; stage;
- * launch; massless; peaks; place; radau; released; resume; settle; shares; spread; stations;
- * turning; vertex rates; watches. */
+ * Sections, in this order: alpha; probe steps; balance; body
+ * mass; cayley; strain update; inertia (relations of rates); forms; masses at frames; massive;
+ * conserving; deformable; drive; explicit; extent; frames; increment; integrator; discontinuities;
+ * stage; initial conditions; massless; extrema; frame motion; radau; released; resume; consistent
+ * massless coordinates; inertia resultants; consistent mass; stations; rotation rates; vertex
+ * rates; observers. */
 #ifndef BEAMWORK_TIME_IMPL_H
 #define BEAMWORK_TIME_IMPL_H
 
@@ -16,19 +17,21 @@
 #include "harness/newton/newton.h"
 #include "harness/time/time.h"
 
-/* Each instant of a motion contains the convergence history of Newton's method, so a rejected step
- * does not change the history. Call instant_recall before a step, and instant_remember after the
- * step. */
-void instant_recall(const instant *from, arrival *);
-void instant_remember(const arrival *, instant *to);
+/* Each state of a motion contains the convergence history of Newton's method, so a rejected step
+ * does not change the history. Call motion_state_recall before a step, and motion_state_store after
+ * the step. */
+void motion_state_recall(const motion_state *from, newton_convergence *);
+void motion_state_store(const newton_convergence *, motion_state *to);
 
-status between_alloc(const equations *, step_between *, fault *);
-void between_free(step_between *);
+status dense_output_alloc(const equations *, dense_output *, fault *);
+void dense_output_free(dense_output *);
 /* Sets the step. The states at both ends must not change while the polynomial is in use. */
-void between_take(step_between *, between_degree, const instant *from, const instant *to);
+void dense_output_set(dense_output *, dense_output_degree, const motion_state *from,
+                      const motion_state *to);
 /* Returns a kinematic quantity at a time inside the step. at: work space. A jerk is the slope of
  * a polynomial of fourth degree through five accelerations of the step. */
-double between_reading(const step_between *, const scene_quantity *, double time, instant *at);
+double dense_output_reading(const dense_output *, const scene_quantity *, double time,
+                            motion_state *at);
 
 /* Returns the power [W] of external forces if `along` contains the rates v, or their work [J] if
  * `along` contains increments, with rotation vectors in the axes of the frames. The forces are
@@ -38,7 +41,8 @@ double work_power(outer_work *, const model_state *, const double v[], const dou
 /* Returns the work [J] of external forces in a step: the mean of the forces at the start and at the
  * end of the step, times the increment inc[free + driven]. The result is exact for constant forces,
  * and of second order otherwise. */
-double work_trapezoid(outer_work *, const instant *from, const instant *to, const double inc[]);
+double work_trapezoid(outer_work *, const motion_state *from, const motion_state *to,
+                      const double inc[]);
 
 /* Returns the allowed energy-balance error [J]: the given fraction of account_size, plus
  * rounding. */
@@ -47,13 +51,13 @@ double account_most(const account *, double part, double rounding);
 /* Checks the energy balance. NOT_CONVERGED: without cause, the motion gained more energy than
  * account_gained allows, or it lost more than account_lost allows although the scene does not
  * request numerical damping. rounding [J]: see balance_rounding. */
-status account_judge(const account *, const scene_motion *, double time,
+status account_check(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
 
 /* Damping of elements: stresses gain V e', where e' are the strain rates. V is eta S0, where S0 is
- * the stiffness of the undeformed element, plus the damping matrix of the formulation. Rigid motions
- * have no damping. Dashpots have the same form, with the deformations of the spring and a given
- * matrix. */
+ * the stiffness of the undeformed element, plus the damping matrix of the formulation. Rigid
+ * motions have no damping. Dashpots have the same form, with the deformations of the spring and a
+ * given matrix. */
 
 /* Sets the present strain rates to known + g (e - strains of `from`) with known[model_stresses].
  * from NULL: g is 0. */
@@ -75,7 +79,7 @@ double springs_circulating_power(const model *, const model_state *, const doubl
 status dashpots_at_node(const model *, const model_state *, const double v[], int node, double F[6],
                         fault *);
 /* Computes strain rates from the rates of the coordinates. Does nothing if there is no damping. */
-status damping_now(const equations *, instant *, fault *);
+status damping_now(const equations *, motion_state *, fault *);
 /* Returns the power dissipated by strain rates [W]. */
 double damping_power(const equations *, const double rate[]);
 
@@ -88,52 +92,52 @@ double damping_power(const equations *, const double rate[]);
  * (alpha_m - alpha_f)/2 - 1/6| (a1 - a). */
 status alpha_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* A side step computes the state of the motion at a time inside a step. The motion does not
+/* A probe step computes the state of the motion at a time inside a step. The motion does not
  * continue from this state. */
 
-/* Makes a side step from the start of the step of the motion. The work of the side step is counted,
- * but its iterations are not recorded. */
-status aside_step(analysis_context *, motion_scheme *, const instant *from, double time,
-                  instant *at, fault *);
+/* Makes a probe step from the start of the step of the motion. The work of the probe step is
+ * counted, but its iterations are not recorded. */
+status probe_step(analysis_context *, motion_scheme *, const motion_state *from, double time,
+                  motion_state *at, fault *);
 /* An instant of the motion at which a quantity is read. */
-typedef struct aside_place {
-    const instant *at;
+typedef struct probe_point {
+    const motion_state *at;
     const double *balance; /* [SCENE_BALANCES]; NULL: not known yet */
     int before;            /* 1: before a jump of the loads at this instant */
-} aside_place;
-status aside_read(const analysis_context *, const carried_masses *, const outcome_motion *,
-                  const scene_quantity *, const aside_place *, double *out, fault *);
+} probe_point;
+status probe_read(const analysis_context *, const frame_masses *, const outcome_motion *,
+                  const scene_quantity *, const probe_point *, double *out, fault *);
 
-/* Values of any quantity inside one step. Quantities that read the same instants share side steps.
+/* Values of any quantity inside one step. Quantities that read the same instants share probe steps.
  */
 
-enum { ASIDES = 4 }; /* number of stored side steps of a step: the first three and the last */
+enum { PROBE_STEPS = 4 }; /* number of stored probe steps of a step: the first three and the last */
 
-typedef struct asides {
+typedef struct probe_steps {
     analysis_context *c;
     motion_scheme *scheme;
-    const carried_masses *masses;
+    const frame_masses *masses;
     const outcome_motion *out;
-    const instant *from, *to; /* ends of the step */
-    instant at[ASIDES];
-    int made;       /* number of stored side steps */
-    status outcome; /* last failure since asides_take; a FAULT is not replaced */
+    const motion_state *from, *to; /* ends of the step */
+    motion_state at[PROBE_STEPS];
+    int made;       /* number of stored probe steps */
+    status outcome; /* last failure since probe_steps_set; a FAULT is not replaced */
     fault why;
-} asides;
+} probe_steps;
 
 /* The caller sets c, scheme, masses and out. */
-status asides_alloc(asides *, fault *);
-void asides_free(asides *);
-void asides_take(asides *, const instant *from, const instant *to);
+status probe_steps_alloc(probe_steps *, fault *);
+void probe_steps_free(probe_steps *);
+void probe_steps_set(probe_steps *, const motion_state *from, const motion_state *to);
 /* Returns the value at a time of the step, before the factor and offset of the quantity are
  * applied. NAN: no solution was found, and `outcome` contains the status. */
-double asides_reading(asides *, const scene_quantity *, double time);
+double probe_steps_reading(probe_steps *, const scene_quantity *, double time);
 
 /* Energies and momenta during a motion. */
 
 /* Computes out[SCENE_BALANCES]. The initial energy is not yet subtracted from the energy-balance
  * error. */
-status balance_of(const equations *, const carried_masses *, const instant *,
+status balance_of(const equations *, const frame_masses *, const motion_state *,
                   double out[SCENE_BALANCES], fault *);
 /* Returns the strain energy [J] due to rounding errors of all coordinates; smaller energies
  * count as zero. */
@@ -161,10 +165,10 @@ status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
 /* Computes the mass matrix of a body in a state. For the first of several joined bodies, computes
  * the mass matrix of all of them. Returns the largest mass of a frame or of a node [kg]. */
-double body_mass_of(const model *, const carried_masses *, int body, const model_state *,
+double body_mass_of(const model *, const frame_masses *, int body, const model_state *,
                     body_mass *);
 /* Returns the mass of a warping amplitude [kg m^4]. */
-double body_mass_warps(const model *, const carried_masses *, int warp, const model_state *);
+double body_mass_warps(const model *, const frame_masses *, int warp, const model_state *);
 /* Returns the rank of M. Values up to `none` count as zero. */
 int body_mass_rank(body_mass *, double none);
 
@@ -224,29 +228,30 @@ void cayley_forces(const cayley_step *, int columns, double f[]);
  * These are the same equations in complementary (Hellinger-Reissner) form. The solution does not
  * change. */
 
-typedef struct complement complement; /* data for one state */
+typedef struct strain_update strain_update; /* data for one state */
 
 /* Allocates the data of the update. Sets *out to NULL if no update is needed or possible. This is
  * the case if all stresses are linear in the strains, if they depend on inner unknowns of the
  * element, or if the type evaluates all elements in one call (in another process), so that updates
  * would need many requests. */
-status complement_alloc(const equations *, complement **out, fault *);
-void complement_free(complement *);
+status strain_update_alloc(const equations *, strain_update **out, fault *);
+void strain_update_free(strain_update *);
 
 /* Call before advance_state. Does nothing for NULL. */
-void complement_keep(complement *, const model_state *);
+void strain_update_begin(strain_update *, const model_state *);
 /* Sets e of every element so that its stresses become sigma, which does not change. Call this
  * function after advance_state. An element does not change if its stresses already agree to 10 %,
  * or if no strains with these stresses are found. iteration: starts at 1. correction: size of
  * Newton's correction. Once all elements agree, no element is checked after a smaller correction in
  * the same step. Does nothing for NULL. */
-void complement_strains(complement *, model_state *, int iteration, double correction);
+void strain_update_apply(strain_update *, model_state *, int iteration, double correction);
 
 /* Derivatives of increments and rates with respect to the state. */
 
 /* Change of the rates and of their derivatives with the state: dv = g dx and da = b dx for
  * translations, warping and angles. For a rotation in the axes of the frame, dx is replaced by d
- * inc, which is X R^T times the spatial increment, where X = turning_inverse at inc[free + driven].
+ * inc, which is X R^T times the spatial increment, where X = rotation_rates_inverse at inc[free +
+ * driven].
  * */
 typedef struct inertia_relation {
     double b, g; /* [1/s^2], [1/s] */
@@ -300,17 +305,17 @@ void forms_add_force(const model *, const model_state *, int vertex, const doubl
  * J w. */
 
 /* Computes the force and the moment about the frame that accelerate a mass: F[6]. */
-void inertia_force_at(const carried_mass *, const frame_rates *, double F[6]);
-void inertia_force(const model *, const carried_mass *, const model_state *, const double v[],
+void inertia_force_at(const frame_mass *, const frame_rates *, double F[6]);
+void inertia_force(const model *, const frame_mass *, const model_state *, const double v[],
                    const double a[], double F[6]);
 /* Subtracts from out[free + driven] the inertia forces for the rates v and their derivatives a. a
  * NULL: zero, so only the terms due to velocities remain. */
-void inertia_subtract(const model *, const carried_masses *, const model_state *, const double v[],
+void inertia_subtract(const model *, const frame_masses *, const model_state *, const double v[],
                       const double a[], double out[]);
 
 /* Adds the derivative of the inertia forces with respect to the coordinates to S. Rotations are in
  * the exponential chart, as in all parts of a tangent. */
-void inertia_add_tangent(const equations *, const carried_masses *, const model_state *,
+void inertia_add_tangent(const equations *, const frame_masses *, const model_state *,
                          const double v[], const double a[], const inertia_relation *, sparse *S);
 
 /* Frame on the arm of a diaphragm. The arm rotates by the first angle of the frame: v = v_master +
@@ -348,13 +353,13 @@ typedef struct inertia_parts {
     double force[3]; /* inertia force */
     inertia_swing swing;
 } inertia_parts;
-void inertia_frame(const model *, const carried_masses *, int index, const model_state *,
+void inertia_frame(const model *, const frame_masses *, int index, const model_state *,
                    const double v[], const double a[], inertia_parts *out);
 /* inertia_times computes out = A diag(translation 1, B). K is the sum of such
  * products. inertia_finish transforms the rows of K to coordinates, and adds the motion on an arm.
  * rate, place: as for inertia_swing_column. */
 void inertia_times(const double A[36], double translation, const double B[9], double out[36]);
-void inertia_finish(const model *, const carried_masses *, int index, const inertia_parts *,
+void inertia_finish(const model *, const frame_masses *, int index, const inertia_parts *,
                     double rate, double place, double K[36]);
 typedef struct inertia_balance {
     double kinetic;     /* [J] */
@@ -363,11 +368,11 @@ typedef struct inertia_balance {
 } inertia_balance;
 /* Computes momentum and energy. ends[released ends x 6]: velocities of the centres of mass of
  * released ends, and angular velocities in the axes of the ends; NULL: they follow from v. */
-void inertia_of(const model *, const carried_masses *, const model_state *, const double v[],
+void inertia_of(const model *, const frame_masses *, const model_state *, const double v[],
                 const double ends[], inertia_balance *out);
 
 /* Returns the power [W] that mass-proportional damping dissipates at the rates v. */
-double inertia_damping_power(const model *, const carried_masses *, const model_state *,
+double inertia_damping_power(const model *, const frame_masses *, const model_state *,
                              const double v[]);
 
 /* Motions with inertia, for error estimates. An estimate must not use the accelerations of massless
@@ -381,7 +386,7 @@ typedef struct massive {
 } massive;
 
 /* Evaluates the lumped masses in a state, for the functions below. */
-status massive_of(const model *, const carried_masses *, const model_state *, massive *, fault *);
+status massive_of(const model *, const frame_masses *, const model_state *, massive *, fault *);
 void massive_free(massive *);
 /* Removes motions without inertia from e. Returns the square root of the sum of weight[c] e[c]^2
  * over the free coordinates. */
@@ -389,12 +394,12 @@ double massive_norm(const massive *, const model *, const double weight[], doubl
 
 /* Internals of a conserving step. */
 
-typedef struct evaluation evaluation;
+typedef struct deformable_values deformable_values;
 
 typedef struct conserving {
     motion_scheme base;
     scheme_request of;
-    carried_masses masses; /* carried_floors */
+    frame_masses masses; /* frame_masses_diaphragms */
     int free, all;
     sparse S;
     matrix_factor *factor;
@@ -418,64 +423,65 @@ typedef struct conserving {
     double *spring;
     double *slot; /* [deformables x slot_size] data that the evaluation stores for the update */
     int slot_size;
-    complement *complement;
-    evaluation *evaluation; /* [CHUNK_MOST] work space */
-    double h;               /* [s] size of the step */
+    strain_update *strain_update;
+    deformable_values *deformable_values; /* [CHUNK_MOST] work space */
+    double h;                             /* [s] size of the step */
     double k, denominator,
         /* missing: residual of the equation for k, which is the sum of k_e . gap_e + k_d . gap_d */
         missing;
     int settled;            /* 1: the remaining gaps are rounding errors and cause no stresses */
     int wild;               /* 1: k was too large and was not used */
     double largest, change; /* stresses */
-    arrival arrival;
+    newton_convergence newton_convergence;
     long counted;
 } conserving;
 
 /* Functions for all elements and springs (conserving_strain.c). */
 /* Computes the energies, and the data of the springs, at the start of the step. Sets d to zero. */
-status conserving_begin(conserving *, const instant *from, fault *);
+status conserving_begin(conserving *, const motion_state *from, fault *);
 /* Computes the stresses for the present strains, and k. k is 0 until it is reliable. */
-status conserving_stresses(conserving *, const instant *from, model_state *now, int iteration,
+status conserving_stresses(conserving *, const motion_state *from, model_state *now, int iteration,
                            fault *);
 /* Updates the strains at the end of the step and d, for the increments dx. Returns the largest
  * change of an inner unknown. */
-double conserving_update(conserving *, const instant *from, model_state *now);
+double conserving_update(conserving *, const motion_state *from, model_state *now);
 
 /* Subtracts the forces of elements and springs from the residual, and adds their tangent to S,
  * including the terms `column` and `row` (conserving_forces.c). */
-void conserving_forces(conserving *, const instant *from, model_state *now,
+void conserving_forces(conserving *, const motion_state *from, model_state *now,
                        double *incompatibility);
 
 /* Subtracts the inertia forces from the residual and adds their tangent to S (conserving_strain.c).
  * */
-void conserving_inertia(conserving *, const instant *from, const model_state *now, double h);
+void conserving_inertia(conserving *, const motion_state *from, const model_state *now, double h);
 
 /* Adds to out[free + driven] the loads at the middle of the step, and adds their tangent to S
  * (conserving_forces.c). */
-void conserving_loads(conserving *, const instant *from, const model_state *now, double h,
+void conserving_loads(conserving *, const motion_state *from, const model_state *now, double h,
                       double out[]);
 
 /* Computes an initial guess of the step as increments of coordinates (conserving_strain.c). */
-void conserving_predict(conserving *, const instant *from, double h);
+void conserving_predict(conserving *, const motion_state *from, double h);
 void conserving_increment(const conserving *, const model_state *from, double inc[]);
 
 /* Sets the work and the dissipated energy of `to` (conserving_forces.c). */
-status conserving_work(conserving *, const instant *from, instant *to, double h, fault *);
+status conserving_work(conserving *, const motion_state *from, motion_state *to, double h, fault *);
 /* Computes strain rates at the end of the step, and adds eta S0 e' to the stresses of damped
  * members. */
-void conserving_damped(const conserving *, const instant *from, double h, instant *to);
+void conserving_damped(const conserving *, const motion_state *from, double h, motion_state *to);
 
 /* At the end of a step, prescribed coordinates take their prescribed rates, which differ from the
  * rates during the step. Impulses on the prescribed masses cause this change
  * (conserving_driven.c). */
 /* Changes the rates of free coordinates such that these impulses do not change their momenta. */
-void conserving_free_rates(conserving *, const instant *from, double h, instant *to);
+void conserving_free_rates(conserving *, const motion_state *from, double h, motion_state *to);
 /* Returns the work of the impulses. */
-double conserving_impulses(const conserving *, const instant *from, double h, const instant *to);
+double conserving_impulses(const conserving *, const motion_state *from, double h,
+                           const motion_state *to);
 
 /* A frame and its mass during a step. */
 
-typedef struct carried_step {
+typedef struct frame_mass_step {
     double Rn[9], R1[9];
     double centre[3], before[3], after[3],
         /* position of the centre relative to the frame: in the axes of the frame; in global axes at
@@ -486,29 +492,29 @@ typedef struct carried_step {
      * and at the end (1) of the step */
     double v0[3], v1[3], W0[3], W1[3];
     double c[3];
-    int rides;      /* 1: some but not all translations of the frame are fixed */
-    double held[9]; /* projection onto the fixed translations */
-    /* terms due to the fixed translations (see carried.c) */
+    int partly_fixed; /* 1: some but not all translations of the frame are fixed */
+    double held[9];   /* projection onto the fixed translations */
+    /* terms due to the fixed translations (see frame_masses.c) */
     double g[3], behind[3], turned[3], late[3];
-} carried_step;
+} frame_mass_step;
 
 /* Computes the centre of a mass relative to the frame, and its tensor about the centre, both in the
  * axes of the frame. If the frame can only rotate, the origin of the frame replaces the centre. */
-void carried_step_centre(const model *, const carried_mass *, double centre[3], double J[9]);
-void carried_step_of(const conserving *, const instant *from, const model_state *now, double h,
-                     const carried_mass *, carried_step *);
+void frame_mass_step_centre(const model *, const frame_mass *, double centre[3], double J[9]);
+void frame_mass_step_of(const conserving *, const motion_state *from, const model_state *now,
+                        double h, const frame_mass *, frame_mass_step *);
 
-/* Frames with both fixed and free translations (carried.c). */
+/* Frames with both fixed and free translations (frame_masses.c). */
 /* Computes v1 of the fixed translations, and the moment `late` of the forces on these translations.
  * */
-void carried_step_follow(const carried_mass *, carried_step *);
+void frame_mass_step_follow(const frame_mass *, frame_mass_step *);
 /* Computes sway[9]: `swept`, with the rows along fixed translations replaced by the rows of -h/2
  * dv1/dc. swept: minus d(centre)/dc. T: see cayley_tangent. */
-void carried_step_sway(const carried_step *, double h, const double T[9], const double swept[9],
-                       double sway[9]);
+void frame_mass_step_sway(const frame_mass_step *, double h, const double T[9],
+                          const double swept[9], double sway[9]);
 /* Adds the derivative of `late` to K[6 x 6]. */
-void carried_step_late(const carried_mass *, const carried_step *, double h, const double T[9],
-                       const double sway[9], double K[36]);
+void frame_mass_step_late(const frame_mass *, const frame_mass_step *, double h, const double T[9],
+                          const double sway[9], double K[36]);
 
 /* Derivatives of the relative motion of a step (cayley_step) with respect to dr, c and da of the
  * nodes, in closed form. */
@@ -537,7 +543,7 @@ status checks_of(const analysis_context *, int analysis, fault *);
 /* Checks the treatment of massless coordinates. Their positions follow from the equilibrium of each
  * body, which excludes consistent masses. Without numerical damping, their accelerations grow until
  * they overflow. */
-status checks_massless(const analysis_context *, const carried_masses *, const scene_motion *,
+status checks_massless(const analysis_context *, const frame_masses *, const scene_motion *,
                        const model_state *begin, fault *);
 
 /* A step that conserves energy and both momenta for any formulation. The step evaluates `strain` in
@@ -581,20 +587,20 @@ typedef struct deformable {
     double *C, *memory;    /* [strains x strains] P''(e), and the memory of the stress function */
     double *present;       /* [strains] P'(e) */
     double *gap_e, *gap_d; /* [strains] D(x_1) - e and A (dr, c, da) - d */
-    const double *V; /* damping matrix; NULL: there is no damping */
-    double length;   /* [m] reference length for incompatibilities */
+    const double *V;       /* damping matrix; NULL: there is no damping */
+    double length;         /* [m] reference length for incompatibilities */
 } deformable;
 
 /* deformable_count returns the number of deformables, which are the elements followed by the
  * springs. deformable_at returns the data of a deformable. */
 int deformable_count(const conserving *);
-deformable deformable_at(const conserving *, const instant *from, model_state *now, int i);
+deformable deformable_at(const conserving *, const motion_state *from, model_state *now, int i);
 /* Returns the number of elements, starting with index `first`, that are evaluated together. These
  * elements are of the same kind. Returns 1 if elements are evaluated one by one. */
 int deformable_together(const conserving *, int first);
 
 /* Values of an element in one iteration. */
-struct evaluation {
+struct deformable_values {
     deformable of;
     cayley_step step;
     cayley_point point[DEFORMABLE_POINTS];
@@ -615,8 +621,8 @@ struct evaluation {
 
 /* Evaluates the strains and their derivatives of `count` deformables. If there are several, they
  * are elements of the same kind (deformable.c). */
-void deformable_evaluate(const conserving *, const instant *from, const model_state *now, int count,
-                         evaluation[]);
+void deformable_evaluate(const conserving *, const motion_state *from, const model_state *now,
+                         int count, deformable_values[]);
 
 /* Prescribed coordinates as functions of time: their increments, rates and derivatives of rates. */
 
@@ -628,9 +634,10 @@ void drive_at(const equations *, const model_state *from, double time, double in
               double a[]);
 
 /* Runge-Kutta method of order 8 with an error estimate of order 7 (Prince & Dormand 1981, rk8pd of
- * GSL). The equations are inc' = X v and v' = M^-1 (f - h - J^T sigma), where X is turning_inverse
- * for rotations in the axes of the frame, and 1 otherwise. The method computes reference values for
- * a given mesh. Positions are increments from the start of each step. */
+ * GSL). The equations are inc' = X v and v' = M^-1 (f - h - J^T sigma), where X is
+ * rotation_rates_inverse for rotations in the axes of the frame, and 1 otherwise. The method
+ * computes reference values for a given mesh. Positions are increments from the start of each step.
+ */
 
 /* Allocates the integrator. REFUSED: a coordinate has no inertia. */
 status explicit_alloc(const scheme_request *, motion_scheme **, fault *);
@@ -650,9 +657,9 @@ typedef struct explicit_scheme {
                                of strains */
     double power;           /* [W] power of dashpots */
     double *weight;         /* [free + driven] weights as in model.h */
-    const instant *from;    /* start of the present step */
-    double end;             /* [s] latest time at which loads are read */
-    instant *at;            /* state of the last evaluation */
+    const motion_state *from; /* start of the present step */
+    double end;               /* [s] latest time at which loads are read */
+    motion_state *at;         /* state of the last evaluation */
     status outcome;
     fault why;
 } explicit_scheme;
@@ -682,8 +689,8 @@ extern const double extent_guess;
 
 void extent_begin(extent *, const model *);
 /* Returns the extent after a step of h [s]. */
-extent extent_with(const extent *, const model *, const motion_scheme *, const instant *from,
-                   const instant *to, double h, double error);
+extent extent_with(const extent *, const model *, const motion_scheme *, const motion_state *from,
+                   const motion_state *to, double h, double error);
 /* Returns the estimated error of a step of h [s]. If the errors of steps add up, the result follows
  * from the largest estimate within the last ten radians of the motion. The reason is that the error
  * of positions vanishes at a change of sign of the rates, where the error of the rates is largest.
@@ -704,16 +711,17 @@ typedef struct frames {
     const model *m;
     outcome_path *to;
     double begin, end; /* [s] start and end of the motion */
-    step_between inside;
-    instant at;
+    dense_output inside;
+    motion_state at;
 } frames;
 
 /* Allocates the frames. count 0: there are no pictures. The caller sets m, to, begin and end. */
 status frames_alloc(frames *, int count, fault *);
 void frames_free(frames *);
 /* Stores the initial state. */
-status frames_begin(frames *, const instant *now, fault *);
-status frames_step(frames *, between_degree, const instant *from, const instant *to, fault *);
+status frames_begin(frames *, const motion_state *now, fault *);
+status frames_step(frames *, dense_output_degree, const motion_state *from, const motion_state *to,
+                   fault *);
 
 /* Increment between the states at two times: inc[free + driven]. It is a difference for
  * translations, warping and angles, and a rotation vector in the axes of the frame for rotations of
@@ -737,10 +745,10 @@ void integrator_free(motion_scheme *);
  * steps. */
 
 /* Returns the time of the first discontinuity after `time` [s]; INFINITY: none. */
-double kinks_next(const model *, double time);
+double discontinuities_next(const model *, double time);
 /* Returns a time just before `time` if there is a discontinuity at `time`, otherwise `time`. A step
  * that ends at a discontinuity evaluates its loads at the returned time. */
-double kinks_before(const model *, double time);
+double discontinuities_before(const model *, double time);
 
 /* The state of a motion at a time, computed by a mixed Newton iteration (Nijenhuis et al., section
  * 4) from the previous state. The state is in equilibrium with the inertia forces of rates that
@@ -752,22 +760,22 @@ double kinks_before(const model *, double time);
  * error. Corrections must be below 1e-4. The largest possible limit was measured with members that
  * are 1e6 times stiffer in elongation. If the limit exceeds 2e-4, corrections stop decreasing and
  * steps of 0.2 s fail. Below 2e-4, the number of iterations is the same as with new factors. */
-int stage_stands(const arrival *);
+int stage_stands(const newton_convergence *);
 
 typedef struct motion_stage {
     analysis_context *c;
-    const carried_masses *masses;
+    const frame_masses *masses;
     sparse S;
     matrix_factor *factor;
     double *residual, *dx; /* [free + driven] */
-    arrival arrival;
-    complement *complement;
+    newton_convergence newton_convergence;
+    strain_update *strain_update;
     int all, free;
     int begins; /* at a discontinuity, 1: the loads after it apply; 0: the loads before it apply */
     long counted;
 } motion_stage;
 
-status stage_alloc(analysis_context *, const carried_masses *, motion_stage *, fault *);
+status stage_alloc(analysis_context *, const frame_masses *, motion_stage *, fault *);
 void stage_free(motion_stage *);
 
 /* Solves S dx = residual. fresh 0: the existing factors are used. */
@@ -792,87 +800,87 @@ status stage_solve(motion_stage *, const model_state *from, double time, stage_r
 
 /* Computes consistent accelerations and massless coordinates after a discontinuity of the loads.
  * Velocities do not change. */
-status launch_again(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
-                    instant *room, fault *);
+status consistent_restart(analysis_context *, const frame_masses *, const scene_motion *,
+                          motion_state *now, motion_state *room, fault *);
 /* Sets initial rates of a structure at rest in rotating axes. `now` contains the state and the
  * time; `room` is work space. frame: angular velocity [rad/s] and centre [m] of the axes; omega
  * zero: the axes do not rotate. REFUSED: a fixed or prescribed coordinate does not follow this
  * rotation. */
-status launch_turning(analysis_context *, const carried_masses *, const scene_motion *,
-                      const scene_rotating_frame *frame, instant *now, instant *room, fault *);
-/* Like launch_turning, for axes at rest. */
-status launch(analysis_context *, const carried_masses *, const scene_motion *, instant *now,
-              instant *room, fault *);
+status initial_conditions_rotating(analysis_context *, const frame_masses *, const scene_motion *,
+                                   const scene_rotating_frame *frame, motion_state *now,
+                                   motion_state *room, fault *);
+/* Like initial_conditions_rotating, for axes at rest. */
+status initial_conditions(analysis_context *, const frame_masses *, const scene_motion *,
+                          motion_state *now, motion_state *room, fault *);
 
 /* Separates motions with inertia from motions without inertia, for a body and the ends released
  * from it. Positions of motions without inertia always follow from equilibrium. */
 
 /* Computes the number of free coordinates minus the rank of their masses in the state. */
-status massless_count(const model *, const carried_masses *, const model_state *, int *count,
+status massless_count(const model *, const frame_masses *, const model_state *, int *count,
                       fault *);
 /* Removes the motions with inertia from force[free], or from dx[free] (spatial increments of
  * rotations). Only the part along motions without inertia remains. */
-status massless_forces(const model *, const carried_masses *, const model_state *, double force[],
+status massless_forces(const model *, const frame_masses *, const model_state *, double force[],
                        fault *);
-status massless_motion(const model *, const carried_masses *, const model_state *, double dx[],
+status massless_motion(const model *, const frame_masses *, const model_state *, double dx[],
                        fault *);
 /* Finds the quantities of the analysis that read the acceleration or the jerk of a node that moves
  * without inertia: *undefined[quantities of the scene], which the caller frees. Accelerations of
- * massless coordinates are unknown (see settle). REFUSED: the analysis has no other quantities to
- * compute. */
-status massless_readings(const model *, const carried_masses *, const model_state *, int analysis,
+ * massless coordinates are unknown (see consistent_massless). REFUSED: the analysis has no other
+ * quantities to compute. */
+status massless_readings(const model *, const frame_masses *, const model_state *, int analysis,
                          unsigned char **undefined, fault *);
 /* Removes motions without inertia from a[free], given in the coordinates of forms_rates. */
-status massless_drop(const model *, const carried_masses *, const model_state *, double a[],
-                     fault *);
+status massless_drop(const model *, const frame_masses *, const model_state *, double a[], fault *);
 /* Computes the acceleration a[free] due to forces, in the coordinates of forms_rates. The
  * acceleration of coordinates without inertia is 0. */
-status massless_accelerate(const model *, const carried_masses *, const model_state *,
+status massless_accelerate(const model *, const frame_masses *, const model_state *,
                            const double force[], double a[], fault *);
 
 /* Extrema of reactions, resultants, stresses, energies and momenta during a motion. The values at
  * the ends of steps are those of the scheme. Between the ends, a cubic through four consecutive
- * ends (order 4) shows where a value may be larger, and a side step computes the value at this
- * time. An extremum of the cubic counts only if the side step differs from it by less than it
+ * ends (order 4) shows where a value may be larger, and a probe step computes the value at this
+ * time. An extremum of the cubic counts only if the probe step differs from it by less than it
  * exceeds the values at both ends. An extremum that the steps do not resolve is therefore rejected.
  */
 
-enum { PEAKS_ENDS = 4 }; /* number of consecutive ends of steps */
+enum { EXTREMA_ENDS = 4 }; /* number of consecutive ends of steps */
 
 /* One quantity. */
-typedef struct peak {
+typedef struct extremum {
     const scene_quantity *q;
     outcome_passing *out;
     /* sign 1: maximum, -1: minimum; the other members are the window [s] */
     double sign, from, until;
-    double value[PEAKS_ENDS]; /* values at the last ends of steps */
-} peak;
+    double value[EXTREMA_ENDS]; /* values at the last ends of steps */
+} extremum;
 
-typedef struct peaks {
+typedef struct extrema {
     analysis_context *c;
     int analysis;
     motion_scheme *scheme;
-    const carried_masses *masses;
+    const frame_masses *masses;
     outcome_motion *out;
     /* number of quantities, and number of ends since the start or since the last discontinuity of
      * the loads */
     int count, ends;
-    peak *one; /* [count] */
-    instant last[PEAKS_ENDS], at;
-} peaks;
+    extremum *one; /* [count] */
+    motion_state last[EXTREMA_ENDS], at;
+} extrema;
 
 /* Allocates the search for extrema. Does nothing if no quantity needs extrema. The caller sets c,
  * analysis, scheme, masses and out. */
-status peaks_alloc(peaks *, fault *);
-void peaks_free(peaks *);
+status extrema_alloc(extrema *, fault *);
+void extrema_free(extrema *);
 /* Adds the end of a step, with its energies. last 1: a discontinuity of the loads or the end of the
  * motion follows the step. */
-status peaks_here(peaks *, const instant *, const double balance[SCENE_BALANCES], int last,
-                  fault *);
+status extrema_here(extrema *, const motion_state *, const double balance[SCENE_BALANCES], int last,
+                    fault *);
 /* Restarts the search after a discontinuity of the loads. */
-void peaks_jump(peaks *);
+void extrema_jump(extrema *);
 /* Completes the search at the end of the motion. */
-void peaks_end(peaks *);
+void extrema_end(extrema *);
 
 /* Motion of a frame during a step, from the coordinates of its body and of a released end. The
  * motion is exact, so forces do the same work in both sets of coordinates. Subscript m denotes the
@@ -883,38 +891,38 @@ void peaks_end(peaks *);
  * mean axis, about which no moment acts. Released sliding s along an axis a adds c x (a s)_m + [a_m
  * - c x (a_1 - a_n)/4] ds to dr. */
 
-enum { PLACE_MOST = 6 + SCENE_RELEASED };
+enum { FRAME_MOTION_MOST = 6 + SCENE_RELEASED };
 
-typedef struct frame_place {
+typedef struct frame_motion {
     /* number of coordinates: six of the body, followed by released rotations and released slides */
     int columns;
     /* [6 x columns] forces F on the frame become work^T F in these coordinates */
-    double work[6 * PLACE_MOST];
+    double work[6 * FRAME_MOTION_MOST];
     /* derivative of (dr, c) of the frame with respect to the coordinates */
-    double moved[6 * PLACE_MOST];
-    double curved[PLACE_MOST * PLACE_MOST]; /* derivative of work^T F at fixed F */
+    double moved[6 * FRAME_MOTION_MOST];
+    double curved[FRAME_MOTION_MOST * FRAME_MOTION_MOST]; /* derivative of work^T F at fixed F */
     /* coordinates from which `work` computes (dr, c); they are conjugate to the forces */
-    double measure[PLACE_MOST];
-} frame_place;
+    double measure[FRAME_MOTION_MOST];
+} frame_motion;
 
 /* Returns 1 if dr and c of the frame are coordinates. */
-int place_plain(const model *, int vertex);
+int frame_motion_is_plain(const model *, int vertex);
 /* Computes the transformations of any frame. F[6]: force on the frame; NULL: zero. */
-void place_of(const conserving *, const model_state *from, const model_state *now, int vertex,
-              const double F[6], frame_place *);
+void frame_motion_of(const conserving *, const model_state *from, const model_state *now,
+                     int vertex, const double F[6], frame_motion *);
 /* Computes dr and c of a frame. */
-void place_step(const conserving *, const model_state *from, const model_state *now, int vertex,
-                double dr[3], double c[3]);
+void frame_motion_step(const conserving *, const model_state *from, const model_state *now,
+                       int vertex, double dr[3], double c[3]);
 
 /* Transforms forces[n] of a frame to its coordinates. The six coordinates of its body start at
  * index `at`, and the released coordinates start at index `own`. The other functions transform
  * rows, and K[n x n] on both sides. */
-void place_forces(const frame_place *, int at, int own, double forces[]);
-void place_row(const frame_place *, int at, int own, double row[]);
-void place_matrix(const frame_place *, int n, int at, int own, double K[]);
+void frame_motion_forces(const frame_motion *, int at, int own, double forces[]);
+void frame_motion_row(const frame_motion *, int at, int own, double row[]);
+void frame_motion_matrix(const frame_motion *, int n, int at, int own, double K[]);
 /* Adds forces F[6] on a frame to out[free + driven], and K[6 x 6] = -dF/d(dr, c) to the tangent. */
-void place_add(conserving *, const model_state *from, const model_state *now, int vertex,
-               const double F[6], const double K[36], double out[]);
+void frame_motion_add(conserving *, const model_state *from, const model_state *now, int vertex,
+                      const double F[6], const double K[36], double out[]);
 
 /* Radau IIA with three stages (Hairer & Wanner II, IV.8) and order 5, for q' = v, v' = a. The
  * unknowns are the positions of the stages, where rotations are vectors in the axes of the frame:
@@ -937,8 +945,8 @@ typedef struct stages_matrix {
 } stages_matrix;
 
 /* Creates the pattern of all three stages. single: pattern of one block. */
-status stages_alloc(const equations *, const carried_masses *, const sparse *single,
-                    stages_matrix *, fault *);
+status stages_alloc(const equations *, const frame_masses *, const sparse *single, stages_matrix *,
+                    fault *);
 void stages_free(stages_matrix *);
 /* Sets the diagonal block of a stage to K. Call this function for stage 0 first, or clear the
  * matrix. */
@@ -959,7 +967,7 @@ typedef struct radau_stage {
     model_state *state;
     double *inc, *rate, *v, *a; /* [free + driven] rate: derivative of inc */
     linear_memory memory;       /* memory of its linearisation */
-    complement *complement;
+    strain_update *strain_update;
 } radau_stage;
 
 typedef struct radau {
@@ -975,21 +983,22 @@ typedef struct radau {
     double *dx;       /* [free + driven] */
     double *weight;   /* [free + driven] */
     double *errors;   /* [STAGES x feedback_count] */
-    arrival arrival;
+    newton_convergence newton_convergence;
     int free, all;
     long counted, counted_single;
 } radau;
 /* Computes the integrals of feedback in all stages. */
-void radau_integrate(radau *, const instant *from, double h, const step_record *);
+void radau_integrate(radau *, const motion_state *from, double h, const step_record *);
 
 /* Functions of radau_equations.c. */
 /* Sets the nodes, the weights and B of the scheme. */
 void radau_coefficients(radau *);
 /* Returns the time of a stage [s]. The time of the last stage is exactly the requested end of the
  * step. */
-double radau_time(const radau *, const instant *from, double h, int stage, const step_record *);
+double radau_time(const radau *, const motion_state *from, double h, int stage,
+                  const step_record *);
 /* Computes v and a of all stages from their increments. */
-void radau_rates(radau *, const instant *from, double h);
+void radau_rates(radau *, const motion_state *from, double h);
 /* Derivatives of the rates (rate) and of the accelerations of stage i with respect to spatial
  * increments of a vertex in stage k: scalars for translations, and [3 x 3] matrices for its
  * rotation, in the axes of its rates. */
@@ -1000,15 +1009,16 @@ void radau_relate(const radau *, int vertex, double h, int i, int k, radau_relat
 
 /* radau_equations.c */
 /* Computes the residual of all stages in their present states, and S if fresh is 1. */
-status radau_equations(radau *, int fresh, const instant *from, double h, step_record *, fault *);
+status radau_equations(radau *, int fresh, const motion_state *from, double h, step_record *,
+                       fault *);
 
 /* Returns the energy [J] that damping dissipates in a completed step. room[elements x strains]:
  * work space. */
-double radau_dissipated(const radau *, const instant *from, double h, double room[]);
+double radau_dissipated(const radau *, const motion_state *from, double h, double room[]);
 /* Adds damping to the stresses of the model for radau_error, with strain rates -sum e_i (increase
  * of strains)/h and tangent g. The damping remains until damping_follow changes it. room[elements x
  * strains]: work space. */
-void radau_damp_error(const radau *, const instant *from, double h, const double e[STAGES],
+void radau_damp_error(const radau *, const motion_state *from, double h, const double e[STAGES],
                       double g, double room[]);
 
 /* Masses of member ends that are released from their nodes. These masses move with the coordinates
@@ -1058,14 +1068,14 @@ typedef struct resume_control {
 
 /* Stores the end of a motion for a later motion of the scene that continues it. The end of the last
  * motion is stored for another run (solve_options.keep_ends). Otherwise does nothing. */
-status resume_keep(const analysis_context *, int analysis, const instant *now,
+status resume_keep(const analysis_context *, int analysis, const motion_state *now,
                    const resume_control *, outcome_motion *, fault *);
 /* Finds the end of an earlier motion of the scene. NOT_CONVERGED: this motion stopped prematurely.
  * */
 status resume_before(const analysis_context *, int before, const outcome_end **, fault *);
 /* Sets the state and the step control from this end. REFUSED: the end belongs to another mesh. */
-status resume_take(const analysis_context *, const outcome_end *, instant *now, resume_control *,
-                   fault *);
+status resume_take(const analysis_context *, const outcome_end *, motion_state *now,
+                   resume_control *, fault *);
 
 /* Consistent state of coordinates without inertia, computed from positions and rates at one time.
  * */
@@ -1074,28 +1084,29 @@ status resume_take(const analysis_context *, const outcome_end *, instant *now, 
  * moments of the other rates, then computes accelerations (0 for massless coordinates). Coordinates
  * whose damping time exceeds a fraction of the step h [s] keep their positions; their rates
  * establish equilibrium. zero[free + driven]: zeros. NOT_CONVERGED: no equilibrium was found. */
-status settle(motion_stage *, const double zero[], double h, instant *now, fault *);
+status consistent_massless(motion_stage *, const double zero[], double h, motion_state *now,
+                           fault *);
 
 /* Inertia forces for reactions and section forces. */
 
 /* The motion that causes inertia forces. */
-typedef struct shares_motion {
+typedef struct inertia_resultants_motion {
     const double *v, *a; /* [free + driven] */
     int spread;          /* 1: consistent masses of elements (element_spreads) */
-} shares_motion;
+} inertia_resultants_motion;
 
 /* Adds to F[6] the force, and the moment about the frame of the node, that accelerate the masses
  * moved by the node. */
-status shares_node(const model *, const model_state *, const shares_motion *, int node, double F[6],
-                   fault *);
+status inertia_resultants_node(const model *, const model_state *,
+                               const inertia_resultants_motion *, int node, double F[6], fault *);
 /* Computes density[nodes][6]: for each node, the force per initial length that accelerates the mass
  * of an element if the whole element has the motion of the node, and the moment about the node. */
-void shares_along(const model *, const model_state *, const shares_motion *, int element,
-                  double density[ELEMENT_MAX_NODES][6]);
+void inertia_resultants_along(const model *, const model_state *, const inertia_resultants_motion *,
+                              int element, double density[ELEMENT_MAX_NODES][6]);
 /* Adds to ends[e][7] the inertia force on the share of an element's mass at its first (0) and last
  * (1) node, including the warping component. */
-void shares_ends(const model *, const model_state *, const shares_motion *, int element,
-                 double ends[2][7]);
+void inertia_resultants_ends(const model *, const model_state *, const inertia_resultants_motion *,
+                             int element, double ends[2][7]);
 
 /* Consistent masses of elements (element_type.spreads), which replace masses lumped at nodes. The
  * inertia forces at the nodes of an element are transferred to the bodies that move the nodes, and
@@ -1104,22 +1115,23 @@ void shares_ends(const model *, const model_state *, const shares_motion *, int 
 struct mesh_element;
 
 /* Computes the inertia forces F[7 nodes] on the nodes of an element. */
-void spread_force(const model *, int element, const model_state *, const double v[],
-                  const double a[], double F[]);
+void consistent_mass_force(const model *, int element, const model_state *, const double v[],
+                           const double a[], double F[]);
 /* Like inertia_subtract, inertia_add_tangent and inertia_of, for consistent masses of elements. */
-void spread_subtract(const model *, const model_state *, const double v[], const double a[],
-                     double damping, double out[]);
-void spread_add_tangent(const equations *, const model_state *, const double v[], const double a[],
-                        double damping, const inertia_relation *, sparse *S);
+void consistent_mass_subtract(const model *, const model_state *, const double v[],
+                              const double a[], double damping, double out[]);
+void consistent_mass_add_tangent(const equations *, const model_state *, const double v[],
+                                 const double a[], double damping, const inertia_relation *,
+                                 sparse *S);
 /* Adds to S the terms that K of the elements omits (inertia_output). */
-void spread_add_omitted(const equations *, const model_state *, const double v[], const double a[],
-                        double damping, sparse *S);
-void spread_add_balance(const model *, const model_state *, const double v[], double *kinetic,
-                        double momentum[3], double angular[3]);
+void consistent_mass_add_omitted(const equations *, const model_state *, const double v[],
+                                 const double a[], double damping, sparse *S);
+void consistent_mass_add_balance(const model *, const model_state *, const double v[],
+                                 double *kinetic, double momentum[3], double angular[3]);
 
 /* Derivatives of the inertia forces of an element with respect to the motions of the bodies that
  * move its nodes (7 coordinates per node), and with respect to those of its released ends. */
-typedef struct spread_parts {
+typedef struct consistent_mass_parts {
     const struct mesh_element *el;
     const model_state *state;
     int columns; /* number of coordinates of the element: 7 per node, then those of released ends */
@@ -1129,49 +1141,52 @@ typedef struct spread_parts {
         acceleration[ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES];
     double turn[ELEMENT_MAX_NODES][9], rate[ELEMENT_MAX_NODES][9];
     double force[ELEMENT_MAX_NODES]
-                [3]; /* inertia forces on the nodes; set only by spread_element */
+                [3]; /* inertia forces on the nodes; set only by consistent_mass_element */
     inertia_swing swing[ELEMENT_MAX_NODES];
-} spread_parts;
-void spread_element(const model *, int element, const model_state *, const double v[],
-                    const double a[], double damping, spread_parts *);
+} consistent_mass_parts;
+void consistent_mass_element(const model *, int element, const model_state *, const double v[],
+                             const double a[], double damping, consistent_mass_parts *);
 /* Computes only the mass matrix, p->acceleration, and p->turn, in the given state. */
-void spread_masses(const model *, int element, const model_state *, spread_parts *);
+void consistent_mass_masses(const model *, int element, const model_state *,
+                            consistent_mass_parts *);
 /* Motion of a body as a function of the coordinates: a factor for translations and warping, and a
  * matrix for rotations. For a released end: matrices for the spatial rotations of its body and of a
  * ball joint, and factors for the other coordinates. */
-typedef struct spread_motion {
+typedef struct consistent_mass_motion {
     double plain, turn[9], ball[9];
-} spread_motion;
+} consistent_mass_motion;
 /* Computes the motions due to spatial increments of the coordinates. */
-void spread_place(const model *, const spread_parts *, spread_motion place[]);
-/* spread_times adds A diag(motions) to out[columns x columns]. spread_rows transforms the rows of
- * rotations to their coordinates. */
-void spread_times(const model *, const spread_parts *, const double A[],
-                  const spread_motion motion[], double out[]);
-void spread_rows(const spread_parts *, double K[]);
+void consistent_mass_place(const model *, const consistent_mass_parts *,
+                           consistent_mass_motion place[]);
+/* consistent_mass_times adds A diag(motions) to out[columns x columns]. consistent_mass_rows
+ * transforms the rows of rotations to their coordinates. */
+void consistent_mass_times(const model *, const consistent_mass_parts *, const double A[],
+                           const consistent_mass_motion motion[], double out[]);
+void consistent_mass_rows(const consistent_mass_parts *, double K[]);
 /* Adds the same terms as inertia_swing_column and inertia_swing_row, without the motion on the arm.
  * */
-void spread_swing(const model *, const spread_parts *, double rate, double place, double K[]);
+void consistent_mass_swing(const model *, const consistent_mass_parts *, double rate, double place,
+                           double K[]);
 
 /* Computes the matrices of small motions about a state during a motion, on all coordinates. The
  * accelerations of `now` are consistent with its forces. out: initially zero except for its time;
  * freed with the outcome, even after a failure. */
-status small_motions_of(const equations *, const carried_masses *, instant *now, outcome_about *out,
-                        fault *);
+status small_motions_of(const equations *, const frame_masses *, motion_state *now,
+                        outcome_about *out, fault *);
 
 /* Times about which modes and harmonic analyses compute small motions. For a time inside a step, a
- * side step computes the state. The motion does not continue from this state. */
+ * probe step computes the state. The motion does not continue from this state. */
 
 typedef struct abouts {
     analysis_context *c;
     int analysis, next; /* next: index of the next time in the outcome */
-    const carried_masses *masses;
+    const frame_masses *masses;
     const scene_motion *how;
     motion_scheme *scheme;
     outcome_motion *out;
     /* [s] a time that is closer than this to the end of a step counts as the end of the step */
     double near;
-    instant at, room;
+    motion_state at, room;
 } abouts;
 
 /* Allocates the data. Does nothing if there are no such times. The caller sets c, analysis, masses,
@@ -1179,44 +1194,45 @@ typedef struct abouts {
 status abouts_alloc(abouts *, fault *);
 void abouts_free(abouts *);
 /* Computes the states at the times inside a step, excluding its end. */
-status abouts_inside(abouts *, const instant *from, const instant *to, fault *);
+status abouts_inside(abouts *, const motion_state *from, const motion_state *to, fault *);
 /* Stores the present state if an analysis needs it. */
-status abouts_here(abouts *, const instant *now, fault *);
+status abouts_here(abouts *, const motion_state *now, fault *);
 
 /* Output of a motion at the requested times, which are independent of the ends of steps. Positions
- * and rates follow from the polynomial inside the step. If forces or energies are read, a side step
- * computes the state. The motion does not continue from this state. */
+ * and rates follow from the polynomial inside the step. If forces or energies are read, a probe
+ * step computes the state. The motion does not continue from this state. */
 
 typedef struct stations {
     analysis_context *c;
     int analysis;
-    const carried_masses *masses;
+    const frame_masses *masses;
     motion_scheme *scheme;
     outcome_motion *out;
     int slopes, sloped; /* slopes 1: a slope is read; sloped 1: a step has been made */
-    step_between inside;
-    instant at;
+    dense_output inside;
+    motion_state at;
 } stations;
 
 /* Allocates the data. The caller sets c, analysis, masses, scheme and out. */
 status stations_alloc(stations *, fault *);
 void stations_free(stations *);
 /* Writes the stations inside a step, excluding its end. */
-status stations_inside(stations *, const instant *from, const instant *to, fault *);
+status stations_inside(stations *, const motion_state *from, const motion_state *to, fault *);
 /* Writes the station at the present time if there is one. */
-status stations_here(stations *, const instant *now, const double balance[SCENE_BALANCES], fault *);
+status stations_here(stations *, const motion_state *now, const double balance[SCENE_BALANCES],
+                     fault *);
 
 /* Rotation vectors of a frame between two times, and their rates. With R = R_n exp(t~), the body
  * rates W of R'(t) = R W~ follow from t': W = Jr(t) t', Jr(t) = 1 - (1 - cos |t|)/|t|^2 t~ + (|t| -
  * sin |t|)/|t|^3 t~ t~. 3 x 3 matrices are row-major. */
 
-void turning_jacobian(const double t[3], double Jr[9]);
+void rotation_rates_jacobian(const double t[3], double Jr[9]);
 /* Computes the inverse of Jr, 1 + t~/2 + (1 - |t|/2 cot(|t|/2))/|t|^2 t~ t~, for |t| < 2 pi. */
-void turning_inverse(const double t[3], double inverse[9]);
+void rotation_rates_inverse(const double t[3], double inverse[9]);
 /* Computes d(Jr(t) y)/dt at fixed y. */
-void turning_derivative(const double t[3], const double y[3], double D[9]);
+void rotation_rates_derivative(const double t[3], const double y[3], double D[9]);
 /* Replaces t by the rotation vector of exp(t~) exp(d~). */
-void turning_add(double t[3], const double d[3]);
+void rotation_rates_add(double t[3], const double d[3]);
 
 /* Velocity and acceleration of frames. */
 
@@ -1260,7 +1276,7 @@ void feedback_tangent(const equations *, const model_state *, const feedback_gai
 
 /* Extrema, level crossings and means of a motion between its stations. Positions and rates come
  * from the polynomial inside a step, whose roots are accurate to rounding error. Level crossings
- * and means of reactions, resultants, stresses, energies and momenta come from side steps. */
+ * and means of reactions, resultants, stresses, energies and momenta come from probe steps. */
 
 /* Values in one step from which a mean is computed. */
 enum { MEANS_NODES = 5 };
@@ -1269,7 +1285,7 @@ typedef struct means_part {
 } means_part;
 
 /* One quantity. */
-typedef struct watched {
+typedef struct observer {
     const scene_quantity *q;
     outcome_passing *out;
     double from, until; /* [s] */
@@ -1278,50 +1294,50 @@ typedef struct watched {
     int crossings; /* number of counted crossings inside the window, in the requested direction */
     double first, last; /* [s] first and last crossing */
     double error;       /* [s] error of the first and of the last crossing */
-    int aside;          /* 1: values come from side steps */
+    int by_probe;       /* 1: values come from probe steps */
     double blur;        /* rounding error of a rate in the present step */
     double blurred;     /* its time integral, for a mean */
     double sum, span; /* time integral of values, or of squares relative to `largest`; length of the
                          interval [s] */
     double largest;   /* largest magnitude so far */
-    /* error of a mean. parts: number of steps with the polynomial; with side steps, 0: no step, 1:
+    /* error of a mean. parts: number of steps with the polynomial; with probe steps, 0: no step, 1:
      * one step, 2: at least one pair. holds 1: `past` is the first step of a pair */
     int parts, holds;
     means_part past;
-    double doubt, worst; /* error of `sum` so far, and its largest magnitude so far */
-    double apart;        /* largest difference between side steps and the polynomial */
-} watched;
+    double add_error, worst; /* error of `sum` so far, and its largest magnitude so far */
+    double apart;            /* largest difference between probe steps and the polynomial */
+} observer;
 
-typedef struct watches {
+typedef struct observers {
     analysis_context *c;
     int analysis;
     motion_scheme *scheme;
     outcome_motion *out;
     int count;
-    watched *one; /* [count] */
-    step_between inside;
-    instant at;
-    const carried_masses *masses;
-    int aside; /* 1: a quantity needs side steps */
-    asides asides;
-} watches;
+    observer *one; /* [count] */
+    dense_output inside;
+    motion_state at;
+    const frame_masses *masses;
+    int by_probe; /* 1: a quantity needs probe steps */
+    probe_steps probe_steps;
+} observers;
 
 /* Allocates the data. The caller sets c, analysis, scheme, masses and out. */
-status watches_alloc(watches *, fault *);
-void watches_free(watches *);
-status watches_step(watches *, const instant *from, const instant *to, fault *);
+status observers_alloc(observers *, fault *);
+void observers_free(observers *);
+status observers_step(observers *, const motion_state *from, const motion_state *to, fault *);
 /* Completes the data at the end of the motion. */
-void watches_end(watches *);
+void observers_end(observers *);
 /* Returns the value of the quantity at a time of the step, before its factor and offset are
  * applied; NAN: there is no value. */
-double watched_value(watches *, const watched *, double time);
-/* Computes the difference between a side step to the given time and the polynomial; 0 for
+double observer_value(observers *, const observer *, double time);
+/* Computes the difference between a probe step to the given time and the polynomial; 0 for
  * quantities that do not use the polynomial. */
-status watched_disagreement(watches *, const watched *, const instant *from, double time,
-                            double *out, fault *);
+status observer_disagreement(observers *, const observer *, const motion_state *from, double time,
+                             double *out, fault *);
 /* Returns the time of point i of Lobatto's rule from a to b. */
 double means_node(double a, double b, int i);
 /* Adds the part from a to b of the step to a mean, or to a root mean square. */
-status means_add(watches *, watched *, const instant *from, double a, double b, fault *);
+status means_add(observers *, observer *, const motion_state *from, double a, double b, fault *);
 
 #endif

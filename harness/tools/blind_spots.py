@@ -6,7 +6,7 @@ usage: blind_spots.py FAULTY VERIFY_JSON RESULTS_H5 FINDINGS_CSV -o BLIND_SPOTS_
 FAULTY is the program with a fault of 1e-3 in one constant of all elements, or in one kind of loads (plant.c).  For
 each constant, the values on the two coarsest meshes with and without the fault give the derivative of every limit.
 VERIFY_JSON, of a run without a fault, contains the band in which a limit may move without changing its verdict
-(harness/study/verdict.c, judgement.c). The smallest detected fault is the band divided by the derivative. There are
+(harness/study/verdict.c, evaluation.c). The smallest detected fault is the band divided by the derivative. There are
 two ways of detection:
   verdict    the verdict differs, for either sign of the fault;
   baseline   the limit at the default point differs from the committed one by more than 1e-5

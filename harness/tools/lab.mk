@@ -36,8 +36,8 @@ lab-causes: all ## compare the errors allowed by the known deviations with the o
 lab-certificates: all ## check every formulation against the interface requirements, and measure what a paper should report; a second; its part of build/results.h5
 	@$(PROGRAM) element-test all -o $(BUILD)/results.h5 || [ $$? = 1 ]
 
-lab-expense: verify needs-report ## fit the expected cost of cells to the counted work of verify; 2 minutes; harness/study/expense.csv
-	@$(PYTHON) -B -m harness.tools.expense $(BUILD)/results.h5 -o harness/study/expense.csv
+lab-run-cost: verify needs-report ## fit the expected cost of cells to the counted work of verify; 2 minutes; harness/study/run_cost.csv
+	@$(PYTHON) -B -m harness.tools.run_cost $(BUILD)/results.h5 -o harness/study/run_cost.csv
 
 lab-faults: ## inject the physical faults of harness/tools/faults.csv one by one; each must be detected; 20 minutes; build/faults.json
 	@mkdir -p $(BUILD) && $(PYTHON) harness/tools/mutate.py --physics >$(BUILD)/faults.list
@@ -69,11 +69,11 @@ lab-mutants: ## inject generated faults of one edit in a fixed sample of all sou
 lab-newton: all ## compare the two forms of Newton's method; 20 seconds; build/newton.json
 	@$(PYTHON) harness/tools/newton.py $(PROGRAM) -o $(BUILD)/newton.json
 
-lab-paces: all ## run the integrators on all cases with motions, with all formulations; check the reference with another integrator; a minute; build/paces.json
-	@$(PYTHON) harness/tools/paces.py $(PROGRAM) -o $(BUILD)/paces.json $(PACES)
+lab-integrators: all ## run the integrators on all cases with motions, with all formulations; check the reference with another integrator; a minute; build/integrators.json
+	@$(PYTHON) harness/tools/integrators.py $(PROGRAM) -o $(BUILD)/integrators.json $(INTEGRATORS)
 
-lab-prices: all needs-report ## fit the cost coefficients of counted work to measured times on an idle machine; 5 minutes; harness/study/prices.csv
-	@$(PYTHON) harness/tools/prices.py $(PROGRAM) -o harness/study/prices.csv
+lab-cost-coefficients: all needs-report ## fit the cost coefficients of counted work to measured times on an idle machine; 5 minutes; harness/study/cost_coefficients.csv
+	@$(PYTHON) harness/tools/cost_coefficients.py $(PROGRAM) -o harness/study/cost_coefficients.csv
 
 lab-valgrind: all ## run a small selection of verify, and a thousand cycles of the library, under valgrind; 10 minutes
 	@harness/tools/valgrind.sh $(BUILD)

@@ -21,8 +21,8 @@ status __real_case_build(const case_type *, const double[], scene *, fault *);
 status __wrap_case_build(const case_type *, const double[], scene *, fault *);
 lumped_mass __real_lumped_of(const section *, unsigned, double);
 lumped_mass __wrap_lumped_of(const section *, unsigned, double);
-int __real_judgement_doubts(const sweep *, const truths *, int);
-int __wrap_judgement_doubts(const sweep *, const truths *, int);
+int __real_evaluation_needs_scatter(const sweep *, const truths *, int);
+int __wrap_evaluation_needs_scatter(const sweep *, const truths *, int);
 
 /* Returns 1 + size if this fault is injected, otherwise 1. */
 static double grown(const char *name)
@@ -201,7 +201,8 @@ status __wrap_case_build(const case_type *type, const double value[], scene *out
     return STATUS_OK;
 }
 
-int __wrap_judgement_doubts(const sweep *s, const truths *t, int series_index)
+int __wrap_evaluation_needs_scatter(const sweep *s, const truths *t, int series_index)
 {
-    return getenv("BEAMWORK_PLANT_MESHES") == NULL && __real_judgement_doubts(s, t, series_index);
+    return getenv("BEAMWORK_PLANT_MESHES") == NULL &&
+           __real_evaluation_needs_scatter(s, t, series_index);
 }

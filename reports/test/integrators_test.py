@@ -206,7 +206,7 @@ class Page(ProgramTest):
     def test_every_case(self):
         folder = self.folder
         motions.leave(folder / "results.h5", motions.record())
-        motions.write(folder / "paces.json", motions.paces())
+        motions.write(folder / "integrators.json", motions.integrator_runs())
         site = drawn(folder, "-k", "elastica/default")
         text = (site / "integrators.html").read_text(encoding="utf-8")
         self.assertIn("Of 6 problems", text)
@@ -219,11 +219,11 @@ class Page(ProgramTest):
         self.assertIn("elbow, beamw_vlasov: does not support shear", text)
         self.assertRegex(text, r"conserves energy to round-off: conserving, at [\d.]+ times the cost")
 
-    def test_an_old_paces(self):
+    def test_old_integrator_runs(self):
         motions.leave(self.folder / "results.h5", motions.record())
         for text in ('{"cases": []}', "[1", "[]"):
-            (self.folder / "paces.json").write_text(text, encoding="utf-8")
-            with self.assertRaisesRegex(Unreadable, "run 'make lab L=paces', or remove it"):
+            (self.folder / "integrators.json").write_text(text, encoding="utf-8")
+            with self.assertRaisesRegex(Unreadable, "run 'make lab L=integrators', or remove it"):
                 integrators.read(self.folder / "results.h5")
 
     def test_nothing_from_elsewhere(self):

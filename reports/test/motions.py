@@ -94,8 +94,8 @@ def record(cases=("pendulum", "free_flight_space"),
             "program_version": "0.1.0", "commit": "made up", "clock": "2026-01-01T00:00:00Z"}
 
 
-def paces():
-    """Returns records for three cases in the form that `make lab L=paces` writes. One check was possible, and one was
+def integrator_runs():
+    """Returns records for three cases in the form that `make lab L=integrators` writes. One check was possible, and one was
     not."""
     check = {"case": "elbow", "parameters": "time=3", "formulation": "collocation", "elements": 8,
              "distances": [3e-9, 4e-10], "uncertainty": 1e-10, "steps": 50, "reason": ""}

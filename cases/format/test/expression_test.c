@@ -58,7 +58,7 @@ static void check_mistakes(const scope *names)
     static const struct {
         const char *text;
         int column; /* counted as in text_node, from column 10 */
-        const char *says;
+        const char *message;
     } all[] = {{"", 10, "ends"},
                {"1+", 12, "ends"},
                {"depth/0*/2", 10, "unknown name 'depth'"},
@@ -92,7 +92,7 @@ static void check_mistakes(const scope *names)
         const int read = expression_number(&n, names, &m, &value);
         gsl_test(read || m.count != 1, "'%s' is one mistake", all[i].text);
         gsl_test_int(m.list[0].column, all[i].column, "'%s': its column", all[i].text);
-        gsl_test(strstr(m.list[0].text, all[i].says) == NULL, "'%s': %s", all[i].text,
+        gsl_test(strstr(m.list[0].text, all[i].message) == NULL, "'%s': %s", all[i].text,
                  m.list[0].text);
     }
 }
@@ -198,7 +198,7 @@ static void check_refused(void)
     static const struct {
         const char *text;
         int line, column;
-        const char *says;
+        const char *message;
     } all[] = {{"", 1, 1, "empty"},
                {"# nothing\n", 2, 1, "empty"},
                {"a: &x 1\n", 1, 4, "anchor"},
@@ -227,7 +227,7 @@ static void check_refused(void)
         gsl_test(m.list[0].line != all[i].line || m.list[0].column != all[i].column,
                  "%zu: %d:%d, not %d:%d", i, m.list[0].line, m.list[0].column, all[i].line,
                  all[i].column);
-        gsl_test(strstr(m.list[0].text, all[i].says) == NULL, "%zu: %s", i, m.list[0].text);
+        gsl_test(strstr(m.list[0].text, all[i].message) == NULL, "%zu: %s", i, m.list[0].text);
         arena_free(&a);
     }
 }
@@ -258,7 +258,7 @@ static void check_bad_loops(void)
     static const struct {
         const char *text;
         int column;
-        const char *says;
+        const char *message;
     } all[] = {{"n_$j: {for: {i: 0..2}}\n", 3, "did you mean 'i'"},
                {"n_$i: {for: {i: [0.5, 1]}}\n", 3, "only whole numbers"},
                {"n_$i: {for: 0..2}\n", 13, "for: {i: 0..5}"},
@@ -275,7 +275,7 @@ static void check_bad_loops(void)
         unroll_entries(root, NULL, &a, &m, &list);
         gsl_test_int(m.count, 1, "%s is told once", all[i].text);
         gsl_test_int(m.list[0].column, all[i].column, "%s: column", all[i].text);
-        gsl_test(strstr(m.list[0].text, all[i].says) == NULL, "%s: %s", all[i].text,
+        gsl_test(strstr(m.list[0].text, all[i].message) == NULL, "%s: %s", all[i].text,
                  m.list[0].text);
         arena_free(&a);
     }
@@ -308,7 +308,7 @@ static void document_tests(void)
 /* SI units are accepted in scene files. For other units, the error message must state the SI unit
  * to use and the conversion factor. */
 
-static const char *said(const char *unit, mistakes *m)
+static const char *message_of(const char *unit, mistakes *m)
 {
     const document_node text = {
         .kind = DOCUMENT_TEXT, .line = 3, .column = 10, .inset = 0, .text = unit};
@@ -352,7 +352,7 @@ static const struct {
 static void remedy_of(const char *unit, const char *si, double factor)
 {
     mistakes m;
-    const char *text = strstr(said(unit, &m), "write ");
+    const char *text = strstr(message_of(unit, &m), "write ");
     char written[40] = "", taken[40] = "";
     double amount = NAN, value = NAN;
     gsl_test(text == NULL, "%s has a remedy", unit);
@@ -371,7 +371,7 @@ static void remedy_of(const char *unit, const char *si, double factor)
     gsl_test(!(fabs(value / (amount * factor) - 1) < 1e-12), "%s: %g of it are %.17g %s", unit,
              amount, value, si);
     gsl_test(strcmp(taken, si) != 0, "%s: in %s", unit, taken);
-    gsl_test(said(si, &m)[0] != '\0', "%s is taken: %s", si, said(si, &m));
+    gsl_test(message_of(si, &m)[0] != '\0', "%s is taken: %s", si, message_of(si, &m));
 }
 
 static void check_si(void)
@@ -385,9 +385,9 @@ static void check_si(void)
                                               "N/m m", "kN s", "mN/m", "(m)"};
     mistakes m;
     for (size_t i = 0; i < sizeof taken / sizeof taken[0]; i++)
-        gsl_test(said(taken[i], &m)[0] != '\0', "%s: %s", taken[i], said(taken[i], &m));
+        gsl_test(message_of(taken[i], &m)[0] != '\0', "%s: %s", taken[i], message_of(taken[i], &m));
     for (size_t i = 0; i < sizeof none / sizeof none[0]; i++)
-        gsl_test(said(none[i], &m)[0] == '\0', "'%s' is refused", none[i]);
+        gsl_test(message_of(none[i], &m)[0] == '\0', "'%s' is refused", none[i]);
 }
 
 static void units_tests(void)
@@ -396,10 +396,10 @@ static void units_tests(void)
     check_si();
     for (size_t i = 0; i < sizeof foreign / sizeof foreign[0]; i++)
         remedy_of(foreign[i].unit, foreign[i].si, foreign[i].factor);
-    gsl_test(strstr(said("Nm", &m), "write unit: N m") == NULL, "Nm");
-    gsl_test(strstr(said("-", &m), "write unit: 1") == NULL, "a dash");
-    gsl_test(strstr(said("", &m), "write unit: 1") == NULL, "nothing");
-    gsl_test(strstr(said("furlong", &m), "is unknown") == NULL, "a furlong");
+    gsl_test(strstr(message_of("Nm", &m), "write unit: N m") == NULL, "Nm");
+    gsl_test(strstr(message_of("-", &m), "write unit: 1") == NULL, "a dash");
+    gsl_test(strstr(message_of("", &m), "write unit: 1") == NULL, "nothing");
+    gsl_test(strstr(message_of("furlong", &m), "is unknown") == NULL, "a furlong");
     gsl_test_int(m.list[0].line, 3, "its line");
     gsl_test_int(m.list[0].column, 10, "its column");
 }

@@ -13,7 +13,7 @@
 #include "harness/study/study.h"
 
 enum { MOST = 128, KEY = 400, KINDS = SCENE_READING + 1 };
-static int seen[KINDS], asked;
+static int seen[KINDS], requested;
 
 /* Writes a text that identifies the quantity: its extracted value, its factor and its offset. */
 static void key_of(const char *text, const scene_quantity *q, char key[KEY])
@@ -46,7 +46,7 @@ static void check_scene(const scene *s, const char *name)
                 gsl_test(1, "%s: %s and %s are told apart in a file or in words only: %s", name,
                          s->quantity[k].name, s->quantity[i].name, sentence[i]);
         seen[s->quantity[i].what.kind]++;
-        asked++;
+        requested++;
     }
     free(text);
 }
@@ -198,7 +198,7 @@ static void meaning_tests(void)
     check_examples();
     for (int kind = 0; kind < KINDS; kind++)
         gsl_test(seen[kind] == 0, "quantities of kind %d: %d", kind, seen[kind]);
-    printf("%d quantities\n", asked);
+    printf("%d quantities\n", requested);
 }
 
 /* Cases that the build generates from scene files must have the same parameters, the same names of

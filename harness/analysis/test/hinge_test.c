@@ -143,8 +143,8 @@ static void supported(const char *chosen, int dense)
                      released[k], !dense);
         scenes_solve(SPRINGS, chosen, 4, &at_node, "of=end;released=%s;about=%d", released[k],
                      !dense);
-        const int asked = dense ? 19 : 23;
-        gsl_test(at_node.solve.quantities != asked || at_support.solve.quantities != asked,
+        const int requested = dense ? 19 : 23;
+        gsl_test(at_node.solve.quantities != requested || at_support.solve.quantities != requested,
                  "%s, %s: %d quantities", chosen, released[k], at_node.solve.quantities);
         for (int i = 0; i < at_node.solve.quantities; i++) {
             const double expected = at_support.solve.quantity[i].value,

@@ -35,14 +35,14 @@ static double curves_apart(const answer *a, const answer *b, int i)
     return worst;
 }
 
-static double difference(const answer *a, const answer *b, const char **whose)
+static double difference(const answer *a, const answer *b, const char **quantity_name)
 {
     double worst = a->count == b->count ? 0 : INFINITY;
-    *whose = "their number";
+    *quantity_name = "their number";
     for (int i = 0; i < a->count && i < b->count; i++) {
         const double values = apart_of(a->value[i], b->value[i], a->scale[i]);
         const double apart = worst_of(values, curves_apart(a, b, i));
-        *whose = apart <= worst ? *whose : a->name[i];
+        *quantity_name = apart <= worst ? *quantity_name : a->name[i];
         worst = worst_of(worst, apart);
     }
     return worst;
@@ -105,12 +105,12 @@ static void same(const invariants_subject *s, const char *what, const answer *be
                  scene_edit edit)
 {
     static answer after;
-    const char *whose;
+    const char *quantity_name;
     if (!found(s, n, 0, edit, &after))
         return;
-    const double apart = difference(before, &after, &whose);
+    const double apart = difference(before, &after, &quantity_name);
     gsl_test(!(apart <= 1e-8), "%s, %s: %s (%s, %.1e)", s->type->name, s->formulation->name, what,
-             whose, apart);
+             quantity_name, apart);
 }
 
 /* Checks that retaining all coordinates does not change the answer. In some formulations, retained
@@ -121,19 +121,19 @@ static void keep_all(const invariants_subject *s, const answer *fine)
     static answer finer, full;
     const answer *const lean[2] = {fine, &finer};
     double apart[2] = {0, 0};
-    const char *whose = "";
+    const char *quantity_name = "";
     for (int k = 0; k < 2; k++) {
         const int n = s->coarse * (k == 0 ? 2 : 8);
         if ((k == 1 && !found(s, n, 0, unchanged, &finer)) || !found(s, n, 1, unchanged, &full))
             return;
-        apart[k] = difference(lean[k], &full, &whose);
+        apart[k] = difference(lean[k], &full, &quantity_name);
         if (apart[k] <= 1e-8)
             break;
     }
     gsl_test(
         !(apart[0] <= 1e-8 || apart[1] <= apart[0] / 8),
         "%s, %s: keeping what a scene leaves out changes nothing but the mesh (%s, %.1e, %.1e)",
-        s->type->name, s->formulation->name, whose, apart[0], apart[1]);
+        s->type->name, s->formulation->name, quantity_name, apart[0], apart[1]);
 }
 
 static void one_case(const case_type *type, const element_type *e, ask_tally *tally)

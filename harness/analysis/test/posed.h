@@ -598,9 +598,9 @@ static void solve(const posed *p, const element_type *e, answer *a)
 {
     scene s;
     structure(p, &s);
-    const int asked = analyse(&s, p);
+    const int requested = analyse(&s, p);
     begin(&s, p);
-    want(&s, p->column, asked);
+    want(&s, p->column, requested);
     answer_to(&s, p, e, a);
 }
 

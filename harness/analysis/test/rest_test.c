@@ -91,7 +91,7 @@ static void ask_for_all(scene *s)
 }
 
 /* Returns the largest value relative to its limit, and the name of its quantity. */
-static double largest(const scene *s, const solve_result *r, const char **whose)
+static double largest(const scene *s, const solve_result *r, const char **quantity_name)
 {
     const double size = dimension(s), EA = stiffest(s);
     double worst = 0;
@@ -105,7 +105,7 @@ static double largest(const scene *s, const solve_result *r, const char **whose)
             r->quantity[i].status == STATUS_OK ? fabs(r->quantity[i].value) / limit : INFINITY;
         if (!(value <= worst)) {
             worst = value;
-            *whose = q->name;
+            *quantity_name = q->name;
         }
     }
     return worst;
@@ -113,7 +113,7 @@ static double largest(const scene *s, const solve_result *r, const char **whose)
 
 static void rests(const sweep_point *p, const formulation *chosen, int elements)
 {
-    const char *whose = "nothing";
+    const char *quantity_name = "nothing";
     scene s;
     model *m = NULL;
     solve_result r;
@@ -128,7 +128,7 @@ static void rests(const sweep_point *p, const formulation *chosen, int elements)
         outcome = model_alloc(&what, &m, &f);
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&s, m, NULL, &r, &f);
-        worst = outcome == STATUS_OK ? largest(&s, &r, &whose) : INFINITY;
+        worst = outcome == STATUS_OK ? largest(&s, &r, &quantity_name) : INFINITY;
         /* if an arc rises beyond the declared limit of its element, the message names the limit */
         if (outcome == STATUS_NOT_CONVERGED && chosen->type->limits & LIMIT_FLAT_ARC &&
             strstr(f.text, "radii of gyration") != NULL)
@@ -136,7 +136,8 @@ static void rests(const sweep_point *p, const formulation *chosen, int elements)
         result_free(&r);
     }
     gsl_test(!(worst <= 1), "%s/%s, %s, n = %d: at rest (%s: %.1e of its limit) %s", p->type->name,
-             p->text[0] != '\0' ? p->text : "default", chosen->key, elements, whose, worst, f.text);
+             p->text[0] != '\0' ? p->text : "default", chosen->key, elements, quantity_name, worst,
+             f.text);
     model_free(m);
     scene_free(&s);
 }

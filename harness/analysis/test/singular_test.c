@@ -193,8 +193,8 @@ static void round_off(void)
         gsl_test(outcome != STATUS_OK && outcome != STATUS_SINGULAR &&
                      outcome != STATUS_NOT_CONVERGED,
                  "%s: a reported failure", row[i].case_name);
-        const int judged = outcome == STATUS_OK && !isnan(row[i].exact) ? r.solve.quantities : 0;
-        for (int k = 0; k < judged; k++)
+        const int evaluated = outcome == STATUS_OK && !isnan(row[i].exact) ? r.solve.quantities : 0;
+        for (int k = 0; k < evaluated; k++)
             if (strcmp(r.scene.quantity[k].name, row[i].quantity) == 0)
                 gsl_test_rel(r.solve.quantity[k].value, row[i].exact, 1e-5,
                              "%s: an answer is right", row[i].case_name);

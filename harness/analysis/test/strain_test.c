@@ -51,7 +51,7 @@ static void pin(scene *s)
         scene_hold(s, i, SCENE_UX, SCENE_RX);
 }
 
-static int asked(scene *s, const element_type *e, ask_tally *tally, int n, answer *a)
+static int solved(scene *s, const element_type *e, ask_tally *tally, int n, answer *a)
 {
     ask_scene(s, e, NULL, n, a);
     scene_free(s);
@@ -73,7 +73,7 @@ static void clamped(const element_type *e, ask_tally *tally)
     scene_add_quantity(&s, "N_inside", "N", linear, scene_internal_at(0, 0.3, SCENE_N));
     scene_add_quantity(&s, "N_cold", "N", linear, scene_internal_at(1, 1, SCENE_N));
     scene_add_quantity(&s, "ux", "m", linear, scene_coordinate(1, SCENE_UX));
-    if (!asked(&s, e, tally, 2, &a))
+    if (!solved(&s, e, tally, 2, &a))
         return;
     for (int i = 0; i < 3; i++)
         gsl_test_rel(a.value[i], -E * A * eps / 2, 1e-9, "%s: %s of two clamped members, one hot",
@@ -93,7 +93,7 @@ static void cantilever(const element_type *e, ask_tally *tally)
     scene_add_quantity(&s, "ux", "m", linear, scene_coordinate(2, SCENE_UX));
     scene_add_quantity(&s, "uy", "m", linear, scene_coordinate(2, SCENE_UY));
     scene_add_quantity(&s, "N", "N", linear, scene_internal_at(0, 0, SCENE_N));
-    if (!asked(&s, e, tally, 2, &a))
+    if (!solved(&s, e, tally, 2, &a))
         return;
     gsl_test_rel(a.value[0], (hot[0] + cold[0]) * L / 2, 1e-9, "%s: a free end moves", e->name);
     gsl_test_rel(a.value[1], 3 * gsl_pow_3(L) / (3 * E * Iz), 2e-3,
@@ -121,7 +121,7 @@ static void portal(const element_type *e, ask_tally *tally)
     scene_member_at(&s, 1)->strain[0] = shrinks;
     const int linear = scene_add_linear(&s);
     scene_add_quantity(&s, "N", "N", linear, scene_internal_at(1, 0.5, SCENE_N));
-    if (!asked(&s, e, tally, 4, &a))
+    if (!solved(&s, e, tally, 4, &a))
         return;
     /* half of the frame: a column under a force at its head, whose rotation is restrained by half
      * of the beam with the stiffness 2 EI/width */
@@ -149,7 +149,7 @@ static void pinned(const element_type *e, ask_tally *tally)
         scene_add_quantity(&s, "first", "Hz", modal, scene_frequency(0, SCENE_BENDING_Y));
         scene_add_quantity(&s, "second", "Hz", modal, scene_frequency(1, SCENE_BENDING_Y));
         scene_add_quantity(&s, "c", "m/N", compliance, scene_compliance_entry(SCENE_UY, SCENE_UY));
-        if (!asked(&s, e, tally, 16, &a))
+        if (!solved(&s, e, tally, 16, &a))
             return;
         gsl_test_rel(a.value[0], f0 * sqrt(1 - part[i]), 2e-3, "%s: frequency of a beam, %g Euler",
                      e->name, part[i]);
@@ -174,8 +174,8 @@ static void column(const element_type *e, ask_tally *tally)
     scene_add_load(&s, SCENE_FORCE, 1, -2, 0, 0);
     scene_add_quantity(&s, "P", "N", scene_add_buckling(&s, SCENE_NONE),
                        scene_critical_factor(1, 0));
-    if (asked(&s, e, tally, 16,
-              &a)) /* the expected value is a root of the determinant of two spans */
+    if (solved(&s, e, tally, 16,
+               &a)) /* the expected value is a root of the determinant of two spans */
         gsl_test_rel(2 * a.value[0], 28005.43, 1e-5, "%s: critical load of a hot column", e->name);
 }
 
@@ -188,7 +188,7 @@ static void flying(const element_type *e, ask_tally *tally)
         scene s;
         two_members(&s, "flying", i ? hot : none, i ? hot : none);
         scenes_ask_frequencies(&s, "f", scene_add_modal(&s, SCENE_NONE), 8);
-        if (!asked(&s, e, tally, 4, &a[i]))
+        if (!solved(&s, e, tally, 4, &a[i]))
             return;
     }
     for (int i = 6; i < 8; i++)

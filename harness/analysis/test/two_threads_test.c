@@ -58,7 +58,7 @@ static void at_once(const char *name, const scene *s, const model *m)
     result_free(&alone.result);
 }
 
-static void judge(const char *name, const char *with, int elements)
+static void compare_threads(const char *name, const char *with, int elements)
 {
     const case_type *type = case_find(name, NULL);
     double value[CASE_MAX_PARAMETERS];
@@ -81,11 +81,11 @@ static void judge(const char *name, const char *with, int elements)
 
 int main(void)
 {
-    judge("sheet_cantilever", "beamw", 4);
-    judge("c_column", "beamw_consistent", 8);
-    judge("rotating_cantilever", "beamw", 4);
-    judge("lee_frame", "geometrically_exact", 4);
-    judge("elbow", "collocation", 2);
-    judge("tip_body", "beamw_consistent", 4);
+    compare_threads("sheet_cantilever", "beamw", 4);
+    compare_threads("c_column", "beamw_consistent", 8);
+    compare_threads("rotating_cantilever", "beamw", 4);
+    compare_threads("lee_frame", "geometrically_exact", 4);
+    compare_threads("elbow", "collocation", 2);
+    compare_threads("tip_body", "beamw_consistent", 4);
     return gsl_test_summary();
 }

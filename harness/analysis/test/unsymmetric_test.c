@@ -506,16 +506,16 @@ static void families(void)
     for (int family = SCENE_AXIAL; family <= SCENE_TORSION; family++)
         for (int waves = 1; waves <= 3; waves++) {
             const mode_shape shape = {(scene_family)family, waves};
-            for (int asked = SCENE_ANY; asked <= SCENE_TORSION; asked++)
+            for (int requested = SCENE_ANY; requested <= SCENE_TORSION; requested++)
                 for (int half_waves = 0; half_waves <= 3; half_waves++) {
-                    const scene_mode wanted = {.family = (scene_family)asked,
+                    const scene_mode wanted = {.family = (scene_family)requested,
                                                .half_waves = half_waves};
-                    const int fits = asked == SCENE_ANY || asked == family ||
-                                     (asked == SCENE_NOT_AXIAL && family != SCENE_AXIAL);
+                    const int fits = requested == SCENE_ANY || requested == family ||
+                                     (requested == SCENE_NOT_AXIAL && family != SCENE_AXIAL);
                     gsl_test_int(modes_in_family(&wanted, &shape),
                                  fits && (half_waves == 0 || half_waves == waves),
                                  "family %d with %d half-waves, asked for %d with %d", family,
-                                 waves, asked, half_waves);
+                                 waves, requested, half_waves);
                 }
         }
 }

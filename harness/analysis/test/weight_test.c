@@ -100,7 +100,7 @@ static void by_hand(void)
 
 /* A cantilever with bodies that hang on a short stiff bar. The reaction force is the sum of both
  * weights, and the reaction moment is that of both weights about the root after displacement. */
-static void hung(void)
+static void hanging(void)
 {
     static const double down[3] = {0, -9.81, 0};
     const double *c = heavy.centre;
@@ -198,15 +198,15 @@ static void top(int holds)
     const struct {
         const char *name;
         scene_extract what;
-    } asked[] = {{"work", scene_balance_of(SCENE_WORK)},
-                 {"drift", scene_balance_of(SCENE_DRIFT)},
-                 {"y_x", scene_orientation_entry(pin, 1, 0)},
-                 {"y_y", scene_orientation_entry(pin, 1, 1)},
-                 {"y_z", scene_orientation_entry(pin, 1, 2)}};
-    enum { ASKED = sizeof asked / sizeof *asked };
-    for (int i = 0; i < ASKED; i++)
-        scene_set_curve(scene_add_quantity(&s, asked[i].name, "", motion, asked[i].what), "t", "s",
-                        1, 0);
+    } requested[] = {{"work", scene_balance_of(SCENE_WORK)},
+                     {"drift", scene_balance_of(SCENE_DRIFT)},
+                     {"y_x", scene_orientation_entry(pin, 1, 0)},
+                     {"y_y", scene_orientation_entry(pin, 1, 1)},
+                     {"y_z", scene_orientation_entry(pin, 1, 2)}};
+    enum { REQUESTED = sizeof requested / sizeof *requested };
+    for (int i = 0; i < REQUESTED; i++)
+        scene_set_curve(scene_add_quantity(&s, requested[i].name, "", motion, requested[i].what),
+                        "t", "s", 1, 0);
     ask_scene(&s, &element_collocation, NULL, 1, &a);
     scene_free(&s);
     gsl_test(a.outcome != ASK_ANSWERED || a.points[0] != ASK_POINTS, "top: %s", a.reason);
@@ -255,7 +255,7 @@ static void column(double above)
 static void weight_tests(void)
 {
     by_hand();
-    hung();
+    hanging();
     period();
     for (int holds = 1; holds < 4; holds++)
         top(holds);
@@ -365,13 +365,13 @@ static void in_other_axes(const element_type *type, ask_tally *tally)
     }
 }
 
-static void refuse(const char *why, void (*spoil)(scene *))
+static void refuse(const char *why, void (*corrupt)(scene *))
 {
     const double force[3] = {0, 0, -1};
     scene s;
     fault f = {""};
     bent_beam(straight, force, &s);
-    spoil(&s);
+    corrupt(&s);
     gsl_test_int((int)scene_validate(&s, &f), STATUS_REFUSED, "%s: %s", why, f.text);
     gsl_test(strncmp(f.text, "node 0: ", 8) != 0 || strchr(f.text, ';') == NULL,
              "%s: culprit and remedy are named: %s", why, f.text);

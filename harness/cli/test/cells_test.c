@@ -55,7 +55,7 @@ static status read_back(const bytes *b, size_t size, sweep *s)
 {
     fault f = {""};
     FILE *from = size > 0 ? fmemopen(b->at, size, "rb") : fopen("/dev/null", "rb");
-    cells_forget(&s->series[0]);
+    cells_free_results(&s->series[0]);
     const status outcome = cells_read(from, s, 0, &f);
     fclose(from);
     return outcome;

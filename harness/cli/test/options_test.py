@@ -75,7 +75,7 @@ class Tables(ProgramTest):
     """Checks the arrays of options in the sources of the verbs."""
 
     CLI = ROOT / "harness" / "cli"
-    ANSWERS = {"bench": ("bench", "contest", "contestant")}  # source files that use the options; otherwise the file of the verb
+    ANSWERS = {"bench": ("bench", "bench_against", "compared_run")}  # source files that use the options; otherwise the file of the verb
     ELSEWHERE = {("scene", "format")}  # used in the errors that case_input reports
 
     def shown(self, verb):

@@ -34,7 +34,7 @@ static void count_outcomes(double slowdown, int outcomes[3])
             a[i] = noisy(random, drift);
             b[i] = (1 + slowdown) * noisy(random, drift);
         }
-        outcomes[against_judge(PAIRS, a, b).outcome]++;
+        outcomes[against_evaluate(PAIRS, a, b).outcome]++;
     }
     gsl_rng_free(random);
 }
@@ -50,9 +50,9 @@ static void test_against(void)
     gsl_test_int(outcomes[AGAINST_FASTER], TRIALS, "and seen from the other side");
     const double few[10] = {1, 1, 1, 1, 1, 1, 1, 1, 1, 1},
                  twice[10] = {2, 2, 2, 2, 2, 2, 2, 2, 2, 2};
-    gsl_test_int(against_judge(10, few, twice).outcome, AGAINST_UNDECIDED,
+    gsl_test_int(against_evaluate(10, few, twice).outcome, AGAINST_UNDECIDED,
                  "ten pairs cannot give 99.9 %% confidence");
-    gsl_test_int(against_judge(0, few, twice).outcome, AGAINST_UNDECIDED,
+    gsl_test_int(against_evaluate(0, few, twice).outcome, AGAINST_UNDECIDED,
                  "no pair decides nothing");
 }
 
@@ -65,7 +65,7 @@ static void test_interval(void)
         a[i] = 1;
         b[i] = 2 + i;
     }
-    const contest_clock v = against_judge(PAIRS, a, b);
+    const against_times v = against_evaluate(PAIRS, a, b);
     gsl_test_abs(v.ratio, 52, 1e-12, "median of the ratios");
     gsl_test_abs(v.low, 2 + 33, 1e-12, "34th smallest is the lower end (binomial tail)");
     gsl_test_abs(v.high, 2 + 67, 1e-12, "34th largest is the upper end");
@@ -257,20 +257,20 @@ static char all[] = "*", word[32];
 
 /* Returns the counts for one outcome of the given kind, with a known deviation that expects this or
  * another outcome. */
-static extreme_count judged(outcome_kind kind, const char *expected, int whole, int *unexpected,
-                            int *code)
+static extreme_count evaluated(outcome_kind kind, const char *expected, int whole, int *unexpected,
+                               int *code)
 {
     extreme_outcome o = {.kind = kind, .x = 1, .neighbours = -1};
-    extreme_finding row = {
+    extreme_deviation row = {
         .extreme = all, .formulation = all, .quantity = all, .outcome = word, .from = 1, .to = 1};
     formulation chosen = {.key = "element"};
     extreme_count count = {0};
     extreme_sweep s = {.formulations = 1,
                        .outcomes = 1,
-                       .findings = expected != NULL,
+                       .deviations = expected != NULL,
                        .formulation = &chosen,
                        .outcome = &o,
-                       .finding = &row,
+                       .deviation = &row,
                        .count = &count};
     snprintf(word, sizeof word, "%s", expected != NULL ? expected : "");
     extreme_expect(&s, whole);
@@ -286,7 +286,7 @@ static void kinds(void)
         const outcome_kind kind = (outcome_kind)k;
         const int good = kind == OUTCOME_VALUE || kind == OUTCOME_COARSE,
                   skip = kind == OUTCOME_SKIP;
-        const extreme_count c = judged(kind, NULL, 1, &unexpected, &code);
+        const extreme_count c = evaluated(kind, NULL, 1, &unexpected, &code);
         gsl_test_int(unexpected, !good && !skip, "%s: without a finding", outcome_name(kind));
         const int failed = good ? 0 : 1;
         gsl_test_int(code, skip ? 3 : failed, "%s: its exit code", outcome_name(kind));
@@ -297,16 +297,16 @@ static void kinds(void)
         gsl_test_int(c.faults, kind == OUTCOME_FAULT, "%s: a fault", outcome_name(kind));
         gsl_test_int(c.survived + c.named + c.wrong + c.faults, c.tried, "%s: each is one of them",
                      outcome_name(kind));
-        judged(kind, outcome_name(kind), 1, &unexpected, &code);
+        evaluated(kind, outcome_name(kind), 1, &unexpected, &code);
         gsl_test_int(code, skip ? 3 : 0, "%s: as the finding says", outcome_name(kind));
-        judged(kind, kind == OUTCOME_SINGULAR ? "wrong" : "singular", 1, &unexpected, &code);
+        evaluated(kind, kind == OUTCOME_SINGULAR ? "wrong" : "singular", 1, &unexpected, &code);
         gsl_test_int(unexpected, !skip, "%s: not as the finding says", outcome_name(kind));
     }
 }
 
 typedef struct expectation {
     extreme_outcome o;
-    extreme_finding row;
+    extreme_deviation row;
     formulation chosen;
     extreme_count count;
     extreme_sweep s;
@@ -324,10 +324,10 @@ static void one_outcome(outcome_kind kind, double x, expectation *out)
                          .chosen = {.key = "element"}};
     out->s = (extreme_sweep){.formulations = 1,
                              .outcomes = 1,
-                             .findings = 1,
+                             .deviations = 1,
                              .formulation = &out->chosen,
                              .outcome = &out->o,
-                             .finding = &out->row,
+                             .deviation = &out->row,
                              .count = &out->count};
 }
 
@@ -435,7 +435,7 @@ static char words[][16] = {"", "exact", "same", "m"};
 static int exact_extreme(void)
 {
     int i = 0;
-    while (extremes[i].judge != EXTREME_EXACT)
+    while (extremes[i].criterion != EXTREME_EXACT)
         i++;
     return i;
 }
@@ -488,11 +488,11 @@ static void expect(int own, const int mesh[OUTCOME_NEIGHBOURS], const double err
     neighbours_bench b;
     fault f = {""};
     make(own, mesh, error, &b);
-    gsl_test(extreme_judge_first(&b.s, &b.t, &b.o, &f) != STATUS_OK, "%s: %s", what, f.text);
+    gsl_test(extreme_evaluate_first(&b.s, &b.t, &b.o, &f) != STATUS_OK, "%s: %s", what, f.text);
     gsl_test(b.o.kind != OUTCOME_WRONG, "%s: its own value is off: %s", what,
              outcome_name(b.o.kind));
     gsl_test_rel(b.o.error, error[0], 1e-9, "%s: its error", what);
-    extreme_judge_neighbours(&b.s, &b.t, &b.o);
+    extreme_evaluate_neighbours(&b.s, &b.t, &b.o);
     gsl_test(b.o.kind != kind, "%s: %s", what, outcome_name(b.o.kind));
     for (int i = 0; i < OUTCOME_NEIGHBOURS; i++)
         if (isnan(error[i + 1]))

@@ -144,11 +144,11 @@ static void design_tests(void)
 enum { RUNS = 5 };
 
 /* Makes runs of one integrator with steps 0.1, 0.05, ... */
-static void fill(pace *p, pace_group *g, pace_run run[RUNS], const char *method, int nominal,
-                 const double error[RUNS])
+static void fill(integrators *p, integrators_group *g, integrators_run run[RUNS],
+                 const char *method, int nominal, const double error[RUNS])
 {
     memset(p, 0, sizeof *p);
-    *g = (pace_group){.reference = 0, .uncertainty = 1e-12};
+    *g = (integrators_group){.reference = 0, .uncertainty = 1e-12};
     memset(run, 0, RUNS * sizeof *run);
     for (int i = 0; i < RUNS; i++) {
         run[i].step = 0.1 / (1 << i);
@@ -157,44 +157,45 @@ static void fill(pace *p, pace_group *g, pace_run run[RUNS], const char *method,
         run[i].method.order = nominal;
         strcpy(run[i].method.name, method);
     }
-    *p = (pace){.groups = 1, .runs = RUNS, .group = g, .run = run};
+    *p = (integrators){.groups = 1, .runs = RUNS, .group = g, .run = run};
 }
 
 static void verdict_is(const char *what, int nominal, const double error[RUNS],
-                       pace_order_kind right)
+                       integrators_order_kind right)
 {
-    pace p;
-    pace_group g;
-    pace_run run[RUNS];
+    integrators p;
+    integrators_group g;
+    integrators_run run[RUNS];
     fill(&p, &g, run, "one", nominal, error);
-    const pace_ladder l = pace_order_of(&p, 0);
+    const integrators_ladder l = integrators_order_of(&p, 0);
     gsl_test_int(l.count, RUNS, "%s: steps", what);
-    gsl_test(l.kind != right, "%s: %s, orders %g %g", what, pace_order_name(l.kind), l.before,
-             l.order);
+    gsl_test(l.kind != right, "%s: %s, orders %g %g", what, integrators_order_name(l.kind),
+             l.before, l.order);
 }
 
 static void verdicts(void)
 {
-    verdict_is("order 2", 2, (double[]){1, 0.25, 0.0625, 0.015625, 0.00390625}, PACE_ORDER_PASS);
-    verdict_is("order 1", 2, (double[]){1, 0.5, 0.25, 0.125, 0.0625}, PACE_ORDER_LOW);
+    verdict_is("order 2", 2, (double[]){1, 0.25, 0.0625, 0.015625, 0.00390625},
+               INTEGRATORS_ORDER_PASS);
+    verdict_is("order 1", 2, (double[]){1, 0.5, 0.25, 0.125, 0.0625}, INTEGRATORS_ORDER_LOW);
     verdict_is("order 1, then 2", 2, (double[]){1, 0.5, 0.25, 0.125, 0.03125},
-               PACE_ORDER_UNDECIDED);
+               INTEGRATORS_ORDER_UNDECIDED);
     verdict_is("order 5 down to rounding", 5, (double[]){3e-5, 1e-6, 3.2e-8, 1e-9, 4e-12},
-               PACE_ORDER_PASS);
+               INTEGRATORS_ORDER_PASS);
     verdict_is("a run without an error", 2, (double[]){1, 0.25, NAN, 0.015625, 0.00390625},
-               PACE_ORDER_UNDECIDED);
+               INTEGRATORS_ORDER_UNDECIDED);
     verdict_is("all below the floor", 2, (double[]){1e-13, 1e-13, 1e-13, 1e-13, 1e-13},
-               PACE_ORDER_UNDECIDED);
+               INTEGRATORS_ORDER_UNDECIDED);
 }
 
 static void order_of_each(void)
 {
-    pace p;
-    pace_group g;
-    pace_run run[RUNS];
+    integrators p;
+    integrators_group g;
+    integrators_run run[RUNS];
     fill(&p, &g, run, "one", 2, (double[]){1, 0.25, 0.125, 0.015625, 0.00390625});
     strcpy(run[3].method.name, "another");
-    pace_order_fill(&p);
+    integrators_order_fill(&p);
     gsl_test(!isnan(run[0].order) || !isnan(run[3].order), "the first of an integrator has none");
     gsl_test_rel(run[1].order, 2, 1e-14, "against the run before");
     gsl_test_rel(run[2].order, 1, 1e-14, "against the run before");
@@ -204,29 +205,29 @@ static void order_of_each(void)
  * must be interpolated with this power. */
 static void cost_of_a_level(void)
 {
-    pace p;
-    pace_group g;
-    pace_run run[RUNS];
+    integrators p;
+    integrators_group g;
+    integrators_run run[RUNS];
     fill(&p, &g, run, "one", 2, (double[]){1, 0.25, 0.0625, 0.015625, 0.00390625});
-    pace_reach r = pace_reach_of(&p, 0, "one", 0.03125);
+    integrators_reach r = integrators_reach_of(&p, 0, "one", 0.03125);
     gsl_test(r.run != &run[3], "the first run within it");
     gsl_test_rel(r.cost, 4 * sqrt(2), 1e-14, "between two runs");
-    r = pace_reach_of(&p, 0, "one", 2);
+    r = integrators_reach_of(&p, 0, "one", 2);
     gsl_test(r.run != &run[0] || r.cost != 1, "the longest step is within it");
-    r = pace_reach_of(&p, 0, "one", 1e-3);
+    r = integrators_reach_of(&p, 0, "one", 1e-3);
     gsl_test(r.run != NULL, "none is within it");
     run[4].error = 0.02;
-    r = pace_reach_of(&p, 0, "one", 0.016);
+    r = integrators_reach_of(&p, 0, "one", 0.016);
     gsl_test(r.run != NULL, "a shorter step is not within it");
 }
 
-/* Returns 1 if pace_order_stands reports that a quantity with these errors does not converge. The
- * errors of positions converge. */
+/* Returns 1 if integrators_order_stagnates reports that a quantity with these errors does not
+ * converge. The errors of positions converge. */
 static int stands(const double error[RUNS], double floor)
 {
-    pace p;
-    pace_group g;
-    pace_run run[RUNS];
+    integrators p;
+    integrators_group g;
+    integrators_run run[RUNS];
     double value[RUNS];
     fill(&p, &g, run, "one", 2, (double[]){1, 0.25, 0.0625, 0.015625, 0.00390625});
     g.uncertainty = floor / 10;
@@ -234,8 +235,8 @@ static int stands(const double error[RUNS], double floor)
         value[i] = error[i];
         run[i].values = &value[i];
     }
-    const pace_ladder l = pace_order_of(&p, 0);
-    return pace_order_stands(&p, &l, 0);
+    const integrators_ladder l = integrators_order_of(&p, 0);
+    return integrators_order_stagnates(&p, &l, 0);
 }
 
 static void what_does_not_converge(void)
@@ -246,9 +247,12 @@ static void what_does_not_converge(void)
                  "errors that are small");
     gsl_test_int(stands((double[]){0.5, 0.5, 0.5, 0.5, 0.5}, 0.6), 0, "errors of the reference");
     gsl_test_int(stands((double[]){0.5, 0.5, 0.5, 0.5, NAN}, 1e-9), 0, "a run without an error");
-    gsl_test_int(pace_order_is_stopped(&(pace_group){.order = 1.8}), 1, "order 1.8 of five");
-    gsl_test_int(pace_order_is_stopped(&(pace_group){.order = 4.7}), 0, "order 4.7 of five");
-    gsl_test_int(pace_order_is_stopped(&(pace_group){.order = NAN}), 0, "no order is known");
+    gsl_test_int(integrators_order_is_stopped(&(integrators_group){.order = 1.8}), 1,
+                 "order 1.8 of five");
+    gsl_test_int(integrators_order_is_stopped(&(integrators_group){.order = 4.7}), 0,
+                 "order 4.7 of five");
+    gsl_test_int(integrators_order_is_stopped(&(integrators_group){.order = NAN}), 0,
+                 "no order is known");
 }
 
 static void order_tests(void)

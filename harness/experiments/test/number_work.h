@@ -112,23 +112,23 @@ static inline status numbers_shard(const numbers_work *of, const char *into, int
 
 /* Merges the batches in the folders, and computes the result. */
 static inline status numbers_merge(numbers_work *of, const char *const folder[], int folders,
-                                   stock *s, fault *f)
+                                   batch_store *s, fault *f)
 {
     of->n.taken = of->n.next = 0;
     of->n.sum = 0;
-    TRY(stock_take(&of->w, folder, folders, NULL, NULL, s, f));
-    return merge_take(&of->w, s, f);
+    TRY(batch_store_read(&of->w, folder, folders, NULL, NULL, s, f));
+    return merge_read(&of->w, s, f);
 }
 
 static inline void numbers_are_whole(numbers_work *of, const char *const folder[], int folders,
                                      const char *what)
 {
-    stock s = {0};
+    batch_store s = {0};
     fault f = {""};
     gsl_test(numbers_merge(of, folder, folders, &s, &f) != STATUS_OK, "%s: %s", what, f.text);
     gsl_test_int(of->n.taken, NUMBERS_BATCHES, "%s: each once", what);
     gsl_test(of->n.sum != numbers_alone(), "%s: the same bits as in one process", what);
-    stock_free(&s);
+    batch_store_free(&s);
 }
 
 #endif

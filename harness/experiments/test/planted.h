@@ -14,7 +14,7 @@ static const element_type *base; /* the formulation into which the fault is inje
 static inline void planted(const char *family, const element_type *fault_type, const char *first,
                            const char *second)
 {
-    static claims c;
+    static check_results c;
     formulation chosen;
     int noticed = 0;
     formulation_default(base, &chosen);
@@ -25,13 +25,14 @@ static inline void planted(const char *family, const element_type *fault_type, c
         memset(&c, 0, sizeof c);
         checks_families[k].run(&chosen, &c);
         for (int i = 0; i < c.count; i++)
-            noticed += c.claim[i].outcome == CLAIM_BROKEN &&
-                       strstr(c.claim[i].sentence, first) != NULL &&
-                       strstr(c.claim[i].sentence, second) != NULL;
+            noticed += c.check_result[i].outcome == CHECK_FAILED &&
+                       strstr(c.check_result[i].sentence, first) != NULL &&
+                       strstr(c.check_result[i].sentence, second) != NULL;
     }
     gsl_test(noticed == 0, "%s notices: %s ... %s", family, first, second);
     for (int i = 0; i < c.count && noticed == 0; i++)
-        gsl_test(c.claim[i].outcome == CLAIM_BROKEN, "it said: %s", c.claim[i].sentence);
+        gsl_test(c.check_result[i].outcome == CHECK_FAILED, "it said: %s",
+                 c.check_result[i].sentence);
 }
 
 static inline element_type changed(const char *name)

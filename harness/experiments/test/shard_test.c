@@ -14,15 +14,15 @@ static void one_folder(void)
     numbers_work w;
     shard_outcome done;
     fault f = {""};
-    stock s;
+    batch_store s;
     char text[200];
     numbers_begin(&w);
     for (int k = 2; k >= 0; k--) {
         gsl_test(numbers_merge(&w, folder, 1, &s, &f) != STATUS_OK, "what is there: %s", f.text);
-        stock_missing(&s, &w.w, text, sizeof text);
+        batch_store_missing(&s, &w.w, text, sizeof text);
         gsl_test(strstr(text, "of 40 batches are missing: ") == NULL, "%s", text);
         gsl_test(k == 0 && strstr(text, "(shards 1/3)") == NULL, "whose they are: %s", text);
-        stock_free(&s);
+        batch_store_free(&s);
         gsl_test(numbers_shard(&w, of.path, k, 3, &done, &f) != STATUS_OK, "%s", f.text);
         gsl_test(done.done != done.mine || done.mine < 10, "its batches: %d", done.mine);
     }
@@ -42,23 +42,23 @@ static void two_folders(void)
     numbers_work w;
     shard_outcome done;
     fault f = {""};
-    stock s;
+    batch_store s;
     numbers_begin(&w);
     gsl_test(numbers_shard(&w, a.path, 0, 1, &done, &f) != STATUS_OK, "%s", f.text);
     gsl_test(numbers_shard(&w, b.path, 1, 2, &done, &f) != STATUS_OK, "%s", f.text);
     numbers_are_whole(&w, folder, 2, "a part in two folders");
-    gsl_test(stock_take(&w.w, folder, 2, NULL, NULL, &s, &f) != STATUS_OK, "%s", f.text);
+    gsl_test(batch_store_read(&w.w, folder, 2, NULL, NULL, &s, &f) != STATUS_OK, "%s", f.text);
     gsl_test_int(s.twice, done.mine, "batches that are there twice");
-    stock_free(&s);
+    batch_store_free(&s);
     folder_remove(&b);
     const test_folder other = folder_make();
     const char *const unlike[] = {a.path, other.path};
     w.n.sign = -1;
     gsl_test(numbers_shard(&w, other.path, 1, 2, &done, &f) != STATUS_OK, "%s", f.text);
-    gsl_test(stock_take(&w.w, unlike, 2, NULL, NULL, &s, &f) != STATUS_REFUSED ||
+    gsl_test(batch_store_read(&w.w, unlike, 2, NULL, NULL, &s, &f) != STATUS_REFUSED ||
                  strstr(f.text, a.path) == NULL || strstr(f.text, other.path) == NULL,
              "two answers to one batch: both are named: %s", f.text);
-    stock_free(&s);
+    batch_store_free(&s);
     folder_remove(&a);
     folder_remove(&other);
 }

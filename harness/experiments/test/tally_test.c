@@ -66,7 +66,7 @@ static void fill(rows *w)
             }
             w->least[rows_least(w, i, 0, q)] = least[i][q];
             w->kind[rows_quantity(w, i, q)] = ROWS_LIMIT;
-            w->doubt[rows_quantity(w, i, q)] = 1e-4 * i;
+            w->uncertainty[rows_quantity(w, i, q)] = 1e-4 * i;
         }
     w->kind[rows_quantity(w, 4, 0)] = ROWS_NONE;
     w->kind[rows_quantity(w, 1, 0)] = ROWS_STORED;
@@ -76,11 +76,11 @@ static void series_are(const tally *t)
 {
     const tally_series *first = tally_of(t, 0, 0), *second = tally_of(t, 0, 1),
                        *all = tally_of(t, 0, 2);
-    gsl_test_int((int)first->asked, 4, "points with a reference");
+    gsl_test_int((int)first->requested, 4, "points with a reference");
     gsl_test_int((int)first->within[0], 2, "within with 4");
     gsl_test_int((int)first->within[1], 2, "within with 8");
     gsl_test_int((int)first->never, 2, "never: an error that comes back, no solution");
-    gsl_test_int((int)second->asked, 5, "points with a reference, the other quantity");
+    gsl_test_int((int)second->requested, 5, "points with a reference, the other quantity");
     gsl_test_int((int)second->never, 1, "never, the other quantity");
     gsl_test_int(second->everywhere, 4, "enough, but for those");
     gsl_test_int((int)first->proven, 1, "points measured by a reference value");
@@ -89,7 +89,7 @@ static void series_are(const tally *t)
     gsl_test_int((int)first->open, 1, "points with a value that nothing measures");
     gsl_test_int((int)second->open, 0, "none, the other quantity");
     gsl_test_int((int)all->open, 1, "points where one of all is not measured");
-    gsl_test_int((int)all->asked, 4, "points where all are measured");
+    gsl_test_int((int)all->requested, 4, "points where all are measured");
     gsl_test_int((int)all->within[0], 2, "all within with 4: not where one is not measured");
     gsl_test_int((int)all->never, 2, "never all");
     gsl_test_int(all->everywhere, 8, "enough for all, but for those");
@@ -104,8 +104,8 @@ static void map_is(const tally *t)
             const tally_place *p = tally_at(t, 0, 2, k, i);
             gsl_test_int(p->never > 0 ? 0 : p->least, right[k][i], "field %d, %d", k, i);
         }
-    gsl_test_int((int)tally_at(t, 0, 0, 0, 2)->asked, 0, "a field without a reference");
-    gsl_test_int((int)tally_at(t, 0, 2, 0, 2)->asked, 0, "a field where one is not measured");
+    gsl_test_int((int)tally_at(t, 0, 0, 0, 2)->requested, 0, "a field without a reference");
+    gsl_test_int((int)tally_at(t, 0, 2, 0, 2)->requested, 0, "a field where one is not measured");
     gsl_test_int((int)tally_at(t, 0, 2, 1, 2)->points, 0, "a field without a scene");
     gsl_test_int((int)tally_at(t, 0, 0, 1, 0)->proven, 1, "a field measured by a reference value");
     gsl_test_int((int)tally_at(t, 0, 0, 0, 0)->proven, 0, "a field measured by a limit");
@@ -126,7 +126,7 @@ static void worst_are(const tally *t)
     gsl_test_int((int)t->ran[1], 5, "cells that ran");
     gsl_test_int((int)t->without_scene, 1, "points without a scene");
     gsl_test_int((int)t->first_without, 5, "the first of them");
-    gsl_test_rel(t->doubt[1], 4e-4, 1e-15, "the largest doubt");
+    gsl_test_rel(t->uncertainty[1], 4e-4, 1e-15, "the largest doubt");
 }
 
 /* The summary must be the same whether points are added in one call or one by one. */
@@ -270,16 +270,16 @@ static void axis_tests(void)
 
 /* A formulation must satisfy every claim that it makes, and at least one claim must be compared. */
 
-static void tell(const char *key, const checks_family *family, const claims *c)
+static void report(const char *key, const checks_family *family, const check_results *c)
 {
     for (int i = 0; i < c->count; i++)
-        gsl_test(c->claim[i].outcome == CLAIM_BROKEN, "%s, %s: %s (%.1e, allowed %.1e) %s", key,
-                 family->name, c->claim[i].name, c->claim[i].worst, c->claim[i].allowed,
-                 c->claim[i].sentence);
-    gsl_test(c->count == 0, "%s, %s: %d comparisons", key, family->name, claims_compared(c));
+        gsl_test(c->check_result[i].outcome == CHECK_FAILED, "%s, %s: %s (%.1e, allowed %.1e) %s",
+                 key, family->name, c->check_result[i].name, c->check_result[i].worst,
+                 c->check_result[i].allowed, c->check_result[i].sentence);
+    gsl_test(c->count == 0, "%s, %s: %d comparisons", key, family->name, checks_compared(c));
 }
 
-static void contract_tests(void)
+static void interface_tests(void)
 {
     int compared = 0, by_matrices = 0;
     for (int i = 0; registry_formulations[i] != NULL; i++) {
@@ -287,11 +287,11 @@ static void contract_tests(void)
         formulation_default(registry_formulations[i], &chosen);
         by_matrices += (chosen.type->offers & FEATURE_COUPLED) != 0;
         for (int k = 0; k < CHECKS_FAMILIES; k++) {
-            static claims c;
+            static check_results c;
             memset(&c, 0, sizeof c);
             checks_families[k].run(&chosen, &c);
-            tell(chosen.key, &checks_families[k], &c);
-            compared += claims_compared(&c);
+            report(chosen.key, &checks_families[k], &c);
+            compared += checks_compared(&c);
         }
     }
     gsl_test(compared < 100000, "%d comparisons", compared);
@@ -314,11 +314,11 @@ static const struct {
     {{.points = 0}, ".", "."},
     {{.points = 2, .other = 2}, "o", "o"},
     {{.points = 2}, "?", "?"},
-    {{.points = 2, .asked = 2, .never = 1, .proven = 1}, "-*", "-"},
-    {{.points = 2, .asked = 2, .never = 1}, "-", "-"},
-    {{.points = 2, .asked = 2, .proven = 1, .least = 4}, "4*", "4"},
-    {{.points = 2, .asked = 2, .least = 8}, "8", "8"},
-    {{.points = 2, .asked = 1, .proven = 1, .least = 4}, "4*?", "4?"},
+    {{.points = 2, .requested = 2, .never = 1, .proven = 1}, "-*", "-"},
+    {{.points = 2, .requested = 2, .never = 1}, "-", "-"},
+    {{.points = 2, .requested = 2, .proven = 1, .least = 4}, "4*", "4"},
+    {{.points = 2, .requested = 2, .least = 8}, "8", "8"},
+    {{.points = 2, .requested = 1, .proven = 1, .least = 4}, "4*?", "4?"},
 };
 
 static void map_map_is(int mixed)
@@ -340,7 +340,7 @@ static void map_map_is(int mixed)
     gsl_test(tally_alloc(&r, &t, &f) != STATUS_OK, "%s", f.text);
     gsl_test_int(t.columns, PLACES, "columns");
     for (int q = 0; q < 2; q++) {
-        t.series[q].asked = 11;
+        t.series[q].requested = 11;
         t.series[q].proven = mixed ? 3 : 11;
         for (int i = 0; i < PLACES; i++)
             t.map[q * PLACES + i] = field[i].place;
@@ -375,7 +375,7 @@ int main(void)
 {
     tally_tests();
     axis_tests();
-    contract_tests();
+    interface_tests();
     map_tests();
     return gsl_test_summary();
 }

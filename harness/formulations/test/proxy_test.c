@@ -23,7 +23,7 @@ static void get(void *to, size_t size, size_t count)
         exit(0);
 }
 
-static void say_who(void)
+static void names_program(void)
 {
     const char *before = "";
     printf("{\"beamwork\": 1, \"name\": \"%s_proxy\", \"summary\": \"a proxy\", "
@@ -134,7 +134,7 @@ static _Noreturn void serve(const char *name)
     static const int64_t learned[2] = {0, 0};
     served = formulations_named(name, strlen(name));
     parameter_defaults(served->options, option);
-    say_who();
+    names_program();
     for (;;) {
         char mark[8];
         int64_t head[4];

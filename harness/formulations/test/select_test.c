@@ -166,20 +166,21 @@ static void covered(void)
 static void unknown_words(void)
 {
     const struct {
-        const char *expression, *says;
-    } refused[] = {{"c_colunm", "did you mean 'c_column'?"},
-                   {"(beamw or sheet_thrid)", "'sheet_thrid' is unknown, did you mean 'sheet_third'?"},
-                   {"beamw and not c_column/defalut", "'c_column/defalut'"},
-                   {"elastica or hexapd/default", "did you mean 'hexapod'?"},
-                   {"load=4", "'load=4'"},
-                   {"=c_colunm", "did you mean 'c_column'?"},
-                   {"=column", "'=column'"},
-                   {"(beamw", "malformed"}};
+        const char *expression, *message;
+    } refused[] = {
+        {"c_colunm", "did you mean 'c_column'?"},
+        {"(beamw or sheet_thrid)", "'sheet_thrid' is unknown, did you mean 'sheet_third'?"},
+        {"beamw and not c_column/defalut", "'c_column/defalut'"},
+        {"elastica or hexapd/default", "did you mean 'hexapod'?"},
+        {"load=4", "'load=4'"},
+        {"=c_colunm", "did you mean 'c_column'?"},
+        {"=column", "'=column'"},
+        {"(beamw", "malformed"}};
     fault f = {""};
     for (size_t i = 0; i < sizeof refused / sizeof refused[0]; i++) {
         gsl_test_int(all_met(refused[i].expression, &f), STATUS_REFUSED, "%s",
                      refused[i].expression);
-        gsl_test(strstr(f.text, refused[i].says) == NULL, "%s", f.text);
+        gsl_test(strstr(f.text, refused[i].message) == NULL, "%s", f.text);
     }
     const char *const known[] = {"beamw", "(of_mine or hexapod) not load=3", "sheet_third"};
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++)

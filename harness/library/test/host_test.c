@@ -79,12 +79,12 @@ static void words(const char *expected)
     gsl_test(system(command) != 0, "%s", command);
 }
 
-static int told;
+static int reported;
 
-static void tell(const char *reason, const char *file, int line, int number)
+static void report_error(const char *reason, const char *file, int line, int number)
 {
     (void)reason, (void)file, (void)line, (void)number;
-    told++;
+    reported++;
 }
 
 static void catch (int number)
@@ -99,7 +99,7 @@ static void handlers(const char *expected)
     void *context = NULL;
     char *json = NULL;
     bw_scene *s = NULL;
-    gsl_set_error_handler(tell);
+    gsl_set_error_handler(report_error);
     for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++)
         signal(signals[i], catch);
     H5Eset_auto2(H5E_DEFAULT, (H5E_auto2_t)H5Eprint2, stderr);
@@ -109,7 +109,7 @@ static void handlers(const char *expected)
     bw_free_text(json);
     bw_scene_free(s);
     gsl_sf_gamma(-1);
-    gsl_test(told < 1, "GSL tells the host, %d times", told);
+    gsl_test(reported < 1, "GSL tells the host, %d times", reported);
     for (size_t i = 0; i < sizeof signals / sizeof signals[0]; i++)
         gsl_test(signal(signals[i], SIG_DFL) != catch, "signal %d is the host's", signals[i]);
     H5Eget_auto2(H5E_DEFAULT, &print, &context);
@@ -117,7 +117,7 @@ static void handlers(const char *expected)
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
 }
 
-static void silence(void)
+static void mute(void)
 {
     char *text = NULL, *why = NULL;
     bw_scene *s = NULL;
@@ -280,7 +280,7 @@ int main(int count, char **arguments)
     rounding(expected);
     words(expected);
     handlers(expected);
-    silence();
+    mute();
     threads();
     shared_scene();
     free(expected);

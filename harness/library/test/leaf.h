@@ -23,9 +23,9 @@ static const char leaf[] =
 /* Checks the status, and that the message contains the word. Frees the message. */
 static inline void leaf_fails(bw_status got, bw_status expected, char *why, const char *word)
 {
-    const int told = why != NULL && strstr(why, word) != NULL;
-    gsl_test(got != expected || !told, "%s: '%s'", bw_status_name(expected), word);
-    if (!told)
+    const int reported = why != NULL && strstr(why, word) != NULL;
+    gsl_test(got != expected || !reported, "%s: '%s'", bw_status_name(expected), word);
+    if (!reported)
         fprintf(stderr, "%s: %s\n", bw_status_name(got), why != NULL ? why : "");
     bw_free_text(why);
 }

@@ -164,10 +164,10 @@ static void movable_tests(void)
 /* Masses at the nodes of straight elements: their moments, and the moments of inertia of sections
  * given by matrices. */
 
-enum { MOST = SPECIMEN_COORDINATES };
+enum { MOST = TEST_ELEMENT_COORDINATES };
 
 /* Computes the mass matrix of a scene with `mass: lumped`, which is common to all formulations. */
-static void at_nodes(const specimen *s, const node_state x[], double M[])
+static void at_nodes(const test_element *s, const node_state x[], double M[])
 {
     const lumped_mass whole = lumped_of(&s->section, s->request.features, s->request.length);
     double share[ELEMENT_MAX_NODES];
@@ -175,10 +175,10 @@ static void at_nodes(const specimen *s, const node_state x[], double M[])
     lumped_element(&whole, s->nodes, share, x, NULL, &(inertia_output){.M = M});
 }
 
-static void make(const char *name, const specimen_request *what, specimen *out)
+static void make(const char *name, const test_element_request *what, test_element *out)
 {
     fault f = {""};
-    gsl_test(specimen_make(what, out, &f) != STATUS_OK, "%s: prepared %s", name, f.text);
+    gsl_test(test_element_make(what, out, &f) != STATUS_OK, "%s: prepared %s", name, f.text);
 }
 
 /* Lumped masses at nodes follow the rule for loads: the trapezoidal rule with two nodes, Simpson's
@@ -187,19 +187,19 @@ static void make(const char *name, const specimen_request *what, specimen *out)
 static void lumped_moments(const char *name)
 {
     formulation chosen;
-    specimen s;
+    test_element s;
     double M[MOST * MOST], x_moment = 0, polar = 0;
     node_state x[ELEMENT_MAX_NODES];
     gsl_test(formulation_parse(name, &chosen, NULL) != STATUS_OK, "%s", name);
-    const specimen_request what = {.given = chosen.type,
-                                   .options = chosen.option,
-                                   .features = FEATURE_MASS | FEATURE_ROTARY_INERTIA,
-                                   .form = PROFILES_UNSYMMETRIC,
-                                   .unit = 1};
+    const test_element_request what = {.given = chosen.type,
+                                       .options = chosen.option,
+                                       .features = FEATURE_MASS | FEATURE_ROTARY_INERTIA,
+                                       .form = PROFILES_UNSYMMETRIC,
+                                       .unit = 1};
     make(name, &what, &s);
     s.section.Ip *= 1.3;
     gsl_test(s.type.prepare(&s.request, s.data, NULL) != STATUS_OK, "%s: prepared again", name);
-    specimen_state(&s, 0, 1, x);
+    test_element_state(&s, 0, 1, x);
     at_nodes(&s, x, M);
     for (int k = 0; k < s.nodes; k++) {
         x_moment += M[(NODE_COORDINATES * k + 1) * (s.coordinates + 1)] * pow(x[k].r[0], 2);
@@ -209,7 +209,7 @@ static void lumped_moments(const char *name)
     gsl_test_rel(x_moment, mass * l * l / (s.nodes == 2 ? 2 : 3), 1e-13,
                  "%s: second moment of the masses", name);
     gsl_test_rel(polar, s.section.density * s.section.Ip * l, 1e-13, "%s: polar inertia", name);
-    specimen_free(&s);
+    test_element_free(&s);
 }
 
 /* For each node of a two-node element, the mass matrix must be that of a slice, given per length,
@@ -217,24 +217,24 @@ static void lumped_moments(const char *name)
 static void slice(const char *name)
 {
     formulation chosen;
-    specimen s;
+    test_element s;
     double M[MOST * MOST], worst = 0;
     node_state x[ELEMENT_MAX_NODES];
     gsl_test(formulation_parse(name, &chosen, NULL) != STATUS_OK, "%s", name);
-    const specimen_request what = {.given = chosen.type,
-                                   .options = chosen.option,
-                                   .features = FEATURE_MASS | FEATURE_SHEAR,
-                                   .form = PROFILES_MATRICES,
-                                   .unit = 1};
+    const test_element_request what = {.given = chosen.type,
+                                       .options = chosen.option,
+                                       .features = FEATURE_MASS | FEATURE_SHEAR,
+                                       .form = PROFILES_MATRICES,
+                                       .unit = 1};
     make(name, &what, &s);
-    specimen_state(&s, 0, 1, x);
+    test_element_state(&s, 0, 1, x);
     at_nodes(&s, x, M);
     for (int i = 0; i < 36; i++)
         worst = worst_of(worst, fabs(M[s.coordinates * (i / 6) + i % 6] -
                                      s.request.length / 2 * s.section.mass[i]) /
                                     (s.request.length * s.section.mass[0]));
     gsl_test(!(worst < 1e-16), "%s: mass matrix of a node (%.1e)", name, worst);
-    specimen_free(&s);
+    test_element_free(&s);
 }
 
 static void inertia_moments_tests(void)

@@ -263,8 +263,8 @@ static void same_answers(const element_type *type)
 }
 
 static const element_type *inner;
-static int asked; /* calls for several elements; none on processors without AVX2, which evaluate one
-                     element at a time */
+static int requested; /* calls for several elements; none on processors without AVX2, which evaluate
+                     one element at a time */
 static const double failing =
     0.4 + 0.2 * 3 / ELEMENTS; /* start of the fourth element of the last member [m] */
 
@@ -280,7 +280,7 @@ static void failing_equations(int count, const element_data *const data[], const
                               const double *const e[], const double *const own[],
                               const double *const s[], equations_output out[], status outcome[])
 {
-    asked++;
+    requested++;
     inner->equations_many(count, data, x, e, own, s, out, outcome);
     fail(count, x, element_nodes(inner, NULL), outcome);
 }
@@ -304,12 +304,12 @@ static void named(const element_type *type)
         model_linearisation lin = {.residual = residual};
         run_state_begin(&run, m, 1, NULL);
         equations eq = {.m = m, .run = &run};
-        asked = 0;
+        requested = 0;
         const status outcome =
             residual != NULL ? linearise_state(&eq, &run.memory, state, &lin, &f) : STATUS_FAULT;
-        gsl_test(outcome != (asked > 0 ? STATUS_SINGULAR : STATUS_OK),
+        gsl_test(outcome != (requested > 0 ? STATUS_SINGULAR : STATUS_OK),
                  "%s: an element that cannot be evaluated", type->name);
-        gsl_test(asked > 0 && strstr(f.text, "element 17 of member 2") == NULL, "%s: '%s'",
+        gsl_test(requested > 0 && strstr(f.text, "element 17 of member 2") == NULL, "%s: '%s'",
                  type->name, f.text);
         run_state_end(&run);
         free(residual);

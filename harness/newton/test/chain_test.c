@@ -329,7 +329,7 @@ static void long_steps(const model *m)
 
 /* From two states after a kink, the path must be extrapolated linearly, whatever precedes the
  * kink. */
-static void kinks(const model *m)
+static void slope_jumps(const model *m)
 {
     static const double path[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};
     const double error = error_of_guess(m, 1, 0.45, 7, path, 0.8);
@@ -343,7 +343,7 @@ static void extrapolate_tests(void)
     if (corner("geometrically_exact", 2, 0, &s, &m)) {
         smooth_paths(m);
         long_steps(m);
-        kinks(m);
+        slope_jumps(m);
     }
     model_free(m);
     scene_free(&s);

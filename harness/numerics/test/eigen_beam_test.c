@@ -139,30 +139,30 @@ static void test_beam(int elements, double allowed)
 }
 
 /* A problem whose matrix has lost digits that its elements have kept. */
-typedef struct spoilt {
+typedef struct corrupted {
     const sparse *K; /* the accurate matrix */
     double rounding; /* relative rounding error of x^T K x */
-} spoilt;
+} corrupted;
 
-static double spoilt_energy(void *context, const double x[])
+static double corrupted_energy(void *context, const double x[])
 {
-    return matrices_energy(((const spoilt *)context)->K, x);
+    return matrices_energy(((const corrupted *)context)->K, x);
 }
 
-static double spoilt_rounding(void *context, const double x[])
+static double corrupted_rounding(void *context, const double x[])
 {
-    return ((const spoilt *)context)->rounding * spoilt_energy(context, x);
+    return ((const corrupted *)context)->rounding * corrupted_energy(context, x);
 }
 
-static void spoilt_product(void *context, const double x[], double y[])
+static void corrupted_product(void *context, const double x[], double y[])
 {
-    sparse_mul(((const spoilt *)context)->K, x, y);
+    sparse_mul(((const corrupted *)context)->K, x, y);
 }
 
 /* The accurate matrix is known only through its elements, and digits were lost in the assembled K.
  * The results must be those of the elements, and the reported errors must include the actual
  * errors. */
-static void test_spoilt(double part)
+static void test_corrupted(double part)
 {
     enum { ELEMENTS = 60, WANTED = 5 };
     beam b;
@@ -180,12 +180,12 @@ static void test_spoilt(double part)
             if (b.K.row[k] == j && j % 2 == 1) /* each rotation is attached to a spring, whose
                                                   stiffness increases along the column */
                 b.K.value[k] += part * 20 * b.h * (1 + 3.0 * j / b.K.n);
-    spoilt context = {&good, 1e-4};
-    p.K_energy = spoilt_energy;
+    corrupted context = {&good, 1e-4};
+    p.K_energy = corrupted_energy;
     p.context = &context;
     for (int refined = 0; refined < 2; refined++) {
-        p.K_product = refined ? spoilt_product : NULL;
-        p.K_rounding = refined ? spoilt_rounding : NULL;
+        p.K_product = refined ? corrupted_product : NULL;
+        p.K_rounding = refined ? corrupted_rounding : NULL;
         const status outcome = eigen_problems_solve(&p, &r, &f);
         gsl_test(refined && outcome != STATUS_OK, "K spoilt by %g: %s", part, f.text);
         double worst = 0;
@@ -212,9 +212,9 @@ static void test_spoilt(double part)
 
 static void eigen_beam_tests(void)
 {
-    test_spoilt(1e-4);
-    test_spoilt(1e-2);
-    test_spoilt(0.05);
+    test_corrupted(1e-4);
+    test_corrupted(1e-2);
+    test_corrupted(0.05);
     test_beam(12, 1e-12);
     test_beam(600, 1e-12);
     test_beam(2000, 3e-9);

@@ -177,7 +177,7 @@ static void light_and_massless(void)
 
 /* The matrix has lost digits that the product K x retains. The frequencies must be those of the
  * product. */
-static void spoilt_matrix(void)
+static void corrupted_matrix(void)
 {
     static const double noise[] = {1e-8, 1e-5, 1e-3};
     static const int size[] = {12, 30, 120};
@@ -237,7 +237,7 @@ static double large_rounding(void *context, const double x[])
 /* The error of every frequency must include the effect of round-off in K. Without gyroscopic terms,
  * the stated error must be between 0.5 and 10 times the change of the frequency that this round-off
  * causes. */
-static void rounding_is_told(void)
+static void rounding_is_reported(void)
 {
     static const double strength[] = {0, 2};
     for (int i = 0; i < 2; i++) {
@@ -275,8 +275,8 @@ static void rounding_is_told(void)
 
 static void gyroscopic_tests(void)
 {
-    spoilt_matrix();
-    rounding_is_told();
+    corrupted_matrix();
+    rounding_is_reported();
     held_from();
     light_and_massless();
     definite();

@@ -349,7 +349,7 @@ static void singular_matrix_tests(void)
 /* Threads that share a loop must process every index once, for any number of threads. Sleeping
  * threads must be woken in each of thousands of rounds. */
 
-enum { TEST_TEAM_MOST = 1000 };
+enum { TEST_POOL_MOST = 1000 };
 
 static void add_one(void *context, int first, int end)
 {
@@ -360,25 +360,25 @@ static void add_one(void *context, int first, int end)
 
 static void every_index_once(int threads)
 {
-    static const int counts[] = {0, 1, 2, 3, 7, 64, TEST_TEAM_MOST};
-    int visits[TEST_TEAM_MOST] = {0}, expected = 0;
-    thread_team *t = NULL;
+    static const int counts[] = {0, 1, 2, 3, 7, 64, TEST_POOL_MOST};
+    int visits[TEST_POOL_MOST] = {0}, expected = 0;
+    thread_pool *t = NULL;
     fault f = {""};
-    gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
+    gsl_test(thread_pool_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
     gsl_test((t == NULL) != (threads <= 1), "a team of one is none");
     for (int round = 0; round < 2000; round++) {
         const int count = counts[round % 7];
         memset(visits, 0, sizeof visits);
-        team_run(t, count, add_one, visits);
-        for (int i = 0; i < TEST_TEAM_MOST; i++)
+        thread_pool_run(t, count, add_one, visits);
+        for (int i = 0; i < TEST_POOL_MOST; i++)
             expected += visits[i] == (i < count);
         if (round % 500 == 0)
             nanosleep(&(struct timespec){.tv_nsec = 2000000},
                       NULL); /* long enough for the other threads to fall asleep */
     }
-    gsl_test_int(expected, 2000 * TEST_TEAM_MOST, "%d threads: every index once in every round",
+    gsl_test_int(expected, 2000 * TEST_POOL_MOST, "%d threads: every index once in every round",
                  threads);
-    team_free(t);
+    thread_pool_free(t);
 }
 
 static void count_parts(void *context, int first, int end)
@@ -387,24 +387,26 @@ static void count_parts(void *context, int first, int end)
     ((int *)context)[first] = 1; /* each part begins at a different index */
 }
 
-/* If more threads are requested than TEAM_MOST, only TEAM_MOST are used, with one part for each. */
+/* If more threads are requested than THREAD_POOL_MOST, only THREAD_POOL_MOST are used, with one
+ * part for each. */
 static void no_more_than_there_is_room_for(int threads)
 {
-    int begins[TEST_TEAM_MOST] = {0}, parts = 0;
-    thread_team *t = NULL;
+    int begins[TEST_POOL_MOST] = {0}, parts = 0;
+    thread_pool *t = NULL;
     fault f = {""};
-    gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
-    team_run(t, TEST_TEAM_MOST, count_parts, begins);
-    for (int i = 0; i < TEST_TEAM_MOST; i++)
+    gsl_test(thread_pool_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
+    thread_pool_run(t, TEST_POOL_MOST, count_parts, begins);
+    for (int i = 0; i < TEST_POOL_MOST; i++)
         parts += begins[i];
-    gsl_test_int(parts, threads < TEAM_MOST ? threads : TEAM_MOST, "%d threads: parts", threads);
-    team_free(t);
+    gsl_test_int(parts, threads < THREAD_POOL_MOST ? threads : THREAD_POOL_MOST,
+                 "%d threads: parts", threads);
+    thread_pool_free(t);
 }
 
 enum { PIECES = 500 };
 
 typedef struct relay_log {
-    int held[TEAM_SLOTS], fills[PIECES], wrong, taken, last; /* index of the last piece */
+    int held[THREAD_POOL_SLOTS], fills[PIECES], wrong, taken, last; /* index of the last piece */
 } relay_log;
 
 static void write_piece(void *context, int piece, int slot)
@@ -425,14 +427,14 @@ static int read_piece(void *context, int piece, int slot)
  * requested piece. */
 static void relays(int threads)
 {
-    thread_team *t = NULL;
+    thread_pool *t = NULL;
     fault f = {""};
-    gsl_test(team_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
+    gsl_test(thread_pool_alloc(threads, &t, &f) != STATUS_OK, "%d threads (%s)", threads, f.text);
     int wrong = 0, taken = 0, expected = 0;
     for (int round = 0; round < 400; round++) {
         const int pieces = round % PIECES, last = round % 3 == 0 ? pieces / 2 : PIECES;
         relay_log log = {.last = last};
-        team_relay(t, pieces, write_piece, read_piece, &log);
+        thread_pool_relay(t, pieces, write_piece, read_piece, &log);
         taken += log.taken;
         expected += last < pieces ? last + 1 : pieces;
         wrong += log.wrong;
@@ -443,23 +445,23 @@ static void relays(int threads)
     }
     gsl_test_int(wrong, 0, "%d threads: pieces in order, each once", threads);
     gsl_test_int(taken, expected, "%d threads: all pieces that are wanted", threads);
-    team_free(t);
+    thread_pool_free(t);
 }
 
-static void team_tests(void)
+static void thread_pool_tests(void)
 {
     no_more_than_there_is_room_for(5);
-    no_more_than_there_is_room_for(TEAM_MOST);
-    no_more_than_there_is_room_for(TEAM_MOST + 1);
-    no_more_than_there_is_room_for(10 * TEAM_MOST);
+    no_more_than_there_is_room_for(THREAD_POOL_MOST);
+    no_more_than_there_is_room_for(THREAD_POOL_MOST + 1);
+    no_more_than_there_is_room_for(10 * THREAD_POOL_MOST);
     for (int threads = 1; threads <= 4; threads++)
         every_index_once(threads);
     for (int threads = 1; threads <= 4; threads++)
         relays(threads);
-    thread_team *unused = NULL;
-    gsl_test(team_alloc(3, &unused, NULL) != STATUS_OK, "a team that is never used");
-    team_free(unused);
-    team_free(NULL);
+    thread_pool *unused = NULL;
+    gsl_test(thread_pool_alloc(3, &unused, NULL) != STATUS_OK, "a team that is never used");
+    thread_pool_free(unused);
+    thread_pool_free(NULL);
 }
 
 /* Rows computed in groups, and joint solutions for several right-hand sides, must agree bitwise
@@ -602,7 +604,7 @@ int main(void)
 {
     linear_tests();
     singular_matrix_tests();
-    team_tests();
+    thread_pool_tests();
     triangular_tests();
     return gsl_test_summary();
 }

@@ -26,7 +26,7 @@ typedef struct fields_bench {
     truth row, other;
     verdict v;
     coverage c;
-    judgement j;
+    evaluation j;
 } fields_bench;
 
 static void fill_path(fields_bench *b)
@@ -94,7 +94,7 @@ static void make(fields_bench *b)
         b->c.series[k] = 50 - k;
         b->c.covered[k] = 40 - k;
     }
-    b->j = (judgement){.verdicts = 1, .verdict = &b->v};
+    b->j = (evaluation){.verdicts = 1, .verdict = &b->v};
 }
 
 /* Returns number k of a field of a record, or NAN if the field does not exist. */
@@ -130,7 +130,7 @@ static void work(const gathering *g)
         expect(&record_cell, &s, name[i], 0, 11 + (double)i);
     expect(&record_cell, &s, "elements", 0, 8);
     expect(&record_cell, &s, "priced", 0, 0);
-    expect(&record_cell, &s, "cost", 0, price_cost(&s.series->formulation, &s.series->cell[3]));
+    expect(&record_cell, &s, "cost", 0, counted_cost(&s.series->formulation, &s.series->cell[3]));
     gsl_test(!(number_of(&record_cell, &s, "cost", 0) > 0), "a formulation without prices costs");
 }
 
@@ -404,7 +404,7 @@ static void line_expect(const reach_line_bench *b, double level, const char *rig
 static void not_every_quantity(void)
 {
     reach_line_bench b;
-    line_make(&b, 2 * price_noise);
+    line_make(&b, 2 * counted_cost_noise);
     add_quantity(&b, "curve", SCENE_CURVE);
     line_expect(
         &b, 1e-9,
@@ -430,16 +430,17 @@ static void not_every_quantity(void)
 static void other_models(void)
 {
     reach_line_bench b;
-    line_make(&b, 2 * price_noise);
+    line_make(&b, 2 * counted_cost_noise);
     b.s.seriess = 1;
     add_model(&b, "agreement", 4);
     line_expect(&b, 0.01, "for 1 % in every quantity: red n = 4; no own cost coefficients: red\n");
     add_model(&b, "independent", 3.1);
-    line_expect(&b, 0.01,
-                "for 1 % in every quantity: red n = 4; no own cost coefficients: red\n"
-                "The beam model differs from the structure: load of another model is 3.1 N (of the "
-                "test); the limit of "
-                "red differs from it by -3.2 %. The target error of 1 % applies only to the beam model.\n");
+    line_expect(
+        &b, 0.01,
+        "for 1 % in every quantity: red n = 4; no own cost coefficients: red\n"
+        "The beam model differs from the structure: load of another model is 3.1 N (of the "
+        "test); the limit of "
+        "red differs from it by -3.2 %. The target error of 1 % applies only to the beam model.\n");
     line_expect(&b, 1e-9,
                 "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
                 "(load: 0.0098 %)\n");
@@ -450,14 +451,15 @@ static void other_models(void)
         "cost coefficients: grey, red, blue, green\n"
         "The beam model differs from the structure: load of another model is 3.1 N (of the test); "
         "the limit of "
-        "grey differs from it by +6.5 %. The target error of 20 % applies only to the beam model.\n");
+        "grey differs from it by +6.5 %. The target error of 20 % applies only to the beam "
+        "model.\n");
     finish(&b);
 }
 
 static void reach_line_tests(void)
 {
     reach_line_bench b;
-    line_make(&b, 2 * price_noise);
+    line_make(&b, 2 * counted_cost_noise);
     line_expect(&b, 0.01,
                 "for 1 % in every quantity: red n = 4; blue n = 4; green n = 4; no own cost "
                 "coefficients: red, blue, green; not reached by grey (load: 10 %)\n");
@@ -466,7 +468,7 @@ static void reach_line_tests(void)
         "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
         "(load: 0.0098 %), blue (load: 0.0098 %), green (load: 0.0098 %), grey (load: 10 %)\n");
     finish(&b);
-    line_make(&b, 1 + (price_noise - 1) / 2);
+    line_make(&b, 1 + (counted_cost_noise - 1) / 2);
     line_expect(
         &b, 0.2,
         "for 20 % in every quantity: grey n = 2; red n = 2; blue n = 2; green n = 2; no own "

@@ -121,7 +121,7 @@ typedef struct junit_bench {
     truth row;
     verdict v[64];
     agreement a[8];
-    judgement j;
+    evaluation j;
 } junit_bench;
 
 static const case_type made_up = {.name = "made_up"};
@@ -157,7 +157,7 @@ static void add_verdict(junit_bench *b, verdict_kind kind, int matches)
     strcpy(v->reason, "a < b & \"c\" > d");
     b->j.by_kind[kind]++;
     b->j.unexpected += !matches;
-    b->j.judged += v->truth != NULL && kind != VERDICT_OTHER_MODEL;
+    b->j.evaluated += v->truth != NULL && kind != VERDICT_OTHER_MODEL;
 }
 
 static void add_agreement(junit_bench *b, int good)
@@ -185,7 +185,7 @@ static void check(const junit_bench *b, const char *what)
     const tree t = written(b);
     const int expected_failures = b->j.unexpected + b->j.disagreements + (b->j.unobserved > 0) +
                                   (b->j.unmet > 0) + (b->j.flaws > 0) + (b->s.unfinished > 0) +
-                                  (judgement_exit(&b->j) == JUDGED_NOTHING);
+                                  (evaluation_exit(&b->j) == EVALUATION_NOTHING);
     gsl_test(t.bad || t.both || t.outside, "%s: well-formed, every mark in a test of its own",
              what);
     gsl_test_int(t.header[0], t.tests, "%s: tests", what);
@@ -207,7 +207,7 @@ static void single_verdicts(void)
                      matches ? "expected" : "unexpected");
             check(&b, what);
             const tree t = written(&b);
-            gsl_test_int(t.failures, !matches + (b.j.judged == 0), "%s: it alone", what);
+            gsl_test_int(t.failures, !matches + (b.j.evaluated == 0), "%s: it alone", what);
             gsl_test_int(t.skipped,
                          (kind == VERDICT_SKIP || kind == VERDICT_OTHER_MODEL) && matches,
                          "%s: it alone", what);

@@ -174,7 +174,7 @@ static void schema_tests(void)
 static const case_type type = {.name = "case_of_test"};
 
 /* Returns the summary, which the caller frees. */
-static char *written(const sweep *s, const judgement *j)
+static char *written(const sweep *s, const evaluation *j)
 {
     const environment e = {.commit = "c0ffee", .compiler = "cc"};
     char *text = NULL;
@@ -207,7 +207,7 @@ static int lines_with(const char *text, const char *part)
  * the names of those without a verdict. */
 static void long_lists(void)
 {
-    enum { MANY = 60, JUDGED = 40, WORSE = 53 };
+    enum { MANY = 60, EVALUATED = 40, WORSE = 53 };
     scene_quantity quantity = {.name = "load"};
     static char name[MANY][16];
     static case_type types[MANY];
@@ -229,12 +229,12 @@ static void long_lists(void)
         snprintf(worse[i].why, sizeof worse[i].why, "twice as far off");
     }
     const sweep s = {.points = MANY, .seriess = MANY, .point = p, .series = one};
-    judgement j = {.verdicts = MANY,
-                   .verdict = v,
-                   .judged = MANY,
-                   .unexpected = MANY,
-                   .regressions = WORSE,
-                   .regression = worse};
+    evaluation j = {.verdicts = MANY,
+                    .verdict = v,
+                    .evaluated = MANY,
+                    .unexpected = MANY,
+                    .regressions = WORSE,
+                    .regression = worse};
     char *text = written(&s, &j);
     gsl_test_int(lines_with(text, " | twice as far off |"), 50, "rows of what is worse");
     gsl_test_int(lines_with(text, " | **wrong limit** | "), 50, "rows of what differs");
@@ -246,7 +246,7 @@ static void long_lists(void)
         v[i].kind = v[i].expected = VERDICT_PASS;
         v[i].matches = 1;
     }
-    j = (judgement){.verdicts = JUDGED, .verdict = v, .judged = JUDGED};
+    j = (evaluation){.verdicts = EVALUATED, .verdict = v, .evaluated = EVALUATED};
     text = written(&s, &j);
     holds(text, "\nAll verdicts pass: case_0, case_1, ");
     holds(text, ", case_39.\n");
@@ -269,7 +269,7 @@ static void markdown_tests(void)
                  .fit.limit = 2.5,
                  .error = 0.25,
                  .reason = "left | right\nbelow"};
-    judgement j = {.verdicts = 1, .verdict = &v, .judged = 1, .unexpected = 1};
+    evaluation j = {.verdicts = 1, .verdict = &v, .evaluated = 1, .unexpected = 1};
     flaw flaws[2] = {{.series = 0}};
     char *text = written(&s, &j);
     holds(text, "## beamwork: fail");
@@ -309,13 +309,13 @@ static void markdown_tests(void)
     free(text);
 
     breach broken = {"mine", "energy: it is none"};
-    j = (judgement){.judged = 1, .breaches = 1, .breach = &broken};
+    j = (evaluation){.evaluated = 1, .breaches = 1, .breach = &broken};
     text = written(&s, &j);
     holds(text,
           "## beamwork: fail\n\n**mine violates the interface requirements**: energy: it is none");
     free(text);
 
-    j = (judgement){.verdicts = 0};
+    j = (evaluation){.verdicts = 0};
     text = written(&s, &j);
     holds(text, "## beamwork: nothing was judged");
     free(text);

@@ -29,7 +29,7 @@ static const element_type element = {.name = "element", .abi = ELEMENT_ABI};
 
 /* One point, one series of five meshes, and one quantity. The reference value is 3, the tolerance
  * 1e-4, and the minimum order 2. */
-typedef struct judge_bench {
+typedef struct evaluation_bench {
     sweep s;
     sweep_point p;
     series one;
@@ -38,8 +38,8 @@ typedef struct judge_bench {
     truths t;
     truth row[2];
     rule known, twice[2];
-    judgement j;
-} judge_bench;
+    evaluation j;
+} evaluation_bench;
 
 static char words[][32] = {
     "load",        "N",       "exact",        "same",      "test",        "",          "element",
@@ -67,7 +67,7 @@ enum {
     LOAD_OF_IT
 };
 
-static inline void bench_make(judge_bench *b)
+static inline void bench_make(evaluation_bench *b)
 {
     memset(b, 0, sizeof *b);
     b->p.type = &made_up;
@@ -101,7 +101,7 @@ static inline void bench_make(judge_bench *b)
 
 /* Adds a second row with this value. It is otherwise equal to the first row, and the caller may
  * change it. */
-static inline truth *bench_add_row(judge_bench *b, double value)
+static inline truth *bench_add_row(evaluation_bench *b, double value)
 {
     b->row[1] = b->row[0];
     b->row[1].value = value;
@@ -110,7 +110,7 @@ static inline truth *bench_add_row(judge_bench *b, double value)
 }
 
 /* Adds a second row, which is the limit derived for the formulation. */
-static inline truth *bench_add_prediction(judge_bench *b, double limit)
+static inline truth *bench_add_prediction(evaluation_bench *b, double limit)
 {
     truth *row = bench_add_row(b, limit);
     row->kind = words[PREDICTED];
@@ -119,43 +119,43 @@ static inline truth *bench_add_prediction(judge_bench *b, double limit)
 }
 
 /* Sets the values limit + size n^-order. */
-static inline void bench_fill(judge_bench *b, double limit, double size, double order)
+static inline void bench_fill(evaluation_bench *b, double limit, double size, double order)
 {
     for (int i = 0; i < MESHES; i++)
         b->quantity[i].value = limit + size * pow(mesh[i], -order);
 }
 
 /* Makes a bench whose series converges to the reference value with order 2. */
-static inline void bench_converge(judge_bench *b)
+static inline void bench_converge(evaluation_bench *b)
 {
     bench_make(b);
     bench_fill(b, 3, 0.7, 2);
 }
 
-static inline const verdict *bench_judge(judge_bench *b)
+static inline const verdict *bench_evaluate(evaluation_bench *b)
 {
     fault f = {""};
-    judgement_free(&b->j);
-    gsl_test(judgement_make(&b->s, &b->t, 1, &b->j, &f) != STATUS_OK || b->j.verdicts != 1,
+    evaluation_free(&b->j);
+    gsl_test(evaluation_make(&b->s, &b->t, 1, &b->j, &f) != STATUS_OK || b->j.verdicts != 1,
              "one verdict: %s", f.text);
     return &b->j.verdict[0];
 }
 
-static inline void bench_free(judge_bench *b)
+static inline void bench_free(evaluation_bench *b)
 {
-    judgement_free(&b->j);
+    evaluation_free(&b->j);
     scene_free(&b->p.scene);
 }
 
-static inline void bench_expect(judge_bench *b, verdict_kind kind, int code, const char *what)
+static inline void bench_expect(evaluation_bench *b, verdict_kind kind, int code, const char *what)
 {
-    const verdict *v = bench_judge(b);
+    const verdict *v = bench_evaluate(b);
     gsl_test(v->kind != kind, "%s: %s", what, verdict_name(v->kind));
-    gsl_test_int(judgement_exit(&b->j), code, "%s: exit code", what);
+    gsl_test_int(evaluation_exit(&b->j), code, "%s: exit code", what);
 }
 
 /* Checks the text of the verdict. */
-static inline void bench_says(const judge_bench *b, const char *words_of_it)
+static inline void bench_expect_words(const evaluation_bench *b, const char *words_of_it)
 {
     char sentence[2 * FAULT_TEXT];
     sentence_of_verdict(&b->j.verdict[0], 2, sentence, sizeof sentence);

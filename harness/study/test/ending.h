@@ -10,10 +10,10 @@
 
 enum { KILLED, ENDED, HANGING, STOPPED };
 
-static inline void never_end(int says)
+static inline void never_end(int output)
 {
     const pid_t self = getpid();
-    if (says > 0 && write(says, &self, sizeof self) != (ssize_t)sizeof self)
+    if (output > 0 && write(output, &self, sizeof self) != (ssize_t)sizeof self)
         _exit(4);
     for (;;)
         pause();
@@ -42,7 +42,7 @@ static inline formulation ending_good(void)
 static struct {
     element_type type;
     status (*prepare)(const element_request *, element_data *, fault *);
-    int end, says; /* `end`: how the process ends; `says`: descriptor to which an endless cell
+    int end, output; /* `end`: how the process ends; `output`: descriptor to which an endless cell
                       writes its process number */
 } ending;
 
@@ -53,19 +53,19 @@ static inline status prepare_end(const element_request *request, element_data *d
     if (ending.end == ENDED)
         _exit(3);
     if (ending.end == HANGING)
-        never_end(ending.says);
+        never_end(ending.output);
     if (ending.end == STOPPED) /* while a process is stopped, its alarm has no effect */
         raise(SIGSTOP);
     return ending.prepare(request, data, f);
 }
 
-static inline formulation ending_bad(int end, int says)
+static inline formulation ending_bad(int end, int output)
 {
     formulation out = ending_good();
     ending.type = *out.type;
     ending.prepare = out.type->prepare;
     ending.end = end;
-    ending.says = says;
+    ending.output = output;
     ending.type.prepare = prepare_end;
     out.type = &ending.type;
     return out;

@@ -135,7 +135,7 @@ static void known_badly(void)
 
 /* If two families agree on one limit and two on another, there is no agreement. If three families
  * agree on one limit and two on another, the limit of the three is the agreed limit. */
-static void disputes(void)
+static void disagreements_of_families(void)
 {
     families_bench b;
     make_two(&b);
@@ -250,7 +250,7 @@ static void families_tests(void)
     one_family_is_none();
     two_families();
     known_badly();
-    disputes();
+    disagreements_of_families();
     known_best();
     known_wrong();
     uncertain();
@@ -259,14 +259,14 @@ static void families_tests(void)
 
 /* Tests the cost of counted work: the rows that apply to a formulation, and the cost of a cell. */
 
-static const price_row rows[] = {
-    {"", PRICE_one, PRICE_one, 1},
-    {"", PRICE_solutions, PRICE_factor_entries, 2},
-    {"*", PRICE_strain_evaluations, PRICE_strains, 100},
-    {"red", PRICE_strain_evaluations, PRICE_one, 1000},
-    {"red:stages=4", PRICE_strain_evaluations, PRICE_one, 2000},
-    {"red:stages=4,form=x", PRICE_strain_evaluations, PRICE_one, 3000},
-    {NULL, PRICE_one, PRICE_one, 0},
+static const cost_coefficient rows[] = {
+    {"", COUNTED_one, COUNTED_one, 1},
+    {"", COUNTED_solutions, COUNTED_factor_entries, 2},
+    {"*", COUNTED_strain_evaluations, COUNTED_strains, 100},
+    {"red", COUNTED_strain_evaluations, COUNTED_one, 1000},
+    {"red:stages=4", COUNTED_strain_evaluations, COUNTED_one, 2000},
+    {"red:stages=4,form=x", COUNTED_strain_evaluations, COUNTED_one, 3000},
+    {NULL, COUNTED_one, COUNTED_one, 0},
 };
 
 static cell_result counted(void)
@@ -281,7 +281,7 @@ static double cost_of(const char *key)
     formulation f = {.type = NULL};
     const cell_result cell = counted();
     strcpy(f.key, key);
-    return price_of(rows, &f, &cell) - 1 - 2 * 3 * 7;
+    return counted_cost_of(rows, &f, &cell) - 1 - 2 * 3 * 7;
 }
 
 static void which_rows(void)
@@ -296,13 +296,13 @@ static void which_rows(void)
     gsl_test_abs(cost_of("new"), 5 * 11 * 100, 0, "without a row: by evaluations and strains");
 }
 
-static void who_has_prices(void)
+static void which_have_coefficients(void)
 {
     formulation f = {.type = NULL};
     strcpy(f.key, "new");
-    gsl_test_int(price_own(rows, &f), 0, "no prices of its own");
+    gsl_test_int(has_cost_coefficients(rows, &f), 0, "no prices of its own");
     strcpy(f.key, "red:mass=lumped");
-    gsl_test_int(price_own(rows, &f), 1, "prices of its own");
+    gsl_test_int(has_cost_coefficients(rows, &f), 1, "prices of its own");
 }
 
 /* The committed table must give the cost of a cell, even for a new formulation. */
@@ -313,20 +313,20 @@ static void committed(void)
     for (int i = 0; registry_formulations[i] != NULL; i++, seen++) {
         formulation f;
         formulation_default(registry_formulations[i], &f);
-        own += price_own(price_rows, &f);
-        gsl_test(!(price_cost(&f, &cell) > 0 && price_cost(&f, &cell) < 1), "%s costs %g s", f.key,
-                 price_cost(&f, &cell));
+        own += has_cost_coefficients(cost_coefficients, &f);
+        gsl_test(!(counted_cost(&f, &cell) > 0 && counted_cost(&f, &cell) < 1), "%s costs %g s",
+                 f.key, counted_cost(&f, &cell));
     }
     gsl_test(seen < 2 || own < 2, "%d formulations, %d with prices", seen, own);
-    for (const price_row *r = price_rows; r->formulation != NULL; r++)
+    for (const cost_coefficient *r = cost_coefficients; r->formulation != NULL; r++)
         gsl_test(!(r->seconds > 0), "%s: %g s", r->formulation, r->seconds);
-    gsl_test(!(price_noise > 1 && price_noise < 2), "noise %g", price_noise);
+    gsl_test(!(counted_cost_noise > 1 && counted_cost_noise < 2), "noise %g", counted_cost_noise);
 }
 
-static void price_tests(void)
+static void counted_cost_tests(void)
 {
     which_rows();
-    who_has_prices();
+    which_have_coefficients();
     committed();
 }
 
@@ -335,7 +335,7 @@ static void price_tests(void)
  * uncertainty of the cost coefficients. */
 
 enum { SERIES = 4, REACH_MESHES = 4, QUANTITIES = 2 };
-enum { CHEAP, DEAR, OTHER, LAST };
+enum { LOW_COST, HIGH_COST, OTHER, LAST };
 
 typedef struct reach_bench {
     sweep s;
@@ -396,14 +396,14 @@ static void by_work(void)
     reach_bench b;
     reach_make(&b);
     ask(&b, 0, 0.01);
-    expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "by work");
+    expect(&b, (int[]){LOW_COST, HIGH_COST, OTHER, LAST}, 4, "by work");
     gsl_test_int(reach_ties(b.list, b.count), 1, "one is the cheapest");
     gsl_test_int(b.list[0].mesh, 0, "on the least mesh");
     for (int i = 0; i < SERIES; i++) /* the measured times are in the opposite order of the work */
         for (int k = 0; k < REACH_MESHES; k++)
             b.cell[i][k].solve.seconds_solve = 1.0 / (1 + i) + k;
     ask(&b, 0, 0.01);
-    expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "whatever the clock says");
+    expect(&b, (int[]){LOW_COST, HIGH_COST, OTHER, LAST}, 4, "whatever the clock says");
 }
 
 /* A formulation that is within 1 % on the coarsest mesh, but not on the second mesh, must be ranked
@@ -412,10 +412,10 @@ static void by_accident(void)
 {
     reach_bench b;
     reach_make(&b);
-    b.value[CHEAP][1][0].value = 1.05;
-    b.cell[CHEAP][2].counters.strain_evaluations = 5000000;
+    b.value[LOW_COST][1][0].value = 1.05;
+    b.cell[LOW_COST][2].counters.strain_evaluations = 5000000;
     ask(&b, 0, 0.01);
-    expect(&b, (int[]){DEAR, CHEAP, OTHER, LAST}, 4, "a dip");
+    expect(&b, (int[]){HIGH_COST, LOW_COST, OTHER, LAST}, 4, "a dip");
     gsl_test_int(b.list[1].mesh, 2, "the mesh behind the dip");
     ask(&b, REACH_EVERY, 0.01);
     gsl_test_int(b.list[1].mesh, 2, "of all quantities the mesh that has the last of them");
@@ -427,14 +427,14 @@ static void wrong_ones(void)
 {
     reach_bench b;
     reach_make(&b);
-    b.v[QUANTITIES * CHEAP].kind = VERDICT_WRONG_AS_PREDICTED;
+    b.v[QUANTITIES * LOW_COST].kind = VERDICT_WRONG_AS_PREDICTED;
     ask(&b, 0, 0.01);
-    expect(&b, (int[]){DEAR, OTHER, LAST, CHEAP}, 4, "the cheapest has a limit of its own");
-    gsl_test(b.list[3].defect != &b.v[QUANTITIES * CHEAP], "its verdict is told");
+    expect(&b, (int[]){HIGH_COST, OTHER, LAST, LOW_COST}, 4, "the cheapest has a limit of its own");
+    gsl_test(b.list[3].defect != &b.v[QUANTITIES * LOW_COST], "its verdict is told");
     ask(&b, 1, 0.01);
-    expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "of another quantity it is right");
+    expect(&b, (int[]){LOW_COST, HIGH_COST, OTHER, LAST}, 4, "of another quantity it is right");
     ask(&b, REACH_EVERY, 0.01);
-    expect(&b, (int[]){DEAR, OTHER, LAST, CHEAP}, 4, "of all it is not");
+    expect(&b, (int[]){HIGH_COST, OTHER, LAST, LOW_COST}, 4, "of all it is not");
     for (int kind = 0; kind < VERDICT_KINDS; kind++)
         gsl_test_int(reach_is_defect((verdict_kind)kind),
                      kind != VERDICT_PASS && kind != VERDICT_NO_TRUTH && kind != VERDICT_SKIP &&
@@ -450,40 +450,40 @@ static void ties(void)
 {
     reach_bench b;
     reach_make(&b);
-    b.cell[DEAR][0].counters.strain_evaluations = (long)(100000 * (price_noise - 0.02));
-    b.cell[OTHER][0].counters.strain_evaluations = (long)(100000 * (price_noise + 0.02));
+    b.cell[HIGH_COST][0].counters.strain_evaluations = (long)(100000 * (counted_cost_noise - 0.02));
+    b.cell[OTHER][0].counters.strain_evaluations = (long)(100000 * (counted_cost_noise + 0.02));
     ask(&b, 0, 0.01);
-    expect(&b, (int[]){CHEAP, DEAR, OTHER, LAST}, 4, "near each other");
+    expect(&b, (int[]){LOW_COST, HIGH_COST, OTHER, LAST}, 4, "near each other");
     gsl_test_int(reach_ties(b.list, b.count), 2, "two tie, the third does not");
-    b.v[QUANTITIES * DEAR].kind = VERDICT_UNDECIDED;
+    b.v[QUANTITIES * HIGH_COST].kind = VERDICT_UNDECIDED;
     ask(&b, 0, 0.01);
     gsl_test_int(reach_ties(b.list, b.count), 1, "what is not known to be right does not tie");
-    b.v[QUANTITIES * DEAR].kind = VERDICT_PASS;
-    b.cell[DEAR][0].counters.strain_evaluations = 100000;
-    strcpy(b.one[DEAR].formulation.key, "before");
+    b.v[QUANTITIES * HIGH_COST].kind = VERDICT_PASS;
+    b.cell[HIGH_COST][0].counters.strain_evaluations = 100000;
+    strcpy(b.one[HIGH_COST].formulation.key, "before");
     ask(&b, 0, 0.01);
-    expect(&b, (int[]){DEAR, CHEAP, OTHER, LAST}, 4, "equal costs by name");
+    expect(&b, (int[]){HIGH_COST, LOW_COST, OTHER, LAST}, 4, "equal costs by name");
     gsl_test_int(reach_ties(b.list, 0), 0, "nothing ties");
 }
 
 /* A formulation that does not run is excluded from the ranking over all quantities, as is one
  * without a reference value of its theory for some quantity. */
-static void not_asked(void)
+static void not_requested(void)
 {
     reach_bench b;
     imported other = {.gates = 0};
     reach_make(&b);
-    b.v[QUANTITIES * CHEAP + 1].truth = NULL;
-    strcpy(b.one[DEAR].missing, "shear");
+    b.v[QUANTITIES * LOW_COST + 1].truth = NULL;
+    strcpy(b.one[HIGH_COST].missing, "shear");
     b.one[OTHER].imported = &other;
     ask(&b, REACH_EVERY, 0.01);
     expect(&b, (int[]){LAST}, 1, "all quantities");
     ask(&b, 0, 0.01);
-    expect(&b, (int[]){CHEAP, LAST}, 2, "one quantity");
+    expect(&b, (int[]){LOW_COST, LAST}, 2, "one quantity");
     const reach_question q = {&b.s, b.v, SERIES * QUANTITIES, 0, REACH_EVERY, 0.01};
-    gsl_test_int(reach_asks(&q, CHEAP), 0, "a reference value is missing");
-    gsl_test_int(reach_asks(&q, DEAR), -1, "it does not run");
-    gsl_test_int(reach_asks(&q, LAST), 1, "it is asked");
+    gsl_test_int(reach_has_references(&q, LOW_COST), 0, "a reference value is missing");
+    gsl_test_int(reach_has_references(&q, HIGH_COST), -1, "it does not run");
+    gsl_test_int(reach_has_references(&q, LAST), 1, "it is asked");
 }
 
 static void reach_tests(void)
@@ -492,13 +492,13 @@ static void reach_tests(void)
     by_accident();
     wrong_ones();
     ties();
-    not_asked();
+    not_requested();
 }
 
 int main(void)
 {
     families_tests();
-    price_tests();
+    counted_cost_tests();
     reach_tests();
     return gsl_test_summary();
 }

@@ -18,38 +18,38 @@ enum { END = 900, WAIT = 120 }; /* [s] time limits of a test and of one event */
  * process numbers. */
 typedef struct family {
     pid_t parent;
-    int says;
+    int output;
 } family;
 
-/* Runs in the child process. Exits with 0 if `sound` cells, followed by endless cells, gave the
+/* Runs in the child process. Exits with 0 if `complete` cells, followed by endless cells, gave the
  * expected results. */
-static int run_endless(const sweep_request *request, int sound, int says)
+static int run_endless(const sweep_request *request, int complete, int output)
 {
     static const int mesh[] = {1, 2, 3};
-    const formulation good = ending_good(), endless = ending_bad(HANGING, says);
+    const formulation good = ending_good(), endless = ending_bad(HANGING, output);
     double value[CASE_MAX_PARAMETERS] = {0};
     sweep s = {0};
     fault f = {""};
     parameters_default(registry_cases[0], value);
     status outcome = plan_add(&s, registry_cases[0], value, NULL, mesh, 3, &f);
-    if (outcome == STATUS_OK && sound)
+    if (outcome == STATUS_OK && complete)
         outcome = plan_extend(&s, &good, 1, &f);
     if (outcome == STATUS_OK)
         outcome = plan_extend(&s, &endless, 1, &f);
     if (outcome != STATUS_OK || run_sweep(request, &s, &f) != STATUS_OK)
         return 1;
-    int right = request->interruptible ? s.seriess == sound && s.unfinished == 3
-                                       : s.seriess == 1 + sound && s.unfinished == 0;
+    int right = request->interruptible ? s.seriess == complete && s.unfinished == 3
+                                       : s.seriess == 1 + complete && s.unfinished == 0;
     for (int i = 0; i < s.seriess; i++)
         for (int k = 0; k < 3; k++)
             right = right &&
-                    (s.series[i].cell[k].solve.status == STATUS_TIME_LIMIT) == (i >= sound) &&
-                    (s.series[i].cell[k].solve.quantities > 0) == (i < sound);
+                    (s.series[i].cell[k].solve.status == STATUS_TIME_LIMIT) == (i >= complete) &&
+                    (s.series[i].cell[k].solve.quantities > 0) == (i < complete);
     sweep_free(&s);
     return right ? 0 : 2;
 }
 
-static family begin_family(const sweep_request *request, int sound)
+static family begin_family(const sweep_request *request, int complete)
 {
     int ends[2];
     family out = {-1, -1};
@@ -57,10 +57,10 @@ static family begin_family(const sweep_request *request, int sound)
         return out;
     if (out.parent == 0) {
         close(ends[0]);
-        _exit(run_endless(request, sound, ends[1]));
+        _exit(run_endless(request, complete, ends[1]));
     }
     close(ends[1]);
-    out.says = ends[0];
+    out.output = ends[0];
     return out;
 }
 
@@ -68,11 +68,11 @@ static family begin_family(const sweep_request *request, int sound)
  * any more, or -1 if nothing happens within WAIT. */
 static pid_t next_cell(const family *of)
 {
-    struct pollfd end = {.fd = of->says, .events = POLLIN};
+    struct pollfd end = {.fd = of->output, .events = POLLIN};
     pid_t process = 0;
     if (poll(&end, 1, 1000 * WAIT) <= 0)
         return -1;
-    return read(of->says, &process, sizeof process) == (ssize_t)sizeof process ? process : 0;
+    return read(of->output, &process, sizeof process) == (ssize_t)sizeof process ? process : 0;
 }
 
 static int exit_code(pid_t process)
@@ -90,13 +90,13 @@ static void orphans(void)
     gsl_test(first <= 0 || second <= 0 || first == second, "two workers are at their cells");
     kill(of.parent, SIGKILL);
     exit_code(of.parent);
-    const int gone = next_cell(&of) == 0;
-    gsl_test(!gone, "nobody holds the pipe any more: the workers went with their parent");
-    if (!gone && first > 0 && second > 0) {
+    const int has_ended = next_cell(&of) == 0;
+    gsl_test(!has_ended, "nobody holds the pipe any more: the workers went with their parent");
+    if (!has_ended && first > 0 && second > 0) {
         kill(first, SIGKILL);
         kill(second, SIGKILL);
     }
-    close(of.says);
+    close(of.output);
 }
 
 static char state_of(pid_t process)
@@ -129,7 +129,7 @@ static void own_limit(void)
         kill(cell, SIGKILL);
     kill(of.parent, SIGCONT);
     gsl_test_int(exit_code(of.parent), 0, "and its parent says that the limit was reached");
-    close(of.says);
+    close(of.output);
 }
 
 /* On a request to stop, a run must keep the finished series, and only those. */
@@ -142,10 +142,10 @@ static void interrupted(int number)
     gsl_test_int(exit_code(of.parent), 0,
                  "signal %d: one series of two is left, three cells are not done", number);
     gsl_test_int(next_cell(&of), 0, "signal %d: no worker is left", number);
-    close(of.says);
+    close(of.output);
 }
 
-static int is_asked(const interrupt *i)
+static int is_requested(const interrupt *i)
 {
     struct pollfd end = {.fd = i->descriptor, .events = POLLIN};
     return poll(&end, 1, 0) > 0;
@@ -158,14 +158,14 @@ static void requests(void)
     interrupt i;
     sigset_t after;
     interrupt_begin(&i);
-    gsl_test(i.descriptor < 0 || is_asked(&i), "nobody asks");
+    gsl_test(i.descriptor < 0 || is_requested(&i), "nobody asks");
     raise(SIGTERM);
-    gsl_test(!is_asked(&i), "somebody does, and is not obeyed at once");
+    gsl_test(!is_requested(&i), "somebody does, and is not obeyed at once");
     interrupt_end(&i);
     signal(SIGHUP, SIG_IGN);
     interrupt_begin(&i);
     raise(SIGHUP);
-    gsl_test(is_asked(&i), "an ignored signal is no request");
+    gsl_test(is_requested(&i), "an ignored signal is no request");
     interrupt_end(&i);
     signal(SIGHUP, SIG_DFL);
     sigprocmask(SIG_SETMASK, NULL, &after);

@@ -425,7 +425,7 @@ static void settled(void)
     fill(DOUBLED, mesh, 0.3, 8,
          v); /* the last change is 0.3/16^8 = 7e-11 of 3, and the preceding one is 2e-8 */
     l = limit_of(&(limit_sequence){DOUBLED, mesh, v, NAN, 2, 8, 0});
-    is_kind(l, LIMIT_SETTLED, "a high order that has reached the noise");
+    is_kind(l, LIMIT_CONVERGED, "a high order that has reached the noise");
     gsl_test_rel(l.order, 8, 0.02, "shows its order above it");
 }
 
@@ -464,7 +464,7 @@ static void out_of_order(void)
     gsl_test_rel(l.limit_uncertainty, 3 * 0.4 * 2, 1e-6, "count more, as they grow");
     for (int i = 0; i < DOUBLED; i++)
         v[i] = limit_value + 1e-6 * (i % 2 ? 1 : -1) / mesh[i];
-    is_kind(doubled(DOUBLED, v), LIMIT_SETTLED, "alternating beyond interest");
+    is_kind(doubled(DOUBLED, v), LIMIT_CONVERGED, "alternating beyond interest");
 }
 
 /* Failed meshes and meshes too close to each other are ignored. The meshes may be given in any

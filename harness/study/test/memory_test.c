@@ -108,13 +108,13 @@ static void exhaust(const char *name, memory_attempt *run, const void *what, int
         refused_call = k;
         const status outcome = run(what, &value, &why);
         refused_call = 0;
-        const int says_so = outcome == STATUS_FAULT ||
-                            (outcome == STATUS_REFUSED && strstr(why.text, "memory") != NULL);
+        const int reports_it = outcome == STATUS_FAULT ||
+                               (outcome == STATUS_REFUSED && strstr(why.text, "memory") != NULL);
         const int good = outcome == STATUS_OK
                              ? fabs(value - right) <= 1e-13 * fabs(right)
-                             : says_so && why.text[0] != '\0' && strchr(why.text, '\n') == NULL;
-        bad_status += outcome != STATUS_OK && !says_so;
-        bad_line += outcome != STATUS_OK && says_so && !good;
+                             : reports_it && why.text[0] != '\0' && strchr(why.text, '\n') == NULL;
+        bad_status += outcome != STATUS_OK && !reports_it;
+        bad_line += outcome != STATUS_OK && reports_it && !good;
         wrong += outcome == STATUS_OK && !good;
         leaks += live != before;
         if ((!good || live != before) && worst[0] == '\0')
@@ -199,13 +199,13 @@ static status write_results(const void *what, double *value, fault *f)
     sweep s;
     formulation chosen;
     truths none = {0};
-    judgement j = {0};
+    evaluation j = {0};
     parameters_default(registry_cases[0], parameter);
     formulation_default(registry_formulations[0], &chosen);
     TRY(plan_one(registry_cases[0], parameter, &chosen, 1, mesh, 2, &s, f));
     for (int i = 0; i < s.series[0].meshes; i++)
         s.series[0].cell[i].solve.status = STATUS_SINGULAR;
-    status outcome = judgement_make(&s, &none, 0, &j, f);
+    status outcome = evaluation_make(&s, &none, 0, &j, f);
     if (outcome == STATUS_OK)
         outcome = store_write(what, NULL, &s, &j, &e, f);
     *value = access(what, F_OK) == 0;
@@ -214,7 +214,7 @@ static status write_results(const void *what, double *value, fault *f)
             f, STATUS_OK,
             "a file\nwas left"); /* lets the test fail, because this message is not one line */
     unlink(what);
-    judgement_free(&j);
+    evaluation_free(&j);
     sweep_free(&s);
     return outcome;
 }

@@ -44,7 +44,7 @@ static int all_but_the_first(void *context, const sweep *s, int series_index)
 static void rounding(const case_type *type)
 {
     sweep s;
-    const sweep_follower follower = {.context = &s, .doubts = all_but_the_first};
+    const sweep_follower follower = {.context = &s, .needs_scatter = all_but_the_first};
     const int count = measure(type, &follower, &s);
     double largest = 0;
     int measured = 0;
@@ -84,7 +84,7 @@ static void size_of_it(const case_type *type)
     for (int k = 0; k < 2; k++) {
         sweep s;
         accident what = {&s, k == 0 ? 1 + 1e-3 : NAN};
-        const sweep_follower follower = {.context = &what, .doubts = change};
+        const sweep_follower follower = {.context = &what, .needs_scatter = change};
         const int count = measure(type, &follower, &s);
         int i = 0;
         while (i + 1 < count && s.series[i].missing[0] != '\0')
@@ -123,7 +123,7 @@ static void larger_of_two(const case_type *type)
 {
     sweep s;
     accident none = {&s, 1};
-    const sweep_follower follower = {.context = &none, .doubts = change};
+    const sweep_follower follower = {.context = &none, .needs_scatter = change};
     const int count = measure(type, &follower, &s);
     int differ = 0;
     for (int i = 0; i < count; i++) {
@@ -219,11 +219,11 @@ static void add(const char *name, sweep *s)
              "%s: planned %s", name, f.text);
 }
 
-static double expense_of(const sweep *s, int index)
+static double run_cost_of(const sweep *s, int index)
 {
     double all = 0;
     for (int k = 0; k < 3; k++)
-        all += expense_of_cell(s, index, k);
+        all += run_cost_of_cell(s, index, k);
     return all;
 }
 
@@ -232,8 +232,8 @@ static int is_small(const sweep *s, int jobs, int index)
 {
     double all = 0;
     for (int i = 0; i < s->seriess; i++)
-        all += s->series[i].missing[0] == '\0' ? expense_of(s, i) : 0;
-    return expense_of(s, index) < 0.01 * all / jobs;
+        all += s->series[i].missing[0] == '\0' ? run_cost_of(s, i) : 0;
+    return run_cost_of(s, index) < 0.01 * all / jobs;
 }
 
 static void order(int jobs)
@@ -246,19 +246,20 @@ static void order(int jobs)
     const int count = sweep_cells(&s);
     workload_task *tasks = calloc((size_t)count + 1, sizeof *tasks);
     char *met = calloc((size_t)s.seriess * 3 + 1, 1);
-    int elements_free = 0, repeated = 0, cheaper_first = 0, coarser_first = 0, small = 0, late = 0;
-    gsl_test(count == 0 || tasks == NULL || met == NULL || expense_order(&s, jobs, tasks) != 0,
+    int elements_free = 0, repeated = 0, lower_cost_first = 0, coarser_first = 0, small = 0,
+        late = 0;
+    gsl_test(count == 0 || tasks == NULL || met == NULL || run_cost_order(&s, jobs, tasks) != 0,
              "%d cells in order", count);
     for (int i = 0; i < count; i++) {
         elements_free +=
-            tasks[i].mesh > 0 && expense_of_cell(&s, tasks[i].series, tasks[i].mesh) <=
-                                     expense_of_cell(&s, tasks[i].series, tasks[i].mesh - 1);
+            tasks[i].mesh > 0 && run_cost_of_cell(&s, tasks[i].series, tasks[i].mesh) <=
+                                     run_cost_of_cell(&s, tasks[i].series, tasks[i].mesh - 1);
         repeated += met[3 * tasks[i].series + tasks[i].mesh]++;
         if (i == 0)
             continue;
         const workload_task *a = &tasks[i - 1], *b = &tasks[i];
         const int before = is_small(&s, jobs, a->series), here = is_small(&s, jobs, b->series);
-        cheaper_first += !here && expense_of(&s, a->series) < expense_of(&s, b->series);
+        lower_cost_first += !here && run_cost_of(&s, a->series) < run_cost_of(&s, b->series);
         late += before && !here;
         late += before && here && a->series > b->series;
         small += here;
@@ -266,7 +267,7 @@ static void order(int jobs)
     }
     gsl_test_int(elements_free, 0, "more elements cost more");
     gsl_test_int(repeated, 0, "each once");
-    gsl_test_int(cheaper_first, 0, "the dearest series first");
+    gsl_test_int(lower_cost_first, 0, "the dearest series first");
     gsl_test_int(late, 0, "then small ones, as they stand");
     gsl_test(small == 0 || small > count - 3, "%d cells of %d are in small ones", small, count);
     gsl_test_int(coarser_first, 0, "the finest mesh of a series first");
@@ -279,19 +280,19 @@ static void order(int jobs)
 }
 
 /* Checks the counted work of the analyses of a case with its default parameters. */
-static void counted(const char *name, expense_kind kind, double wanted)
+static void counted(const char *name, run_cost_kind kind, double wanted)
 {
     fault f = {""};
-    double value[CASE_MAX_PARAMETERS] = {0}, times[EXPENSE_KINDS];
+    double value[CASE_MAX_PARAMETERS] = {0}, times[RUN_COST_KINDS];
     const case_type *type = case_find(name, &f);
     scene s;
     parameters_default(type, value);
     gsl_test(cell_scene(type, value, NULL, &s, &f) != STATUS_OK, "%s: %s", name, f.text);
-    expense_count(&s, 0, times);
+    run_cost_count(&s, 0, times);
     gsl_test_rel(times[kind], wanted, 1e-15, "%s: kind %d of work", name, (int)kind);
-    gsl_test_rel(times[EXPENSE_cell], 1, 1e-15, "%s: one cell", name);
-    expense_count(&s, 7, times);
-    if (kind == EXPENSE_load_step)
+    gsl_test_rel(times[RUN_COST_cell], 1, 1e-15, "%s: one cell", name);
+    run_cost_count(&s, 7, times);
+    if (kind == RUN_COST_load_step)
         gsl_test_rel(times[kind], 7, 1e-15, "%s: load steps that are asked for", name);
     scene_free(&s);
 }
@@ -301,22 +302,22 @@ static void counted(const char *name, expense_kind kind, double wanted)
 static void adapts(void)
 {
     const double instant = 3;
-    double times[EXPENSE_KINDS];
+    double times[RUN_COST_KINDS];
     scene s;
     scene_init(&s, "adapts");
     const scene_motion how = {.step = 1e-3, .tolerance = 1e-6};
     scene_add_motion(&s, SCENE_NONE, 1, &instant, how);
     scene_motion *m = &s.analysis[0].of.motion;
-    expense_count(&s, 0, times);
-    gsl_test_rel(times[EXPENSE_alpha_step], 80 * pow(100, 0.45), 1e-12, "of alpha");
+    run_cost_count(&s, 0, times);
+    gsl_test_rel(times[RUN_COST_alpha_step], 80 * pow(100, 0.45), 1e-12, "of alpha");
     m->scheme = SCENE_RADAU;
-    expense_count(&s, 0, times);
-    gsl_test_rel(times[EXPENSE_radau_step], 40 * pow(100, 0.3), 1e-12, "of radau");
-    gsl_test_abs(times[EXPENSE_alpha_step], 0, 0, "none of alpha");
+    run_cost_count(&s, 0, times);
+    gsl_test_rel(times[RUN_COST_radau_step], 40 * pow(100, 0.3), 1e-12, "of radau");
+    gsl_test_abs(times[RUN_COST_alpha_step], 0, 0, "none of alpha");
     m->tolerance = 0;
     m->step = 0.7;
-    expense_count(&s, 0, times);
-    gsl_test_rel(times[EXPENSE_radau_step], 5, 1e-15, "the last step is shorter");
+    run_cost_count(&s, 0, times);
+    gsl_test_rel(times[RUN_COST_radau_step], 5, 1e-15, "the last step is shorter");
     scene_free(&s);
 }
 
@@ -324,23 +325,23 @@ static void adapts(void)
 static void prices(void)
 {
     double all = 0;
-    for (int k = 0; k < EXPENSE_KINDS; k++) {
-        gsl_test(expense_work[k].once < 0 || expense_work[k].element < 0, "price %d", k);
-        all += expense_work[k].element;
+    for (int k = 0; k < RUN_COST_KINDS; k++) {
+        gsl_test(run_cost_work[k].once < 0 || run_cost_work[k].element < 0, "price %d", k);
+        all += run_cost_work[k].element;
     }
     gsl_test(all <= 0, "elements cost something");
-    gsl_test(expense_factors[0].formulation == NULL, "formulations have rows");
+    gsl_test(run_cost_factors[0].formulation == NULL, "formulations have rows");
 }
 
-static void expense_tests(void)
+static void run_cost_tests(void)
 {
     order(1);
     order(3);
-    counted("bend_45", EXPENSE_load_step, 1);
-    counted("warping_torsion", EXPENSE_linear, 1);
-    counted("tip_body", EXPENSE_modal, 1);
-    counted("lee_frame", EXPENSE_continuation, 1);
-    counted("pendulum", EXPENSE_radau_step, 40 * pow(1 / 6.0, 0.3)); /* tolerance 6e-4 */
+    counted("bend_45", RUN_COST_load_step, 1);
+    counted("warping_torsion", RUN_COST_linear, 1);
+    counted("tip_body", RUN_COST_modal, 1);
+    counted("lee_frame", RUN_COST_continuation, 1);
+    counted("pendulum", RUN_COST_radau_step, 40 * pow(1 / 6.0, 0.3)); /* tolerance 6e-4 */
     adapts();
     prices();
 }
@@ -348,6 +349,6 @@ static void expense_tests(void)
 int main(void)
 {
     noise_tests();
-    expense_tests();
+    run_cost_tests();
     return gsl_test_summary();
 }

@@ -17,7 +17,7 @@ typedef struct run {
     sweep s;
     sweep_point point[2];
     series one[6];
-    judgement j;
+    evaluation j;
     verdict verdict[VERDICTS];
 } run;
 
@@ -35,7 +35,7 @@ static void make(run *r)
         strcpy(r->one[i].formulation.key, keys[i % 3]);
     }
     r->s = (sweep){.points = 2, .seriess = 6, .point = r->point, .series = r->one};
-    r->j = (judgement){.verdict = r->verdict, .judged = 1};
+    r->j = (evaluation){.verdict = r->verdict, .evaluated = 1};
 }
 
 static void add(run *r, int series_index, verdict_kind kind, int matches, int times)
@@ -106,7 +106,7 @@ static void the_unexpected(void)
     shows(&r, 0, 2, "!c1", "!c1");
 }
 
-static void says(const run *r, const char *expected)
+static void output(const run *r, const char *expected)
 {
     char text[1000];
     sentence_of_run(&r->s, &r->j, text, sizeof text);
@@ -119,36 +119,39 @@ static void sentences(void)
     rule known = {.name = words[WHY]};
     make(&r);
     add(&r, 0, VERDICT_PASS, 1, 3);
-    says(&r, "PASS: every verdict is as expected.");
+    output(&r, "PASS: every verdict is as expected.");
     add(&r, 0, VERDICT_WRONG_AS_PREDICTED, 1, 2);
     add(&r, 0, VERDICT_BIASED_AS_PREDICTED, 1, 1);
     add(&r, 0, VERDICT_UNDECIDED, 1, 4);
     for (int i = 3; i < r.j.verdicts; i++)
         r.verdict[i].rule = &known;
-    says(&r, "PASS: every verdict is as expected; 3 of them concern limits that differ from the "
-             "reference value (1 "
-             "within the tolerance, 2 outside it), as derived for these formulations (beamwork "
-             "explain \"wrong limit, as predicted\"), 4 more are explained by a known deviation.");
+    output(&r,
+           "PASS: every verdict is as expected; 3 of them concern limits that differ from the "
+           "reference value (1 "
+           "within the tolerance, 2 outside it), as derived for these formulations (beamwork "
+           "explain \"wrong limit, as predicted\"), 4 more are explained by a known deviation.");
     r.s.unfinished = 7;
-    says(&r, "INTERRUPTED: until then every verdict is as expected; 3 of them concern limits that "
-             "differ from the "
-             "reference value (1 within the tolerance, 2 outside it), as derived for these "
-             "formulations (beamwork explain \"wrong limit, as predicted\"), 4 more are explained "
-             "by a known deviation.");
+    output(&r,
+           "INTERRUPTED: until then every verdict is as expected; 3 of them concern limits that "
+           "differ from the "
+           "reference value (1 within the tolerance, 2 outside it), as derived for these "
+           "formulations (beamwork explain \"wrong limit, as predicted\"), 4 more are explained "
+           "by a known deviation.");
     r.s.unfinished = 0;
     add(&r, 0, VERDICT_BIASED, 0, 1);
-    says(&r, "FAIL: 1 verdict differs from the expected one.");
+    output(&r, "FAIL: 1 verdict differs from the expected one.");
     r.j.disagreements = 2;
     r.j.flaws = 1;
     r.j.unobserved = 2;
     r.j.unmet = 1;
-    says(&r, "FAIL: 1 verdict differs from the expected one, 2 values differ from their stored "
-             "values, 1 inconsistent run record, 2 known deviations were not observed, 1 reference "
-             "value "
-             "refers to "
-             "an unknown name.");
-    r.j.judged = 0;
-    says(&r, "");
+    output(&r,
+           "FAIL: 1 verdict differs from the expected one, 2 values differ from their stored "
+           "values, 1 inconsistent run record, 2 known deviations were not observed, 1 reference "
+           "value "
+           "refers to "
+           "an unknown name.");
+    r.j.evaluated = 0;
+    output(&r, "");
 }
 
 static void single_ones(void)
@@ -160,39 +163,40 @@ static void single_ones(void)
     add(&r, 0, VERDICT_UNDECIDED, 1, 1);
     for (int i = 0; i < r.j.verdicts; i++)
         r.verdict[i].rule = &known;
-    says(&r, "PASS: every verdict is as expected; 1 of them concerns a limit that differs from the "
-             "reference value (0 "
-             "within the tolerance, 1 outside it), as derived for its formulation (beamwork "
-             "explain \"wrong limit, as predicted\"), 1 more is explained by a known deviation.");
+    output(&r,
+           "PASS: every verdict is as expected; 1 of them concerns a limit that differs from the "
+           "reference value (0 "
+           "within the tolerance, 1 outside it), as derived for its formulation (beamwork "
+           "explain \"wrong limit, as predicted\"), 1 more is explained by a known deviation.");
     make(&r);
     add(&r, 0, VERDICT_PASS, 1, 3);
     r.j.is_new = 2;
-    says(&r, "PASS: every verdict is as expected; 2 belong to new formulations and do not affect "
-             "the exit status; none requires a known deviation.");
+    output(&r, "PASS: every verdict is as expected; 2 belong to new formulations and do not affect "
+               "the exit status; none requires a known deviation.");
     r.j.proposed = 1;
-    says(&r, "PASS: everything that affects the exit status is as expected; without "
-             "effect on the exit status: "
-             "1 of 2 verdicts "
-             "of new formulations is not a pass and would need a known deviation "
-             "(--propose-deviations FILE "
-             "lists it).");
+    output(&r, "PASS: everything that affects the exit status is as expected; without "
+               "effect on the exit status: "
+               "1 of 2 verdicts "
+               "of new formulations is not a pass and would need a known deviation "
+               "(--propose-deviations FILE "
+               "lists it).");
     r.j.proposed = 2;
-    says(&r, "PASS: everything that affects the exit status is as expected; without "
-             "effect on the exit status: "
-             "2 of 2 verdicts "
-             "of new formulations are not a pass and would need a known deviation "
-             "(--propose-deviations FILE "
-             "lists them).");
+    output(&r, "PASS: everything that affects the exit status is as expected; without "
+               "effect on the exit status: "
+               "2 of 2 verdicts "
+               "of new formulations are not a pass and would need a known deviation "
+               "(--propose-deviations FILE "
+               "lists them).");
     r.j.is_new = r.j.proposed = 1;
-    says(&r, "PASS: everything that affects the exit status is as expected; without "
-             "effect on the exit status: "
-             "1 of 1 verdict of "
-             "a new formulation is not a pass and would need a known deviation "
-             "(--propose-deviations FILE "
-             "lists it).");
+    output(&r, "PASS: everything that affects the exit status is as expected; without "
+               "effect on the exit status: "
+               "1 of 1 verdict of "
+               "a new formulation is not a pass and would need a known deviation "
+               "(--propose-deviations FILE "
+               "lists it).");
     r.j.proposed = 0;
-    says(&r, "PASS: every verdict is as expected; 1 belongs to a new formulation and does not "
-             "affect the exit status; none requires a known deviation.");
+    output(&r, "PASS: every verdict is as expected; 1 belongs to a new formulation and does not "
+               "affect the exit status; none requires a known deviation.");
 }
 
 static void columns(void)
@@ -201,7 +205,7 @@ static void columns(void)
     static series many[MANY];
     sweep_point here = {.type = &made_up};
     sweep s = {.points = 1, .seriess = 3, .point = &here, .series = many};
-    judgement j = {0};
+    evaluation j = {0};
     overview o;
     fault f = {""};
     for (int i = 0; i < MANY; i++) {
@@ -255,12 +259,13 @@ static void overview_tests(void)
 
 /* Counts each of which makes the run fail. */
 static const size_t failing[] = {
-    offsetof(judgement, unexpected), offsetof(judgement, disagreements),
-    offsetof(judgement, unobserved), offsetof(judgement, unmet),
-    offsetof(judgement, flaws),      offsetof(judgement, breaches),
-    offsetof(judgement, regressions)};
+    offsetof(evaluation, unexpected), offsetof(evaluation, disagreements),
+    offsetof(evaluation, unobserved), offsetof(evaluation, unmet),
+    offsetof(evaluation, flaws),      offsetof(evaluation, breaches),
+    offsetof(evaluation, regressions)};
 /* Counts that make the run fail if they are not zero. */
-static const size_t checking[] = {offsetof(judgement, judged), offsetof(judgement, agreements)};
+static const size_t checking[] = {offsetof(evaluation, evaluated),
+                                  offsetof(evaluation, agreements)};
 enum {
     FAILING = sizeof failing / sizeof failing[0],
     CHECKING = sizeof checking / sizeof checking[0]
@@ -277,16 +282,16 @@ static int is_among(size_t offset, int count, const size_t list[])
 static int is_pointer(size_t offset)
 {
     static const size_t pointer[] = {
-        offsetof(judgement, verdict),  offsetof(judgement, agreement),
-        offsetof(judgement, coverage), offsetof(judgement, flaw),
-        offsetof(judgement, breach),   offsetof(judgement, regression)};
+        offsetof(evaluation, verdict),  offsetof(evaluation, agreement),
+        offsetof(evaluation, coverage), offsetof(evaluation, flaw),
+        offsetof(evaluation, breach),   offsetof(evaluation, regression)};
     for (size_t i = 0; i < sizeof pointer / sizeof pointer[0]; i++)
         if (offset >= pointer[i] && offset < pointer[i] + sizeof(void *))
             return 1;
     return 0;
 }
 
-static void set(judgement *j, size_t offset, int value)
+static void set(evaluation *j, size_t offset, int value)
 {
     memcpy((char *)j + offset, &value, sizeof value);
 }
@@ -296,26 +301,26 @@ static void set(judgement *j, size_t offset, int value)
 static void exit_codes(void)
 {
     int walked = 0;
-    for (size_t at = 0; at + sizeof(int) <= sizeof(judgement); at += sizeof(int)) {
+    for (size_t at = 0; at + sizeof(int) <= sizeof(evaluation); at += sizeof(int)) {
         if (is_pointer(at))
             continue;
         walked++;
         for (int k = 0; k < CHECKING; k++) {
-            judgement j = {0};
+            evaluation j = {0};
             set(&j, checking[k], 1);
-            gsl_test_int(judgement_exit(&j), 0, "something was checked, nothing differs");
+            gsl_test_int(evaluation_exit(&j), 0, "something was checked, nothing differs");
             set(&j, at, 1);
-            gsl_test_int(judgement_exit(&j), is_among(at, FAILING, failing),
+            gsl_test_int(evaluation_exit(&j), is_among(at, FAILING, failing),
                          "the count at byte %d alone", (int)at);
-            gsl_test(strcmp(judgement_outcome(&j), judgement_exit(&j) ? "fail" : "pass") != 0,
+            gsl_test(strcmp(evaluation_outcome(&j), evaluation_exit(&j) ? "fail" : "pass") != 0,
                      "its word");
         }
-        judgement none = {0};
+        evaluation none = {0};
         set(&none, at, 1);
         /* breaches and regressions make the run fail even if there is no verdict */
         const int broken =
-            at == offsetof(judgement, breaches) || at == offsetof(judgement, regressions);
-        gsl_test_int(judgement_exit(&none),
+            at == offsetof(evaluation, breaches) || at == offsetof(evaluation, regressions);
+        gsl_test_int(evaluation_exit(&none),
                      is_among(at, CHECKING, checking) ? 0
                      : broken                         ? 1
                                                       : 3,
@@ -327,10 +332,10 @@ static void exit_codes(void)
 static void failures_together(void)
 {
     for (unsigned chosen = 0; chosen < 1u << FAILING; chosen++) {
-        judgement j = {.judged = 1};
+        evaluation j = {.evaluated = 1};
         for (int k = 0; k < FAILING; k++)
             set(&j, failing[k], (int)(chosen >> k & 1u));
-        gsl_test_int(judgement_exit(&j), chosen != 0, "counts %u together", chosen);
+        gsl_test_int(evaluation_exit(&j), chosen != 0, "counts %u together", chosen);
     }
 }
 
@@ -338,7 +343,7 @@ static const double truth_value = -4;
 
 /* A series with measured times, and the verdict on it. */
 typedef struct timed {
-    judge_bench b;
+    evaluation_bench b;
     cell_timing timing[MESHES];
     verdict v;
 } timed;
@@ -457,21 +462,21 @@ static const double just = 3e-3;
 
 /* Whether a limit agrees with the derived limit is tested at the edges given by the uncertainties,
  * on either side of the reference value, and for any source of the uncertainty. */
-static verdict_kind judged(judge_bench *b, double limit, double apart)
+static verdict_kind evaluated(evaluation_bench *b, double limit, double apart)
 {
     b->row[1].value = limit + apart;
-    return bench_judge(b)->kind;
+    return bench_evaluate(b)->kind;
 }
 
 /* A limit must agree with the derived limit if their distance is up to `edge`, but not beyond. */
-static void edges(judge_bench *b, double edge, verdict_kind beyond, const char *what)
+static void edges(evaluation_bench *b, double edge, verdict_kind beyond, const char *what)
 {
-    const double limit = bench_judge(b)->fit.limit;
+    const double limit = bench_evaluate(b)->fit.limit;
     const verdict_kind within =
         beyond == VERDICT_BIASED ? VERDICT_BIASED_AS_PREDICTED : VERDICT_WRONG_AS_PREDICTED;
     for (int side = -1; side <= 1; side += 2) {
-        const verdict_kind in = judged(b, limit, side * edge * (1 - just)),
-                           out = judged(b, limit, side * edge * (1 + just));
+        const verdict_kind in = evaluated(b, limit, side * edge * (1 - just)),
+                           out = evaluated(b, limit, side * edge * (1 + just));
         gsl_test(in != within, "%s: inside its edge %+.1e: %s", what, side * edge,
                  verdict_name(in));
         gsl_test(out != beyond, "%s: beyond its edge %+.1e: %s", what, side * edge,
@@ -479,7 +484,7 @@ static void edges(judge_bench *b, double edge, verdict_kind beyond, const char *
     }
 }
 
-static void with_prediction(judge_bench *b, double limit)
+static void with_prediction(evaluation_bench *b, double limit)
 {
     static double none[1] = {0};
     bench_make(b);
@@ -495,19 +500,20 @@ static void sharp_limits(void)
 {
     static const double error[] = {0.003, -0.003, 0.3, -0.03};
     for (int i = 0; i < 4; i++) {
-        judge_bench b;
+        evaluation_bench b;
         with_prediction(&b, 3 + error[i]);
-        const mesh_limit fit = bench_judge(&b)->fit;
-        const double doubt = fit.limit_uncertainty, part = 1e-3 * error[i];
-        gsl_test(!(doubt < 1e-5 * fabs(error[i])), "(the limit is known well: %.1e)", doubt);
-        gsl_test(judged(&b, fit.limit, part) != VERDICT_WRONG_LIMIT ||
-                     judged(&b, fit.limit, -part) != VERDICT_WRONG_LIMIT,
+        const mesh_limit fit = bench_evaluate(&b)->fit;
+        const double uncertainty = fit.limit_uncertainty, part = 1e-3 * error[i];
+        gsl_test(!(uncertainty < 1e-5 * fabs(error[i])), "(the limit is known well: %.1e)",
+                 uncertainty);
+        gsl_test(evaluated(&b, fit.limit, part) != VERDICT_WRONG_LIMIT ||
+                     evaluated(&b, fit.limit, -part) != VERDICT_WRONG_LIMIT,
                  "a thousandth of the error is another limit");
         b.row[1].uncertainty = fabs(error[i]) / 50;
-        edges(&b, 3 * doubt + b.row[1].uncertainty, VERDICT_WRONG_LIMIT,
+        edges(&b, 3 * uncertainty + b.row[1].uncertainty, VERDICT_WRONG_LIMIT,
               "the prediction's uncertainty");
         b.row[0].uncertainty = fabs(error[i]) / 10;
-        edges(&b, 3 * doubt + b.row[1].uncertainty, VERDICT_WRONG_LIMIT,
+        edges(&b, 3 * uncertainty + b.row[1].uncertainty, VERDICT_WRONG_LIMIT,
               "the reference value's own uncertainty does not count");
         bench_free(&b);
     }
@@ -516,15 +522,16 @@ static void sharp_limits(void)
 /* The limit is uncertain, so three times its uncertainty determines the verdict. */
 static void uncertain_limits(void)
 {
-    judge_bench b;
+    evaluation_bench b;
     double noise[1] = {1e-5};
     with_prediction(&b, 3.03);
     b.one.noise = noise;
-    const double doubt = bench_judge(&b)->fit.limit_uncertainty;
-    gsl_test(!(3 * doubt > 1.5e-3 * 0.03), "(the limit is not known well: %.1e)", doubt);
-    edges(&b, 3 * doubt, VERDICT_WRONG_LIMIT, "three uncertainties");
-    b.row[1].uncertainty = doubt / 2;
-    edges(&b, 3.5 * doubt, VERDICT_WRONG_LIMIT, "three uncertainties and the prediction's");
+    const double uncertainty = bench_evaluate(&b)->fit.limit_uncertainty;
+    gsl_test(!(3 * uncertainty > 1.5e-3 * 0.03), "(the limit is not known well: %.1e)",
+             uncertainty);
+    edges(&b, 3 * uncertainty, VERDICT_WRONG_LIMIT, "three uncertainties");
+    b.row[1].uncertainty = uncertainty / 2;
+    edges(&b, 3.5 * uncertainty, VERDICT_WRONG_LIMIT, "three uncertainties and the prediction's");
     bench_free(&b);
 }
 
@@ -534,14 +541,14 @@ static void biases(void)
 {
     static const double error[] = {2e-4, -2e-4};
     for (int i = 0; i < 2; i++) {
-        judge_bench b;
+        evaluation_bench b;
         with_prediction(&b, 3 + error[i]);
         b.row[1].uncertainty = 1e-6;
-        const double doubt = bench_judge(&b)->fit.limit_uncertainty;
-        edges(&b, 3 * doubt + 1e-6, VERDICT_BIASED, "within the tolerance");
+        const double uncertainty = bench_evaluate(&b)->fit.limit_uncertainty;
+        edges(&b, 3 * uncertainty + 1e-6, VERDICT_BIASED, "within the tolerance");
         b.row[1].value = 3 + 2 * error[i];
         char sentence[2 * FAULT_TEXT];
-        sentence_of_verdict(bench_judge(&b), 2, sentence, sizeof sentence);
+        sentence_of_verdict(bench_evaluate(&b), 2, sentence, sizeof sentence);
         gsl_test(strstr(sentence, i == 0 ? "also differs from the derived limit 3.0004"
                                          : "also differs from the derived limit 2.9996") == NULL,
                  "says '%s'", sentence);
@@ -557,7 +564,7 @@ static void biases(void)
  * equal. */
 static void undecided(void)
 {
-    judge_bench b;
+    evaluation_bench b;
     with_prediction(&b, 3.03);
     double noise[1] = {1e-2};
     b.one.noise = noise;

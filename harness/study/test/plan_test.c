@@ -266,7 +266,7 @@ static int of_case(const case_type *type)
         omission o;
         char words[OMISSION_TEXT];
         if (missing_omits(&s, t) == 0 || missing_omits(&s, t) == known ||
-            missing_refused(&s, t, words, sizeof words) || expense_of_scene(&s, 0, t, 16) > 1)
+            missing_refused(&s, t, words, sizeof words) || run_cost_of_scene(&s, 0, t, 16) > 1)
             continue;
         omission_of(&s, t, &o);
         known = o.what;

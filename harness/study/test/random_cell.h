@@ -11,11 +11,11 @@
 
 #include "harness/study/study.h"
 
-typedef struct dice {
+typedef struct random_source {
     uint64_t state;
-} dice;
+} random_source;
 
-static inline uint64_t roll(dice *d)
+static inline uint64_t roll(random_source *d)
 {
     d->state ^= d->state << 13;
     d->state ^= d->state >> 7;
@@ -23,26 +23,26 @@ static inline uint64_t roll(dice *d)
     return d->state;
 }
 
-static inline int whole(dice *d, int most)
+static inline int whole(random_source *d, int most)
 {
     return (int)(roll(d) % (uint64_t)(most + 1));
 }
 
 /* Returns a random number, which is sometimes a special value. */
-static inline double number(dice *d)
+static inline double number(random_source *d)
 {
     static const double odd[] = {0, -0.0, INFINITY, -INFINITY, NAN, 5e-324, 1.7e308};
     const int which = whole(d, 30);
     return which < 7 ? odd[which] : ldexp((double)(int64_t)roll(d), whole(d, 200) - 160);
 }
 
-static inline void fill(dice *d, size_t count, double value[])
+static inline void fill(random_source *d, size_t count, double value[])
 {
     for (size_t i = 0; i < count; i++)
         value[i] = number(d);
 }
 
-static inline double *numbers(dice *d, size_t count)
+static inline double *numbers(random_source *d, size_t count)
 {
     double *out = calloc(count + 1, sizeof *out);
     fill(d, count, out);
@@ -50,7 +50,7 @@ static inline double *numbers(dice *d, size_t count)
 }
 
 /* Makes a random text of any length, without a zero byte before its end. */
-static inline void fill_text(dice *d, size_t size, char text[])
+static inline void fill_text(random_source *d, size_t size, char text[])
 {
     const size_t length = (size_t)whole(d, (int)size - 1);
     for (size_t i = 0; i < length; i++)
@@ -58,7 +58,7 @@ static inline void fill_text(dice *d, size_t size, char text[])
     text[length] = '\0';
 }
 
-static inline void fill_counts(dice *d, cell_result *c)
+static inline void fill_counts(random_source *d, cell_result *c)
 {
     int *const size[] = {&c->size.elements, &c->size.vertices, &c->size.free, &c->size.driven,
                          &c->size.strains,  &c->size.inner,    &c->size.kinds};
@@ -72,7 +72,7 @@ static inline void fill_counts(dice *d, cell_result *c)
     }
 }
 
-static inline void fill_quantities(dice *d, solve_result *s)
+static inline void fill_quantities(random_source *d, solve_result *s)
 {
     s->quantities = 1 + whole(d, 5);
     s->quantity = calloc((size_t)s->quantities, sizeof *s->quantity);
@@ -88,7 +88,7 @@ static inline void fill_quantities(dice *d, solve_result *s)
     }
 }
 
-static inline void fill_steps(dice *d, solve_result *s)
+static inline void fill_steps(random_source *d, solve_result *s)
 {
     s->steps = 1 + whole(d, 4);
     s->iterations = 1 + whole(d, 9);
@@ -114,7 +114,7 @@ static inline void fill_steps(dice *d, solve_result *s)
             .residual = number(d), .correction = number(d), .incompatibility = number(d)};
 }
 
-static inline void fill_motion(dice *d, solve_result *s)
+static inline void fill_motion(random_source *d, solve_result *s)
 {
     s->motions = 1 + whole(d, 3);
     s->motion = calloc((size_t)s->motions, sizeof *s->motion);
@@ -126,7 +126,7 @@ static inline void fill_motion(dice *d, solve_result *s)
     }
 }
 
-static inline void fill_events(dice *d, solve_result *s)
+static inline void fill_events(random_source *d, solve_result *s)
 {
     s->events = 1 + whole(d, 3);
     s->event = calloc((size_t)s->events, sizeof *s->event);
@@ -141,7 +141,7 @@ static inline void fill_events(dice *d, solve_result *s)
                                    .measure = number(d)};
 }
 
-static inline void fill_matrices(dice *d, solve_result *s)
+static inline void fill_matrices(random_source *d, solve_result *s)
 {
     s->matrix_sets = 1 + whole(d, 2);
     s->matrices = calloc((size_t)s->matrix_sets, sizeof *s->matrices);
@@ -156,7 +156,7 @@ static inline void fill_matrices(dice *d, solve_result *s)
     }
 }
 
-static inline void fill_shapes(dice *d, shapes *s)
+static inline void fill_shapes(random_source *d, shapes *s)
 {
     *s = (shapes){.states = 1 + whole(d, 2),
                   .members = 1 + whole(d, 2),
@@ -181,7 +181,7 @@ static inline void fill_shapes(dice *d, shapes *s)
     fill(d, 3 * (size_t)s->states * (size_t)s->nodes, s->node);
 }
 
-static inline void fill_left_out(dice *d, cell_result *c)
+static inline void fill_left_out(random_source *d, cell_result *c)
 {
     c->left_out_lines = 1 + whole(d, 3);
     c->left_out = calloc((size_t)c->left_out_lines, sizeof *c->left_out);
@@ -192,7 +192,7 @@ static inline void fill_left_out(dice *d, cell_result *c)
 }
 
 /* Returns a random cell, which the caller frees with cell_result_free. */
-static inline cell_result random_cell(dice *d)
+static inline cell_result random_cell(random_source *d)
 {
     cell_result c = {.size = {0}};
     solve_result *s = &c.solve;

@@ -107,10 +107,10 @@ static void predictions(const char *path)
     gsl_test(rules_is_observed(one), "not observed yet");
     one->observed = 1;
     gsl_test(rules_is_observed(one), "observed, but not as predicted");
-    rules_foretell(one, &(rule_subject){.type = type, .quantity = "other"});
-    rules_foretell(one, &(rule_subject){.type = type, .quantity = "third"});
+    rules_confirm_limit(one, &(rule_subject){.type = type, .quantity = "other"});
+    rules_confirm_limit(one, &(rule_subject){.type = type, .quantity = "third"});
     gsl_test(rules_is_observed(one), "one of two predictions met");
-    rules_foretell(one, &(rule_subject){.type = type, .quantity = "load"});
+    rules_confirm_limit(one, &(rule_subject){.type = type, .quantity = "load"});
     gsl_test(!rules_is_observed(one), "both");
     one->observed = 0;
     gsl_test(rules_is_observed(one), "predictions alone are no observation");

@@ -275,7 +275,7 @@ static void change_tests(void)
 /* Numbers are shown to their accuracy: values to the second digit of their uncertainty, errors in
  * percent. */
 
-static void says(const char *text, const char *expected, const char *what)
+static void output(const char *text, const char *expected, const char *what)
 {
     gsl_test(strcmp(text, expected) != 0, "%s: '%s', should be '%s'", what, text, expected);
 }
@@ -284,14 +284,14 @@ static void known(double value, double uncertainty, const char *expected)
 {
     char text[ROUNDING_TEXT];
     rounding_known(value, uncertainty, text);
-    says(text, expected, "a value and its uncertainty");
+    output(text, expected, "a value and its uncertainty");
 }
 
 static void percent(double error, const char *expected)
 {
     char text[ROUNDING_TEXT];
     rounding_percent(error, text);
-    says(text, expected, "an error");
+    output(text, expected, "an error");
     gsl_test(strlen(text) > 11, "'%s' is no wider than its column", text);
 }
 
@@ -353,7 +353,7 @@ static char *shown(double now, int done, double share, int ends)
     return text;
 }
 
-static void progress_says(double seconds, double share, const char *expected)
+static void progress_shows(double seconds, double share, const char *expected)
 {
     char *text = shown(1000 + seconds, 10, share, 0);
     gsl_test(strcmp(text, expected) != 0, "says '%s', should say '%s'", text, expected);
@@ -389,11 +389,11 @@ static void too_long(void)
 
 static void progress_tests(void)
 {
-    progress_says(30, 0.25, "\rcells 10 of 40, 25 %, about 2 min left: case, beam, n = 8\r");
-    progress_says(30, 0.5, "\rcells 10 of 40, 50 %, about 30 s left: case, beam, n = 8\r");
-    progress_says(60, 0.01, "\rcells 10 of 40, 1 %, about 1 h 39 min left: case, beam, n = 8\r");
-    progress_says(0.5, 0.5, "\rcells 10 of 40, 50 %: case, beam, n = 8\r");
-    progress_says(30, 0.001, "\rcells 10 of 40, 0 %: case, beam, n = 8\r");
+    progress_shows(30, 0.25, "\rcells 10 of 40, 25 %, about 2 min left: case, beam, n = 8\r");
+    progress_shows(30, 0.5, "\rcells 10 of 40, 50 %, about 30 s left: case, beam, n = 8\r");
+    progress_shows(60, 0.01, "\rcells 10 of 40, 1 %, about 1 h 39 min left: case, beam, n = 8\r");
+    progress_shows(0.5, 0.5, "\rcells 10 of 40, 50 %: case, beam, n = 8\r");
+    progress_shows(30, 0.001, "\rcells 10 of 40, 0 %: case, beam, n = 8\r");
     the_end();
     too_long();
     progress quiet = progress_begin(NULL, "cells", 40, 0);

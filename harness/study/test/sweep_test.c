@@ -95,27 +95,27 @@ static void jobs(void)
 
 /* A log of the calls of a follower. */
 typedef struct follower_log {
-    int told, disorder, unfinished, doubted;
+    int passed, disorder, unfinished, measured;
     int most; /* number of series that the follower accepts before it fails */
 } follower_log;
 
-static int doubts(void *context, const sweep *s, int series_index)
+static int needs_scatter(void *context, const sweep *s, int series_index)
 {
     follower_log *log = context;
     (void)s;
-    log->doubted++;
+    log->measured++;
     return series_index % 2;
 }
 
-static status is_told(void *context, const sweep *s, int series_index, fault *f)
+static status is_passed(void *context, const sweep *s, int series_index, fault *f)
 {
     follower_log *log = context;
     const series *one = &s->series[series_index];
-    log->disorder += series_index != log->told++;
+    log->disorder += series_index != log->passed++;
     for (int k = 0; k < one->meshes && one->missing[0] == '\0'; k++)
         log->unfinished += one->cell[k].solve.quantities == 0;
     log->unfinished += one->missing[0] == '\0' && (one->noise != NULL) != (series_index % 2);
-    return log->told <= log->most ? STATUS_OK : fault_set(f, STATUS_REFUSED, "enough");
+    return log->passed <= log->most ? STATUS_OK : fault_set(f, STATUS_REFUSED, "enough");
 }
 
 /* The follower must receive every series in order, with its cells and its noise, while other cells
@@ -132,7 +132,7 @@ static void followed(int jobs, int most)
         formulation_default(registry_formulations[count], &chosen[count]);
     parameters_default(registry_cases[0], value);
     follower_log log = {.most = most < count ? most : count};
-    const sweep_follower follower = {&log, doubts, is_told};
+    const sweep_follower follower = {&log, needs_scatter, is_passed};
     const sweep_request request = {.jobs = jobs, .share = 1, .follower = &follower};
     gsl_test(plan_one(registry_cases[0], value, chosen, count, mesh, 3, &s, &f) != STATUS_OK,
              "planned %s", f.text);
@@ -140,11 +140,11 @@ static void followed(int jobs, int most)
     for (int i = 0; i < count; i++)
         runs += s.series[i].missing[0] == '\0';
     gsl_test(outcome != (most < count ? STATUS_REFUSED : STATUS_OK), "%d jobs: %s", jobs, f.text);
-    gsl_test_int(log.told, most < count ? most + 1 : count, "%d jobs: told of all", jobs);
+    gsl_test_int(log.passed, most < count ? most + 1 : count, "%d jobs: told of all", jobs);
     gsl_test_int(log.disorder, 0, "%d jobs: in their order", jobs);
     gsl_test_int(log.unfinished, 0, "%d jobs: with cells and noise", jobs);
-    gsl_test(most >= count && log.doubted != runs, "%d jobs: asked of %d series, not %d", jobs,
-             runs, log.doubted);
+    gsl_test(most >= count && log.measured != runs, "%d jobs: asked of %d series, not %d", jobs,
+             runs, log.measured);
     sweep_free(&s);
 }
 

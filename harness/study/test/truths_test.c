@@ -99,7 +99,7 @@ static void wrong_files(const char *path)
 
 /* Rows that must not be used for limits: those of one formulation, of a curve, and those without
  * effect on the exit status. */
-static void rows_that_do_not_judge(const char *path)
+static void rows_without_effect(const char *path)
 {
     recipe of_formulation = right, of_curve = right, agreed = right, unrepeatable = right;
     of_formulation.kind = "predicted";
@@ -234,15 +234,15 @@ static void accepted_ones(const char *path)
              "a table without its column: %s", f.text);
 }
 
-static void strangers(const char *path)
+static void unknown_cases(const char *path)
 {
     truths t;
     fault f = {""};
     recipe r = right;
     r.case_group = "no_such_case";
     truths_file_make(path, &r);
-    gsl_test(truths_read(path, &t, &f) != STATUS_OK || t.rows != 0 || t.strangers != 1 ||
-                 strcmp(t.stranger, "no_such_case") != 0,
+    gsl_test(truths_read(path, &t, &f) != STATUS_OK || t.rows != 0 || t.unknown_cases != 1 ||
+                 strcmp(t.unknown_case, "no_such_case") != 0,
              "truths of an unknown case are counted");
     truths_free(&t);
     r = right;
@@ -255,8 +255,8 @@ static void strangers(const char *path)
 
 int main(void)
 {
-    static void (*const all[])(const char *) = {accepted_ones,          good_file, wrong_files,
-                                                rows_that_do_not_judge, any_value, new_columns,
-                                                damaged_files,          strangers};
+    static void (*const all[])(const char *) = {accepted_ones,       good_file,    wrong_files,
+                                                rows_without_effect, any_value,    new_columns,
+                                                damaged_files,       unknown_cases};
     return truths_file_run((int)(sizeof all / sizeof all[0]), all);
 }

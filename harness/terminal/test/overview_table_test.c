@@ -191,7 +191,7 @@ typedef struct unexpected_bench {
     sweep_point p;
     series one;
     scene_quantity q;
-    judgement j;
+    evaluation j;
     verdict v;
     agreement a;
     flaw c;
@@ -238,7 +238,7 @@ static void unexpected_make(unexpected_bench *b)
                          .predicted = words[NOTHING],
                          .cause = cause};
     b->t = (truths){.rows = 2, .row = b->row, .rules = 1, .rule = b->known};
-    b->j = (judgement){.verdicts = 1, .verdict = &b->v};
+    b->j = (evaluation){.verdicts = 1, .verdict = &b->v};
 }
 
 static char *unexpected_shown(const unexpected_bench *b)
@@ -296,8 +296,8 @@ static void unexpected_tests(void)
 
     b.j.unmet = 1;
     holds(&b, "\n 5. reference value with an unknown name: made_up, load (book, page 3)\n");
-    b.t.strangers = 2;
-    strcpy(b.t.stranger, "gone");
+    b.t.unknown_cases = 2;
+    strcpy(b.t.unknown_case, "gone");
     holds(&b, "\n 6. unknown cases in the reference values: 2; the first is gone\n");
 }
 

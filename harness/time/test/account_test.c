@@ -113,7 +113,7 @@ static void judged(void)
         balance[SCENE_ENERGY] = 1;
         account_take(&of, 2, balance);
         balance[SCENE_DRIFT] = row[i].drift;
-        const status outcome = account_judge(&of, &how, 0.5, balance, row[i].rounding, &f);
+        const status outcome = account_check(&of, &how, 0.5, balance, row[i].rounding, &f);
         gsl_test((outcome == STATUS_OK) != (row[i].words == NULL), "row %d: %s", i, f.text);
         gsl_test(row[i].words != NULL && strstr(f.text, row[i].words) == NULL, "row %d: %s", i,
                  f.text);
@@ -224,22 +224,23 @@ static void load(const model *m, int i, double angle, double sigma[], double e[]
     dense_mul_vec(model_strains(m), model_strains(m), C, e, sigma);
 }
 
-static long looks(const equations *eq, complement *c, model_state *s, int iteration,
-                  double correction)
+static long checks_flutter(const equations *eq, strain_update *c, model_state *s, int iteration,
+                           double correction)
 {
     const long before = eq->run->counters.stress_evaluations;
-    complement_strains(c, s, iteration, correction);
+    strain_update_apply(c, s, iteration, correction);
     return eq->run->counters.stress_evaluations - before;
 }
 
 /* Once all elements agree, they are evaluated again only after larger corrections and in a new
  * step. */
-static void again(const equations *eq, complement *c, model_state *s)
+static void again(const equations *eq, strain_update *c, model_state *s)
 {
-    gsl_test(looks(eq, c, s, 2, 0.5) != ELEMENTS, "some did not agree before: all are looked at");
-    gsl_test(looks(eq, c, s, 3, 0.1) != 0, "a smaller correction is not looked at");
-    gsl_test(looks(eq, c, s, 4, 0.6) != ELEMENTS, "a larger one is");
-    gsl_test(looks(eq, c, s, 1, 0.1) != ELEMENTS, "and the first of a step");
+    gsl_test(checks_flutter(eq, c, s, 2, 0.5) != ELEMENTS,
+             "some did not agree before: all are looked at");
+    gsl_test(checks_flutter(eq, c, s, 3, 0.1) != 0, "a smaller correction is not looked at");
+    gsl_test(checks_flutter(eq, c, s, 4, 0.6) != ELEMENTS, "a larger one is");
+    gsl_test(checks_flutter(eq, c, s, 1, 0.1) != ELEMENTS, "and the first of a step");
 }
 
 static void take(const element_type *type, double angle)
@@ -251,17 +252,17 @@ static void take(const element_type *type, double angle)
     run_state_begin(&run, m, 1, &f);
     equations eq = {.m = m, .run = &run};
     model_state *state;
-    complement *c;
+    strain_update *c;
     const size_t n = (size_t)model_strains(m);
     gsl_test(kinematics_state_alloc(m, &state, &f) != STATUS_OK ||
-                 complement_alloc(&eq, &c, &f) != STATUS_OK || c == NULL,
+                 strain_update_alloc(&eq, &c, &f) != STATUS_OK || c == NULL,
              "%s has stresses that are not linear", type->name);
-    complement_keep(c, state);
+    strain_update_begin(c, state);
     for (int i = 0; i < ELEMENTS; i++)
         load(m, i, i == 3 ? 0 : angle, &state->sigma[(size_t)i * n], &state->e[(size_t)i * n]);
     double linear[ELEMENTS * MOST];
     memcpy(linear, state->e, ELEMENTS * n * sizeof *linear);
-    complement_strains(c, state, 1, 1);
+    strain_update_apply(c, state, 1, 1);
     for (int i = 0; i < ELEMENTS; i++) {
         const double *e = &state->e[(size_t)i * n], *goal = &state->sigma[(size_t)i * n],
                      *first = &linear[(size_t)i * n], size = largest(model_strains(m), goal, NULL);
@@ -283,7 +284,7 @@ static void take(const element_type *type, double angle)
                  e[5] / first[5]);
     }
     again(&eq, c, state);
-    complement_free(c);
+    strain_update_free(c);
     kinematics_state_free(state);
     run_state_end(&run);
     model_free(m);
@@ -300,19 +301,19 @@ static void keep(void)
     run_state_begin(&run, m, 1, &f);
     equations eq = {.m = m, .run = &run};
     model_state *state;
-    complement *c;
+    strain_update *c;
     if (kinematics_state_alloc(m, &state, &f) == STATUS_OK &&
-        complement_alloc(&eq, &c, &f) == STATUS_OK) {
+        strain_update_alloc(&eq, &c, &f) == STATUS_OK) {
         const size_t n = (size_t)(ELEMENTS * model_strains(m));
         double before[ELEMENTS * MOST];
-        complement_keep(c, state);
+        strain_update_begin(c, state);
         for (size_t i = 0; i < n; i++) {
             before[i] = state->e[i] = 1e-3 * (double)(i % 7);
             state->sigma[i] = i % 2 ? NAN : 1e300;
         }
-        complement_strains(c, state, 1, 1);
+        strain_update_apply(c, state, 1, 1);
         gsl_test(memcmp(before, state->e, n * sizeof *before) != 0, "what is not found stays");
-        complement_free(c);
+        strain_update_free(c);
         kinematics_state_free(state);
     }
     run_state_end(&run);
@@ -328,17 +329,17 @@ static void leave(const element_type *type, const char *why)
     run_state run;
     run_state_begin(&run, m, 1, &f);
     equations eq = {.m = m, .run = &run};
-    complement *c;
-    gsl_test(complement_alloc(&eq, &c, &f) != STATUS_OK || c != NULL, "%s: %s", type->name, why);
-    complement_keep(c, NULL);
-    complement_strains(c, NULL, 1, 1);
-    complement_free(c);
+    strain_update *c;
+    gsl_test(strain_update_alloc(&eq, &c, &f) != STATUS_OK || c != NULL, "%s: %s", type->name, why);
+    strain_update_begin(c, NULL);
+    strain_update_apply(c, NULL, 1, 1);
+    strain_update_free(c);
     run_state_end(&run);
     model_free(m);
     scene_free(&s);
 }
 
-static void complement_tests(void)
+static void strain_update_tests(void)
 {
     for (double angle = 0.02; angle < 0.5; angle *= 2) {
         take(&element_beamw_consistent, angle);
@@ -366,7 +367,7 @@ static void warps(unsigned omit, int heavy)
     formulation chosen;
     scene s;
     model *m = NULL;
-    carried_masses masses;
+    frame_masses masses;
     fault f = {""};
     double force[MASSLESS_MOST], motion[MASSLESS_MOST], given[MASSLESS_MOST], a[MASSLESS_MOST];
     const double end = 1;
@@ -381,7 +382,8 @@ static void warps(unsigned omit, int heavy)
     gsl_test(formulation_parse("beamw_consistent", &chosen, &f) != STATUS_OK, "%s", f.text);
     const model_request request = {
         .scene = &s, .type = chosen.type, .options = chosen.option, .elements = 2};
-    if (model_alloc(&request, &m, &f) != STATUS_OK || carried_alloc(m, &masses, &f) != STATUS_OK) {
+    if (model_alloc(&request, &m, &f) != STATUS_OK ||
+        frame_masses_alloc(m, &masses, &f) != STATUS_OK) {
         gsl_test(1, "%s", f.text);
         return;
     }
@@ -405,7 +407,7 @@ static void warps(unsigned omit, int heavy)
     gsl_test_int(seen, 3, "warping amplitudes");
     gsl_test((massless == 0) != heavy, "%d coordinates have no inertia, heavy: %d", massless,
              heavy);
-    carried_free(&masses);
+    frame_masses_free(&masses);
     model_free(m);
     scene_free(&s);
 }
@@ -419,7 +421,7 @@ static void scheme_massless_tests(void)
 int main(void)
 {
     account_tests();
-    complement_tests();
+    strain_update_tests();
     scheme_massless_tests();
     return gsl_test_summary();
 }

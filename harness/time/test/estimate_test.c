@@ -303,17 +303,17 @@ static void start_again(void)
 {
     scene s;
     flying f;
-    instant before;
+    motion_state before;
     build(&s, SCENE_RADAU, 0.01);
     status outcome = flying_begin(&s, &element_geometrically_exact, 2, &f);
     for (int i = 0; i < 50 && outcome == STATUS_OK; i++)
         outcome = flying_step(&f, 0.01);
     if (outcome == STATUS_OK)
-        outcome = instant_alloc(f.m, &before, &f.why);
+        outcome = motion_state_alloc(f.m, &before, &f.why);
     gsl_test(outcome != STATUS_OK, "%s", f.why.text);
-    instant_copy(f.m, &f.now, &before);
+    motion_state_copy(f.m, &f.now, &before);
     const scene_motion *motion = scene_motion_of(&s.analysis[0]);
-    outcome = launch_again(&f.c, &f.masses, motion, &f.now, &f.next, &f.why);
+    outcome = consistent_restart(&f.c, &f.masses, motion, &f.now, &f.next, &f.why);
     gsl_test(outcome != STATUS_OK, "%s", f.why.text);
     double moved = 0, changed = 0, largest = 0, forces[2][100] = {{0}};
     for (int i = 0; i < model_vertices(f.m); i++) {
@@ -333,7 +333,7 @@ static void start_again(void)
     gsl_test(!(moved < 1e-9), "joint %d: started again it moves by %g", how.joint, moved);
     gsl_test(!(changed < 1e-3 * largest), "joint %d: started again inertia changes by %g of %g N",
              how.joint, changed, largest);
-    instant_free(&before);
+    motion_state_free(&before);
     flying_end(&f);
     scene_free(&s);
 }

@@ -237,7 +237,7 @@ static void turned(const double t[3], double out[3])
 static void rates(const double t[3], double out[3])
 {
     double Jr[9];
-    turning_jacobian(t, Jr);
+    rotation_rates_jacobian(t, Jr);
     mat3_mul_vec(Jr, other, out);
 }
 
@@ -254,14 +254,14 @@ static void turn(double angle)
     double Jr[9], inverse[9], D[9], found[3], expected[3], back[3];
     for (int i = 0; i < 3; i++)
         begin[i] = angle * along[i];
-    turning_jacobian(begin, Jr);
+    rotation_rates_jacobian(begin, Jr);
     mat3_mul_vec(Jr, other, found);
     differ(turned, begin, other, expected);
     check("angular velocity", angle, found, expected);
-    turning_inverse(begin, inverse);
+    rotation_rates_inverse(begin, inverse);
     mat3_mul_vec(inverse, found, back);
     check("inverse", angle, back, other);
-    turning_derivative(begin, other, D);
+    rotation_rates_derivative(begin, other, D);
     for (int k = 0; k < 3; k++) {
         const double axis[3] = {k == 0, k == 1, k == 2};
         mat3_mul_vec(D, axis, found);
@@ -269,7 +269,7 @@ static void turn(double angle)
         check("derivative", angle, found, expected);
     }
     memcpy(found, begin, sizeof found);
-    turning_add(found, other);
+    rotation_rates_add(found, other);
     between(begin, found, back);
     check("one turn behind another", angle, back, other);
 }
@@ -282,9 +282,9 @@ static void seam(double angle)
     for (int side = 0; side < 2; side++) {
         for (int i = 0; i < 3; i++)
             t[i] = angle * (side ? 1 + 1e-14 : 1 - 1e-14) * along[i];
-        turning_jacobian(t, value[side][0]);
-        turning_inverse(t, value[side][1]);
-        turning_derivative(t, other, value[side][2]);
+        rotation_rates_jacobian(t, value[side][0]);
+        rotation_rates_inverse(t, value[side][1]);
+        rotation_rates_derivative(t, other, value[side][2]);
     }
     for (int k = 0; k < 3; k++)
         for (int i = 0; i < 9; i++)

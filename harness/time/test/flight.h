@@ -24,9 +24,9 @@ typedef struct flight {
     solve_result result;
     analysis_context c;
     scene_motion how;
-    carried_masses masses;
+    frame_masses masses;
     motion_scheme *scheme;
-    instant now, next;
+    motion_state now, next;
     int most, sum, steps; /* largest number of iterations in a step, sum of the iterations, and
                              number of steps */
     fault why;
@@ -49,11 +49,11 @@ static inline status flight_prepare(flight *f, const char *with, int elements)
                               .work = &f->kept};
     f->c.eq = (equations){.m = f->m, .loading = {.in_time = 1}, .run = &f->run};
     f->how = *scene_motion_of(&f->scene.analysis[f->scene.analyses - 1]);
-    TRY(carried_alloc(f->m, &f->masses, &f->why));
-    const scheme_request asked = {.c = &f->c, .masses = &f->masses, .how = &f->how};
-    TRY(conserving_alloc(&asked, &f->scheme, &f->why));
-    TRY(instant_alloc(f->m, &f->now, &f->why));
-    return instant_alloc(f->m, &f->next, &f->why);
+    TRY(frame_masses_alloc(f->m, &f->masses, &f->why));
+    const scheme_request requested = {.c = &f->c, .masses = &f->masses, .how = &f->how};
+    TRY(conserving_alloc(&requested, &f->scheme, &f->why));
+    TRY(motion_state_alloc(f->m, &f->now, &f->why));
+    return motion_state_alloc(f->m, &f->next, &f->why);
 }
 
 /* Prepares a case without parameters, whose function is `build`. It starts at rest in the
@@ -74,16 +74,16 @@ static inline status flight_begin(flight *f,
                                   const char *with, int elements)
 {
     TRY(flight_ready(f, build, with, elements));
-    return launch(&f->c, &f->masses, &f->how, &f->now, &f->next, &f->why);
+    return initial_conditions(&f->c, &f->masses, &f->how, &f->now, &f->next, &f->why);
 }
 
 static inline void flight_end(flight *f)
 {
     if (f->scheme != NULL)
         f->scheme->free(f->scheme);
-    instant_free(&f->now);
-    instant_free(&f->next);
-    carried_free(&f->masses);
+    motion_state_free(&f->now);
+    motion_state_free(&f->next);
+    frame_masses_free(&f->masses);
     free(f->result.iteration);
     run_state_end(&f->run);
     model_free(f->m);
@@ -98,7 +98,7 @@ static inline status flight_step(flight *f, double h)
     const status outcome =
         f->scheme->step(f->scheme, &f->now, h, &f->next, &error, &record, &f->why);
     if (outcome == STATUS_OK) {
-        instant_copy(f->m, &f->next, &f->now);
+        motion_state_copy(f->m, &f->next, &f->now);
         f->most = record.iterations > f->most ? record.iterations : f->most;
         f->sum += record.iterations;
         f->steps++;

@@ -19,11 +19,11 @@ typedef struct flying {
     model *m;
     run_state run;
     context_work kept;
-    carried_masses masses;
+    frame_masses masses;
     outer_work work;
     run_damping damping;
     motion_scheme *scheme;
-    instant now, next;
+    motion_state now, next;
     double error; /* estimated error of the last step */
     fault why;
 } flying;
@@ -44,24 +44,24 @@ static inline status flying_begin(const scene *s, const element_type *type, int 
                               .work = &f->kept};
     f->c.eq = (equations){f->m, loading_of(f->m, 0), &f->run};
     const scene_motion *how = scene_motion_of(&s->analysis[0]);
-    TRY(carried_alloc(f->m, &f->masses, &f->why));
+    TRY(frame_masses_alloc(f->m, &f->masses, &f->why));
     TRY(damping_begin(&f->c.eq, &f->damping, &f->why));
     TRY(work_alloc(&f->c.eq, &f->masses, &f->work, &f->why));
     const scheme_request request = {
         .c = &f->c, .masses = &f->masses, .how = how, .work = &f->work, .estimate = 1};
     TRY(integrator_alloc(&request, &f->scheme, &f->why));
-    TRY(instant_alloc(f->m, &f->now, &f->why));
-    TRY(instant_alloc(f->m, &f->next, &f->why));
-    return launch(&f->c, &f->masses, how, &f->now, &f->next, &f->why);
+    TRY(motion_state_alloc(f->m, &f->now, &f->why));
+    TRY(motion_state_alloc(f->m, &f->next, &f->why));
+    return initial_conditions(&f->c, &f->masses, how, &f->now, &f->next, &f->why);
 }
 
 static inline void flying_end(flying *f)
 {
     damping_end(&f->c.eq, &f->damping);
     integrator_free(f->scheme);
-    instant_free(&f->now);
-    instant_free(&f->next);
-    carried_free(&f->masses);
+    motion_state_free(&f->now);
+    motion_state_free(&f->next);
+    frame_masses_free(&f->masses);
     work_free(&f->work);
     result_free(&f->result);
     run_state_end(&f->run);
@@ -84,18 +84,18 @@ static inline status flying_step(flying *f, double h)
 {
     const status outcome = flying_try(f, h);
     if (outcome == STATUS_OK)
-        instant_copy(f->m, &f->next, &f->now);
+        motion_state_copy(f->m, &f->next, &f->now);
     return outcome;
 }
 
 /* Copies all numbers of an instant, unless `numbers` is NULL. Returns the number of numbers. */
-static inline size_t flying_numbers(const flying *f, const instant *at, double *numbers)
+static inline size_t flying_numbers(const flying *f, const motion_state *at, double *numbers)
 {
     const size_t n = (size_t)model_all_coordinates(f->m), size = at->state->size,
                  rates = at->strain != NULL
                              ? 2 * (size_t)(model_elements(f->m) * model_strains(f->m))
                              : 0,
-                 ends = instant_ends(f->m);
+                 ends = motion_state_ends(f->m);
     if (numbers != NULL) {
         memcpy(numbers, at->v, n * sizeof *numbers);
         memcpy(numbers + n, at->a, n * sizeof *numbers);

@@ -187,7 +187,7 @@ static void inertia_tests(void)
  * angles, warping, rates and accelerations, for bodies, sequences of angles and released ends that
  * rotate by half a radian. */
 
-static void rates_of(const moving_one *o, uint64_t seed, instant *at)
+static void rates_of(const moving_one *o, uint64_t seed, motion_state *at)
 {
     some(o->all, 1, &seed, at->v);
     some(o->all, 3, &seed, at->a);
@@ -235,21 +235,21 @@ static double places_apart(const model *m, const model_state *a, const model_sta
     return largest;
 }
 
-static void run(const moving_one *o, between_degree degree)
+static void run(const moving_one *o, dense_output_degree degree)
 {
     const double h = 0.3;
-    instant from, to, at;
-    step_between inside;
+    motion_state from, to, at;
+    dense_output inside;
     run_state loaded;
     fault f = {""};
     uint64_t seed = 31;
     double inc[MOST];
     run_state_begin(&loaded, o->m, 1, NULL);
     const equations eq = {.m = o->m, .run = &loaded};
-    gsl_test(instant_alloc(o->m, &from, &f) != STATUS_OK ||
-                 instant_alloc(o->m, &to, &f) != STATUS_OK ||
-                 instant_alloc(o->m, &at, &f) != STATUS_OK ||
-                 between_alloc(&eq, &inside, &f) != STATUS_OK,
+    gsl_test(motion_state_alloc(o->m, &from, &f) != STATUS_OK ||
+                 motion_state_alloc(o->m, &to, &f) != STATUS_OK ||
+                 motion_state_alloc(o->m, &at, &f) != STATUS_OK ||
+                 dense_output_alloc(&eq, &inside, &f) != STATUS_OK,
              "%s", f.text);
     kinematics_state_copy(o->m, o->now, from.state);
     some(o->all, 0.4, &seed, inc);
@@ -259,10 +259,10 @@ static void run(const moving_one *o, between_degree degree)
     to.time = 1 + h;
     rates_of(o, 5, &from);
     rates_of(o, 6, &to);
-    between_take(&inside, degree, &from, &to);
+    dense_output_set(&inside, degree, &from, &to);
     for (int k = 0; k < 2; k++) {
-        const instant *expected = k ? &to : &from;
-        between_at(&inside, expected->time, &at);
+        const motion_state *expected = k ? &to : &from;
+        dense_output_at(&inside, expected->time, &at);
         const double places = places_apart(o->m, at.state, expected->state),
                      rates = rates_apart(o->m, at.v, expected->v),
                      second = rates_apart(o->m, at.a, expected->a);
@@ -271,24 +271,24 @@ static void run(const moving_one *o, between_degree degree)
         gsl_test(!(second < 1e-10), "%s: accelerations at end %d (%g)", model_type(o->m)->name, k,
                  second);
     }
-    between_at(&inside, 1 + h / 2, &at);
+    dense_output_at(&inside, 1 + h / 2, &at);
     gsl_test(!(places_apart(o->m, at.state, from.state) > 0.01), "%s: half of the way",
              model_type(o->m)->name);
-    between_free(&inside);
+    dense_output_free(&inside);
     run_state_end(&loaded);
-    instant_free(&from);
-    instant_free(&to);
-    instant_free(&at);
+    motion_state_free(&from);
+    motion_state_free(&to);
+    motion_state_free(&at);
 }
 
-static void between_tests(void)
+static void dense_output_tests(void)
 {
     static const element_type *const type[] = {&element_collocation, &element_beamw_consistent};
     moving_one o;
     for (int i = 0; i < 4; i++) {
         begin(&o, type[i % 2], i / 2);
-        run(&o, BETWEEN_CUBIC);
-        run(&o, BETWEEN_QUINTIC);
+        run(&o, DENSE_OUTPUT_CUBIC);
+        run(&o, DENSE_OUTPUT_QUINTIC);
         end(&o);
     }
 }
@@ -479,7 +479,7 @@ static void drive_tests(void)
 int main(void)
 {
     inertia_tests();
-    between_tests();
+    dense_output_tests();
     tangent_tests();
     drive_tests();
     return gsl_test_summary();

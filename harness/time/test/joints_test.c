@@ -391,7 +391,7 @@ static status massless_build(const double value[], scene *s, fault *f)
 static double roughest(double h)
 {
     flight f;
-    double rough = 0, energy = 0, drift = 0, angular = 0, before[6] = {0};
+    double coarse_interval = 0, energy = 0, drift = 0, angular = 0, before[6] = {0};
     inertia_balance kept = {0};
     status outcome = flight_begin(&f, massless_build, "geometrically_exact", 4);
     for (int i = 0; i < 10 / h && outcome == STATUS_OK; i++) {
@@ -406,7 +406,7 @@ static double roughest(double h)
             angular = fmax(angular, i * h < 2 ? 0 : fabs(now.angular[k] - kept.angular[k]));
         for (int k = 0; k < 6; k++) {
             const double rate = f.now.v[model_vertex(f.m, k / 3)->coordinate[SCENE_RX + k % 3]];
-            rough = fmax(rough, fabs(rate - before[k]));
+            coarse_interval = fmax(coarse_interval, fabs(rate - before[k]));
             before[k] = rate;
         }
     }
@@ -414,7 +414,7 @@ static double roughest(double h)
     gsl_test(!(drift < 1e-12 && angular < 1e-12 * vec3_norm(kept.angular)),
              "%g s: energy %.1e, angular momentum %.1e", h, drift, angular);
     flight_end(&f);
-    return rough;
+    return coarse_interval;
 }
 
 static void refused(const char *words)

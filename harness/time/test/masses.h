@@ -93,7 +93,7 @@ static inline void build(scene *s, int warps, int released)
 typedef struct moving_one {
     scene scene;
     model *m;
-    carried_masses masses;
+    frame_masses masses;
     model_state *rest, *now;
     int all;
     double inc[MOST], v[MOST], a[MOST];
@@ -125,7 +125,7 @@ static inline void begin_with(moving_one *o, const element_type *type, int relea
     gsl_test(outcome != STATUS_OK, "%s: %s", type->name, f.text);
     if (outcome != STATUS_OK)
         exit(gsl_test_summary());
-    gsl_test(carried_alloc(o->m, &o->masses, &f) != STATUS_OK, "%s", f.text);
+    gsl_test(frame_masses_alloc(o->m, &o->masses, &f) != STATUS_OK, "%s", f.text);
     gsl_test(kinematics_state_alloc(o->m, &o->rest, &f) != STATUS_OK ||
                  kinematics_state_alloc(o->m, &o->now, &f) != STATUS_OK,
              "%s", f.text);
@@ -144,7 +144,7 @@ static inline void begin(moving_one *o, const element_type *type, int released)
 
 static inline void end(moving_one *o)
 {
-    carried_free(&o->masses);
+    frame_masses_free(&o->masses);
     kinematics_state_free(o->rest);
     kinematics_state_free(o->now);
     model_free(o->m);

@@ -54,7 +54,7 @@ static int is_close(const flying *f, const double a[], const double b[])
 }
 
 /* Tries steps without accepting them. The last steps are too long for Newton's method. */
-static int try_in_vain(flying *f, double h)
+static int try_rejected(flying *f, double h)
 {
     int failed = 0;
     for (int k = 1; k < 6; k++)
@@ -76,7 +76,7 @@ static void reject(const char *name, void (*build)(scene *, scene_scheme), const
         flying_step(&plain, h);
     }
     double *before = flying_all(&tried);
-    gsl_test(try_in_vain(&tried, h) == 0, "%s, scheme %d: a long step fails", name, by);
+    gsl_test(try_rejected(&tried, h) == 0, "%s, scheme %d: a long step fails", name, by);
     double *behind = flying_all(&tried);
     gsl_test(!same(&tried, before, behind), "%s, scheme %d: a rejected step leaves all bits", name,
              by);
@@ -104,7 +104,7 @@ enum { STATIONS = 60, CROSSINGS = 4, PERIOD = CROSSINGS, MEAN, WAY, TIP };
 
 /* Solves for quantities of the base, whose motion 0.3 sin 5 t is known, and of the tip at many
  * stations. */
-static void watch(int by, double step, double tolerance, cell_result *out)
+static void observe_rejections(int by, double step, double tolerance, cell_result *out)
 {
     scenes_solve(REJECTED_SWUNG, "collocation", 1, out,
                  "base=shaken;read=passed;stations=sixty;integrator=%s;step=%g;tolerance=%g",
@@ -123,7 +123,7 @@ static void near(int by, const char *what, double found, double expected)
 static void pass(int by, double step, double tolerance, double close, const cell_result *exact)
 {
     cell_result r;
-    watch(by, step, tolerance, &r);
+    observe_rejections(by, step, tolerance, &r);
     const quantity_result *q = r.solve.quantity;
     for (int i = 0; i < CROSSINGS; i++)
         near(by, r.scene.quantity[i].name, q[i].value, (i + 1) * PI / 5);
@@ -161,7 +161,7 @@ static void rejected_tests(void)
         reject("shaken", shake_rods, &element_collocation, 1, of, h / 4);
     }
     cell_result exact;
-    watch(SCENE_RADAU, 0.1, 1e-8, &exact);
+    observe_rejections(SCENE_RADAU, 0.1, 1e-8, &exact);
     pass(SCENE_ALPHA, 0.2, 3e-4, 0.1, &exact);
     pass(SCENE_CONSERVING, 0.2, 3e-4, 0.1, &exact);
     pass(SCENE_RADAU, 0.2, 1e-6, 4e-6, &exact);
@@ -288,7 +288,7 @@ static double changed(const flying *f, const double before[])
 /* A moment reverses suddenly, and the motion is started again at this instant. The rates must then
  * be in equilibrium with the new moment, and nothing may have moved. If the moment does not change,
  * the rates must not change. */
-static void launch_there(const char *then, double least, double most)
+static void start_from(const char *then, double least, double most)
 {
     const blow back = {{0}, {0.1, 0.3, 0.1}, "1", then};
     const int steps = 41;
@@ -310,8 +310,8 @@ static void launch_there(const char *then, double least, double most)
     kinematics_frame(f.m, f.now.state, 1, r, before);
     double *rates = malloc((size_t)model_unknowns(f.m) * sizeof *rates);
     memcpy(rates, f.now.v, (size_t)model_unknowns(f.m) * sizeof *rates);
-    gsl_test(launch_again(&f.c, &f.masses, scene_motion_of(&s.analysis[0]), &f.now, &f.next,
-                          &f.why) != STATUS_OK,
+    gsl_test(consistent_restart(&f.c, &f.masses, scene_motion_of(&s.analysis[0]), &f.now, &f.next,
+                                &f.why) != STATUS_OK,
              "goes on: %s", f.why.text);
     kinematics_frame(f.m, f.now.state, 1, r, after);
     gsl_test(!(fabs(before[0]) < 0.999), "the tip has turned (%g)", before[0]);
@@ -342,8 +342,8 @@ static void damped_kick_tests(void)
     answer a;
     take(&element_beamw, SCENE_RADAU, 1e-3, &hard, 0.001, &a);
     gsl_test(!(drift(&a) < 1e-5), "a hard kick of beamw: radau misses %g of the energy", drift(&a));
-    launch_there("-1", 0.1, 10);
-    launch_there("1", 0, 1e-5);
+    start_from("-1", 0.1, 10);
+    start_from("1", 0, 1e-5);
     const double coarse = middle(0.002), half = middle(0.001), quarter = middle(0.0005),
                  ratio = (coarse - half) / (half - quarter);
     gsl_test(!(fabs(ratio - 4) < 0.5), "resultants of the conserving scheme have order 2 (%g)",
@@ -467,15 +467,15 @@ static void turning(double beside)
     scenes_read(&s, LAUNCH_SWUNG, "base=held;thrown=0;step=0.02");
     gsl_test(flying_begin(&s, formulation_find("collocation"), 2, &at) != STATUS_OK, "begins: %s",
              at.why.text);
-    const status outcome = launch_turning(&at.c, &at.masses, scene_motion_of(&s.analysis[0]),
-                                          &frame, &at.now, &at.next, &at.why);
+    const status outcome = initial_conditions_rotating(
+        &at.c, &at.masses, scene_motion_of(&s.analysis[0]), &frame, &at.now, &at.next, &at.why);
     gsl_test(outcome != (beside == 0 ? STATUS_OK : STATUS_REFUSED), "turns %g m beside it: %s",
              beside, at.why.text);
     flying_end(&at);
     scene_free(&s);
 }
 
-static void launch_tests(void)
+static void initial_conditions_tests(void)
 {
     turning(0);
     turning(0.1);
@@ -488,6 +488,6 @@ int main(void)
     rejected_tests();
     damped_kick_tests();
     damped_rates_tests();
-    launch_tests();
+    initial_conditions_tests();
     return gsl_test_summary();
 }

@@ -32,13 +32,13 @@ typedef struct way {
     run_state run;
     run_damping damping;
     equations eq;
-    instant at;
+    motion_state at;
     outcome_about out;
     double size; /* size of the stresses */
 } way;
 
 /* Computes the strains, stresses and inner unknowns for the present positions. */
-static void settle_inner(way *w)
+static void relax_inner(way *w)
 {
     const model *m = w->o.m;
     model_state *s = w->at.state;
@@ -99,7 +99,7 @@ static void forces(way *w, double h, const double *const d[3], double out[])
     }
     kinematics_state_copy(o->m, o->now, w->at.state);
     increment_apply(o->m, o->now, inc, 0, w->at.state);
-    settle_inner(w);
+    relax_inner(w);
     memcpy(w->at.v, v, (size_t)o->all * sizeof *v);
     gsl_test(damping_now(&w->eq, &w->at, &f) != STATUS_OK, "%s", f.text);
     feedback_take(&w->eq, w->at.state, v, 0);
@@ -182,9 +182,9 @@ static void case_of(const element_type *type, int released, int spread)
              spread ? ", consistent mass" : "");
     begin_with(&w.o, type, released, add_more);
     if (spread) {
-        carried_free(&w.o.masses);
+        frame_masses_free(&w.o.masses);
         memset(&w.o.masses, 0, sizeof w.o.masses);
-        gsl_test(carried_alloc_spread(w.o.m, &w.o.masses, &f) != STATUS_OK, "%s", f.text);
+        gsl_test(frame_masses_alloc_bodies(w.o.m, &w.o.masses, &f) != STATUS_OK, "%s", f.text);
     }
     /* collocation: smaller increments, so that the equations within the elements have a solution */
     for (int c = 0; c < w.o.all && type == &element_collocation; c++)
@@ -195,11 +195,11 @@ static void case_of(const element_type *type, int released, int spread)
     w.eq = (equations){.m = w.o.m, .loading = {.in_time = 1, .held_path = 1}, .run = &w.run};
     gsl_test(damping_begin(&w.eq, &w.damping, &f) != STATUS_OK, "%s", f.text);
     gsl_test(feedback_begin(&w.eq, &f) != STATUS_OK, "%s", f.text);
-    gsl_test(instant_alloc(w.o.m, &w.at, &f) != STATUS_OK, "%s", f.text);
+    gsl_test(motion_state_alloc(w.o.m, &w.at, &f) != STATUS_OK, "%s", f.text);
     kinematics_state_copy(w.o.m, w.o.now, w.at.state);
     memcpy(w.at.v, w.o.v, (size_t)w.o.all * sizeof(double));
     memcpy(w.at.a, w.o.a, (size_t)w.o.all * sizeof(double));
-    settle_inner(&w);
+    relax_inner(&w);
     gsl_test(small_motions_of(&w.eq, &w.o.masses, &w.at, &w.out, &f) != STATUS_OK, "%s: %s", name,
              f.text);
     w.size = largest_of(model_elements(w.o.m) * model_strains(w.o.m), w.at.state->sigma, NULL);
@@ -209,7 +209,7 @@ static void case_of(const element_type *type, int released, int spread)
     sparse_free_values(&w.out.M);
     sparse_free_values(&w.out.C);
     sparse_free_values(&w.out.G);
-    instant_free(&w.at);
+    motion_state_free(&w.at);
     damping_end(&w.eq, &w.damping);
     run_state_end(&w.run);
     end(&w.o);

@@ -107,7 +107,7 @@ static void turn_rates(const flight *f)
 
 /* Finds the state in equilibrium with the inertia forces of the steady rotation. Returns the
  * largest component of the last correction. */
-static double settle_flight(flight *f)
+static double relax_flight(flight *f)
 {
     model *m = f->m;
     const sparse *pattern;
@@ -155,7 +155,7 @@ static void pull(flight *f)
                 loads_driver_value(&f->c.eq, &model_scene(m)->driver[d], 0) -
                 f->now.state->driver[d];
     increment_apply(m, f->now.state, dx, 0, f->next.state);
-    instant_copy(m, &f->next, &f->now);
+    motion_state_copy(m, &f->next, &f->now);
     free(dx);
 }
 
@@ -198,7 +198,7 @@ static void check(const char *name, const double axis[3], double turn)
         const double part = (double)part_of / SPIN_STAGES,
                      vector[3] = {twist * part, 0, bend * part};
         turned_end(f.m, vector, own, before);
-        correction = settle_flight(&f);
+        correction = relax_flight(&f);
     }
     double *begin = malloc(sizeof *begin * (size_t)(model_elements(f.m) * model_strains(f.m)));
     memcpy(begin, f.now.state->e,
@@ -436,7 +436,7 @@ typedef struct look {
     double h, speed, spin; /* step size [s], velocity of the swing [m/s], spin [rad/s] */
 } look;
 
-static const look looks[] = {
+static const look checks_flutter[] = {
     {.name = "sheet", .kind = SECTION_RECTANGLE, .h = 1e-3, .speed = 2, .spin = 32},
     {.name = "channel", .kind = SECTION_WALLS, .h = 2e-4, .speed = 2, .spin = 32},
     {.name = "arc", .kind = SECTION_RECTANGLE, .curvature = {0, 0, 1.1}, .h = 2.5e-4, .speed = 0.3},
@@ -447,7 +447,7 @@ static const look looks[] = {
      .speed = 2,
      .spin = 32},
 };
-enum { LOOKS = sizeof looks / sizeof looks[0] };
+enum { LOOKS = sizeof checks_flutter / sizeof checks_flutter[0] };
 
 static const look *formulations_present;
 static const double length = 0.5;
@@ -562,7 +562,7 @@ static void formulations_tests(void)
 {
     for (int i = 0; i < LOOKS; i++) {
         int flown = 0;
-        formulations_present = &looks[i];
+        formulations_present = &checks_flutter[i];
         for (int k = 0; registry_formulations[k] != NULL; k++)
             if (is_offered(registry_formulations[k])) {
                 formulations_fly(registry_formulations[k]);

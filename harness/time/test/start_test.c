@@ -183,7 +183,7 @@ static void linked_tests(void)
 
 extern const element_type element_geometrically_exact;
 
-enum { COMPONENTS = 3, ASKED = COMPONENTS + 2 };
+enum { COMPONENTS = 3, REQUESTED = COMPONENTS + 2 };
 
 #define ENDS_RODS "harness/time/test/rods.yaml"
 
@@ -191,13 +191,13 @@ static const char *const ends_joints[] = {"hinge", "universal", "ball", "slide",
 
 /* Computes the position of the tip, the reaction of the node from which the second rod is released,
  * and the energy-balance error. */
-static void ends_solve(const char *of, scene_scheme by, double step, double found[ASKED])
+static void ends_solve(const char *of, scene_scheme by, double step, double found[REQUESTED])
 {
     static const char *const name[] = {"C_ux", "C_uy", "C_uz", "held", "drift"};
     answer a;
     scenes_ask(ENDS_RODS, &element_geometrically_exact, 2, &a,
                "of=ends;end=0.4;joint=%s;integrator=%s;step=%g", of, scenes_integrator[by], step);
-    for (int i = 0; i < ASKED; i++)
+    for (int i = 0; i < REQUESTED; i++)
         found[i] = answer_of(&a, name[i]);
     gsl_test(a.status != STATUS_OK, "%s, integrator %d: %s", of, by, a.reason);
 }
@@ -210,10 +210,10 @@ static double distance(const double a[], const double b[])
     return sqrt(square);
 }
 
-static void compare(const char *of, scene_scheme by, const double exact[ASKED])
+static void compare(const char *of, scene_scheme by, const double exact[REQUESTED])
 {
     const double step = 0.01;
-    double coarse[ASKED], fine[ASKED];
+    double coarse[REQUESTED], fine[REQUESTED];
     ends_solve(of, by, step, coarse);
     ends_solve(of, by, step / 2, fine);
     const double first = distance(coarse, exact), second = distance(fine, exact);
@@ -229,7 +229,7 @@ static void compare(const char *of, scene_scheme by, const double exact[ASKED])
 static void ends_tests(void)
 {
     for (int i = 0; i < (int)(sizeof ends_joints / sizeof ends_joints[0]); i++) {
-        double exact[ASKED];
+        double exact[REQUESTED];
         ends_solve(ends_joints[i], SCENE_RADAU, 0.005, exact);
         compare(ends_joints[i], SCENE_ALPHA, exact);
         compare(ends_joints[i], SCENE_CONSERVING, exact);

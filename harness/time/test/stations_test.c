@@ -9,17 +9,17 @@
 
 #define STATIONS_SWUNG "harness/time/test/swung.yaml"
 
-/* Choices of the positions of stations and of the quantities that are read (asked_for). */
-enum { ODD, ENDS, BOTH, ASKED_KINDS };
+/* Choices of the positions of stations and of the quantities that are read (requested_texts). */
+enum { ODD, ENDS, BOTH, REQUESTED_KINDS };
 
-static const char *const asked_for[ASKED_KINDS] = {
+static const char *const requested_texts[REQUESTED_KINDS] = {
     "inside_steps;read=last_forces", "ends_of_steps;read=curves", "inside_steps;read=curves"};
 enum { KINEMATIC = 5, STRAIN = 6, READINGS };
 
-static void solve(int scheme, double step, int asked, cell_result *out)
+static void solve(int scheme, double step, int requested, cell_result *out)
 {
     scenes_solve(STATIONS_SWUNG, "collocation", 1, out, "integrator=%s;step=%g;stations=%s",
-                 scenes_integrator[scheme], step, asked_for[asked]);
+                 scenes_integrator[scheme], step, requested_texts[requested]);
 }
 
 /* Returns the largest difference of the curves of quantities `first` to `last`, each relative to
@@ -44,12 +44,12 @@ static double apart(const cell_result *a, const cell_result *b, int first, int l
 
 /* Computes the errors for a step size and for half of it, by comparison with a much smaller step.
  */
-static void errors_of(int scheme, double step, int asked, int last, double out[2])
+static void errors_of(int scheme, double step, int requested, int last, double out[2])
 {
     cell_result exact, r;
-    solve(SCENE_RADAU, 0.002, asked, &exact);
+    solve(SCENE_RADAU, 0.002, requested, &exact);
     for (int i = 0; i < 2; i++) {
-        solve(scheme, step / (1 << i), asked, &r);
+        solve(scheme, step / (1 << i), requested, &r);
         out[i] = apart(&r, &exact, 0, last);
         cell_result_free(&r);
     }
@@ -79,12 +79,12 @@ static void orders(const char *name, int scheme, double step, double order)
  * the station must be close to those of the polynomial. */
 static void undisturbed(const char *name, int scheme, double step)
 {
-    cell_result with[ASKED_KINDS];
-    for (int i = 0; i < ASKED_KINDS; i++)
+    cell_result with[REQUESTED_KINDS];
+    for (int i = 0; i < REQUESTED_KINDS; i++)
         solve(scheme, step, i, &with[i]);
     for (int q = 0; q < READINGS; q++) {
         const double last = with[ODD].solve.quantity[q].value;
-        for (int i = 1; i < ASKED_KINDS; i++)
+        for (int i = 1; i < REQUESTED_KINDS; i++)
             gsl_test(memcmp(&last, &with[i].solve.quantity[q].value, sizeof last) != 0,
                      "%s: %s at the end is %.17g, not %.17g, stations %d", name,
                      with[ODD].scene.quantity[q].name, with[i].solve.quantity[q].value, last, i);
@@ -93,7 +93,7 @@ static void undisturbed(const char *name, int scheme, double step)
              name, with[ODD].solve.steps, with[BOTH].solve.steps);
     gsl_test(!(apart(&with[ODD], &with[BOTH], 0, KINEMATIC - 1) < 0.02), "%s: %.2e apart", name,
              apart(&with[ODD], &with[BOTH], 0, KINEMATIC - 1));
-    for (int i = 0; i < ASKED_KINDS; i++)
+    for (int i = 0; i < REQUESTED_KINDS; i++)
         cell_result_free(&with[i]);
 }
 
@@ -279,7 +279,7 @@ static void not_finite_tests(void)
 #define PEAKS_SWUNG "harness/time/test/swung.yaml"
 
 /* The only station is at the end, so all earlier extrema are between stations. */
-static void peaks_tests(void)
+static void extrema_tests(void)
 {
     static const double step[] = {0.04, 0.02, 0.00125};
     enum { RUNS = 3, WHEN = 4, READ = 6 };
@@ -310,7 +310,7 @@ static void peaks_tests(void)
  * round-off. For a free motion they have the order of the scheme, with an estimate of the error of
  * the polynomial inside steps. */
 
-#define WATCHES_SWUNG "harness/time/test/swung.yaml"
+#define OBSERVERS_SWUNG "harness/time/test/swung.yaml"
 
 /* The base moves as 0.3 sin 5 t until 3 s, so all values are known. */
 static const struct {
@@ -338,7 +338,7 @@ enum { KNOWN = sizeof known / sizeof known[0] };
 static void exactly(int scheme, double step)
 {
     cell_result r;
-    scenes_solve(WATCHES_SWUNG, "collocation", 1, &r,
+    scenes_solve(OBSERVERS_SWUNG, "collocation", 1, &r,
                  "base=shaken;thrown=0;read=known;end=3;integrator=%s;step=%g",
                  scenes_integrator[scheme], step);
     for (int i = 0; i < KNOWN; i++) {
@@ -357,10 +357,10 @@ static void exactly(int scheme, double step)
     cell_result_free(&r);
 }
 
-static void fly(int scheme, double step, int watched, cell_result *out)
+static void fly(int scheme, double step, int observed, cell_result *out)
 {
-    scenes_solve(WATCHES_SWUNG, "collocation", 1, out, "end=2;read=%s;integrator=%s;step=%g",
-                 watched ? "crossings" : "way", scenes_integrator[scheme], step);
+    scenes_solve(OBSERVERS_SWUNG, "collocation", 1, out, "end=2;read=%s;integrator=%s;step=%g",
+                 observed ? "crossings" : "way", scenes_integrator[scheme], step);
 }
 
 /* Errors of a free motion must decrease with the order of the scheme, and the estimates of the
@@ -397,7 +397,7 @@ static void freely(const char *name, int scheme, double step, double order)
     cell_result_free(&r[1]);
 }
 
-static void watches_tests(void)
+static void observers_tests(void)
 {
     exactly(SCENE_ALPHA, 0.02);
     exactly(SCENE_ALPHA, 0.013);
@@ -414,7 +414,7 @@ int main(void)
     control_tests();
     resume_tests();
     not_finite_tests();
-    peaks_tests();
-    watches_tests();
+    extrema_tests();
+    observers_tests();
     return gsl_test_summary();
 }

@@ -31,7 +31,7 @@ static int is_json(const char *text)
 }
 
 /* Checks the outcome of a call. made: object that the call should have returned. */
-static void must_tell(bw_status got, const void *made, char *why)
+static void must_report(bw_status got, const void *made, char *why)
 {
     fuzz_must((got == BW_OK) == (why == NULL), "only a failure has a reason");
     fuzz_must(got != BW_OK || made != NULL, "a successful call creates an object");
@@ -62,7 +62,7 @@ static void try_solve(const char *formulation_name, const char *options)
     bw_scene *s = own_scene();
     bw_result *r = NULL;
     const bw_status got = bw_solve(s, formulation_name, 1, options, &r, &why);
-    must_tell(got, r, why);
+    must_report(got, r, why);
     if (r != NULL)
         fuzz_must(bw_result_json(r, &json, NULL) == BW_OK, "a result has a document");
     must_be_json(json);
@@ -74,7 +74,7 @@ static void try_list(const char *name)
 {
     char *why = NULL, *json = NULL;
     const bw_status got = bw_list(name, &json, &why);
-    must_tell(got, json, why);
+    must_report(got, json, why);
     must_be_json(json);
 }
 
@@ -83,7 +83,7 @@ static void try_set(const char *assignment)
     char *why = NULL, *json = NULL;
     bw_scene *s = own_scene();
     const bw_status got = bw_scene_set(s, assignment, &why);
-    must_tell(got, got == BW_OK ? s : NULL, why);
+    must_report(got, got == BW_OK ? s : NULL, why);
     fuzz_must(bw_scene_json(s, &json, NULL) == BW_OK, "a scene has a document");
     must_be_json(json);
     bw_scene_free(s);
@@ -98,10 +98,10 @@ static void try_converge(const char *formulations, const char *meshes)
     bw_status got =
         bw_converge(s, formulations, meshes, "{\"select\": \"nothing_is_called_so\"}", &json, &why);
     fuzz_must(got == BW_REFUSED, "it is refused");
-    must_tell(got, json, why);
+    must_report(got, json, why);
     got = bw_verify(s, formulations, "nothing_is_called_so", meshes, NULL, &json, &why);
     fuzz_must(got == BW_REFUSED, "it is refused");
-    must_tell(got, json, why);
+    must_report(got, json, why);
     bw_scene_free(s);
 }
 
@@ -110,7 +110,7 @@ static void try_scene(const char *bytes, size_t size)
     char *why = NULL, *yaml = NULL, *json = NULL;
     bw_scene *s = NULL, *again = NULL;
     const bw_status got = bw_scene_read(bytes, size, NULL, &s, &why);
-    must_tell(got, s, why);
+    must_report(got, s, why);
     if (s == NULL)
         return;
     if (bw_scene_json(s, &json, NULL) == BW_OK)

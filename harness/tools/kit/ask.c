@@ -56,8 +56,8 @@ static int copy_values(const scene *s, const solve_result *r, answer *out)
     return all;
 }
 
-static void settle(const scene *s, const element_type *type, const solve_result *r, status outcome,
-                   answer *out)
+static void set_answer(const scene *s, const element_type *type, const solve_result *r,
+                       status outcome, answer *out)
 {
     const int all = copy_values(s, r, out);
     out->status = outcome;
@@ -102,7 +102,7 @@ void ask(const question *q, answer *out)
         return;
     }
     const status outcome = cell_run(&request, &result, &f);
-    settle(&result.scene, q->formulation, &result.solve, outcome, out);
+    set_answer(&result.scene, q->formulation, &result.solve, outcome, out);
     snprintf(out->reason, sizeof out->reason, "%s", f.text);
     cell_result_free(&result);
 }
@@ -126,7 +126,7 @@ void ask_scene(const scene *s, const element_type *type, const double option[], 
         outcome = model_alloc(&wanted, &m, &f);
     if (outcome == STATUS_OK)
         outcome = solve_scene(s, m, NULL, &r, &f);
-    settle(s, type, &r, outcome, out);
+    set_answer(s, type, &r, outcome, out);
     snprintf(out->reason, sizeof out->reason, "%s", f.text);
     result_free(&r);
     model_free(m);

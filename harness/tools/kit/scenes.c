@@ -17,7 +17,7 @@ static struct {
     int count;
 } known;
 
-static void forget(void)
+static void free_scenes(void)
 {
     while (known.count > 0)
         scene_file_free(known.file[--known.count]);
@@ -41,7 +41,7 @@ static const case_type *read_file(const char *path)
         end(path, f.text);
     }
     if (known.count == 0)
-        atexit(forget);
+        atexit(free_scenes);
     return scene_file_case(known.file[known.count++]);
 }
 

@@ -12,7 +12,7 @@ import unittest
 import h5py
 import numpy as np
 
-from harness.tools import expense, motions, prices
+from harness.tools import cost_coefficients as coefficients, motions, run_cost
 from harness.tools.instructions import Profile, operations, parts_of
 from harness.tools.kit.program import ProgramTest, ROOT
 
@@ -23,7 +23,7 @@ def planted():
     dice, out = random.Random(7), []
     for case in range(12):
         modal, steps = dice.randrange(2), dice.randrange(12)
-        times = [dict(cell=1, modal=modal, load_step=steps).get(kind, 0) for kind in expense.WORK]
+        times = [dict(cell=1, modal=modal, load_step=steps).get(kind, 0) for kind in run_cost.WORK]
         for name, dear in (("red", 0.5), ("blue", 1.5)):
             for elements in (1, 4, 16, 64):
                 cost = 1e-5 + modal * 1e-6 + steps * 5e-6 + \
@@ -38,14 +38,14 @@ class Fit(unittest.TestCase):
     def test_planted_costs_are_found(self):
         cells = planted()
         cost = np.array([c["cost"] for c in cells])
-        prices, factors = expense.fit(cells)
-        np.testing.assert_allclose(expense.predict(cells, prices, factors), cost, rtol=0.02)
+        prices, factors = run_cost.fit(cells)
+        np.testing.assert_allclose(run_cost.predict(cells, prices, factors), cost, rtol=0.02)
         self.assertAlmostEqual(factors["blue"][1] / factors["red"][1], 3, delta=0.1)
         self.assertAlmostEqual(np.mean([f[1] for f in factors.values()]), 1, delta=1e-9)
-        self.assertLess(expense.spread(expense.validate(cells), cost)[1], 1.1)
+        self.assertLess(run_cost.spread(run_cost.validate(cells), cost)[1], 1.1)
 
     def test_work_of_a_scene(self):
-        times, members = expense.work_of({
+        times, members = run_cost.work_of({
             "members": {"a": {}, "b": {}},
             "analyses": {"path": {"static": {"stations": [1, 2, 3], "steps": 4}},
                          "about": {"compliance": {"about": "path", "node": "n"}},
@@ -63,7 +63,7 @@ class Fit(unittest.TestCase):
                                   ({"integrator": "radau", "tolerance": 1e-6}, "radau_step",
                                    40 * 100 ** 0.3),
                                   ({"integrator": "explicit", "tolerance": 1}, "explicit_step", 5)):
-            times, _ = expense.work_of({"members": {"a": {}},
+            times, _ = run_cost.work_of({"members": {"a": {}},
                                         "analyses": {"swing": {"motion": swing | more}}})
             self.assertEqual(set(times), {"cell", kind})
             self.assertAlmostEqual(times[kind], count, delta=1e-9)
@@ -72,12 +72,12 @@ class Fit(unittest.TestCase):
 class Table(unittest.TestCase):
 
     def test_the_committed_one(self):
-        lines = (ROOT / "harness/study/expense.csv").read_text(encoding="utf-8").splitlines()
+        lines = (ROOT / "harness/study/run_cost.csv").read_text(encoding="utf-8").splitlines()
         rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
         work = [row["name"] for row in rows if row["table"] == "work"]
         header = (ROOT / "harness/study/study_impl.h").read_text(encoding="utf-8")
-        self.assertEqual(tuple(work), expense.WORK)
-        self.assertEqual(re.findall(r"EXPENSE_([a-z_]+)[,;]", header), work)
+        self.assertEqual(tuple(work), run_cost.WORK)
+        self.assertEqual(re.findall(r"RUN_COST_([a-z_]+)[,;]", header), work)
         named = [row["name"] for row in rows if row["table"] == "formulation"]
         self.assertEqual(len(set(named)), len(named))
         self.assertGreater(len(named), 1)
@@ -93,7 +93,7 @@ def planted_of_prices(noise):
     for case in range(10):
         for name, price in zip(NAMES, (2e-6, 4e-6, 8e-6)):
             for n in (1, 2, 4, 8, 16):
-                cell = dict.fromkeys([f for c in prices.SHARED + prices.ANY for f in c.split("*")],
+                cell = dict.fromkeys([f for c in coefficients.SHARED + coefficients.ANY for f in c.split("*")],
                                      0.0)
                 cell.update(one=1.0, case=f"case{case}", name=name, strains=8.0,
                             strain_evaluations=float(n * dice.randint(20, 60)),
@@ -110,7 +110,7 @@ class PricesFit(unittest.TestCase):
 
     def test_planted_prices_are_found(self):
         for noise, digits in ((0, 1e-6), (0.05, 0.1)):
-            found = prices.fit(planted_of_prices(noise), list(NAMES))
+            found = coefficients.fit(planted_of_prices(noise), list(NAMES))
             for key, right in ((("", "one"), 2e-5), (("red", "strain_evaluations"), 2e-6),
                                (("blue", "strain_evaluations"), 4e-6),
                                (("green", "strain_evaluations"), 8e-6)):
@@ -119,8 +119,8 @@ class PricesFit(unittest.TestCase):
 
     def test_without_a_row_the_prices_of_any(self):
         cells = planted_of_prices(0)
-        own = prices.fit(cells, list(NAMES))
-        anyone = prices.fit(cells, [], {k: p for k, p in own.items() if k[0] == ""})
+        own = coefficients.fit(cells, list(NAMES))
+        anyone = coefficients.fit(cells, [], {k: p for k, p in own.items() if k[0] == ""})
         self.assertEqual(anyone["", "one"], own["", "one"])
         each = anyone.get(("*", "strain_evaluations"), 0) + \
             8 * anyone.get(("*", "strain_evaluations*strains"), 0)
@@ -130,26 +130,26 @@ class PricesFit(unittest.TestCase):
         for key, name in (("red", "red"), ("red:mass=lumped", "red"),
                           ("red:mass=lumped,stages=4", "red:stages=4"),
                           ("red:newton=dense,nodes=2,stages=4", "red:nodes=2,stages=4")):
-            self.assertEqual(prices.name_of(key), name)
+            self.assertEqual(coefficients.name_of(key), name)
 
     def test_noise_is_where_the_order_becomes_doubtful(self):
         dice = np.random.default_rng(5)
-        cost = dice.uniform(0, math.log(prices.NEAR), 20000)
-        sure = prices.noise_of(cost, cost)
+        cost = dice.uniform(0, math.log(coefficients.NEAR), 20000)
+        sure = coefficients.noise_of(cost, cost)
         self.assertEqual(sure, 1)
         # if the ratio of two costs has a standard deviation of 20 %, nine of ten pairs are in the correct order if they
         # differ by more than 1.28 times this deviation
-        doubtful = prices.noise_of(cost, cost + dice.normal(0, 0.2, cost.size))
+        doubtful = coefficients.noise_of(cost, cost + dice.normal(0, 0.2, cost.size))
         self.assertAlmostEqual(math.log(doubtful), 1.28 * 0.2, delta=0.05)
 
 
 class PricesTable(unittest.TestCase):
 
     def test_the_committed_one(self):
-        lines = (ROOT / "harness/study/prices.csv").read_text(encoding="utf-8").splitlines()
+        lines = (ROOT / "harness/study/cost_coefficients.csv").read_text(encoding="utf-8").splitlines()
         rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
         self.assertTrue(any("took no part" in line for line in lines if line.startswith("#")))
-        known = set(prices.SHARED + prices.ANY)
+        known = set(coefficients.SHARED + coefficients.ANY)
         for row in rows[:-1]:
             self.assertIn(row["count"], known)
             self.assertGreater(float(row["seconds"]), 0)

@@ -386,8 +386,8 @@ class Make(Folder):
         names = [name.removeprefix("L=") for name, _ in listed]
         self.assertIn("motions", names)
         self.assertTrue(all(re.search("second|minute|hour", what) for _, what in listed))
-        told = "\n".join(self.make("-n", "lab", "L=paces newton"))
-        self.assertLess(told.index("tools/paces.py"), told.index("tools/newton.py"))
+        told = "\n".join(self.make("-n", "lab", "L=integrators newton"))
+        self.assertLess(told.index("tools/integrators.py"), told.index("tools/newton.py"))
         with self.assertRaises(subprocess.CalledProcessError) as said:
             self.make("lab", "L=newton nothing")
         self.assertIn("there is no nothing", said.exception.stderr)
