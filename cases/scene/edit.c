@@ -85,10 +85,11 @@ static status reverse(scene *s, fault *f)
         scene_member *m = &s->member[i];
         const int p = m->p, warp_p = m->warp_p, section_p = m->section;
         if (m->curvature[0] != 0)
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: cannot exchange its two nodes, because the member is initially "
-                             "twisted and its y axis at the other end is not known",
-                             scene_called(s, SCENE_MEMBERS, i).text);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: cannot exchange its two nodes, because the member is initially "
+                "twisted and its y axis at the other end is not known; remove the twist",
+                scene_called(s, SCENE_MEMBERS, i).text);
         for (int k = 0; k < 2 && m->half_waves > 0 && m->half_waves % 2 == 0; k++)
             m->bow[k] = -m->bow[k];
         m->p = m->q;

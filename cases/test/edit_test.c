@@ -214,7 +214,7 @@ static void refused(void)
         scene_edit edit;
         const char *words;
     } row[] = {
-        {twisted, {SCENE_EDIT_REVERSE, 0}, "member 0: the member is initially twisted"},
+        {twisted, {SCENE_EDIT_REVERSE, 0}, "member 0: cannot exchange its two nodes"},
         {curved, {SCENE_EDIT_SPLIT, 0.5}, "member 0 is curved"},
         {unchanged, {SCENE_EDIT_SPLIT, 1}, "split at the fraction 1 of its length"},
         {unchanged, {SCENE_EDIT_SPLIT, NAN}, "split at the fraction nan of its length"},

@@ -386,7 +386,7 @@ static const refusal node_refusals[] = {
     {position, "node 1: ", "at = "},
     {driver_of_node, "node 1: ", "its driver does not exist"},
     {half_a_vector, "node 1: ", "three drivers"},
-    {fork_and_held, "node 0: ", "a fork and RX is held"},
+    {fork_and_held, "node 0: ", "there is a fork and rx is fixed"},
     {web_along, "node 1: ", "not perpendicular"},
     {no_web, "node 1: ", "not perpendicular"},
     {fork_across, "node 1: ", "no member at this node runs along"},

@@ -475,9 +475,8 @@ void checks_mass(const formulation *chosen, check_results *out)
 {
     if (!(chosen->type->offers & FEATURE_MASS) || chosen->type->inertia == NULL) {
         checks_not_made(out, "M is symmetric",
-                        chosen->type->offers & FEATURE_MASS
-                            ? "the inertia of the displacement field is used"
-                            : "does not support mass");
+                        chosen->type->offers & FEATURE_MASS ? "beamwork computes its inertia"
+                                                            : "does not support mass");
         return;
     }
     test_elements_each(chosen, out, check);

@@ -30,7 +30,7 @@ class Certificates(Tested):
             out = self.answered("element-test", "--element", self.compiled(source.name)).stdout
             self.assertIn("interface requirements: SATISFIED", out)
             self.assertIn("not applicable", out)
-            self.assertIn("loads along one element are as exact as forces at its nodes (97 compared)",
+            self.assertIn("loads along one element are as exact as forces at its nodes (98 compared)",
                           out)
 
     def test_with_options(self):
