@@ -259,10 +259,11 @@ static status check_scalars(const element_type *given, const double options[], f
                       f);
     if (count > 0 && (given->along != NULL || given->unstressed != NULL ||
                       given->equations_many != NULL || given->line != NULL))
-        return refuse(given,
-                      "with additional unknowns, remove 'along', 'unstressed', 'equations_many' and "
-                      "'line'",
-                      f);
+        return refuse(
+            given,
+            "with additional unknowns, remove 'along', 'unstressed', 'equations_many' and "
+            "'line'",
+            f);
     return STATUS_OK;
 }
 

@@ -482,8 +482,7 @@ static void put_points(char **to, int count, const line_output out[])
 
 static status line_frame(const frame_question *q, const node_state x[], line_output out[], fault *f)
 {
-    const size_t c = (size_t)q->data[0]->coordinates,
-                 nodes = frame_node_bytes(q->data[0]);
+    const size_t c = (size_t)q->data[0]->coordinates, nodes = frame_node_bytes(q->data[0]);
     const char *from;
     char *to;
     TRY(frame_begin(q, nodes + 7 * sizeof(double), &to, f));
