@@ -6,7 +6,7 @@
  * With q = (w, v), g = R1^T r' and k = 2 (w v' - w' v - v x v')/|q|^2, the strains at a point are
  *   l (R(q)^T g - (1, 0, 0)) + l (i^2/2 k_x^2, 0, 0), where i^2 = (Iy + Iz)/A with FEATURE_TRAPEZE,
  *   l^2 k, l^3 a' and l^2 (k_x - a) [m].
- *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK cubic.c -o cubic.so -lm
+ *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK cubic.c -lm -o cubic.so
  *   beamwork verify --element ./cubic.so -f cubic */
 #include <math.h>
 #include <string.h>

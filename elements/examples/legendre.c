@@ -10,7 +10,7 @@
  * With the rotation R1 of the first node, c_k of R1^T R_k, c = sum N_k c_k and g = R1^T r', the
  * strains are l (R^T g - (1, 0, 0)) and l^2 R^T L c' [m] at each point, minus their values in the
  * undeformed element, which may be curved.
- *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK legendre.c -o legendre.so -lm
+ *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK legendre.c -lm -o legendre.so
  *   beamwork verify --element ./legendre.so -f legendre */
 #include <math.h>
 #include <string.h>

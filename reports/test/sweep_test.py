@@ -213,7 +213,7 @@ class Refused(ProgramTest):
                             {"beamw": sweeps.series("beamw")})
         with sweeps.h5py.File(path, "r+") as file:
             file.attrs["beamwork_sweep"] = 2
-        with self.assertRaisesRegex(data.Unreadable, "version 2, the report reads 1"):
+        with self.assertRaisesRegex(data.Unreadable, "version 2, but the report reads version 1"):
             stored.read(path)
         with sweeps.h5py.File(path, "r+") as file:
             file.attrs["beamwork_sweep"] = 1

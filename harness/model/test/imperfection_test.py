@@ -248,7 +248,7 @@ quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}
                      "--to", "calculix", "-o", self.folder / "deck")
 
     def test_refused(self):
-        self.refused(2, ["member column", "2 half waves", "at least 4"], "solve", "--scene",
+        self.refused(2, ["member column", "half_waves: 2", "at least 4"], "solve", "--scene",
                      self.scene(column("[1e-3, 0]", 2) + pushed(0.5)), "-n", 3)
         self.refused(2, "half_waves = 0", "scene", "--scene",
                      self.scene(column("[1e-3, 0]", 0) + pushed(0.5)))

@@ -358,7 +358,7 @@ static void hidden_precession(int masses, int behind, int wanted_outcome)
     gsl_test_int((int)outcome, wanted_outcome, "%d oscillators and a top at %g: %s", masses, slow,
                  f.text);
     if (wanted_outcome != STATUS_OK)
-        gsl_test(strstr(f.text, "missing") == NULL, "what is missing is noticed: %s", f.text);
+        gsl_test(strstr(f.text, "not found") == NULL, "what is missing is noticed: %s", f.text);
     if (outcome == STATUS_OK) {
         gsl_test_int(r.count, WANTED, "%d oscillators and a top at %g: all found", masses, slow);
         for (int i = 0; i < r.count; i++) {
@@ -396,7 +396,7 @@ static void unstable_oscillators(int masses, double fast, int wanted_outcome, in
             slow_found += r.growth[i] == 0 && fabs(r.frequency[i] - slow) < 1e-6;
         gsl_test_int(slow_found, 1, "%d oscillators that fall: the slow precession", masses);
     } else {
-        gsl_test(strstr(f.text, "missing") == NULL, "what is missing is noticed: %s", f.text);
+        gsl_test(strstr(f.text, "not found") == NULL, "what is missing is noticed: %s", f.text);
     }
     gyroscopic_free(&r);
     free(p.K);

@@ -98,7 +98,7 @@ class Verbs(ModuleTest):
         self.assertIn(f"{one['value']:.13g}"[:14], printed)
         path = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
         self.same(bw.truth(path), self.json("truth", path))
-        self.refused(2, "text or json", "truth", "elastica", "--format", "csv")
+        self.refused(2, "text and json", "truth", "elastica", "--format", "csv")
 
     def test_scene(self):
         self.assertEqual(bw.Scene.case("elastica").write(), self.answered("scene", "elastica").stdout)
