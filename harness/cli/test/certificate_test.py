@@ -30,6 +30,9 @@ class Certificates(Tested):
             out = self.answered("element-test", "--element", self.compiled(source.name)).stdout
             self.assertIn("interface requirements: SATISFIED", out)
             self.assertIn("not applicable", out)
+            if source.stem == "ancf_slopes":
+                self.assertIn("one element is not exact", " ".join(out.split()))
+                continue
             self.assertRegex(out, r"loads along one element are as exact as forces at its nodes \(9[78] compared\)")
 
     def test_with_options(self):
