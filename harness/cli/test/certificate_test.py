@@ -30,10 +30,10 @@ class Certificates(Tested):
             out = self.answered("element-test", "--element", self.compiled(source.name)).stdout
             self.assertIn("interface requirements: SATISFIED", out)
             self.assertIn("not applicable", out)
-            if source.stem == "ancf_slopes":
+            if source.stem in ("ancf_slopes", "simo_vu_quoc"):
                 self.assertIn("one element is not exact", " ".join(out.split()))
                 continue
-            self.assertRegex(out, r"loads along one element are as exact as forces at its nodes \(9[78] compared\)")
+            self.assertRegex(out, r"loads along one element are as exact as forces at its nodes \((98|102) compared\)")
 
     def test_with_options(self):
         out = self.answered("element-test", "collocation:stages=3", "geometrically_exact:nodes=2",
