@@ -366,7 +366,7 @@ void checks_along(const formulation *chosen, check_results *out)
         double q[SIX];
     } load[] = {{"a uniform force along one element, and a torque", {force, force, force, moment}},
                 {"a uniform moment along one element", {0, 0, 0, 0, moment, moment}}};
-    softness soft;
+    softness soft = {0};
     fault f = {""};
     checks_current(out, "one element as a cantilever");
     const status outcome =
