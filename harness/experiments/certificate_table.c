@@ -321,8 +321,8 @@ static void write_one(FILE *to, int latex, const certificate *c)
         "errors in uniform and linear states of a cantilever",
         "errors over thickness with 8 elements",
         "errors over numbers of elements, with observed and declared orders of convergence",
-        "changes due to superposed full turns and after closed cycles of deformation, 24 steps "
-        "each"};
+        ("changes due to superposed full turns and after closed cycles of deformation, 24 steps "
+         "each")};
     static paper_table t; /* too large for the stack of a thread */
     char words[CELL];
     write_about(to, latex, c);
