@@ -1,6 +1,6 @@
-/* Checks of loads along one element in linear theory. The expected values are those of Timoshenko's
- * beam (Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 5 and 10). The
- * flexibilities of the beam are measured with loads at the end of the element. */
+/* Checks of loads along one element in linear theory. The expected values are those of the
+ * Timoshenko beam (Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 5 and 10). The
+ * flexibilities in these values are measured on the element, with loads at its end. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -21,11 +21,11 @@ typedef enum support { CANTILEVER, CLAMPED, PROPPED, HINGED, SUPPORTS } support;
 static const char *const support_name[SUPPORTS] = {
     "clamped at its first node", "clamped at both nodes",
     "clamped at one node and propped at the other", "hinged at both nodes"};
-/* Fixed components of the two nodes for each support, one bit for each component. */
+/* held[support][node]: bit c is set if component c of the node is fixed. */
 static const unsigned held[SUPPORTS][2] = {{63, 0}, {63, 63}, {63, 15}, {15, 7}};
 
 /* For each bending plane: index of the displacement, index of the rotation, and sign of the
- * rotation for a positive slope. */
+ * rotation that corresponds to a positive slope. */
 static const struct {
     int shift, turn, sign;
 } planes[2] = {{1, 5, 1}, {2, 4, -1}};
@@ -36,8 +36,8 @@ typedef struct softness {
     double axial, twist, bend[2], shear[2];
 } softness;
 
-/* For each node and component: the displacement or rotation, or the reaction if the component is
- * fixed. */
+/* For each node and component: the displacement or rotation or, if the component is fixed, the
+ * reaction. */
 typedef struct ends {
     double of[2][SIX];
 } ends;
@@ -96,7 +96,7 @@ static double shear_of(const formulation *chosen, const section *c, int plane)
 }
 
 /* Measures the flexibilities of one element as a cantilever. REFUSED: the element is not exact for
- * forces and moments at its end. In this case, no rule for loads along the element can be exact. */
+ * forces and moments at its end. No treatment of loads along the element can then be exact. */
 static status measure(const formulation *chosen, softness *out, fault *f)
 {
     double C[SIX * SIX];
@@ -138,9 +138,9 @@ static void exact_along(support of, double soft, double load, int c, ends *out)
 }
 
 /* Computes the exact displacements and reactions in bending plane k by the force method. along,
- * turning: uniform force [N/m] and moment [N m/m]. R and M are the force and the moment of the
- * support at the end of a cantilever. If both ends are hinged, the root of the cantilever rotates
- * as well. */
+ * turning: uniform force [N/m] and moment [N m/m]. The redundants R and M are the force and the
+ * moment of the support at the end of the cantilever. If both ends are hinged, the root of the
+ * cantilever rotates as well. */
 static void exact_across(support of, const softness *soft, int k, double along, double turning,
                          ends *out)
 {
@@ -235,8 +235,8 @@ static void compare(const formulation *chosen, support of, const softness *soft,
     }
 }
 
-/* Checks of `along`, the function of types that include the load in the equilibrium of the
- * element. */
+/* Checks of the function `along`. Types supply it if they include distributed loads in the
+ * equilibrium of the element. */
 enum { X = ELEMENT_ALONG_COORDINATES, M = TEST_ELEMENT_STRAINS, RELAXATIONS = 40, FINER = 50 };
 
 typedef struct taken {
@@ -333,8 +333,7 @@ static void check_taken(const test_element *s, check_results *c)
     checks_require(derives, outcome == STATUS_OK,
                    "along: the element cannot evaluate a state under a small load%s", s->words);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
-        for (int b = 0; b < X;
-             b++) { /* differences along the exponential chart give the symmetric part of K */
+        for (int b = 0; b < X; b++) {
             const double ua = test_element_unit(s, a), ub = test_element_unit(s, b),
                          change = (found[a][b] * ub + found[b][a] * ua) * FINER / 2,
                          scale = sqrt(fabs(K[a * (X + 1)] * K[b * (X + 1)]));

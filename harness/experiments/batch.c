@@ -81,8 +81,8 @@ static int assemble(const batch_label *b, const void *bytes, size_t size, char *
     return fclose(to) != 0 || bad ? -1 : 0;
 }
 
-/* Writes the names of the files in the folder to the disk, so they survive a power failure. A
- * folder that cannot be synchronised is not an error. */
+/* Synchronises the folder with the disk, so its entries survive a power failure. An error is
+ * ignored. */
 static void keep_names(const char *folder)
 {
     const int there = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -128,9 +128,9 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
     return outcome;
 }
 
-/* Returns 1 if the writer of a temporary file has ended, which means that the file is not locked.
- * An empty file may not be locked yet. For such a file, returns 1 only if certainly_ended is 1 or
- * the file is older than OLD. */
+/* Returns 1 if the writer of a temporary file has ended; the file is then not locked. An empty file
+ * may not be locked yet. For such a file, returns 1 only if certainly_ended is 1 or the file is
+ * older than OLD. */
 static int is_orphan(const char *path, int certainly_ended)
 {
     enum { OLD = 60 }; /* [s] */
@@ -167,7 +167,6 @@ static status no_batch(const char *path, fault *f)
                      path);
 }
 
-/* Copies a string of the label. Returns 0, or -1 if the string is missing or too long. */
 static int get_text(const json_t *from, const char *key, char *out, size_t size)
 {
     const char *text = json_string_value(json_object_get(from, key));
@@ -205,8 +204,8 @@ static int get_label(const json_t *from, batch_label *b)
     return b->batch >= 0 && b->batch < b->batches && b->shard >= 0 ? 0 : -1;
 }
 
-/* Reads the line with the label, and moves the stream to the first byte of the results. *size:
- * number of bytes of the results. */
+/* Reads the line with the label, and moves the stream to the first byte of the results. *size: size
+ * of the results [bytes]. */
 static status read_line(FILE *from, const char *path, batch_label *out, long *size, fault *f)
 {
     char *line = NULL;

@@ -7,7 +7,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Returns 1 if the processor and the BLAS library are the same. Host names may differ. */
+/* Returns 1 if the two machines have the same processor and BLAS library. Host names may differ. */
 static int node_same_kind(const machine *, const machine *);
 
 static status path_of(const char *folder, const char *name, char out[PATH_MAX], fault *f)
@@ -40,8 +40,6 @@ static status add_kind(batch_store *s, const machine *of, fault *f)
     return STATUS_OK;
 }
 
-/* Compares the label of another file of a batch with the label of the first file, which is read
- * again. */
 static status hold_against(batch_store *s, const batch_label *label, const char *path, fault *f)
 {
     char other[PATH_MAX];
@@ -96,7 +94,7 @@ static status look_inside(batch_store *s, const shard_work *w, const char *path,
     return outcome;
 }
 
-/* Returns REFUSED. The message names the other work to which a batch belongs. */
+/* Returns REFUSED. The message describes the other work to which the batch in the file belongs. */
 static status refuse_other(const shard_work *w, const char *path, fault *f)
 {
     batch_label label;
@@ -167,8 +165,7 @@ void batch_store_free(batch_store *s)
     *s = (batch_store){.batches = 0};
 }
 
-/* Writes the ranges of missing batches. A list of more than MOST ranges is cut and ends with
- * dots. */
+/* Writes the ranges of missing batches. After MOST ranges, the list ends with dots. */
 static void write_ranges(FILE *to, const batch_store *s)
 {
     enum { MOST = 20 };
@@ -308,7 +305,6 @@ static int is_before(const existing_batch *a, const existing_batch *b)
     return a->sum < b->sum || (a->sum == b->sum && a->shard < b->shard);
 }
 
-/* Restores the heap order after the top entry has changed. */
 static void sift(existing_batch heap[], int count)
 {
     const existing_batch moved = heap[0];
@@ -370,7 +366,7 @@ status merge_read(const shard_work *w, const batch_store *s, fault *f)
     return STATUS_OK;
 }
 
-/* Calls a function of the BLAS library that has no arguments and returns a string. Returns NULL if
+/* Calls a function of the BLAS library without arguments, and returns its string. Returns NULL if
  * the library does not have this function. */
 static const char *answer_of(const char *name)
 {

@@ -11,10 +11,9 @@
 #include "harness/terminal/terminal.h"
 
 /* Measures the times of a sweep. floor: minimum processor time [s] of a round for one cell. At the
- * default point, the parts of an iteration and, on one mesh of each formulation, the run without
- * elimination are also measured. At other points of a sweep, rounds are short, and long cells keep
- * the time of their single run. Crashed cells are not run again. dense 1: the published algorithm
- * is also timed. to: stream for the progress, or NULL. */
+ * default point, the parts of an iteration are also measured, and, on one mesh of each formulation,
+ * the run without elimination. At other points, long cells keep the time of their single run. dense
+ * 1: the published algorithm is also timed. to: stream for the progress, or NULL. */
 static status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f);
 
 enum { MOST = 64 };                        /* largest number of formulations */
@@ -186,7 +185,7 @@ static void sample(const cell_request *dense, dense_reference *out)
     if (cell_run(&one, &cell, &f) == STATUS_OK)
         for (int k = 0; k < PHASE_REST; k++)
             seconds += cell.solve.phase[k];
-    if (seconds > 0) { /* paths by continuation have no dense form, so there is no sample */
+    if (seconds > 0) {
         out->iteration = out->unknowns > 0 ? fmin(out->iteration, seconds) : seconds;
         out->unknowns = unknowns_of(&cell);
     }
@@ -200,7 +199,7 @@ void dense_reference_round(const cell_request *own, const cell_result *cell, dou
     cell_request dense = *own;
     dense.solve.newton = NEWTON_DENSE;
     if (iterations == 0 || unknowns_of(cell) > MOST_UNKNOWNS)
-        return; /* the problem is linear or too large */
+        return;
     if (out->unknowns == 0 || out->iteration < longest_dense)
         sample(&dense, out);
     if (out->unknowns > 0 && out->iteration * (double)iterations <= longest_dense)
@@ -238,8 +237,7 @@ static int mesh_kept_whole(const sweep *s, const series *one)
     return one->meshes > 0 && one->cell[mesh].solve.status == STATUS_OK ? mesh : -1;
 }
 
-/* Runs one round without elimination. The difference from the time of the usual run is the time
- * saved by elimination. */
+/* Runs one round without elimination, for comparison with the usual run. */
 static void round_kept_whole(const cell_request *as_is, double floor, cell_timing *out)
 {
     cell_request whole = *as_is;
@@ -263,8 +261,8 @@ static double sum_of(const double part[PHASES])
     return sum;
 }
 
-/* Makes one run in which the time of each part of the iterations is measured. The times of the
- * fastest run are kept. Long cells have only one such run, in the last round. */
+/* Makes one run in which the time of each part of the iterations is measured, and keeps the times
+ * of the fastest such run. Long cells have only one such run, in the last round. */
 static void read_phases(const cell_request *as_is, cell_timing *out)
 {
     const double longest = 0.3; /* [s] longest run that is repeated in every round */
@@ -326,7 +324,7 @@ void rounds_pin(void)
     cpu_set_t only;
     CPU_ZERO(&only);
     CPU_SET(here >= 0 ? here : 0, &only);
-    /* an error is ignored, because it only increases the noise of the times */
+    /* an error is ignored: it only increases the scatter of the times */
     sched_setaffinity(0, sizeof only, &only);
 }
 
@@ -368,7 +366,7 @@ static int ascending(const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Returns k such that the median of n draws lies between the k-th smallest and the k-th largest,
+/* Returns k such that the median lies between the k-th smallest and the k-th largest of n draws,
  * except with probability 2 P(Binomial(n, 1/2) < k). */
 static int rank_of_interval(int pairs)
 {

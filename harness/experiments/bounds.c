@@ -1,5 +1,5 @@
-/* Guard words around every output. They reveal outputs that are not filled completely, and changes
- * of memory outside an output. */
+/* Guard words before and after every output. They reveal outputs that are not filled completely,
+ * and changes of memory outside an output. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -18,7 +18,6 @@ enum { GUARD = 64, M = TEST_ELEMENT_STRAINS, N = TEST_ELEMENT_COORDINATES };
 /* a signalling NaN that no computation produces */
 static const uint64_t mark = 0x7ff4beadfacade01ULL;
 
-/* An output of `size` entries between guards. */
 typedef struct guarded {
     const char *name;
     int size;
@@ -211,7 +210,6 @@ static void forces(const test_element *s, const node_state x[], check_results *c
     look(&stiffness, filled && out.K != NULL, s, c);
 }
 
-/* Checks that prepare writes only data_size bytes. */
 static void data(const test_element *s, check_results *c)
 {
     guarded bytes;
@@ -260,7 +258,6 @@ enum { STATELESS_M = TEST_ELEMENT_STRAINS, STATELESS_N = TEST_ELEMENT_COORDINATE
 
 static const double longer = 1.7 * 0.2385; /* [m] length of the second element */
 
-/* All results of an element for one state. */
 typedef struct call_account {
     status stress, inertia;
     double e[STATELESS_M], J[STATELESS_M * STATELESS_N], H[STATELESS_N * STATELESS_N], energy,
@@ -296,7 +293,7 @@ static int same_bits(size_t count, const double a[], const double b[])
     return 1;
 }
 
-/* Returns the name of the first result that is not bit-for-bit equal; NULL: none. */
+/* Returns the name of the first result that differs in any bit; NULL: all results are equal. */
 static const char *apart(const call_account *a, const call_account *b)
 {
     const struct {
@@ -327,8 +324,8 @@ static void same(const call_account *a, const call_account *b, const char *after
         other, after, s->words);
 }
 
-/* Checks that calls of a second, longer element do not change the results of the first element. The
- * second element must give the same results as in a new process. */
+/* Checks that calls of a second, longer element do not change the results of the first element, and
+ * that the second element gives the same results as in a new process. */
 static void other_element(const test_element *s, const call_account *before, const node_state x[],
                           const call_account *first, check_result *one)
 {
@@ -378,8 +375,8 @@ static int in_its_place(const test_element *s, const call_account *before, const
     return again;
 }
 
-/* Checks that each output has the same value when it is requested alone as when it is requested
- * together with the others. */
+/* Checks that an output requested alone has the same value as when it is requested together with
+ * the others. */
 static void alone(const test_element *s, const call_account *before, const node_state x[],
                   check_result *one)
 {

@@ -15,11 +15,11 @@
 
 enum {
     MOST_CHILDREN = 64,
-    LOOK = 100 /* MOST_CHILDREN: largest number of processes; LOOK: time between checks of time
-                  limits [ms] */
+    LOOK = 100 /* MOST_CHILDREN: largest number of processes; LOOK: interval at which time limits
+                  are checked [ms] */
 };
 
-/* A process that runs a part. Its pipe closes when the process ends. */
+/* A process that runs one part of a certificate. The pipe closes when the process ends. */
 typedef struct tester {
     pid_t process;
     int end; /* end of the pipe that is read; -1: no process is running */
@@ -342,7 +342,6 @@ static void write_measure(FILE *to, const element_measure *one, int path, int ve
         paragraph_write(to, fprintf(to, "      "), 6, one->words);
 }
 
-/* Prints the measured errors below a line with their abscissae. */
 static void write_measures(FILE *to, screen look, const certificate *c, int part, int verbose)
 {
     const certificate_part *own = &c->part[part];

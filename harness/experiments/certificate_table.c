@@ -13,8 +13,7 @@ enum {
     CELL = 2 * MEASURE_WORDS
 };
 
-/* Row 0 is the heading. words[row] 1: cell 1 contains a text that extends over all following
- * columns. */
+/* Row 0 is the heading. words[row] 1: the text of cell 1 extends over all following columns. */
 typedef struct paper_table {
     int latex, rows, columns;
     char caption[2 * CELL], label[CELL];
@@ -22,7 +21,6 @@ typedef struct paper_table {
     int words[ROWS];
 } paper_table;
 
-/* Writes text as a cell, and escapes special characters. */
 static void put_text(const paper_table *t, char cell[CELL], const char *text)
 {
     static const char special[] = "&%$#_{}";
@@ -46,9 +44,9 @@ static void put_text(const paper_table *t, char cell[CELL], const char *text)
     cell[at] = '\0';
 }
 
-/* Writes a number and a unit; the number has a form such as "0.35", "3e-05" or "$3\cdot10^{-5}$".
- * digits > 0: number of significant digits. digits <= 0: power of ten with -digits decimal digits.
- * */
+/* Writes a number and a unit. The number has a form such as "0.35", "3e-05" or "$3\cdot10^{-5}$".
+ * digits > 0: number of significant digits. digits <= 0: power of ten with -digits decimal
+ * digits. */
 static void put_number(const paper_table *t, char cell[CELL], int digits, double value,
                        const char *unit)
 {
@@ -88,8 +86,8 @@ static void head(paper_table *t, int column, const char *text)
     t->columns = column + 1;
 }
 
-/* Returns the check with the largest ratio of the deviation to the allowed deviation; NULL: no
- * finite deviation is compared with an allowed deviation. */
+/* Returns the check with the largest ratio of its worst deviation to the allowed deviation; NULL:
+ * no check has a finite deviation and an allowed deviation. */
 static const check_result *worst_of(const check_results *c)
 {
     const check_result *found = NULL;
@@ -136,7 +134,7 @@ static void fill_requirements(paper_table *t, const certificate *c)
     }
 }
 
-/* Returns "correct" or "wrong" for a linear state, according to the check of its limit. Returns
+/* Returns "correct" or "wrong" for the limit of a linear state, as found by its check. Returns
  * `none` if the limit was not checked. */
 static const char *state_limit(const check_results *c, const char *state, const char *none)
 {
@@ -284,7 +282,6 @@ static const char *what_is_hashed(const certificate *c)
     return strncmp(from, "exec:", 5) == 0 ? "of the files named by its command" : "of its file";
 }
 
-/* Writes what was tested, and the version of the program. */
 static void write_about(FILE *to, int latex, const certificate *c)
 {
     const environment now = environment_now(1);

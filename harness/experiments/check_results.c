@@ -8,7 +8,7 @@
 #include "elements/math/scalar.h"
 #include "harness/model/model.h"
 
-/* Returns 1 if there are at least three points, and none of them has a value. */
+/* Returns 1 if the measure has at least three points and none of them has a value. */
 static int measures_useless(const element_measure *one);
 
 check_result *checks_open(check_results *c, const char *name, double allowed)
@@ -191,7 +191,6 @@ void checks_declared(const formulation *chosen, check_results *out)
     options(chosen->type, checks_open(out, "options", 0));
 }
 
-/* An I-section with a depth of 0.1 m and flanges of 0.06 m. */
 static section_spec i_profile(void)
 {
     static const double h = 0.05, b = 0.03;

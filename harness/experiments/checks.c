@@ -25,8 +25,8 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
     {"history", "committing the history does not change the strains", checks_history},
 };
 
-/* Checks of invariance under rigid motion, under reversal of the nodes, and under a change of the
- * unit of length. */
+/* Checks of invariance under rigid motions, under reversal of the node order, and under a change of
+ * the unit of length. */
 
 enum { M = TEST_ELEMENT_STRAINS };
 
@@ -59,7 +59,7 @@ static void rest(const test_element *s, check_result *one)
                          e[i], s->words);
 }
 
-/* Computes the energy or, if there is none, the sum of the absolute stresses times the length. */
+/* Computes the energy or, if there is none, the sum of the absolute stresses, times the length. */
 static status energy_of(const test_element *s, const node_state x[], double *energy)
 {
     double e[M], inner[TEST_ELEMENT_INNER];
@@ -82,9 +82,9 @@ static const char *energy_word(const test_element *s)
 }
 
 /* Checks that exchanging the nodes does not change the energy. The sections of the reversed element
- * are rotated by pi about y, the warping amplitudes are unchanged, and additional unknowns, whose
- * axes are not known, are zero. Curved elements are not checked, because their reversal gives a
- * different element. */
+ * are rotated by pi about y, and the warping amplitudes are unchanged. Additional unknowns are set
+ * to zero, because their axes are not known. Curved elements are not checked, because their
+ * reversal gives a different element. */
 static void node_order(const test_element *s, double size, check_result *one)
 {
     static const double half_turn[9] = {-1, 0, 0, 0, 1, 0, 0, 0, -1};
@@ -164,7 +164,7 @@ static void check(const test_element *s, check_results *c)
             node_order(
                 s, 0.05,
                 checks_open(c, "the energy does not change if the nodes are exchanged", 1e-9));
-        else /* relative to the energy, second-order terms are as large as the strains */
+        else /* relative to the energy, second-order terms are of the order of the strains */
             node_order(
                 s, 1e-5,
                 checks_open(c, "the energy does not change if the nodes are exchanged", 5e-5));
@@ -192,8 +192,8 @@ void checks_motion(const formulation *chosen, check_results *out)
                         "the element provides forces with a history; see 'paths'");
 }
 
-/* Checks of states with NaN or Inf, which occur in diverging iterations. The element must report
- * them by a status or by values that are not finite. */
+/* Checks of states with NaN or Inf, which occur in diverging iterations. The element must return an
+ * error status or values that are not finite. */
 
 enum { NONFINITE_M = TEST_ELEMENT_STRAINS };
 
@@ -238,8 +238,8 @@ static void corrupt(const test_element *s, double by, check_result *one)
         }
 }
 
-/* Checks that strains with NaN or Inf do not give a finite stress if the element has a stiffness
- * for them. */
+/* Checks that a NaN or Inf in a strain does not give a finite stress if the element has a stiffness
+ * for this strain. */
 static void corrupt_strains(const test_element *s, double by, check_result *one)
 {
     const double none[NONFINITE_M] = {0};
@@ -266,7 +266,7 @@ static void corrupt_strains(const test_element *s, double by, check_result *one)
     }
 }
 
-/* Checks that all calls return for any state, including states far outside the valid range. */
+/* Checks that all calls return, even for states far outside the valid range. */
 static void far_away(const test_element *s, double size, check_result *one)
 {
     double e[NONFINITE_M], J[NONFINITE_M * TEST_ELEMENT_COORDINATES], sigma[NONFINITE_M],

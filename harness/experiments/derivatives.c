@@ -1,4 +1,4 @@
-/* Compares the entries of J and H with sixth-order finite differences. */
+/* Compares J and H with sixth-order finite differences. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -52,8 +52,6 @@ static void compare_J(const test_element *s, int strain, int c, double given, do
         s->words);
 }
 
-/* Compares J row by row with finite differences of the strains. The entries are multiplied by the
- * units of the coordinates. */
 static void check_J(const test_element *s, const node_state x[], check_result *one)
 {
     const test_element_stencil at = {s, x};
@@ -165,14 +163,13 @@ static const double longer = 1.7 * 0.2385; /* [m] length of an element of the se
 static const char *const check_name =
     "results for many elements at once equal those for each alone";
 
-/* Results of one element. They exclude values that would be computed by finite differences. */
+/* Results of one element, without those that would be computed by finite differences. */
 typedef struct many_answers {
     status outcome;
     double e[MANY_M], J[MANY_M * MANY_N], H[MANY_N * MANY_N], energy, sigma[MANY_M],
         C[MANY_M * MANY_M];
 } many_answers;
 
-/* Elements of two kinds, evaluated one by one and in one call. */
 typedef struct many_batch {
     const test_element *of[MANY];
     const element_data *data[MANY];

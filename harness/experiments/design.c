@@ -50,7 +50,7 @@ static status check_box(const design *d, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the next point share[axes] of the sequence, with 0 <= share < 1. */
+/* Computes the next point of the sequence: share[axes], with 0 <= share < 1. */
 static void next(const design *d, const design_mark *m, double share[])
 {
     if (m->quasi != NULL)
@@ -215,7 +215,7 @@ void axis_text(const sweep_axis *a, double value, char *text, int size)
     assignment_value_text(a->of, value, text, size);
 }
 
-/* Checks that the parameter may have this value. The messages are the same as for --set. */
+/* Checks that the parameter may have this value, with the same messages as for --set. */
 static status check(const case_type *type, const sweep_axis *a, double value, fault *f)
 {
     const assignment_list list = parameters_list(type);
@@ -240,7 +240,6 @@ static status add_value(sweep_axis *a, double value, fault *f)
     return STATUS_OK;
 }
 
-/* Reads numbers or words that are separated by commas. */
 static status read_list(const case_type *type, const char *text, sweep_axis *a, fault *f)
 {
     const assignment_list list = parameters_list(type);
@@ -275,7 +274,6 @@ static status read_end(const sweep_axis *a, const char *text, size_t length, dou
                      a->of->name, one, a->of->name);
 }
 
-/* Reads the number of parts, which follows the '/'. */
 static status read_parts(const char *text, size_t length, sweep_axis *a, fault *f)
 {
     char one[TEXT], *end;
@@ -304,8 +302,8 @@ static status check_ends(const case_type *type, const sweep_axis *a, fault *f)
                          a->of->name, a->from, a->to);
     TRY(check(type, a, a->from, f));
     TRY(check(type, a, a->to, f));
-    /* An inner value is checked as well, because a parameter may allow only the values 0 and 1, for
-     * example. */
+    /* an inner value is checked as well, because some parameters allow only separate values, such
+     * as 0 and 1 */
     return check(type, a, a->count > 2 || a->count == 0 ? axis_at(a, 0.5) : a->to, f);
 }
 

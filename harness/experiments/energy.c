@@ -11,8 +11,7 @@ enum { ENERGY_M = TEST_ELEMENT_STRAINS };
 
 static const double moved_by = 0.02; /* size of the strains [lengths] */
 
-/* State at which finite differences are computed. The unit of a strain is a twentieth of the
- * length. */
+/* State at which finite differences are computed. */
 typedef struct energy_place {
     const test_element *s;
     const double *e, *inner;
@@ -23,8 +22,8 @@ static double unit_of(const test_element *s)
     return s->request.length / 20;
 }
 
-/* Computes the stress after changes of strains i and j by si and sj units. The inner unknowns are
- * converged. */
+/* Computes the stress after changes of strains i and j by si and sj units (unit_of). The inner
+ * unknowns are converged. */
 static status at_place(const energy_place *at, int i, double si, int j, double sj,
                        stress_output *out)
 {
@@ -204,9 +203,9 @@ void checks_energy(const formulation *chosen, check_results *out)
         checks_not_made(out, "G is symmetric", "the element has no internal geometric stiffness");
 }
 
-/* Checks of the inertia in a rotating frame. The centrifugal force and stiffness derive from a
- * potential, and the gyroscopic matrix is skew-symmetric. The kinetic energy of an element that
- * rotates with the frame is minus the centrifugal potential. */
+/* Checks of the inertia in a rotating frame: the centrifugal force and stiffness derive from a
+ * potential, and the gyroscopic matrix is skew-symmetric. For an element that rotates with the
+ * frame, the kinetic energy is minus the centrifugal potential. */
 
 enum { N = TEST_ELEMENT_COORDINATES };
 
@@ -300,7 +299,7 @@ static void check_skew(const test_element *s, const double G[], check_result *on
 }
 
 /* Checks that the velocity v of the rotating frame gives the kinetic energy 1/2 v^T M v = -V, where
- * V is the centrifugal potential, and that G v = -2 F. */
+ * V is the centrifugal potential, and that G v = -2 F, where F is the centrifugal force. */
 static void own_motion(const test_element *s, const node_state x[], const inertia_output *out,
                        check_results *c)
 {
@@ -378,7 +377,7 @@ static double twisted_energy(const test_element *s, double angle)
     return V;
 }
 
-/* Checks the effect of warping: warping moves fibres along the beam, which changes their distances
+/* Checks the effect of warping, which moves fibres along the beam and so changes their distances
  * from the axis of rotation. The potential of this effect is -1/2 int rho (omega a)^2 |Omega x
  * e_x|^2 dV, with the warping function omega, the warping amplitude a and the angular velocity
  * Omega. */
@@ -412,8 +411,8 @@ static void rotating_check(const test_element *s, check_results *c)
         warping(s, checks_open(c, "centrifugal energy of warping", 2e-4));
 }
 
-/* Makes all checks. The checks of the rotating frame are repeated without rotary inertia, without
- * warping, and without warping and shear. Thus the remaining terms are tested alone. */
+/* Makes all checks. To test terms separately, the checks of the rotating frame are repeated without
+ * rotary inertia, without warping, and without warping and shear. */
 static void check_all(const test_element *s, check_results *c)
 {
     static const unsigned without[] = {FEATURE_ROTARY_INERTIA, FEATURE_WARPING,

@@ -178,8 +178,7 @@ status experiment_do(const experiment_type *e, const void *requested, const expe
     return experiment_run(e, requested, to, found, f);
 }
 
-/* Returns the certificate to which the part of a record belongs. The index of the subject is the
- * index of the part. */
+/* Returns the certificate of the record. The index of the subject is the index of the part. */
 static const certificate *certificate_of(const subject *s)
 {
     return s->owner;

@@ -27,9 +27,9 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Compares two formulations or programs that run in alternation. The outcome is that one of them
- * is slower, or that the scatter is too large to decide. A drift of the machine affects both
- * equally. */
+/* Comparison of two formulations or programs that run alternately, so that a drift of the machine's
+ * speed affects both equally. The result is that one is slower, or that the scatter is too large to
+ * decide. */
 
 typedef enum against_outcome { AGAINST_UNDECIDED, AGAINST_FASTER, AGAINST_SLOWER } against_outcome;
 
@@ -38,8 +38,8 @@ typedef struct against_times {
     double a, b; /* [s] shortest laps of a and of b */
     /* median of b/a over the pairs, and its distribution-free 99.9 % confidence interval */
     double ratio, low, high;
-    /* result for b relative to a; ratios within 2 % of 1 are undecided, because a different code
-     * layout can cause differences of this size */
+    /* result for b relative to a; ratios within 2 % of 1 are undecided, because differences in code
+     * layout can have this effect */
     against_outcome outcome;
 } against_times;
 
@@ -48,7 +48,7 @@ const char *against_name(against_outcome);
 /* Runs one lap of a program or formulation and writes its time [s] to *seconds. */
 typedef status against_lap(void *compared_run, double *seconds, fault *f);
 /* Runs as many pairs of laps as fit into `budget` [s], but at least 51. The number of pairs is
- * fixed before the first counted pair. */
+ * fixed before the first measured pair. */
 status against_run(against_lap *lap, void *a, void *b, double budget, against_times *out, fault *f);
 
 typedef enum axis_kind { AXIS_LINEAR, AXIS_LOG, AXIS_LIST, AXIS_WORDS } axis_kind;
@@ -70,13 +70,11 @@ typedef struct machine {
     char blas[256]; /* BLAS library, and its kernels for this processor */
 } machine;
 
-/* Work that can be cut into batches. A verb supplies these functions. */
-
-/* The batches depend only on the request and the build, so independent processes make the same
- * batches. */
+/* Work that can be divided into batches; a verb supplies the functions. The batches depend only on
+ * the request and the build, so independent processes make the same batches. */
 typedef struct shard_work {
     const char *verb;
-    /* The program, the request, and everything that the results depend on, in one line each. Two
+    /* The program, the request, and all other data that affect the results, in one line each. Two
      * batches belong to the same work if all three lines are equal. */
     const char *build, *request, *plan;
     const char *origin; /* JSON object with the data that merge needs to repeat the request; it is
@@ -85,12 +83,11 @@ typedef struct shard_work {
     const double *cost; /* [batches] estimated time [s] */
     void *context;
     /* Computes a batch and writes its results as bytes that another process of this build can read.
-     * *content: digest of all values that do not change when the batch is computed again (times and
-     * names of machines do change). The function runs in a separate process and frees its memory.
-     * */
+     * *content: digest of all values that are the same in every computation; times and names of
+     * machines are excluded. The function runs in a separate process, which frees its memory. */
     status (*run)(void *context, int batch, FILE *to, digest *content, fault *f);
     /* Reads the results of a batch. The function is called once per batch, in canonical order.
-     * FAULT: the batch cannot be read. */
+     * FAULT: the results cannot be read. */
     status (*take)(void *context, int batch, FILE *from, fault *f);
 } shard_work;
 
@@ -112,8 +109,9 @@ typedef struct batch_label {
 status batch_read_label(const char *path, batch_label *out, fault *f);
 void batch_label_free(batch_label *);
 
-/* Measured properties of a formulation: errors over meshes and over thicknesses, and orders. The
- * structure has a fixed size and no pointers, because processes share it. */
+/* Measured properties of a formulation: errors over meshes and over thicknesses, and orders of
+ * convergence. The structure has a fixed size and no pointers, because it is stored in memory that
+ * processes share. */
 
 enum { MEASURE_POINTS = 12, MEASURES_MOST = 16, MEASURE_NAME = 64, MEASURE_WORDS = 200 };
 
@@ -121,12 +119,12 @@ typedef struct element_measure {
     char name[MEASURE_NAME];
     int points;
     double at[MEASURE_POINTS];    /* numbers of elements, thickness/length, or numbers of turns */
-    double error[MEASURE_POINTS]; /* errors relative to the exact value; NAN: none */
-    double order;       /* observed order of the errors; NAN: not requested, or none observed */
+    double error[MEASURE_POINTS]; /* errors relative to the exact value; NAN: no value */
+    double order;       /* observed order of convergence; NAN: not requested, or not observed */
     int least, highest; /* lowest and highest order that the type declares; 0: not requested */
     /* 1: shear or membrane locking (the errors increase as the element becomes thinner) */
     int locks;
-    /* 1: wrong limit (in a linear state, all meshes have the same error as one element) */
+    /* 1: wrong limit (in a linear state, four elements do not halve the error of one) */
     int wrong_limit;
     char words[MEASURE_WORDS]; /* reason why there are no values, or a conclusion */
 } element_measure;
@@ -137,10 +135,9 @@ typedef struct measures {
     char words[MEASURE_WORDS]; /* text that applies to all measures; "": none */
 } measures;
 
-/* An experiment has three steps: it is planned, run and evaluated. One function then writes the
- * results of any experiment in the requested form. The results are either tables of records,
- * from which the group in the results file, JSON and CSV are written, or the cells of a sweep
- * with their verdicts. */
+/* An experiment is planned, run and evaluated. One function then writes the results of any
+ * experiment in the requested form. The results are either tables of records or the cells of a
+ * sweep with their verdicts. */
 
 typedef struct experiment_cells {
     const sweep *sweep;
@@ -159,11 +156,10 @@ typedef struct experiment_type {
     const record_type *const *records;
     const record_type *about; /* one record for the whole run; NULL: none */
     const record_type *rows;  /* record type that CSV shows; NULL: no CSV */
-    /* Adds the records of this type that the results contain. */
+    /* Appends the records of this type in the results to `out`. */
     void (*gather)(const void *found, const record_type *type, subjects *out);
-    void (*print)(FILE *to, const void *found); /* prints the results as text */
-    /* For experiments with cells: gives access to the cells, from which all forms of output are
-     * written. */
+    void (*print)(FILE *to, const void *found);
+    /* For experiments with cells: returns the cells, from which all forms of output are written. */
     experiment_cells (*cells)(const void *found);
     status (*write)(FILE *to, const char *format, const void *found, fault *f);
 } experiment_type;
@@ -176,8 +172,8 @@ typedef struct experiment_output {
     const char *json; /* additional JSON file; NULL: none */
 } experiment_output;
 
-/* Returns the output for the values of -o, --format and --json. A path that ends in .h5 or .hdf5
- * is a results file. */
+/* Returns the output for the values of the options -o, --format and --json. A path that ends in .h5
+ * or .hdf5 is a results file. */
 experiment_output experiment_output_of(const char *path, const char *format, const char *json);
 
 status experiment_plan(const experiment_type *, const void *requested, void *found, fault *f);
@@ -188,8 +184,8 @@ status experiment_run(const experiment_type *, const void *requested, const expe
 status experiment_do(const experiment_type *, const void *requested, const experiment_output *,
                      void *found, fault *f);
 
-/* Error against run time for every formulation and mesh of the cases, timed in rounds on one
- * processor. */
+/* Error against run time for each formulation and mesh of the cases. The runs are timed in rounds
+ * on one processor. */
 
 typedef struct bench_request {
     const char *const *cases; /* [count] names of the cases; 0: all cases that have a reference
@@ -197,7 +193,7 @@ typedef struct bench_request {
     const case_type *scene;   /* scene file that replaces the cases; NULL: none */
     int count;
     const char *const *assignment; /* [assignments] "NAME=VALUE", applied to each case */
-    int assignments, meshes;       /* number of meshes; 0: those of the case */
+    int assignments, meshes;       /* meshes: their number; 0: those of the case */
     const int *mesh;
     sweep_request cells;
     int threads, dense; /* dense 1: the published algorithm is timed as well */
@@ -208,22 +204,22 @@ typedef struct bench {
     sweep sweep;
     evaluation evaluation;
     environment made;
-    int named; /* 1: the user named the cases, so the output has more details */
+    int named; /* 1: the user named the cases, so the output is more detailed */
 } bench;
 
 extern const experiment_type experiment_bench;
 void bench_free(bench *);
 
-/* A check of a formulation: its deviation from a requirement, and the remedy. The structure has a
- * fixed size and no pointers, because processes share it. */
+/* A check of a formulation: the deviation from a requirement. The structure has a fixed size and no
+ * pointers, because it is stored in memory that processes share. */
 
 enum { CHECK_NAME = 64, CHECK_TEXT = 400, CHECKS_MOST = 48 };
 
 typedef enum check_outcome {
     CHECK_PASSED,
     CHECK_FAILED,
-    /* the type does not declare the property, or leaves the calculation to other functions;
-     * `sentence` gives the reason */
+    /* the type does not declare the property, or leaves the calculation to the program; `sentence`
+     * gives the reason */
     CHECK_NOT_MADE,
     CHECK_OUTCOMES
 } check_outcome;
@@ -232,22 +228,20 @@ typedef struct check_result {
     char name[CHECK_NAME];
     check_outcome outcome;
     int compared; /* number of comparisons or yes/no questions */
-    /* largest deviation (dimensionless; INFINITY: a question was answered with no), and allowed
+    /* largest deviation (dimensionless; INFINITY: the answer to a question is no), and allowed
      * deviation */
     double worst, allowed;
-    char sentence[CHECK_TEXT]; /* describes the worst deviation that is not allowed */
+    char sentence[CHECK_TEXT]; /* describes the largest deviation above the allowed one */
 } check_result;
 
 /* Checks of one family. */
 typedef struct check_results {
     int count;
     check_result check_result[CHECKS_MOST];
-    /* description of the current call, for reports of crashes and time limits */
+    /* description of the current call, for reports of crashes and exceeded time limits */
     char doing[CHECK_TEXT];
     int complete; /* 1: all checks have been made */
 } check_results;
-
-/* Sections of the elements under test. */
 
 typedef enum profiles_form {
     PROFILES_RECTANGLE,   /* supported by every formulation */
@@ -255,14 +249,14 @@ typedef enum profiles_form {
     PROFILES_MATRICES     /* matrices without zero entries */
 } profiles_form;
 
-/* One element under test: its section, options and features, states of its nodes, and calls of
- * its functions. */
+/* One element under test: section, options, features, states of the nodes, and calls of the type's
+ * functions. */
 
 enum {
     TEST_ELEMENT_STRAINS = ELEMENT_MAX_STRAINS,
     TEST_ELEMENT_COORDINATES = ELEMENT_MAX_COORDINATES,
     TEST_ELEMENT_INNER =
-        1 << 10, /* largest number of inner unknowns for which an element is checked */
+        1 << 10, /* largest number of inner unknowns of an element that is checked */
     TEST_ELEMENT_MEMORY = 1 << 13, /* number of doubles that stress passes to update */
     TEST_ELEMENT_WORDS = 160
 };
@@ -293,15 +287,15 @@ typedef struct test_element {
     char words[TEST_ELEMENT_WORDS];  /* text for messages: "" or ", with option=value, section" */
 } test_element;
 
-/* Returns the status of the type's functions, for example STATUS_REFUSED. Call test_element_free in
- * any case. */
+/* Returns the status of the type's functions, for example STATUS_REFUSED. Call test_element_free
+ * after a failure as well. */
 status test_element_make(const test_element_request *, test_element *out, fault *f);
 void test_element_free(test_element *s);
 /* Returns 1 if the type computes forces with a history, which need not derive from an energy. */
 int test_element_lacks_energy(const test_element *s);
 
-/* Computes the nodes of the undeformed element, displaced by random numbers times `size`, in units
- * of length, radians and 1/length. */
+/* Computes the node states of the element: the undeformed state plus random numbers times `size`,
+ * in units of length, radians and 1/length. */
 void test_element_state(const test_element *s, double size, unsigned seed, node_state x[]);
 /* Returns the unit of coordinate c (chart_unit). */
 double test_element_unit(const test_element *s, int c);
@@ -309,7 +303,7 @@ double test_element_unit(const test_element *s, int c);
 typedef void checks_run(const formulation *chosen, check_results *out);
 
 typedef struct checks_family {
-    const char *name, *what; /* name: one word; what: the requirement, in one line */
+    const char *name, *what; /* name: one word; what: the requirement in one line */
     checks_run *run;
 } checks_family;
 
@@ -321,7 +315,7 @@ extern const checks_family checks_families[CHECKS_FAMILIES];
 typedef void measured_run(const formulation *chosen, check_results *, measures *out);
 
 typedef struct measured_group {
-    const char *name, *what; /* name: one word; what: an explanation of the numbers, in one line */
+    const char *name, *what; /* name: one word; what: an explanation of the numbers in one line */
     measured_run *run;
 } measured_group;
 
@@ -329,12 +323,11 @@ enum { MEASURED_GROUPS = 4 };
 extern const measured_group measured_groups[MEASURED_GROUPS];
 
 /* Certificate of a formulation: results of the checks of the interface requirements, and measured
- * properties. Each part runs in its own process. A crash, a time-out or corrupted memory is
- * reported as the result of this part, and the other parts continue. */
+ * properties. Each part runs in its own process. A crash, an exceeded time limit or corrupted
+ * memory is reported as the result of this part. */
 
 enum { CERTIFICATE_PARTS = CHECKS_FAMILIES + MEASURED_GROUPS };
 
-/* One part of a certificate: its checks and its measures. */
 typedef struct certificate_part {
     check_results check_results;
     measures measures;
@@ -343,8 +336,8 @@ typedef struct certificate_part {
 typedef struct certificate {
     formulation chosen;
     certificate_part part[CERTIFICATE_PARTS];
-    const char
-        *late; /* first part that exceeded the time limit (later parts are not run); NULL: none */
+    const char *late; /* first part that exceeded the time limit, after which no further part is
+                         run; NULL: none */
     char hash[DIGEST_TEXT]; /* SHA-256 of the formulation's file; "": not requested */
 } certificate;
 
@@ -356,7 +349,7 @@ typedef struct certificate_request {
     void (*hash)(const element_type *, char out[DIGEST_TEXT]);
 } certificate_request;
 
-/* Call certificates_free in any case. */
+/* Call certificates_free after a failure as well. */
 status certificate_find(const certificate_request *, certificate **out, fault *f);
 void certificate_free(certificate *all, int count);
 
@@ -399,9 +392,9 @@ typedef struct convergence {
 extern const experiment_type experiment_converge;
 void convergence_free(convergence *);
 
-/* Groups consecutive items into batches with a total cost of at most `most`. A more expensive item
- * forms a batch alone. first[items + 1]: first item of each batch, followed by `items`. Returns the
- * number of batches. */
+/* Groups consecutive items into batches with a total cost of at most `most`. An item with a higher
+ * cost forms a batch alone. first[items + 1]: first item of each batch, followed by `items`.
+ * Returns the number of batches. */
 int batches_cut(int items, const double cost[], double most, int first[]);
 
 /* Choice of parameter points: a grid over all axes, or points that fill the ranges of the axes. */
@@ -423,18 +416,18 @@ typedef struct design {
     long points;
     unsigned long seed; /* seed of GSL's generator mt19937, for DESIGN_RANDOM */
     long marks, stride;
-    /* [marks] states after every `stride` points, from which any point is computed quickly */
+    /* [marks] states at every `stride` points, from which any point can be computed in few steps */
     design_mark *mark;
 } design;
 
-/* Outcome of a formulation at an extreme, and expected outcomes that are not accurate. */
+/* Outcome of a formulation at an extreme. Outcomes other than accurate ones can be expected. */
 
 enum { OUTCOME_NEIGHBOURS = 2 };
 
 typedef enum outcome_kind {
     OUTCOME_VALUE, /* accurate: the error is within the tolerance of the extreme */
-    /* under-resolved: the error exceeds the tolerance, but decreases with more elements like a
-     * discretisation error */
+    /* under-resolved: the error exceeds the tolerance, but decreases with more elements as a
+     * discretisation error does */
     OUTCOME_COARSE,
     OUTCOME_WRONG, /* a number that is neither accurate nor under-resolved */
     OUTCOME_NOT_CONVERGED,
@@ -446,8 +439,8 @@ typedef enum outcome_kind {
     OUTCOME_KINDS
 } outcome_kind;
 
-/* Expected outcomes that are neither accurate nor under-resolved (reference/extreme_findings.csv).
- */
+/* Expected outcomes that are neither accurate nor under-resolved
+ * (reference/extreme_findings.csv). */
 typedef struct extreme_deviation {
     char *extreme, *formulation, *quantity, *outcome,
         *proof;      /* texts; the first three may contain the wildcards * and ? */
@@ -470,9 +463,7 @@ typedef struct extreme_outcome {
 
 const char *outcome_name(outcome_kind kind);
 
-/* Outcomes of every formulation at every extreme. */
-
-/* Counts for one formulation. A cell is an extreme at one value of x. The result of a cell is that
+/* Counts for one formulation. A cell is an extreme at one value of x. The outcome of a cell is that
  * of its worst quantity. */
 typedef struct extreme_count {
     const char *formulation; /* key of the formulation */
@@ -481,8 +472,7 @@ typedef struct extreme_count {
 
 typedef struct extreme_sweep {
     int formulations, outcomes, deviations, unexpected, unobserved;
-    /* number of outcomes of new formulations that are not expected; these outcomes do not affect
-     * the exit status */
+    /* number of unexpected outcomes of new formulations, which do not affect the exit status */
     int is_new;
     formulation *formulation;
     truths truths; /* exact values */
@@ -497,27 +487,23 @@ typedef struct extreme_sweep {
 int extreme_sweep_exit(const extreme_sweep *s);
 void extreme_sweep_free(extreme_sweep *s);
 
-/* Request for a sweep of extremes. */
-
 typedef struct extreme_request {
     const char *truths; /* path of the packed reference values */
-    const char *select; /* expression over "name/group/case/formulation", or NULL */
+    const char *select; /* expression that selects among "name/group/case/formulation"; NULL: all */
     int jobs, formulations;
     const formulation *formulation; /* [formulations] formulations to run; formulations 0: all */
     int named; /* 1: the user named the formulations, so their outcomes affect the exit status */
     FILE *progress;
 } extreme_request;
 
-/* At every extreme, each formulation must give a value with its error, or a rejection or failure
- * with a reason. A formulation must never give a wrong number without notice. */
+/* For each extreme, a formulation must give a value with its error, or a rejection or failure with
+ * a reason. A wrong value without a warning is never allowed. */
 
 /* The request is an extreme_request. The result is an extreme_sweep, which extreme_sweep_free
  * frees. */
 extern const experiment_type experiment_stress;
 
 enum { INTEGRATORS_LIST_MOST = 16 };
-
-/* Names of integrators on a command line. */
 
 /* order of radau, which computes the reference */
 enum { INTEGRATORS_METHOD_NAME = 32, INTEGRATORS_REFERENCE_ORDER = 5 };
@@ -526,14 +512,14 @@ typedef struct integrators_method {
     char name[INTEGRATORS_METHOD_NAME]; /* name of the method as given on the command line */
     scene_scheme scheme;
     scene_alpha alpha;
-    int order;    /* order with respect to the time step, if all frequencies are resolved */
+    int order;    /* order of accuracy in the time step, if all frequencies are resolved */
     int estimate; /* 1: the integrator estimates the error of every step */
 } integrators_method;
 
 /* Comparison of integrators for transient analysis: cost and accuracy. The reference uses the same
  * mesh, so all errors are due to time integration. */
 
-/* Classification of a motion. Without loads, energy and momenta must be conserved. */
+/* Classification of a motion. Without loads, the energy and the momenta must be conserved. */
 typedef enum integrators_class {
     INTEGRATORS_UNCLASSIFIED, /* loads act, so the motion is not classified */
     INTEGRATORS_GROWS,        /* the energy grows by more than integrators_growth */
@@ -549,25 +535,26 @@ typedef struct integrators_run {
     int group, series; /* indices of the group, and of the series in the sweep */
     integrators_method method;
     double step, tolerance; /* [s] size of the first step, or of all steps if tolerance is 0 */
-    /* outcome of the motion; after a failure, the values below are NAN */
+    /* status of the motion; after a failure, the values below are NAN */
     status status;
     const char *reason; /* owned by the sweep */
     /* largest error over all stations: positions relative to the size of the structure, or
      * rotations in rad */
     double error;
     double *values; /* [quantities] relative errors; owned by this structure */
-    double order;   /* observed order, from this run and the run with twice the step size */
+    double
+        order; /* observed order, from this run and the run with twice the step size; NAN: none */
     double cost, seconds, iterations; /* [s] cost of the counted work, and measured time;
-                                         iterations per step */
+                                         iterations: number per step */
     long steps, rejected;
     double energy, momentum; /* largest relative errors of the energy balance and of the momenta */
     /* largest and last value of E/E0, where E is the energy and E0 the initial energy */
     double largest, last;
-    double stopped; /* [s] time at which the motion ended prematurely */
+    double stopped; /* [s] time at which the motion ended early */
     integrators_class motion_class;
 } integrators_run;
 
-/* All motions of one structure with one mesh and formulation. */
+/* All motions of one structure that is computed with one mesh and formulation. */
 typedef struct integrators_group {
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
@@ -575,9 +562,10 @@ typedef struct integrators_group {
     int elements;
     int analysis;     /* index of the motion in the scene */
     double step, end; /* step size and end time in the scene [s] */
-    double from;      /* [s] time from which no load acts; INFINITY: loads act until the end */
+    double from;      /* [s] time from which no load acts; INFINITY: some load acts until the end */
     int first, runs;  /* index of the first run, and number of runs, in the list of all runs */
-    /* index of the series of the reference, which its checks follow; -1: no errors are requested */
+    /* index of the series of the reference, after which its checks follow; -1: errors are not
+     * requested */
     int reference;
     double uncertainty; /* uncertainty of the reference; NAN: none */
     double order; /* observed order of the reference, from the errors of its checks; NAN: none */
@@ -591,14 +579,14 @@ typedef struct integrators {
     integrators_run *run;
 } integrators;
 
-/* Verdicts on integrators, compared with a table of expected ones (expected.csv):
+/* Verdicts on integrators, compared with a table of expected verdicts (expected.csv):
  *
- *   order      pass, low order or undecided, from errors at halved steps (experiments_impl.h)
- *   energy     conserved, or "order P" of its drift at halved steps, or drifts
- *   momentum   conserved, or "order P" of its drift at halved steps, or drifts
- *   tolerance  decimal logarithm of error/tolerance for each tolerance; the verdict allows
+ *   order pass, low order or undecided, from errors at halved steps (experiments_impl.h)
+ *   energy conserved, "order P" of the energy-balance error at halved steps, or drifts
+ *   momentum conserved, "order P" of the momentum error at halved steps, or drifts
+ *   tolerance decimal logarithm of error/tolerance for each tolerance, compared within
  *              a factor of two
- *   fate       fate of each step: grows, stops, bounded or exact (integrators_class) */
+ *   fate outcome for each step size: grows, stops, bounded or exact (integrators_class) */
 
 enum { INTEGRATORS_FOUND = 128 };
 
@@ -628,8 +616,6 @@ typedef struct integrators_verdicts {
     integrators_verdict *verdict;
 } integrators_verdicts;
 
-/* Comparison of integrators for transient analysis: request and result. */
-
 typedef struct motion_request {
     const char *expected; /* table of expected verdicts, which replaces the members below */
     const case_type *type;
@@ -640,7 +626,7 @@ typedef struct motion_request {
     /* lists as given on the command line; NULL: default lists */
     const char *integrators, *steps, *tolerances;
     int conservation_only; /* 1: without a reference */
-    int each;              /* 1: the text has a line for each motion, in addition to the verdicts */
+    int each;              /* 1: the text has a line for each motion as well as the verdicts */
     sweep_request cells;
 } motion_request;
 
@@ -662,12 +648,12 @@ typedef enum rows_reference {
     ROWS_DERIVED, /* a reference value computed for the point by a program of reference/derive */
     ROWS_LIMIT,   /* the limit of the meshes of all formulations */
     ROWS_NONE,    /* no limit is known accurately enough */
-    /* none, because limits of formulations differ by more than their uncertainties */
+    /* none, because the limits of formulations differ by more than their uncertainties */
     ROWS_DISPUTED,
     ROWS_REFERENCES
 } rows_reference;
 
-/* Sizes of the columns. All points have the same sizes. */
+/* Sizes of the columns, which are the same for all points. */
 typedef struct rows_shape {
     int formulations, meshes, quantities;
 } rows_shape;
@@ -684,23 +670,21 @@ typedef struct rows {
         *error; /* [points, formulations, meshes, quantities] relative error; NAN: none */
     /* [points, formulations, meshes] cost of the counted work, and measured time [s] */
     double *cost, *seconds;
-    /* [points, formulations] bits of the omitted physics (model.h) if the formulation solves
-     * another model. Such a formulation is not counted. 0: the formulation solves the model of the
-     * scene. */
+    /* [points, formulations] bits of the omitted physics (model.h); 0: the formulation solves the
+     * model of the scene. A formulation that solves another model is not counted. */
     int32_t *lacks;
-    /* [points, formulations, quantities] number of elements of the coarsest mesh for which this
-     * mesh and all finer meshes are within the tolerance; 0: none */
+    /* [points, formulations, quantities] smallest number of elements for which this mesh and all
+     * finer meshes are within the tolerance; 0: none */
     int32_t *least;
     uint8_t *kind;   /* [points, quantities] values of rows_reference */
     uint8_t *status; /* [points, formulations, meshes] */
 } rows;
 
-/* A sweep over parameters. Its points, formulations, meshes, quantities and batches depend only on
+/* A sweep over parameters. The points, formulations, meshes, quantities and batches depend only on
  * the request and the build. */
 
 enum { RANGES_FORMULATIONS = 64, RANGES_QUANTITIES = 64 };
 
-/* Request of a parameter study. */
 typedef struct ranges_request {
     const case_type *type;
     const scene_file *file; /* file of the case; NULL: a built-in case */
@@ -735,10 +719,12 @@ typedef struct parameter_ranges {
     formulation formulation[RANGES_FORMULATIONS];
     int mesh[SERIES_MAX_MESHES]; /* ascending */
     ranges_quantity quantity[RANGES_QUANTITIES];
-    char left_out[FAULT_TEXT]; /* text about formulations that run at none of the examined points */
-    char omitted[SCENE_OMISSION_WORDS]; /* physics that the scene omits, at the first examined
-                                           point */
-    /* assumptions on the sections (harness/records/records.h) at the first examined point */
+    char left_out[FAULT_TEXT]; /* text about formulations that run at none of the points that were
+                                  examined */
+    char omitted[SCENE_OMISSION_WORDS]; /* physics that the scene omits, at the first point that was
+                                           examined */
+    /* assumptions on the sections (harness/records/records.h), at the first point that was
+     * examined */
     char assumed[RANGES_ASSUMED];
     long points_in_batch; /* number of points in each batch except the last */
     int batches;
@@ -746,20 +732,20 @@ typedef struct parameter_ranges {
 } parameter_ranges;
 
 /* Plans the sweep without solving anything. REFUSED: the message names the invalid part and the
- * remedy. Call ranges_free even after a failure. The request must outlive the result. */
+ * remedy. Call ranges_free after a failure as well. The request must outlive the result. */
 status ranges_make(const ranges_request *request, parameter_ranges *out, fault *f);
 void ranges_free(parameter_ranges *);
 rows_shape ranges_shape(const parameter_ranges *);
 
-/* One shard of a work. Each batch of the shard is computed by a process and written to a file as
+/* One shard of a work. Each batch of the shard is computed by a process, and written to a file as
  * soon as it is finished. */
 
 typedef struct shard_request {
     int index, count; /* index of the shard, starting at 0, and number of shards */
     const char *into; /* folder of the batches; created if necessary */
     int jobs;         /* number of processes, >= 1 */
-    int stop; /* descriptor that becomes readable to stop the run; 0: SIGINT, SIGTERM, SIGHUP stop
-                 it */
+    int stop;       /* file descriptor that becomes readable to stop the run; 0: the signals SIGINT,
+                       SIGTERM and SIGHUP stop the run */
     FILE *progress; /* NULL: quiet */
     FILE *messages; /* receives messages about damaged or lost batches; NULL: none */
 } shard_request;
@@ -775,15 +761,15 @@ typedef struct shard_outcome {
 
 /* Reads "2/4" as index 1 and count 4. REFUSED: any other format. */
 status shard_parse(const char *text, int *index, int *count, fault *f);
-/* Computes the missing batches, the most expensive first. If a process ends without a result, only
- * its batch is lost, and the next run of the shard computes this batch. REFUSED: the folder
+/* Computes the missing batches in decreasing order of cost. If a process ends without a result,
+ * only its batch is lost. The next run of the shard computes this batch. REFUSED: the folder
  * contains batches of another work. FAULT: a disk error, a failed batch, or out of memory. The run
  * then ends, and completed batches are kept. */
 status shard_run(const shard_work *w, const shard_request *request, shard_outcome *out, fault *f);
 
 /* Lists in JSON, for `beamwork list --format json` and for the library. */
 
-/* Lists all cases if `cases` is 1, and all formulations with the physics that they support if
+/* Lists all cases if `cases` is 1, and all formulations with the features that they support if
  * `formulations` is 1. */
 status list_json_all(FILE *to, int cases, int formulations, fault *f);
 /* Lists a case at given values of its parameters: these values, the quantities, and the
@@ -794,7 +780,7 @@ status list_json_case(FILE *to, const case_type *type, const double value[], fau
 status list_json_formulation(FILE *to, const formulation *chosen, const rule *rules, int count,
                              fault *f);
 
-/* Subject of a list: everything, all cases, all formulations, a case or a formulation. */
+/* Subject of a list: all cases, all formulations, both, one case or one formulation. */
 
 typedef struct list_subject {
     int cases, formulations; /* 1: all of them */
@@ -820,7 +806,7 @@ typedef struct batch_store {
     char stem[BATCH_STEM];
     int *where; /* [batches] index of the folder that contains the batch, or -1 */
     int there, damaged, twice;
-    /* number of shards of the existing batches; 0: the batches have different numbers */
+    /* number of shards, if it is the same for all existing batches; otherwise 0 */
     int shards;
     double seconds;
     int kinds; /* number of kinds of machines */
@@ -828,10 +814,11 @@ typedef struct batch_store {
 } batch_store;
 
 /* Reads and checks every byte of the requested batches (wanted NULL: all). If two folders contain
- * the same batch, the first folder is used. A damaged batch counts as missing, and a line about the
- * batch is written to the stream (may be NULL). REFUSED: a batch belongs to another build, request
- * or plan, a file has the name of a batch but is not a batch, or two versions of a batch differ.
- * FAULT: a folder cannot be read. Call batch_store_free even after a failure. */
+ * the same batch, the first folder is used. A damaged batch counts as missing and is reported to
+ * the stream (may be NULL) in one line.
+ * REFUSED: a batch belongs to another build, request or plan; a file has the name of a batch but is
+ * not a batch; or two versions of a batch differ. FAULT: a folder cannot be read. Call
+ * batch_store_free after a failure as well. */
 status batch_store_read(const shard_work *w, const char *const folder[], int folders,
                         const char *wanted, FILE *messages, batch_store *out, fault *f);
 void batch_store_free(batch_store *);
@@ -840,12 +827,12 @@ void batch_store_free(batch_store *);
 void batch_store_missing(const batch_store *, const shard_work *, char *out, size_t size);
 /* Writes a line for each kind of machine if there are several. */
 void batch_store_print_kinds(const batch_store *, FILE *to);
-/* Reads the label of the first readable batch of a folder, in the order of names. merge repeats the
- * request of this batch. REFUSED: the folder has no readable batch. */
+/* Reads the label of the first readable batch of a folder, in the order of names. The verb `merge`
+ * repeats the request of this batch. REFUSED: the folder has no readable batch. */
 status batch_store_first(const char *folder, batch_label *out, fault *f);
 
-/* Reads the batches of one or several folders in canonical order, with only one batch in memory
- * at a time. */
+/* Reads the batches of one or several folders in canonical order. Only one batch is in memory at a
+ * time. */
 
 /* Reads every existing batch. s: result of batch_store_read. FAULT: a batch can no longer be read.
  */
@@ -859,12 +846,11 @@ enum { MESHES_FINEST = 10000000 };
  * REFUSED: an item is not an integer from 1 to MESHES_FINEST, or there are too many items. */
 status meshes_parse(const char *list, int most, int mesh[], int *count, fault *f);
 
-/* Summary of a sweep, accumulated point by point. For each formulation, it contains the number of
- * points within the tolerance on each mesh, and the points with the largest errors. */
+/* Summary of a sweep, accumulated point by point. For each formulation: the number of points within
+ * the tolerance on each mesh, and the points with the largest errors. */
 
 enum { TALLY_WORST = 3, TALLY_COLUMNS = 10, TALLY_ROWS = 12, TALLY_SCENE = 64 };
 
-/* A point where a formulation has one of its largest errors on the finest mesh. */
 typedef struct tally_worst {
     long point;
     int quantity;            /* index of the quantity; -1: the cell has no solution */
@@ -873,14 +859,14 @@ typedef struct tally_worst {
     char scene[TALLY_SCENE]; /* name of the scene file of the point; empty: not stored */
 } tally_worst;
 
-/* Counts of a formulation for one quantity, or for all quantities together. For all quantities
- * together, a point with an undecided quantity is counted in `requested` only if another quantity
+/* Counts of a formulation for one quantity, or for all quantities together. In the latter case, a
+ * point at which some quantity has no reference is counted in `requested` only if another quantity
  * is never within the tolerance. */
 typedef struct tally_series {
     long requested; /* number of points with a reference */
     long proven;    /* number of points whose reference is a reference value */
     long open;      /* number of points with a value but without a reference */
-    /* number of points of `requested` that are within the tolerance, for each mesh */
+    /* for each mesh: number of points of `requested` that are within the tolerance */
     long within[SERIES_MAX_MESHES];
     /* number of points of `requested` where even the finest mesh is not within the tolerance */
     long never;
@@ -889,7 +875,7 @@ typedef struct tally_series {
     int everywhere;
 } tally_series;
 
-/* A field of the map, which covers a range of each axis. */
+/* A field of the map: it covers a range of each axis. */
 typedef struct tally_place {
     long points, other, requested, never; /* other: number of points with another model */
     long proven; /* number of points of `requested` whose reference is a reference value */
@@ -922,7 +908,8 @@ typedef struct tally {
     tally_worst worst[RANGES_FORMULATIONS][TALLY_WORST];
 } tally;
 
-/* Allocates and clears the counts. FAULT: out of memory. Call tally_free even after a failure. */
+/* Allocates and clears the counts. FAULT: out of memory. Call tally_free after a failure as
+ * well. */
 status tally_alloc(const parameter_ranges *r, tally *out, fault *f);
 void tally_free(tally *);
 
@@ -936,7 +923,7 @@ typedef struct ranges_file {
     hid_t column[RANGES_FILE_COLUMNS];
 } ranges_file;
 
-/* A sweep as work that can be cut into batches. */
+/* A sweep as work that can be divided into batches. */
 
 typedef struct ranges_work {
     const parameter_ranges *of;
@@ -948,13 +935,14 @@ typedef struct ranges_work {
     digest content;    /* digest of all values read, except times */
 } ranges_work;
 
-/* Computes the batches of a sweep or reads the batches of shards, then writes the summary, the file
- * and the worst points. */
+/* Computes the batches of a sweep, or reads the batches of shards. Then writes the summary, the
+ * file and the worst points. */
 
 typedef struct range_sweep_request {
     ranges_request of;
     const char *output; /* path of the HDF5 file; NULL: none */
-    int partial;        /* 1: batches may be missing; the name of the output then says so */
+    int partial; /* 1: batches may be missing; the name of the output then shows that the sweep is
+                    incomplete */
     int jobs, verbose, quiet;
     FILE *progress, *csv; /* NULL: none */
     /* Reads the batches; NULL: this process computes them. NO_VALUE: there is nothing to evaluate.
@@ -982,29 +970,25 @@ typedef struct range_sweep {
 extern const experiment_type experiment_sweep;
 void range_sweep_free(range_sweep *);
 
-/* Data that all batches of a sweep have in common, in addition to the command line. */
-
 /* Adds the points, formulations, meshes, quantities and the division into batches to the digest. */
 void ranges_identity_add(const parameter_ranges *r, digest *plan);
 
-/* Text output of a sweep. */
-
-/* Writes the header of the table: number of points and cells, and the axes. */
+/* Writes the header of the table: the numbers of points and cells, and the axes. */
 void ranges_table_head(FILE *to, const parameter_ranges *r);
 
-/* Results of a verification that are worse than in a previous run. */
+/* Comparison of a verification with a previous run: results that have become worse. */
 
 /* Adds three kinds of deviations to the evaluation. First, meshes whose error is larger than in the
  * previous run (by more than 2 % and RESULTS_FLOOR), or whose value or solution is now missing.
  * Second, series of the previous run that are missing although this run should contain them. Third,
- * limits of default points that changed by more than 1e-5, relatively, unless an exact reference
- * value checks them as closely. If only the short table of the previous run is known, errors are
- * compared by series. Work is not compared. REFUSED: the two runs have nothing in common. */
+ * limits at default points with a relative change above 1e-5, unless an exact reference value
+ * checks them as closely. If only the short table of the previous run is known, errors are compared
+ * by series. Costs are not compared. REFUSED: the two runs have nothing in common. */
 status regressions_find(const stored_results *former, const char *name, const sweep *, evaluation *,
                         fault *);
 
-/* A cell of a case. The request is completed by default choices and solved. The command line and
- * the library use these functions. */
+/* One cell of a case. The request is completed by default choices, then solved. The command line
+ * and the library use these functions. */
 
 typedef struct solution_request {
     const case_type *type;
@@ -1022,7 +1006,7 @@ typedef struct solution_request {
     double error;
 } solution_request;
 
-/* Choices with their reasons, in one line each; "" if the request contains the value. */
+/* Reasons for the chosen values, in one line each; "": the request contains the value. */
 typedef struct solution_choice {
     char formulation[FAULT_TEXT], elements[FAULT_TEXT];
     /* [quantities] relative change from the previous mesh; NULL: the request gave the number of
@@ -1033,20 +1017,20 @@ typedef struct solution_choice {
 void solution_choice_free(solution_choice *);
 
 /* Chooses the formulation (harness/study/study.h) and, if `elements` is 1, the number of elements.
- * rules NULL: no list of known deviations. REFUSED: no formulation supports everything the case
- * requires. Call solution_choice_free in any case. */
+ * rules NULL: no list of known deviations. REFUSED: no formulation supports all features that the
+ * case requires. Call solution_choice_free after a failure as well. */
 status solution_choose(solution_request *, const rule *rules, int count, int elements,
                        solution_choice *why, fault *f);
 /* Plans one point, series and mesh with the selected quantities, without solving anything. Call
- * sweep_free even after a failure. */
+ * sweep_free after a failure as well. */
 status solution_plan(const solution_request *, sweep *, fault *);
-/* Solves the cell in this process. A cell without a solution counts as a result, except after
- * REFUSED and FAULT. Also returns NOT_CONVERGED if the chosen mesh does not reach the requested
+/* Solves the cell in this process. REFUSED and FAULT are returned; any other cell without a
+ * solution counts as a result. NOT_CONVERGED: the chosen mesh does not reach the requested
  * error. */
 status solution_run(const solution_request *, const solution_choice *, sweep *, fault *);
 
-/* Final states of motions in a file, from which another run continues. If the steps are unchanged,
- * its results are bit-for-bit identical to those of a single run. */
+/* Final states of motions in a file, from which another run continues. If the steps are the same,
+ * the results are bit-for-bit identical to those of an uninterrupted run. */
 
 typedef struct restart {
     char formulation[FORMULATION_KEY]; /* formulation with its options */
@@ -1056,23 +1040,23 @@ typedef struct restart {
     outcome_end *end;
 } restart;
 
-/* Checks that final states can be stored. Call this function before the solution. REFUSED: the
- * scene has no motion whose final state can be stored. */
+/* Checks before the solution that final states can be stored. REFUSED: the scene has no motion
+ * whose final state can be stored. */
 status restart_possible(const scene *, fault *);
 /* Writes the final states of the solved motions to a file, with their scene, formulation and
  * mesh. The file has a temporary name until it is complete. */
 status restart_write(const char *path, const solution_request *, const sweep *, fault *);
-/* Reads a file of final states. FAULT: the file is missing, damaged or not such a file. Call
- * restart_free even after a failure. */
+/* Reads a file of final states. FAULT: the file is missing, damaged or of another kind. Call
+ * restart_free after a failure as well. */
 status restart_read(const char *path, restart *, fault *);
 void restart_free(restart *);
-/* Prepares the scene for continuation: only stations from the stored state on remain. REFUSED:
- * the formulation, the mesh, or a part of the scene other than stations and quantities differs, or
- * there is no later station. */
+/* Prepares the scene for continuation: removes the stations before the stored state. REFUSED: there
+ * is no later station; or the formulation, the mesh, or a part of the scene other than stations and
+ * quantities differs. */
 status restart_begin(restart *, solution_request *, scene *, fault *);
 
-/* Formulations that run a case, or cases that a formulation runs, and the reasons why others do
- * not. */
+/* Formulations that run a case, or cases that a formulation runs; for the others, the reasons why
+ * they do not. */
 
 enum { RUNS_ON_WORDS = 200 };
 
@@ -1080,38 +1064,38 @@ typedef struct runs_on {
     const char *name; /* name of the case or the formulation */
     int runs;
     int other;                 /* 1: the formulation solves another model (harness/study/study.h) */
-    char words[RUNS_ON_WORDS]; /* missing features; if the formulation runs, the physics that it
-                                  omits */
+    char words[RUNS_ON_WORDS]; /* if the formulation runs: the physics that it omits; otherwise: the
+                                  missing features */
 } runs_on;
 
 void runs_on_scene(const scene *s, const element_type *type, runs_on *out);
 /* Lists at most `room` built-in cases at their default parameters, and returns their number.
- * `other` is 0, because other models are not examined. */
+ * `other` is always 0. */
 int runs_on_cases(const element_type *type, runs_on out[], int room);
 
-/* Binds this process to the processor on which it runs, so the times of repetitions are comparable.
- * */
+/* Binds this process to the processor on which it runs, so that the times of repetitions are
+ * comparable. */
 void rounds_pin(void);
 /* Restarts the program with one thread, because libraries set their number of threads when they are
  * loaded. arguments: NULL-terminated. */
 void rounds_single_thread(char **arguments);
 
-/* Runs every formulation on every case and parameter point that has a reference value. The results
- * are evaluated as they arrive. */
+/* Runs every formulation on every case and parameter point that has a reference value. Results are
+ * evaluated during the run. */
 
-/* Callbacks that receive results during the run. */
 typedef struct verification_reader {
     void *context;
-    /* Called once per case, after its last series has been evaluated. If the run is interrupted,
-     * the function is called only for the cases before the interruption. */
+    /* Called once per case, after its last series has been evaluated. In an interrupted run, only
+     * called for the cases before the interruption. */
     void (*evaluated)(void *context, const case_type *);
 } verification_reader;
 
-/* Checks the interface requirements for formulations that the user named or loaded. Then runs a
- * planned sweep (study.h) and evaluates its series in order, as soon as all series of their point
- * are complete. Finest meshes are run again if verdicts may depend on their scatter. Agreements of
- * formulations become reference values of scene files. whole 1: no selection was made; this has no
- * effect in an interrupted run. reader NULL: none. Call evaluation_free even after a failure. */
+/* First checks that formulations named or loaded by the user satisfy the interface requirements.
+ * Then runs a planned sweep (study.h), and evaluates the series in order, as soon as all series of
+ * their point are complete. The finest meshes are run again if verdicts may depend on their
+ * scatter. For scene files, agreements of formulations serve as reference values.
+ * whole 1: no selection was made; ignored in an interrupted run. reader NULL: none. Call
+ * evaluation_free after a failure as well. */
 status verification_run(const sweep_request *, int whole, const verification_reader *reader,
                         truths *, sweep *, evaluation *out, fault *);
 
@@ -1148,7 +1132,7 @@ typedef struct verification_request {
 typedef struct verification {
     const verification_request *requested;
     truths truths; /* read before planning */
-    /* results of the previous run; the results of this run must not be worse */
+    /* results of the previous run, with which this run is compared */
     stored_results former;
     verification_files *files; /* owned by the caller */
     double begun;              /* [s] clock_wall_seconds at the start */
@@ -1157,7 +1141,7 @@ typedef struct verification {
     overview overview;
 } verification;
 
-/* The names of the output files of an interrupted run say that it was interrupted. */
+/* If a run is interrupted, the names of its output files show this. */
 extern const experiment_type experiment_verify;
 void verification_free(verification *);
 

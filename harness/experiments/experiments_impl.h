@@ -15,14 +15,14 @@
 /* Compares the times [s] of `pairs` pairs of laps. */
 against_times against_evaluate(int pairs, const double a[], const double b[]);
 
-/* Varied parameter: a parameter of a case, and its values. */
+/* A varied parameter of a case, and its values. */
 
 enum { AXIS_MOST_VALUES = 1000001 };
 
 /* Reads a varied parameter. Formats: "NAME=A..B/N" (N equal parts, ends included),
  * "NAME=A..B/N:log" (equal ratios), "NAME=A..B" or "NAME=A..B:log" (a design supplies the points),
- * or "NAME=A,B,C" (numbers, or words of a choice). All values must be allowed values of the
- * parameter. REFUSED: the message names the invalid part and the remedy. */
+ * or "NAME=A,B,C" (numbers, or words of a choice). The parameter must allow all these values.
+ * REFUSED: the message names the invalid part and the remedy. */
 status axis_read(const case_type *type, const char *text, sweep_axis *out, fault *f);
 void axis_free(sweep_axis *);
 /* Returns value number i, counted from 0. */
@@ -37,7 +37,7 @@ void axis_text(const sweep_axis *, double value, char *text, int size);
 machine node_here(void);
 
 /* Batch files. A file contains a line of JSON with the label, the bytes of the results, and a line
- * with a checksum. The file appears complete or not at all. */
+ * with a checksum. The complete file appears under its name, or no file does. */
 
 /* Writes the common start of the names of all batches of one work: "verify-0123456789ab". */
 void batch_stem(const shard_work *w, char out[BATCH_STEM]);
@@ -47,29 +47,26 @@ void batch_name(const char *stem, int batch, char out[BATCH_NAME]);
 /* Returns the index of the batch with this name, or -1 if the stem or the format of the name
  * differs. */
 int batch_of_name(const char *name, const char *stem);
-/* Returns 1 if the name has the ending of batch files. */
 int batch_is_name(const char *name);
 
 /* Writes folder/NAME under a temporary name, then renames the file. FAULT: a disk error, or out of
  * memory. */
 status batch_write(const char *folder, const batch_label *label, const void *bytes, size_t size,
                    fault *f);
-/* Removes temporary files of a batch that killed processes have left. gone 1: the writer has
+/* Removes temporary files of a batch that were left by killed processes. ended 1: the writer has
  * certainly ended. */
 void batch_clean(const char *folder, const char *name, int ended);
 /* Reads the label. *from (may be NULL) is then at the first byte of the results, and *end is the
  * position after the last byte of the results. FAULT: the file is truncated, damaged, or not a
  * batch. */
 status batch_open(const char *path, batch_label *out, FILE **from, long *end, fault *f);
-/* Checks that the batch belongs to the work. REFUSED: the batch does not belong to the work. The
- * message gives the difference and the path. */
+/* Checks that the batch belongs to the work. REFUSED: it does not; the message gives the difference
+ * and the path. */
 status batch_belongs(const batch_label *, const shard_work *, const char *path, fault *f);
 
-/* Appends an empty measure and returns it. */
 element_measure *measures_add(measures *m, const char *name);
-/* Appends a point to a measure. */
 void measures_point(element_measure *one, double at, double error);
-/* Returns the number of measures with a wrong limit. */
+/* Returns the number of measures that have a wrong limit. */
 int measures_wrong_limits(const measures *m);
 
 /* Returns the check with the given name, and adds it if necessary. allowed: largest allowed
@@ -80,13 +77,14 @@ void checks_not_made(check_results *c, const char *name, const char *why);
 /* Adds a comparison with its deviation; NaN counts as the largest deviation. */
 void checks_deviation(check_result *one, double departure, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* Adds a yes/no question. holds 0: no; `format` then describes the error. */
+/* Adds a yes/no question and its answer. holds 0: the answer is no; `format` then describes the
+ * error. */
 void checks_require(check_result *one, int holds, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* Names the next call or check. Reports of crashes contain this name. */
+/* Describes the next call or check, for reports of crashes. */
 void checks_current(check_results *c, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
-/* Returns the difference relative to `size`, or 0 if the difference is 0, even if `size` is 0. */
+/* Returns the difference relative to `size`; 0 if the difference is 0, even if `size` is 0. */
 static inline double checks_relative(double apart, double size)
 {
     return apart == 0 ? 0 : apart / size;
@@ -104,8 +102,8 @@ unsigned test_element_features(const element_type *t, unsigned without);
 
 /* Computes pseudo-random numbers in (-1/2, 1/2) that are determined by the seed. */
 void test_element_numbers(int count, unsigned seed, double out[]);
-/* Rotates the whole element about the origin by a rotation vector, then shifts it by a fixed
- * multiple of its length. */
+/* Rotates the whole element about the origin by the rotation vector `turn`, then shifts it by a
+ * fixed multiple of its length. */
 void test_element_rigid_motion(const test_element *s, const double turn[3], const node_state x[],
                                node_state out[]);
 
@@ -115,55 +113,54 @@ typedef struct test_element_stencil {
     const node_state *x;
 } test_element_stencil;
 
-/* Computes the nodes with coordinate i moved by si difference steps and coordinate j moved by sj
- * difference steps. */
+/* Computes the node states after changes of coordinate i by si difference steps and of coordinate j
+ * by sj difference steps. */
 void test_element_moved(const test_element_stencil *at, int i, double si, int j, double sj,
                         node_state out[]);
 
 /* Computes the inner unknowns [inner] of the undeformed state. */
 void test_element_rest(const test_element *s, double inner[]);
-/* Computes the stress with converged inner unknowns of the element. */
+/* Computes the stress with converged inner unknowns. */
 status test_element_converged(const test_element *s, const double e[], double inner[],
                               stress_output *out);
 
-/* Checks that the damping matrix is symmetric and dissipates energy. Does nothing without
- * `damping`.
- */
+/* Checks that the damping matrix is symmetric and dissipates energy. Does nothing if the type has
+ * no function `damping`. */
 void own_damping_check(const test_element *s, const double C[], check_results *c);
-/* Checks the motion of the sections, and that nodal forces are in equilibrium with loads along the
- * element. Does nothing without `line`. */
+/* Checks the function `line`: the motion of the sections, and the equilibrium between nodal forces
+ * and loads along the element. Does nothing if the type has no such function. */
 void own_line_check(const test_element *s, check_results *c);
 
 /* Returns a description such as "rotation about y of node 2". */
 const char *test_element_coordinate(const test_element *s, int c, char words[TEST_ELEMENT_WORDS]);
 
-/* Families of checks, one for each group of requirements of element.h. Each family checks all
+/* Families of checks, one for each group of requirements of element.h. Each family checks all test
  * elements that the formulation supports, and adds its results. */
 
 checks_run checks_declared; /* the declarations are consistent */
-/* the type supports the declared features: alone, in subsets, and in the combinations that cases
+/* the type supports each declared feature, subsets of them, and the combinations that cases
  * require */
 checks_run checks_features;
 checks_run checks_derivatives; /* J and H are the derivatives of the strains */
 checks_run checks_energy; /* stress, stiffness and geometric stiffness derive from the energy */
 checks_run checks_force;  /* force and stiffness derive from the energy (types defined by forces) */
-/* results are independent of rigid motions, of the order of the nodes, and of units */
+/* results are independent of rigid motions, of the order of the nodes, and of the unit of length */
 checks_run checks_motion;
-checks_run checks_stateless; /* equal calls give equal results, regardless of earlier calls */
+checks_run checks_stateless; /* equal calls give equal results, independent of earlier calls */
 checks_run checks_many;      /* one call for many elements gives the same results as single calls */
 checks_run checks_bounds;    /* outputs are filled completely, and no other memory is changed */
 checks_run checks_nonfinite; /* NaN and Inf in the input are reported */
-checks_run checks_mass;      /* the mass matrix is symmetric and positive definite, with the mass of
-                                the beam */
-checks_run checks_rotating;  /* effects of a rotating frame */
-checks_run checks_along;     /* loads along one element */
-checks_run checks_in_time;   /* inertia forces during motions */
-checks_run checks_history;   /* values after a commit give the same strains */
+checks_run checks_mass; /* the mass matrix is symmetric and positive definite, and gives the mass of
+                           the beam */
+checks_run checks_rotating; /* effects of a rotating frame */
+checks_run checks_along;    /* loads along one element */
+checks_run checks_in_time;  /* inertia forces during motions */
+checks_run checks_history;  /* the history after a commit gives the same strains */
 
 measured_run measured_states;  /* errors of a cantilever with respect to the exact solution */
 measured_run measured_locking; /* errors over thickness/length */
 measured_run measured_orders;  /* errors over the number of elements */
-measured_run measured_paths;   /* superposed rotations, closed cycles */
+measured_run measured_paths;   /* superposed rotations, and closed cycles */
 
 const char *certificate_part_name(int part);
 /* Returns a description of a part in one line. */
@@ -174,23 +171,23 @@ int certificate_compared(const certificate *);
 /* Returns the first failed check; NULL: none. */
 const check_result *certificate_broken(const certificate *);
 
-/* Cuts work into batches and assigns batches to shards. The result depends only on the costs. */
+/* Divides work into batches and assigns batches to shards. The result depends only on the costs. */
 
-/* Assigns each batch to a shard: shard[batches] contains 0..shards-1. The most expensive batch is
- * assigned first, and each batch goes to the shard with the lowest cost so far. Returns 0, or -1 if
- * out of memory. */
+/* Assigns each batch to a shard: shard[batches] contains numbers from 0 to shards - 1. In
+ * decreasing order of cost, each batch goes to the shard with the lowest cost so far. Returns 0, or
+ * -1 if out of memory. */
 int batches_assign(int batches, const double cost[], int shards, int shard[]);
 /* Sorts the batches in decreasing order of cost into order[batches]. Batches with equal costs keep
  * their order. */
 void batches_order(int batches, const double cost[], int order[]);
 
-/* Smallest stride, and largest number of stored states (a few kilobytes each). */
+/* Smallest stride, and largest number of stored states, each of which has a few kilobytes. */
 enum { DESIGN_STRIDE = 16384, DESIGN_MARKS = 1024, DESIGN_MOST_POINTS = 1000000000 };
 
 /* Makes a design. points: ignored for grids. In a grid, the last axis varies fastest. As in GSL,
- * the sequences of Sobol and Halton start with the point after the origin. REFUSED: there are too
- * many points, an axis of a grid is not divided, an axis of another design is divided, or there are
- * more axes than the sequence supports. */
+ * the Sobol and Halton sequences start with the point after the origin.
+ * REFUSED: there are too many points or axes; an axis of a grid is not divided; or an axis of
+ * another design is divided. */
 status design_make(design_kind kind, int axes, const sweep_axis list[], long points,
                    unsigned long seed, design *out, fault *f);
 void design_free(design *);
@@ -201,11 +198,11 @@ const char *design_name(design_kind);
 
 int outcome_is_good(outcome_kind kind); /* returns 1 if the outcome is accurate or under-resolved */
 
-/* Returns the outcome with which others are compared: that of the same formulation and quantity at
- * the base value of x. NULL: none. */
+/* Returns the outcome with which `o` is compared: that of the same formulation and quantity at the
+ * base value of x. NULL: none. */
 extreme_outcome *extreme_sweep_base(const extreme_sweep *s, const extreme_outcome *o);
 
-/* Plans the points: one for every extreme and every value of x, in order. A point has a series for
+/* Plans the points: for every extreme, one point for each value of x. A point has a series for
  * every formulation, and a series has an outcome for each quantity. */
 status extreme_plan(const extreme_request *request, extreme_sweep *out, fault *f);
 
@@ -229,19 +226,19 @@ status integrators_list_read(const char *option, const char *text, double ratio,
 #define INTEGRATORS_METHODS                                                                        \
     "alpha, alpha:rho=R, hht, hht:alpha=A, trapezoidal, conserving, radau, explicit"
 
-/* Default list of methods. */
 extern const char integrators_method_all[];
-/* Reads one of INTEGRATORS_METHODS, with its parameters R in [0, 1] or A in [0, 1/3]. REFUSED: the
+/* Reads one of INTEGRATORS_METHODS, with a parameter R in [0, 1] or A in [0, 1/3]. REFUSED: the
  * message names the invalid part. */
 status integrators_method_read(const char *text, int length, integrators_method *out, fault *f);
-/* Appends the methods of a list "NAME,NAME,...". Each method may occur once. */
+/* Appends the methods of a list "NAME,NAME,..." to list[most]. No method may occur twice. */
 status integrators_method_read_list(const char *text, int most, integrators_method list[],
                                     int *count, fault *f);
 
-/* Tolerances of the reference and of its checks. All are computed with radau on the same mesh. */
+/* Tolerances of the reference and of its checks, which radau computes on the same mesh. */
 enum { INTEGRATORS_CHECKS = 2 };
 extern const double integrators_reference[1 + INTEGRATORS_CHECKS];
-/* Limits of E/E0 - 1, of the relative change of energy, and of the relative change of momenta. */
+/* Limit of E/E0 - 1, limit of the relative change of energy, and limit of the relative change of
+ * momenta. */
 extern const double integrators_growth, integrators_energy, integrators_momentum;
 
 void integrators_free(integrators *);
@@ -252,11 +249,12 @@ const cell_result *integrators_cell_of(const integrators *, int index);
 /* Reads the table and plans its motions. REFUSED: the table is invalid; the message gives the first
  * error with its line. */
 status integrators_verdict_plan(const char *path, integrators *, integrators_verdicts *, fault *);
-/* Sets the observed verdicts and compares them with the table. Call after integrators_evaluate. */
+/* Determines the observed verdicts and compares them with the table. Call after
+ * integrators_evaluate. */
 void integrators_verdict_reach(const integrators *, integrators_verdicts *);
 void integrators_verdict_free(integrators_verdicts *);
 
-/* Status of a cell: a value of `status`, or one of the following larger values. */
+/* Status of a cell: a value of `status`, or one of these values. */
 enum {
     ROWS_NOT_OFFERED = STATUS_NO_VALUE + 1,
     ROWS_NO_SCENE,
@@ -264,7 +262,7 @@ enum {
     ROWS_STATUSES
 };
 
-/* Allocates the columns, all zero. FAULT: out of memory. */
+/* Allocates the columns and sets them to zero. FAULT: out of memory. */
 status rows_alloc(const rows_shape *shape, int points, rows *out, fault *f);
 void rows_free(rows *);
 /* Writes the columns as bytes in the format of this machine. Returns 0, or -1 after a failure. */
@@ -285,8 +283,8 @@ enum { SHARD_MOST_JOBS = 64, SHARD_MOST = 100000 };
 /* Writes the path of a batch that exists. */
 status batch_store_path(const batch_store *, int batch, char out[PATH_MAX], fault *f);
 
-/* Adds the results of points from `first` on. Call the function in the order of the points, once
- * for every point. */
+/* Adds the results of the points from number `first` on. Call the function once for every point, in
+ * the order of the points. */
 status tally_add(tally *, long first, const rows *, fault *f);
 /* Returns the counts of a quantity. quantity: its index, or the number of quantities for the counts
  * of all quantities together. */
@@ -296,30 +294,29 @@ const tally_place *tally_at(const tally *, int formulation, int quantity, int li
  * axis. */
 double tally_edge(const tally *, int axis_index, int place);
 
-/* A sweep in a group of a results file. The group is written batch by batch, so only one batch is
- * in memory. */
+/* A sweep in a group of a results file. The group is written batch by batch, and only one batch is
+ * in memory at a time. */
 
-/* Adds the results of points from `first` on. */
+/* Adds the results of the points from number `first` on. */
 status ranges_file_add(ranges_file *, long first, const rows *, fault *f);
 
 /* Run times of the cells of a completed sweep. In each round, every cell of a parameter point is
  * run. */
 
-/* Runs one more round: repeats the cell until `floor` [s] of processor time are used, but runs it
- * at least once. Cells that fail are also timed. */
+/* Runs one round: runs the cell at least once, and again until `floor` [s] of processor time are
+ * used. Cells that fail are also timed. */
 void rounds_run(const cell_request *request, double floor, rounds_reading *out);
-/* Runs one more round of the published algorithm for the cell with the result `cell`. Does nothing
- * if the problem is linear or too large. */
+/* Runs one round of the published algorithm for the cell with the result `cell`. Does nothing if
+ * the problem is linear or too large. */
 void dense_reference_round(const cell_request *own, const cell_result *cell, double floor,
                            dense_reference *out);
 
-/* A beam that is fixed at its start and loaded at its end. The beam is straight, or curved to a
- * quarter circle. */
+/* A beam that is fixed at its start and loaded at its end. */
 
 typedef enum beam_analysis { BEAM_LINEAR, BEAM_LARGE, BEAM_BUCKLING, BEAM_VIBRATION } beam_analysis;
 
-/* The beam has a length of 1 m. The beam lies along x, or along a quarter circle that starts along
- * y and has its centre at the origin. */
+/* The beam has a length of 1 m. A straight beam lies along x. A curved beam is a quarter circle
+ * that starts in the direction y and has its centre at the origin. */
 typedef struct beam_request {
     const formulation *chosen;
     int elements; /* number of elements of equal length */
@@ -329,33 +326,33 @@ typedef struct beam_request {
     /* dimensions of a rectangular section [m]: thickness along y (towards the centre) and width
      * along z */
     double thickness, width;
-    int profile;    /* 1: I-section with warping restrained at the start of the beam */
+    int profile;
     int quarter;    /* 1: the beam is curved to a quarter circle */
     unsigned needs; /* FEATURE_* bits */
     beam_analysis analysis;
     scene_load_kind load; /* force or moment at the end of the beam */
     double vector[3];     /* [N, N m] */
-    /* component that is read at the end; ignored for a frequency or a critical load factor */
+    /* component of the end that is evaluated; ignored for a frequency or a critical load factor */
     int component;
 } beam_request;
 
 /* Computes the section constants of the beam. */
 status beam_section(const beam_request *, section *out);
-/* Solves the beam and adds its error with respect to the exact value to the measure. The error is
- * NAN if there is no value; `words` then gives the reason at the first such point. Returns 0 if
- * further points are useless, because the formulation does not support the beam or none of the
- * first three points has a value. */
+/* Solves the beam and adds the error with respect to `exact` to the measure. The error is NAN if
+ * there is no value; `words` then gives the reason at the first such point. Returns 0 if further
+ * points are useless: the formulation does not support the beam, or none of the first three points
+ * has a value. */
 int beam_point(const beam_request *, double at, double exact, element_measure *one);
 
 /* Returns the outcome of a family of checks: CHECK_FAILED if a requirement is violated,
  * CHECK_PASSED if a requirement other than "prepare" is satisfied, and otherwise CHECK_NOT_MADE. */
 check_outcome checks_outcome(const check_results *);
 
-/* Prints certificates as text. Each certificate fits on one screen. */
+/* Text output of certificates. Each certificate fits on one screen. */
 
-#define CERTIFICATE_EXACT 1e-9 /* smaller errors are printed as `exact` */
+#define CERTIFICATE_EXACT 1e-9
 
-/* Writes certificates. verbose: every check with its numbers. quiet: only the failed checks. */
+/* verbose: every check with its numbers. quiet: only the failed checks. */
 void certificate_text(FILE *to, screen look, const certificate *all, int count, int verbose,
                       int quiet);
 /* Writes tables for a publication, as LaTeX or Markdown. */
@@ -365,15 +362,15 @@ void certificate_csv(FILE *to, const certificate *all, int count);
 
 /* Expected outcomes of a sweep of extremes (reference/extreme_findings.csv), and their counts. */
 
-/* Sets deviation and as_expected of every outcome, and the counts. whole: 1 if no selection was
- * made; an unobserved deviation is then a failure. */
+/* Sets `deviation` and `as_expected` of every outcome, and the counts. whole 1: no selection was
+ * made; a known deviation that is not observed is then a failure. */
 void extreme_expect(extreme_sweep *s, int whole);
 
-/* Classifies an outcome from the first mesh: as accurate, as a failure, or as wrong until other
- * meshes are known. */
+/* Classifies an outcome on the first mesh: accurate, a failure, or wrong. A wrong outcome may be
+ * reclassified when other meshes have been computed. */
 status extreme_evaluate_first(const extreme_sweep *s, const truths *t, extreme_outcome *o,
                               fault *f);
-/* Classifies a wrong outcome as under-resolved if its error decreases towards the finest mesh with
+/* Classifies a wrong outcome as under-resolved if the error decreases towards the finest mesh with
  * an order of at least 0.5, as a discretisation error does. */
 void extreme_evaluate_neighbours(const extreme_sweep *s, const truths *t, extreme_outcome *o);
 
@@ -393,13 +390,12 @@ typedef struct known_truths {
 
 /* Finds the stored reference values of the point. If a requested quantity has none and
  * --compute-references was given, a program of reference/derive computes them. If this program
- * fails, there are no reference values. FAULT: out of memory. */
+ * fails, they are missing. FAULT: out of memory. */
 status known_at(const parameter_ranges *r, const sweep_point *p, known_truths *out, fault *f);
 void known_free(known_truths *);
 
-/* A process that computes batches one after the other, and reports every result. */
+/* A process that computes batches one after the other, and sends a message after each batch. */
 
-/* Data shared by all processes. */
 typedef struct batch_queue {
     atomic_int next;                /* next entry of `list` to be computed */
     atomic_int at[SHARD_MOST_JOBS]; /* batch that a process is computing, or -1 */
@@ -414,7 +410,7 @@ typedef struct batch_worker {
     machine here;
 } batch_worker;
 
-/* Message about a batch. Its size allows it to be written to a pipe in a single write. */
+/* Message about a batch. The message is small enough to be written to a pipe in a single write. */
 typedef struct batch_report {
     int batch;
     status status;
@@ -425,63 +421,62 @@ typedef struct batch_report {
 /* Computes batches until none is left or a batch fails. to: pipe for the messages. */
 _Noreturn void batch_worker_run(const batch_worker *, int self, int to);
 
-/* Returns the largest distance between two motions over all stations, nodes and centre lines: the
- * larger of the distance between positions, relative to the size of the structure, and the angle
- * between sections [rad]. NAN: a station is missing. */
+/* Returns the largest distance between two motions over all stations, nodes and centre lines. The
+ * distance is the difference of positions relative to the size of the structure or, if larger, the
+ * angle between sections [rad]. NAN: a station is missing. */
 double integrators_distance(const cell_result *, const cell_result *other, int analysis);
-/* Returns the distance between two values of a quantity, relative to the value of `other` or to
+/* Returns the difference between two values of a quantity, relative to the value of `other` or to
  * near_zero. NAN: a value is missing. */
 double integrators_distance_of(const scene_quantity *, const quantity_result *,
                                const quantity_result *other);
 
 /* Evaluates the energy and the momenta of a motion. */
 
-/* Computes the energy drift, the momentum drift, E/E0 and the classification of a completed run. E:
- * energy; E0: energy after the loads have ended. */
+/* For a completed run, computes the energy-balance error, the largest change of momentum, E/E0 and
+ * the classification. E: energy; E0: energy after the loads have ended. */
 void integrators_drift(const integrators *, integrators_run *);
 
 /* Runs all planned motions and evaluates them. A motion that fails counts as a result. */
 status integrators_evaluate(integrators *, const sweep_request *, fault *);
 
-/* Observed orders of an integrator, from runs in which the step is repeatedly halved. */
+/* Observed orders of an integrator, from runs with repeatedly halved steps. */
 
 typedef enum integrators_order_kind {
     INTEGRATORS_ORDER_PASS,
-    INTEGRATORS_ORDER_LOW, /* significantly below the nominal order */
-    /* there are fewer than three errors above the floor, or the orders differ */
+    INTEGRATORS_ORDER_LOW, /* below the nominal order by more than integrators_order_slack */
+    /* fewer than three errors are above the floor, or only one of two orders is low */
     INTEGRATORS_ORDER_UNDECIDED,
     INTEGRATORS_ORDER_KINDS
 } integrators_order_kind;
 
-/* Runs of an integrator in a group with fixed steps, in decreasing order of step size. */
+/* Runs of an integrator in a group, with fixed steps in decreasing order. */
 typedef struct integrators_ladder {
     int group;
     const integrators_method *method;
     int first, count; /* range in the list of runs */
-    /* orders from the last three errors above the floor: the last and the previous order */
+    /* orders from the last three errors above the floor: the order of the last pair, and of the
+     * pair before */
     double order, before;
     double floor; /* errors below this value are due to the reference or to rounding */
     integrators_order_kind kind;
 } integrators_ladder;
 
-/* Allowed difference between an observed order and the nominal order, as for meshes
+/* Allowed difference between the observed order and the nominal order, as for meshes
  * (harness/study). */
 extern const double integrators_order_slack;
 
 /* Returns 1 if unresolved frequencies limit the order of the reference. */
 int integrators_order_is_stopped(const integrators_group *);
 
-/* Returns the ladder that starts with run number `first`. */
+/* Returns the runs of the integrator whose first run has number `first`. */
 integrators_ladder integrators_order_of(const integrators *, int first);
-/* Returns 1 if the relative error of a quantity does not decrease with the step size, as for a
- * force that depends on unresolved frequencies. */
+/* Returns 1 if the relative error of a quantity does not decrease with the step size. An example is
+ * a force that depends on unresolved frequencies. */
 int integrators_order_stagnates(const integrators *, const integrators_ladder *, int quantity);
-/* Sets the order of each run, which is computed from this run and the previous run with a larger
- * step. */
+/* Sets the order of each run that has a previous run with a larger step, from the errors of these
+ * two runs. */
 void integrators_order_fill(integrators *);
 const char *integrators_order_name(integrators_order_kind);
-
-/* Plans which motions are run. */
 
 /* Request for the runs of one structure. */
 typedef struct integrators_plan_request {
@@ -492,30 +487,30 @@ typedef struct integrators_plan_request {
     int methods;
     const integrators_method *method;
     integrators_list steps, tolerances; /* count 0: none */
-    int errors;                         /* 1: errors are computed; they require a reference */
+    int errors;                         /* 1: errors are computed, which requires a reference */
     int whole; /* 1: a step without a solution ends the motion; 0: such a step is halved */
 } integrators_plan_request;
 
-/* If neither steps nor tolerances are given, sets default values based on the step of the scene. */
+/* If neither steps nor tolerances are given, sets them from the step size of the scene. */
 status integrators_plan_default(integrators_plan_request *, fault *);
 /* Appends a group of runs. REFUSED: the scene has no motion, or there is nothing to run. */
 status integrators_plan_add(integrators *, const integrators_plan_request *, fault *);
 
-/* Cost at equal error: finds the step size or tolerance for which an integrator reaches a given
- * error at the lowest cost. */
+/* Cost at equal error: the step size or tolerance for which an integrator achieves a given error at
+ * the lowest cost. */
 
 enum { INTEGRATORS_LEVELS = 3 };
 extern const double integrators_levels[INTEGRATORS_LEVELS];
 
 typedef struct integrators_reach {
-    /* a run within the error, for which all runs with smaller steps or tolerances are also within
-     * the error; NULL: none */
+    /* a run within the error, if all runs with smaller steps or tolerances are also within the
+     * error; NULL: none */
     const integrators_run *run;
     /* [s] cost at the error level, interpolated between this run and the previous run */
     double cost;
 } integrators_reach;
 
-/* Finds the run of an integrator in a group, and its cost, for an error level. */
+/* Finds the run of an integrator in a group for an error level, and the cost at this level. */
 integrators_reach integrators_reach_of(const integrators *, int group, const char *method,
                                        double level);
 /* Lists the names of the integrators of all groups without repetition, and returns their number. */
@@ -533,9 +528,9 @@ void integrators_table(FILE *to, const integrators *, const integrators_verdicts
 
 /* Data that the group of a sweep contains once. */
 
-/* Writes the request. Call the function before any point is written. */
+/* Writes the request. Call before any point is written. */
 void ranges_file_request(record_file *, hid_t at, const parameter_ranges *, const char *plan);
-/* Writes the worst points. Call the function after all points have been written. */
+/* Writes the worst points. Call after all points have been written. */
 void ranges_file_worst(record_file *, hid_t at, const parameter_ranges *, const tally *);
 
 /* Parameters of a point of a sweep. */
@@ -543,7 +538,7 @@ void ranges_file_worst(record_file *, hid_t at, const parameter_ranges *, const 
 /* Computes the values of all parameters from the values on the axes. */
 void ranges_points_values(const parameter_ranges *, const double at[],
                           double value[CASE_MAX_PARAMETERS]);
-/* Writes "NAME=VALUE, NAME=VALUE" for the axes. The numbers have the digits that are necessary to
+/* Writes "NAME=VALUE, NAME=VALUE" for the axes. The numbers have as many digits as are necessary to
  * reproduce the values. */
 void ranges_points_text(const parameter_ranges *, const double at[], char *text, int size);
 
@@ -563,12 +558,12 @@ void ranges_table_known(FILE *to, const tally *t);
  * writes another map for each quantity. */
 void ranges_table_map(FILE *to, const tally *t, int every);
 
-/* Reference of the values at a point: a stored reference value, a reference value computed by a
- * program of reference/derive, or the limit of the meshes of all formulations with the same
- * physics. Among the limits, the limit with the smallest uncertainty U is used. Its uncertainty is
- * U or, if larger, the part of its difference from another limit that exceeds the uncertainty of
- * that limit. An uncertainty above half of the tolerance is too large: a reference value is then
- * ignored, and a limit counts as disputed or, if U itself is too large, as unknown. */
+/* Reference of a quantity at a point: a stored reference value, a reference value computed by a
+ * program of reference/derive, or a limit of the meshes of a formulation with the same physics.
+ * Of these limits, the one with the smallest uncertainty U is used. Its uncertainty is U or, if
+ * larger, the part of its difference from another limit that exceeds the uncertainty of that limit.
+ * An uncertainty above half of the tolerance is too large. A reference value is then ignored. A
+ * limit then counts as disputed or, if U itself is too large, as unknown. */
 
 typedef struct point_reference {
     rows_reference kind;
@@ -580,18 +575,18 @@ typedef struct point_reference {
 point_reference reference_of(const sweep *s, int series_index, int quantity, const truths *stored,
                              const truths *derived, double tolerance);
 
-/* Elements of a formulation under test. The default element has everything that the formulation
+/* Elements of a formulation under test. The default element has every feature that the formulation
  * supports. The other elements vary the section, the choices of the options, and the initial
  * curvature. */
 
 typedef void test_elements_check(const test_element *s, check_results *c);
-/* Calls `check` for every test element. An element that the formulation rejects with a reason is
- * skipped, except the default element, which must be accepted (check "prepare"). */
+/* Calls `check` for every test element. The formulation must accept the default element (check
+ * "prepare"). Another element that it rejects with a reason is skipped. */
 void test_elements_each(const formulation *chosen, check_results *c, test_elements_check *check);
 
-/* Sets formulations, meshes, quantities, left_out and point_cost from the scenes of the first
- * point, the last point and some intermediate points. REFUSED: no scene can be built at these
- * points, no formulation runs, or the selection has an unknown word or selects nothing. */
+/* Sets `formulations`, `meshes`, `quantities`, `left_out` and `point_cost` from the scenes of the
+ * first point, the last point and some points between. REFUSED: no scene can be built at these
+ * points; no formulation runs; or the selection has an unknown word or selects nothing. */
 status survey(parameter_ranges *r, fault *f);
 
 /* Allocates the data for the batches of a sweep. FAULT: out of memory. ranges_work_free frees the
@@ -607,19 +602,19 @@ shard_work ranges_work_of(ranges_work *);
 status ranges_file_open(const char *path, const parameter_ranges *r, const char *plan,
                         ranges_file *out, fault *f);
 /* Finishes the file: writes the worst points with the names of their scenes, and `content`, the
- * digits of all values that are independent of the way they were computed. written: status so far;
- * if this is not OK, the file is removed. */
+ * digits of all values except times. written: status so far; if it is not OK, the file is
+ * removed. */
 status ranges_file_close(ranges_file *, const tally *, const char *content, status written,
                          fault *f);
 /* Writes the scenes of the worst points to a new folder as "point_12.yaml", each point once, and
- * stores the names in the tally. Scenes that a scene file cannot express are omitted. FAULT: a disk
- * error, or out of memory; no file remains. */
+ * stores their names in the tally. Points whose scene cannot be written as a scene file are
+ * omitted. FAULT: a disk error, or out of memory; no file remains. */
 status worst_write(const char *folder, tally *t, fault *f);
-/* Writes the table within PARAGRAPH_WIDTH. The table contains the kinds of references and, for each
- * mesh, quantity and formulation, the percentage of points within the tolerance. For one or two
- * axes, it contains the smallest number of elements over the axes. every 1: this number is also
- * given for each quantity. The last part lists the worst points with their values, and a command
- * that shows one of them. folder: folder with the scenes of these points; "": none were stored. */
+/* Writes the table within PARAGRAPH_WIDTH. It contains the kinds of references and, for each mesh,
+ * quantity and formulation, the percentage of points within the tolerance. For one or two axes, it
+ * contains a map of the smallest sufficient number of elements; every 1: also for each quantity. At
+ * the end are the worst points with their values, and a command that shows one of them. folder:
+ * folder with the scenes of these points; "": none. */
 void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault *f);
 
 #endif

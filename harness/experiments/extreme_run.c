@@ -11,11 +11,11 @@ static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f
 
 enum {
     enough_elements = 16
-}; /* from this number of elements on, the neighbouring meshes are coarser; below it, they are finer
-    */
+}; /* with this number of elements or more, the neighbouring meshes are coarser; with fewer
+      elements, they are finer */
 
-/* Adds a series with the neighbouring meshes for the cell of an outcome, unless the series exists.
- * */
+/* Adds a series with the neighbouring meshes for the cell of the outcome, unless this series
+ * exists. */
 static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
 {
     const series *one = &s->first.series[o->series];
@@ -89,7 +89,8 @@ static status run(const void *requested, void *found, fault *f)
     return s->outcomes > 0 ? run_cells(requested, &s->first, f) : STATUS_OK;
 }
 
-/* Evaluates all outcomes. Outcomes that may be under-resolved are also computed on other meshes. */
+/* Evaluates all outcomes. If an outcome may be under-resolved, it is also computed on other
+ * meshes. */
 static status evaluate(const void *requested, void *found, fault *f)
 {
     const extreme_request *request = requested;
@@ -157,7 +158,6 @@ static int applies_to(const extreme_deviation *row, const extreme_sweep *s,
            fnmatch(row->quantity, e->quantity[o->quantity].name, 0) == 0;
 }
 
-/* Returns the rank of an outcome. Worse outcomes have larger ranks. */
 static int badness(outcome_kind kind)
 {
     static const int rank[OUTCOME_KINDS] = {

@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Return the cell of an outcome on the first mesh, its quantity in the scene, the result of the
- * quantity in a cell, and its value (NAN: none). refinement: 0: first mesh; k: neighbouring mesh k
- * - 1. */
+/* Four functions return, for an outcome: the cell on the first mesh, the quantity in the scene, the
+ * result of the quantity in a cell, and the value (NAN: none). refinement 0: first mesh; k:
+ * neighbouring mesh k - 1. */
 static const cell_result *extreme_sweep_cell(const extreme_sweep *s, const extreme_outcome *o)
 {
     return &s->first.series[o->series].cell[0];
@@ -88,7 +88,7 @@ static int quantity_index(const extreme_outcome *o, const sweep_point *p)
     return q;
 }
 
-/* Returns the exact value according to the shear theory of the formulation; NULL: none. */
+/* Returns the exact value for the shear theory of the formulation; NULL: none. */
 static const truth *exact_value(const extreme_sweep *s, const truths *t, const extreme_outcome *o)
 {
     const sweep_point *p = &s->first.point[o->point];
@@ -96,7 +96,7 @@ static const truth *exact_value(const extreme_sweep *s, const truths *t, const e
     return q < p->scene.quantities ? verdict_truth(t, p, &s->formulation[o->formulation], q) : NULL;
 }
 
-/* Returns 1 if exact values exist only for another shear theory. */
+/* Returns 1 if exact values exist only for another shear theory than that of the formulation. */
 static int has_other_theory(const extreme_sweep *s, const truths *t, const extreme_outcome *o)
 {
     const sweep_point *p = &s->first.point[o->point];
@@ -104,7 +104,7 @@ static int has_other_theory(const extreme_sweep *s, const truths *t, const extre
     return exact_value(s, t, o) == NULL && truth_of(t, p->type, p->parameter, name, "same") != NULL;
 }
 
-/* Returns the reference value and its relative uncertainty. The reference value is an exact value
+/* Returns the reference value and the relative uncertainty. The reference value is an exact value
  * or, for EXTREME_SAME, the value at the base x multiplied by a power of x/same_as. */
 static double extreme_reference_of(const extreme_sweep *s, const truths *t,
                                    const extreme_outcome *o, int refinement, double *uncertainty)
@@ -154,8 +154,6 @@ static void set_failure(extreme_outcome *o, status why, const char *reason)
     set_kind(o, failure_of(why), reason);
 }
 
-/* Compares the value on the first mesh with the reference value, and sets the error and the kind of
- * the outcome. */
 static void evaluate_value(const scene_quantity *q, double value, double uncertainty,
                            extreme_outcome *o)
 {
@@ -202,7 +200,7 @@ status extreme_evaluate_first(const extreme_sweep *s, const truths *t, extreme_o
     return STATUS_OK;
 }
 
-/* Absolute errors on the meshes that have a value, from coarse to fine. */
+/* Magnitudes of the errors on the meshes that have a value, from coarse to fine. */
 typedef struct mesh_refinement {
     int count;
     double elements[OUTCOME_NEIGHBOURS + 1], size[OUTCOME_NEIGHBOURS + 1];
@@ -260,7 +258,7 @@ static const struct {
                              [OUTCOME_NO_VALUE] = {'V', "no value"},
                              [OUTCOME_FAULT] = {'F', "fault"}};
 
-/* Writes an error [%] as "0.22" or "2e-7", or a letter for a failure. A sign after it means: ~
+/* Writes an error [%] as "0.22" or "2e-7", or a letter for a failure. A final sign means: ~
  * under-resolved, ! wrong, ? not expected. */
 static void cell_text(const extreme_outcome *o, char *text, size_t size)
 {

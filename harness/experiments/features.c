@@ -9,13 +9,12 @@
 #include "elements/math/rotation.h"
 #include "harness/model/model.h"
 
-/* Checks that each declared feature of the section changes a result of the element. For warping, a
- * result must depend on the warping amplitudes of the nodes. */
+/* Checks that each declared feature of the section changes a result of the element, and, for
+ * warping, that a result depends on the warping amplitudes of the nodes. */
 static void effects_check(const formulation *chosen, check_results *c);
 
 typedef enum feature_outcome { FINITE, REFUSED, BAD, FEATURE_OUTCOMES } feature_outcome;
 
-/* Returns 1 if the stiffness C of a displaced element is finite. */
 static int finite_stiffness(const test_element *s, unsigned seed)
 {
     double inner[TEST_ELEMENT_INNER], e[TEST_ELEMENT_STRAINS],
@@ -63,8 +62,8 @@ static void accepted(const formulation *chosen, unsigned features, const char *w
         why.text[0] != '\0' ? "rejected: " : "the stiffness is not finite", why.text);
 }
 
-/* Checks that a type accepts an element without features, each supported feature with its
- * prerequisites, and, for straight elements, all supported features. */
+/* Checks that a type accepts an element without features, and each supported feature together with
+ * its prerequisites. For straight elements, it must also accept all supported features together. */
 static void single_features(const formulation *chosen, check_results *c)
 {
     static const struct {
@@ -106,9 +105,9 @@ static void features_of_cases(const formulation *chosen, check_results *c)
                        "features, limits: the formulation supports no built-in case");
 }
 
-/* Checks that a type gives a finite stiffness for subsets of its features, or rejects a subset
- * with a reason. At most half of the subsets may be rejected, because one feature may require
- * another. */
+/* Checks subsets of the features. For each subset, the type must give a finite stiffness or a
+ * reason for the rejection. At most half of the subsets may be rejected, because one feature may
+ * require another. */
 static void feature_subsets(const formulation *chosen, check_results *c)
 {
     enum { OPTIONAL = 7 };
@@ -150,7 +149,6 @@ void checks_features(const formulation *chosen, check_results *out)
 
 enum { EFFECTS_M = TEST_ELEMENT_STRAINS, N = TEST_ELEMENT_COORDINATES };
 
-/* Results of an element in a state. */
 typedef struct effects_answers {
     double e[EFFECTS_M], J[EFFECTS_M * N], energy, sigma[EFFECTS_M], C[EFFECTS_M * EFFECTS_M],
         G[EFFECTS_M * EFFECTS_M];
@@ -247,7 +245,7 @@ static int warps(const formulation *chosen, unsigned features, profiles_form for
 
 /* Returns 1 if the feature changes a result for a rectangular section or, if the type supports it,
  * for an unsymmetric section. Returns 0 if no result changes, and -1 if no element can be
- * evaluated. bit 0: the warping amplitudes instead of a feature. */
+ * evaluated. bit 0: the effect of the warping amplitudes is examined instead. */
 static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
 {
     const element_type *t = chosen->type;
@@ -264,11 +262,11 @@ static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
 
 static void effects_check(const formulation *chosen, check_results *c)
 {
-    /* Features whose effect is checked. FEATURE_ECCENTRIC is excluded, because elements take the
-     * shear centre from the constants of the section. FEATURE_TRAPEZE is excluded, because the
-     * trapeze effect is one of the second-order terms, and a formulation that omits all of them
-     * (beamw_first) gets the same requests as the complete formulation. Features of the structure,
-     * the mass or the shape are checked elsewhere. */
+    /* Features whose effect is checked here. FEATURE_ECCENTRIC is excluded, because elements take
+     * the shear centre from the constants of the section. FEATURE_TRAPEZE is excluded, because the
+     * trapeze effect is one of the second-order terms. A formulation that omits all these terms
+     * (beamw_first) gets the same requests as the complete formulation. Other functions check the
+     * features of the structure, the mass and the shape. */
     static const unsigned sections[] = {FEATURE_WARPING, FEATURE_SHEAR, FEATURE_WAGNER_MOMENTS,
                                         FEATURE_WAGNER_TORQUE};
     const unsigned all = test_element_features(chosen->type, 0);
@@ -323,8 +321,8 @@ static void symmetric(const test_element *s, const double A[], check_result *one
                 test_element_coordinate(s, j, other), A[i * n + j], A[j * n + i], s->words);
 }
 
-/* Checks that a matrix is positive definite. The matrix is scaled to a unit diagonal, which is then
- * slightly increased. Its Cholesky factorisation must exist. */
+/* Checks that a matrix is positive definite: a Cholesky factorisation must exist after scaling to a
+ * unit diagonal, which is then slightly increased. */
 static void positive(const test_element *s, const double A[], check_result *one)
 {
     const int n = s->coordinates;
@@ -359,7 +357,6 @@ static double energy(const test_element *s, const node_state x[], const double M
     return dense_dot(s->coordinates, v, Mv);
 }
 
-/* Returns the mass per length [kg/m]. */
 static double line_mass(const section *c)
 {
     return c->matrices ? c->mass[0] : c->density * c->A;
@@ -379,7 +376,7 @@ static void total(const test_element *s, const node_state x[], const double M[],
     }
 }
 
-/* Checks that rotating the whole element rotates its mass matrix M. */
+/* Checks that the mass matrix rotates with the element. */
 static void carried(const test_element *s, const node_state x[], const double M[],
                     check_result *one)
 {
@@ -410,9 +407,9 @@ static void carried(const test_element *s, const node_state x[], const double M[
                              s->words);
 }
 
-/* Checks the inertia of a straight element that rotates about its first node. The effect of
- * FEATURE_ROTARY_INERTIA must be rho l (Ip, Iy, Iz). About the beam axis this is the whole moment
- * of inertia. About the other axes it is added to the moment of inertia of the line of mass. */
+/* Checks the inertia of a straight element that rotates about its first node.
+ * FEATURE_ROTARY_INERTIA must add rho l (Ip, Iy, Iz) to the moments of inertia of the line of mass,
+ * which are zero about the beam axis. */
 static void moments(const test_element *s, check_result *one)
 {
     static const double none[3] = {0, 0, 0};

@@ -1,7 +1,8 @@
-/* Checks of the inertia forces in transient analysis. The forces required by a motion derive from
+/* Checks of the inertia forces in transient analysis. The forces required by a motion follow from
  * the kinetic energy T = 1/2 x' . M x' by Lagrange's equations: force = d(M x')/dt + p x w - dT/dx.
- * The term p x w applies to the rotations of each node, where p is the part of M x' for the node
- * and w is the angular velocity of the node. x' and the derivatives refer to spatial rotations. */
+ * The term p x w acts on the rotations of each node, where p is the part of M x' for these
+ * rotations and w is the angular velocity of the node. x' and the derivatives refer to spatial
+ * rotations. */
 #include <math.h>
 #include <string.h>
 
@@ -32,7 +33,7 @@ static int momenta_at(const void *context, int i, double si, int j, double sj, d
     return (int)outcome;
 }
 
-/* Computes the forces required by a motion without accelerations, using finite differences. */
+/* Computes by finite differences the forces required by a motion without accelerations. */
 static void by_differences(const moving_place *m, const double M[], double h[])
 {
     const test_element *s = m->at.s;
@@ -72,7 +73,7 @@ static void compare(const test_element *s, const double found[], const double ri
             i + 1, test_element_coordinate(s, i, where), found[i], what, right[i], s->words);
 }
 
-/* Checks that C is the derivative of the inertia forces with respect to the rates. These forces are
+/* Checks that C is the derivative of the inertia forces with respect to the rates. The forces are
  * quadratic in the rates, so central differences are exact. */
 static void check_rates(const test_element *s, const node_state x[], const double rate[],
                         const double C[], double size, check_result *one)
@@ -101,7 +102,7 @@ static void check_rates(const test_element *s, const node_state x[], const doubl
     }
 }
 
-/* Checks that rotating the whole element and its rates rotates the required forces. */
+/* Checks that rotating the element and its rates rotates the required forces. */
 static void check_turned(const test_element *s, const node_state x[], const inertia_output *out,
                          double size, check_result *one)
 {
@@ -166,9 +167,9 @@ static void check_one(const test_element *s, check_results *c)
                  checks_open(c, "inertia forces rotate with the element", 1e-11));
 }
 
-/* Runs the checks, and repeats them without rotary inertia, so that only the twist has a moment of
- * inertia. The checks are not repeated if the section is given by matrices or the type has no
- * rotary inertia. */
+/* Runs the checks, then repeats them without rotary inertia, so that only the twist has a moment of
+ * inertia. If the section is given by matrices or the type has no rotary inertia, the checks are
+ * not repeated. */
 static void check(const test_element *s, check_results *c)
 {
     test_element_request what = s->made;

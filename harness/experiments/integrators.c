@@ -33,7 +33,7 @@ const cell_result *integrators_cell_of(const integrators *p, int index)
     return &p->sweep.series[index].cell[0];
 }
 
-/* Steps of the motion of a run, with its initial state. */
+/* Steps of the motion of a run, and the initial state. */
 typedef struct track {
     int count;
     const motion_record *record;
@@ -55,8 +55,8 @@ static double balance_at(const track *t, int i, scene_balance what)
 }
 
 /* Returns the index of the first step that ends after all loads have ended. At the end of the
- * loads, accelerations and massless coordinates are computed again. Therefore the end of the
- * previous step does not count. */
+ * loads, accelerations and coordinates without mass are computed again, so the end of the previous
+ * step does not count. */
 static int first_alone(const track *t, double from)
 {
     int i = 0;
@@ -79,8 +79,8 @@ static void take_energy(const track *t, int first, integrators_run *r)
     }
 }
 
-/* Returns the magnitude of a momentum at step `first`, or the magnitude of its change from step
- * `first` to another step i. */
+/* Returns the magnitude of a momentum at step `first` (i = first), or the magnitude of the change
+ * from step `first` to another step i. */
 static double vector_at(const track *t, scene_balance x, int i, int first)
 {
     double square = 0;
@@ -92,8 +92,8 @@ static double vector_at(const track *t, scene_balance x, int i, int first)
     return sqrt(square);
 }
 
-/* Returns the largest relative change of momentum and angular momentum since step `first`. A
- * momentum that is zero at step `first` is ignored. */
+/* Returns the larger of the largest relative changes of momentum and angular momentum since step
+ * `first`. A momentum that is zero at step `first` is ignored. */
 static double momentum_drift(const track *t, int first)
 {
     static const scene_balance both[] = {SCENE_PX, SCENE_LX};
@@ -107,7 +107,7 @@ static double momentum_drift(const track *t, int first)
 }
 
 /* Returns the largest difference between energy and work, relative to the largest energy. NAN: a
- * difference is unknown, or all energies are zero. */
+ * difference is not known, or all energies are zero. */
 static double unexplained(const track *t)
 {
     double most = 0, size = 0;
@@ -180,8 +180,8 @@ void integrators_order_fill(integrators *p)
                               : NAN;
 }
 
-/* Returns the verdict on two consecutive orders. It is PASS if both reach the nominal order except
- * for integrators_order_slack, LOW if neither does, and UNDECIDED otherwise. */
+/* Returns PASS if both of two consecutive orders reach the nominal order except for
+ * integrators_order_slack, LOW if neither does, and UNDECIDED otherwise. */
 static integrators_order_kind evaluate(const integrators_ladder *l)
 {
     const double least = l->method->order - integrators_order_slack;
@@ -290,7 +290,6 @@ int integrators_reach_methods(const integrators *p, const char *name[INTEGRATORS
 
 enum { NAME = 16, NUMBER = 9 };
 
-/* Prints the origin of the reference solution, and its uncertainty. */
 static void print_reference(FILE *to, const integrators *p, const integrators_group *g)
 {
     char stopped[160] = "";
@@ -349,7 +348,7 @@ static void print_run(FILE *to, const integrators_run *r)
     fputc('\n', to);
 }
 
-/* Prints the reasons why runs ended prematurely. Consecutive equal reasons are printed once. */
+/* Prints the reasons why runs ended early. Consecutive equal reasons are printed once. */
 static void print_reasons(FILE *to, const integrators *p, const integrators_group *g)
 {
     const char *last = "";
@@ -379,7 +378,7 @@ static void print_orders(FILE *to, const integrators *p, const integrators_group
 }
 
 /* Prints the integrators for which the error of a quantity does not decrease with the step size,
- * and returns the number of these integrators. text NULL: nothing is printed. */
+ * and returns their number. text NULL: nothing is printed. */
 static int write_standing(FILE *text, const integrators *p, const integrators_group *g,
                           int quantity)
 {
@@ -412,7 +411,7 @@ static void print_standing(FILE *to, const integrators *p, const integrators_gro
     }
 }
 
-/* Prints the three integrators that reach an error at the lowest cost. */
+/* Prints the three integrators that reach the error `level` at the lowest cost. */
 static void print_level(FILE *to, const integrators *p, int group, double level)
 {
     const char *name[INTEGRATORS_METHODS_MOST];

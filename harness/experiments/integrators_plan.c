@@ -8,7 +8,7 @@
 
 /* Returns the list first, first/ratio, first/ratio^2, ... */
 static integrators_list integrators_list_divided(double first, double ratio, int count);
-/* Returns the time [s] from which no load acts; INFINITY: there are supports, or a load or a
+/* Returns the time [s] from which no load acts. INFINITY: there are supports, or some load or
  * prescribed motion does not end. */
 static double integrators_alone_from(const scene *s);
 
@@ -18,10 +18,9 @@ enum {
     USUAL_TOLERANCES = 3,
     PARTS = 100 /* ratio of consecutive tolerances */
 };
-static const double
-    usual_tolerance = 1e-4,
-    same =
-        1e-9 /* default tolerance of a step, and relative difference of times that count as equal */
+static const double usual_tolerance = 1e-4,
+                    same = 1e-9 /* default tolerance of a step, and relative difference below which
+                                   times count as equal */
     ;
 
 static int motion_of(const scene *s)
@@ -55,8 +54,8 @@ status integrators_plan_default(integrators_plan_request *r, fault *f)
     return outcome;
 }
 
-/* Sets the stations: the multiples of `spacing` before the end, and the end itself. Steps of all
- * runs end at the stations. */
+/* Sets the stations: the multiples of `spacing` before the end, and the end. All runs have a step
+ * that ends at each station. */
 static status stations_of(double spacing, double end, scene_path *out, fault *f)
 {
     const int before = (int)ceil(end / spacing * (1 - same)) - 1;
@@ -71,15 +70,14 @@ static status stations_of(double spacing, double end, scene_path *out, fault *f)
     return STATUS_OK;
 }
 
-/* Replaces the settings of the motion at the last point of the sweep. */
 static status set_motion(integrators *p, const integrators_group *g, const integrators_run *r,
                          double spacing, fault *f)
 {
     sweep_point *at = &p->sweep.point[p->sweep.points - 1];
     scene_motion *how = &at->scene.analysis[g->analysis].of.motion;
     how->scheme = r->method.scheme;
-    if (how->mass == SCENE_MASS_USUAL) /* all runs have the same mass, so errors are due to time
-                                          integration only */
+    if (how->mass == SCENE_MASS_USUAL) /* all runs have the same mass, so errors are due only to
+                                          time integration */
         how->mass = SCENE_LUMPED;
     how->alpha = r->method.alpha;
     how->step = r->step;
@@ -95,7 +93,6 @@ static int frames_of(const integrators_group *g, double spacing)
     return 1 + parts * (parts < SHAPES_FEW ? SHAPES_FEW : 1);
 }
 
-/* Adds a series with one mesh at a separate point. */
 static status add_motion(integrators *p, const integrators_group *g,
                          const integrators_plan_request *q, integrators_run *r, double spacing,
                          fault *f)
@@ -113,8 +110,8 @@ static status add_motion(integrators *p, const integrators_group *g,
     return STATUS_OK;
 }
 
-/* Returns the spacing of the stations [s], at which errors are examined. Steps of all runs must end
- * at the stations, so the spacing is a multiple of the coarsest step. */
+/* Returns the spacing of the stations [s], at which errors are examined. The spacing is a multiple
+ * of the coarsest step, because the steps of all runs must end at the stations. */
 static double spacing_of(const integrators_group *g, const integrators_plan_request *q)
 {
     const double coarsest = q->steps.count > 0 ? q->steps.value[0] : g->step,
@@ -146,8 +143,8 @@ static status add_run(integrators *p, const integrators_plan_request *q,
     return STATUS_OK;
 }
 
-/* Adds the energy at all stations as a quantity. The steps of the reference then end at every
- * station, so its energies are not interpolated between steps. */
+/* Adds the energy at all stations as a quantity. A step of the reference then ends at each station,
+ * so energies are not interpolated. */
 static void read_exactly(scene *s, int analysis)
 {
     scene_set_curve(scene_add_quantity(s, "energy at all stations", "J", analysis,
@@ -155,7 +152,6 @@ static void read_exactly(scene *s, int analysis)
                     "time", "s", 1, 0);
 }
 
-/* Adds the reference run and its checks. */
 static status add_reference(integrators *p, integrators_group *g, const integrators_plan_request *q,
                             fault *f)
 {
@@ -192,7 +188,6 @@ static status add_runs(integrators *p, const integrators_plan_request *q, fault 
     return STATUS_OK;
 }
 
-/* Builds the structure once to find its motion. */
 static status look(integrators_group *g, const integrators_plan_request *q, fault *f)
 {
     scene s;
@@ -257,7 +252,7 @@ static status refuse(const char *name, fault *f)
                      name);
 }
 
-/* Reads "KEY=NUMBER" of a scheme. *value is unchanged if the text is empty. Returns 1, or 0 if the
+/* Reads "KEY=NUMBER" of a scheme; an empty text leaves *value unchanged. Returns 1, or 0 if the
  * text is invalid. */
 static int read_value(const char *text, const char *key, double most, double *value)
 {
@@ -340,7 +335,7 @@ static const char *positive(const char *at, double *out)
         return NULL;
     return *end == '.' && end[-1] == '.'
                ? end - 1
-               : end; /* in "1..2", the first point is not a decimal point */
+               : end; /* in "1..2", the first of the two points is not a decimal point */
 }
 
 static status read_range(const char *option, const char *text, double from, double to, double ratio,
@@ -434,8 +429,8 @@ static double apart(const double a[3], const double b[3])
     return sqrt(square);
 }
 
-/* Returns the angle between the rotations of two unit quaternions, whose signs do not matter. The
- * result is accurate even for small angles. */
+/* Returns the angle between the rotations of two unit quaternions; their signs have no effect.
+ * Small angles are accurate too. */
 static double angle(const double a[4], const double b[4])
 {
     double less = 0, more = 0;

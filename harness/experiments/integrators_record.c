@@ -158,7 +158,7 @@ static void get_nominal(const subject *s, field_value *out)
     schema_set_number(out, ((const integrators_ladder *)s->record)->method->order);
 }
 
-/* Returns the names of quantities whose errors do not decrease with the step size. */
+/* Returns the names of the quantities whose errors do not decrease with the step size. */
 static void get_standing(const subject *s, field_value *out)
 {
     size_t used = 0;
@@ -311,7 +311,7 @@ static void gather_ladders(const integrators *p, const integrators_group *g, sub
     }
 }
 
-/* Collects the lowest cost of each integrator for each error level. */
+/* Collects the lowest cost of each integrator at each error level. */
 static void gather_reached(const integrators *p, const integrators_group *g, subjects *out)
 {
     const char *name[INTEGRATORS_METHODS_MOST];
@@ -347,7 +347,6 @@ static void gather_group(const integrators *p, const integrators_group *g, const
         gather_reached(p, g, out);
 }
 
-/* Adds the subjects of a record type. found: the motions. */
 static void integrators_gather(const void *found, const record_type *type, subjects *out)
 {
     const motions *m = found;
@@ -367,7 +366,6 @@ const record_type *const integrators_records[] = {&record_integrators_reference,
                                                   &record_integrators_verdict,
                                                   NULL};
 
-/* Plans all requested formulations at one point. */
 static status plan_point(const motion_request *r, motions *m, integrators_plan_request *q, fault *f)
 {
     TRY(integrators_plan_default(q, f));

@@ -6,8 +6,7 @@
 
 #include "elements/shared/choice.h"
 
-/* Allowed difference between the decimal logarithms of two ratios of error to tolerance. The value
- * corresponds to a factor of two. */
+/* Largest allowed difference of log10(error/tolerance); it corresponds to a factor of two. */
 static const double same_decade = 0.3;
 
 static void set_found(integrators_verdict *v, const char *word)
@@ -21,8 +20,8 @@ static double drift_of(const integrators_verdict *v, const integrators_run *r)
     return v->kind == INTEGRATORS_ENERGY_CONSERVED ? r->energy : r->momentum;
 }
 
-/* Returns the order of a drift at halved steps, from the last two pairs of steps; 0: the two pairs
- * give different orders. */
+/* Returns the order of the energy-balance or momentum error from the last two pairs of steps; 0:
+ * the two pairs do not give the same whole number. */
 static int drift_order(const integrators_verdict *v, const integrators_run r[])
 {
     double order[2];
@@ -92,7 +91,6 @@ static int is_near(const char *a, const char *b)
     return *a == *b;
 }
 
-/* Returns 1 if the verdict agrees with the table. */
 static int integrators_verdict_is_expected(const integrators_verdict *v)
 {
     return v->kind == INTEGRATORS_TOLERANCE ? v->found[0] != '\0' && is_near(v->found, v->expected)
@@ -124,7 +122,7 @@ enum { CRITERION, CASE, PARAMETERS, FORMULATION, ELEMENTS, INTEGRATOR, STEPS, EX
 static const char *const criterion_names[INTEGRATORS_CRITERIA] = {"order", "energy", "momentum",
                                                                   "tolerance", "fate"};
 
-/* The motions that a row of the table requires, before rows are combined to groups. */
+/* The motions that a row of the table requires, before rows are combined into groups. */
 typedef struct planned {
     integrators_plan_request request;
     double parameter[CASE_MAX_PARAMETERS];
@@ -189,8 +187,8 @@ static status read_row(const user_table_row *row, integrators_verdict *v, planne
     return STATUS_OK;
 }
 
-/* Returns 1 if two rows can share their runs and their reference: they have the same structure,
- * mesh and steps or tolerances. Such rows are consecutive in the table. */
+/* Returns 1 if two rows can share their runs and their reference because they have the same
+ * structure, mesh, and steps or tolerances. Such rows are consecutive in the table. */
 static int is_same(const integrators_verdict *a, const integrators_verdict *b)
 {
     return (a->kind == INTEGRATORS_CLASS) == (b->kind == INTEGRATORS_CLASS) &&
@@ -283,8 +281,8 @@ static double distance_of_check(const integrators *p, const integrators_group *g
                                 integrators_cell_of(p, g->reference), g->analysis);
 }
 
-/* Returns the order with which the error of the reference decreases with the number of steps. The
- * order is computed from the checks of the reference. */
+/* Returns the order of the error of the reference in the number of steps, from the checks of the
+ * reference. near, far: distances of the two checks from the reference. */
 static double order_of_reference(const integrators *p, const integrators_group *g, double near,
                                  double far)
 {
@@ -294,8 +292,8 @@ static double order_of_reference(const integrators *p, const integrators_group *
 }
 
 /* Sets the uncertainty and the order of the reference. near, far: distances of the two checks from
- * the reference. The error of the reference is assumed to be smaller than `near` by the factor
- * near/far, with a safety factor of three. The uncertainty is at most `near`. */
+ * the reference. The error of the reference is assumed to be near/far times `near`, with a safety
+ * factor of three, and at most `near`. */
 static void evaluate_reference(const integrators *p, integrators_group *g)
 {
     static const double safety = 3;

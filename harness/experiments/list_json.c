@@ -19,7 +19,6 @@ static json_t *value_of(const parameter_type *p, double value)
     return json_string(word);
 }
 
-/* Returns the words of "a|b|c" as a list. */
 static json_t *choices_of(const parameter_type *p)
 {
     json_t *list = json_array();
@@ -28,14 +27,14 @@ static json_t *choices_of(const parameter_type *p)
     return list;
 }
 
-/* Returns a limit of a parameter; null: no limit. */
+/* Returns a bound of a parameter; null: none. */
 static json_t *bound_of(const parameter_type *p, double value)
 {
     const int none = p->choices != NULL || value <= -DBL_MAX || value >= DBL_MAX;
     return none ? json_null() : json_real(value);
 }
 
-/* Returns the parameters as a list. value NULL: the default values are used. */
+/* Returns the parameters as a list. value NULL: default values. */
 static json_t *parameters_of(const assignment_list *all, const double value[])
 {
     json_t *list = json_array();
@@ -183,7 +182,7 @@ status list_json_formulation(FILE *to, const formulation *chosen, const rule *ru
     return json_finish(root, to, f);
 }
 
-/* Returns valid name number i; NULL after the last name. */
+/* Returns name number i; NULL after the last name. */
 static const char *name_at(const void *context, int i)
 {
     static const char *const words[] = {"cases", "formulations"};

@@ -22,8 +22,8 @@ const measured_group measured_groups[MEASURED_GROUPS] = {
 enum { THICKNESSES = 7, ELEMENTS = 8 };
 
 /* Returns the exact displacement of the end of a cantilever due to a force of 1 N, or of a quarter
- * ring due to such a force towards its centre. For BEAM_LARGE, returns the displacement of a beam
- * that an end moment bends to a quarter circle. */
+ * ring due to a force of 1 N towards its centre. For BEAM_LARGE, returns the displacement for an
+ * end moment that bends the beam to a quarter circle. */
 static double exact_of(const beam_request *r, const section *c)
 {
     const double EI = c->young * c->Iz, EA = c->young * c->A,
@@ -35,8 +35,8 @@ static double exact_of(const beam_request *r, const section *c)
     return 1 / (3 * EI) + shear;
 }
 
-/* Concludes that the element locks if the error of the thin structure is much larger than the error
- * of the thick structure. */
+/* Sets `locks` if the error of the thin structure is much larger than that of the thick
+ * structure. */
 static void conclude(element_measure *one)
 {
     const double thick = fabs(one->error[0]), thin = fabs(one->error[one->points - 1]);
@@ -94,7 +94,7 @@ void measured_locking(const formulation *chosen, check_results *c, measures *out
 }
 
 /* States of a cantilever with a known exact solution. Uniform states must be exact on every mesh.
- * Linear states may be exact even with one element. */
+ * Linear states can be exact with one element. */
 
 enum { IRREGULAR = 4 };
 static const double fraction[IRREGULAR] = {0.13, 0.37, 0.19, 0.31};
@@ -107,7 +107,8 @@ typedef struct state {
     beam_analysis analysis;
     scene_load_kind load;
     int direction, component;
-    const char *reason; /* reason for an error of a linear state that more elements do not reduce */
+    const char
+        *reason; /* probable reason if more elements do not reduce the error of a linear state */
 } state;
 
 static const state states[] = {
@@ -146,8 +147,8 @@ static double states_exact_of(const state *s, const section *c, double load)
     return s->direction == 0 ? load / GI : s->direction == 1 ? -load / (2 * EIy) : load / (2 * EIz);
 }
 
-/* Concludes that the limit is wrong if the error with four elements exceeds half of the error with
- * one element. Such an error is due to the section or the element, and not to the mesh. */
+/* Sets wrong_limit if the error with four elements exceeds 1e-6 and half of the error with one
+ * element. Such an error is due to the section or the element, not to the mesh. */
 static void states_conclude(const state *s, element_measure *one)
 {
     const double coarse = fabs(one->error[0]), fine = fabs(one->error[1]);
@@ -213,7 +214,7 @@ static void compare_units(measures *out)
              fmax(times, 1 / times), times > 1 ? "soft" : "stiff");
 }
 
-/* Reports wrong limits as violated requirements, one for each linear state, or a single one for
+/* Reports wrong limits as violated requirements: one for each linear state, or a single one for
  * wrong units. */
 static void hold_limits(check_results *c, const measures *m)
 {
@@ -241,14 +242,15 @@ void measured_states(const formulation *chosen, check_results *c, measures *out)
     hold_limits(c, out);
 }
 
-/* Observed and declared orders of convergence with respect to the number of elements. */
+/* Observed and declared orders of convergence in the number of elements. */
 
 enum {
     MESHES = 6,
-    MESHES_Z = 4 /* number of meshes for z, where the order should be the same as for y */
+    MESHES_Z = 4 /* number of meshes with displacements along z, for which the order should be the
+                    same as along y */
 };
-static const double noise = 1e-8; /* smaller errors are not used, because they may be due to the
-                                     finite thickness of the beam */
+static const double noise =
+    1e-8; /* smaller errors are not used: they may be due to the finite thickness of the beam */
 
 typedef struct orders_question {
     const char *name;
@@ -269,8 +271,8 @@ static const orders_question questions[] = {
     {"buckling: column along z", BEAM_BUCKLING, ELEMENT_BUCKLING, FEATURE_GEOMETRIC, 2},
 };
 
-/* Computes the elastica under a transverse end force for a given end rotation: P L^2/EI and
- * deflection/L. */
+/* Computes P L^2/EI and deflection/L of the elastica under a transverse end force, for a given
+ * rotation of the end. */
 static void elastica(double angle, double *load, double *deflection)
 {
     const double k = sqrt((1 + sin(angle)) / 2), phi = asin(1 / (k * sqrt(2)));
@@ -304,8 +306,8 @@ static double orders_exact_of(const orders_question *q, const section *c, beam_r
     }
 }
 
-/* Returns the index of the finer of the two finest meshes whose errors exceed `noise`; 0: there are
- * no such meshes. */
+/* Finds the finest pair of consecutive meshes whose errors both exceed `noise`. Returns the index
+ * of the finer mesh; 0: none. */
 static int informative_points(const element_measure *one)
 {
     int last = 0;

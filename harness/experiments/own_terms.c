@@ -27,7 +27,8 @@ static double least_eigenvalue(int n, double A[])
     return failed ? NAN : least;
 }
 
-/* Computes the scaled matrix B. Returns 0, and reports a violation, if V contains NaN or Inf. */
+/* Computes the scaled matrix B. Returns 0 and reports a violation if an entry of V is NaN or
+ * Inf. */
 static int scale_damping(const test_element *s, const double C[], const double V[], double B[],
                          check_result *one)
 {
@@ -79,7 +80,7 @@ typedef struct line_place {
     double point, force[3], moment[3];
 } line_place;
 
-/* Computes place and axes of the section, and P, T and H unless they are NULL. */
+/* Computes the position and the axes of the section, and P, T and H unless they are NULL. */
 static line_output section_of(const line_place *p, const node_state x[], double P[], double T[],
                               double H[])
 {
@@ -132,7 +133,8 @@ static void check_jacobian(const line_place *p, check_result *one)
         const double unit = test_element_unit(s, j);
         double turn[3] = {0};
         stencil_first(motion_at, p, VALUES, j, change);
-        for (int k = 0; k < 3; k++) { /* half the sum of the axes times their changes */
+        for (int k = 0; k < 3;
+             k++) { /* half the sum of the vector products of the axes and their changes */
             const double axis[3] = {now.R[k], now.R[3 + k], now.R[6 + k]},
                          moved[3] = {change[3 + k], change[6 + k], change[9 + k]};
             double part[3];
@@ -157,7 +159,7 @@ static void check_jacobian(const line_place *p, check_result *one)
     }
 }
 
-/* Checks H. Half of the moments on the nodes transforms the derivative with respect to spatial
+/* Checks H. Adding half of the moments on the nodes converts the derivative with respect to spatial
  * increments to the exponential chart. */
 static void check_second(const line_place *p, check_result *one)
 {

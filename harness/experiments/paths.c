@@ -32,7 +32,7 @@ static void commit_of(const test_element *s, const double before[], committed *o
     s->type.commit(s->data, out->x, out->after);
 }
 
-/* Computes the forces of a type that computes them, multiplied by the units of their coordinates
+/* Computes the forces of a type that defines them, multiplied by the units of their coordinates
  * [J]. */
 static status forces_of(const test_element *s, const node_state x[], const double history[],
                         double force[N])
@@ -122,21 +122,19 @@ void checks_history(const formulation *chosen, check_results *out)
     test_elements_each(chosen, out, check);
 }
 
-/* Strains and forces along a path of one element. */
-
-/* STEPS: steps of each turn and cycle. marks: numbers of cycles after which values are measured.
- * turned, moved: size of the rotations of nodes [rad] and of other coordinates. The rotations
- * remain below the declared limits. */
+/* STEPS: steps of each turn and each cycle. marks: numbers of cycles after which values are
+ * measured. turned, moved: amplitudes of the rotations of nodes [rad] and of other coordinates. The
+ * rotations remain below the declared limits. */
 enum { STEPS = 24, MARKS = 3 };
 static const int marks[MARKS] = {1, 10, 100};
 static const double turned = 0.3, moved = 0.05;
 static const double exact = 1e-9;
 
-/* What is compared along a path: strains, the forces of a type that computes them with a history,
- * or the energy of any other type that computes forces or an energy. */
+/* What is compared along a path. A type that computes strains: these. A type that computes forces
+ * with a history: the forces. Any other type: the energy. */
 enum { COMPARES_STRAINS, COMPARES_FORCES, COMPARES_ENERGY };
 
-/* An element that follows a path, with its history and its last results. */
+/* An element that follows a path, with the history and the last results. */
 typedef struct walker {
     const test_element *s;
     double history[ADAPTERS_MOST_HISTORY];
@@ -173,7 +171,6 @@ static void cycle_state(const test_element *s, double phase, node_state x[])
     chart_move(rest, s->nodes, s->scalars, step, x);
 }
 
-/* Returns the largest absolute value, or NAN if a value is NAN. */
 static double largest(int count, const double v[])
 {
     double out = 0;
@@ -182,8 +179,8 @@ static double largest(int count, const double v[])
     return out;
 }
 
-/* Returns 1 if step k is evaluated. With a history, all steps are evaluated. Otherwise only the
- * steps of the first cycle and of the cycles that end at a mark are evaluated. */
+/* Returns 1 if step k is evaluated: with a history, every step; otherwise, the steps of the first
+ * cycle and of the cycles that end at a mark. */
 static int matters(const test_element *s, int k)
 {
     int is = s->values > 0 || k <= STEPS;
@@ -192,7 +189,7 @@ static int matters(const test_element *s, int k)
     return is;
 }
 
-/* Computes the strains, and with `forces` also the forces, of a type that computes strains. */
+/* Computes the strains and, if `forces` is 1, the forces of a type that computes strains. */
 static status walker_strains(walker *w, const node_state x[], int forces)
 {
     const test_element *s = w->s;
@@ -233,7 +230,7 @@ static status walker_step(walker *w, int k, const node_state x[], int forces)
     return STATUS_OK;
 }
 
-/* Rotates the forces of a carried element back. */
+/* Applies the inverse rotation to the forces of an element that was rotated. */
 static void turn_back(const test_element *s, const double turn[3], double force[N])
 {
     double q[4], R[9];
@@ -245,7 +242,8 @@ static void turn_back(const test_element *s, const double turn[3], double force[
     }
 }
 
-/* Returns the largest difference between two elements, of which one was carried by a rotation. */
+/* Returns the largest difference between the results of two elements, one of which has been
+ * rotated. */
 static double difference(const walker *at, const walker *there, const double turn[3])
 {
     const test_element *s = at->s;
@@ -270,7 +268,7 @@ static void conclude(element_measure *one, const char *holds, const char *fails)
     snprintf(one->words, sizeof one->words, "%s", worst <= exact ? holds : fails);
 }
 
-/* Follows closed cycles with and without an additional rotation of the whole element, and compares
+/* Follows closed cycles with and without a superposed rotation of the whole element, and compares
  * the results. */
 static void superposed(const test_element *s, measures *out)
 {

@@ -93,7 +93,7 @@ rows_shape ranges_shape(const parameter_ranges *r)
     return (rows_shape){r->formulations, r->meshes, r->quantities};
 }
 
-/* Finds the points of a batch, starting with *first. Returns their number. */
+/* Sets *first to the first point of a batch, and returns the number of points. */
 static int ranges_batch(const parameter_ranges *r, int batch, long *first)
 {
     *first = batch * r->points_in_batch;
@@ -101,7 +101,6 @@ static int ranges_batch(const parameter_ranges *r, int batch, long *first)
     return (int)(left < r->points_in_batch ? left : r->points_in_batch);
 }
 
-/* A batch that is being computed. */
 typedef struct making {
     const parameter_ranges *of;
     const sweep *s;
@@ -117,7 +116,6 @@ static int quantity_of(const scene *s, const char *name)
     return -1;
 }
 
-/* Removes quantities that were not requested, so they are not computed. */
 static void drop_quantities(const parameter_ranges *r, scene *s)
 {
     int kept = 0;
@@ -166,7 +164,6 @@ static double value_of(const series *one, int mesh, int quantity)
     return is_there ? r->quantity[quantity].value : NAN;
 }
 
-/* Stores the results of the cells of one formulation at one point in the rows of the batch. */
 static void fill_cells(const making *m, int at, int which)
 {
     const series *one = &m->s->series[at * m->of->formulations + which];
@@ -191,8 +188,8 @@ static void fill_cells(const making *m, int at, int which)
     }
 }
 
-/* Computes the errors of a formulation with respect to the reference, and finds the coarsest mesh
- * within the tolerance. */
+/* Computes the errors of a formulation with respect to the reference. Finds the smallest number of
+ * elements for which this mesh and all finer meshes are within the tolerance. */
 static void fill_errors(const making *m, int at, int which, int q, int quantity,
                         const point_reference *against)
 {
@@ -214,8 +211,8 @@ static int is_known(const point_reference *r)
     return r->kind != ROWS_NONE && r->kind != ROWS_DISPUTED;
 }
 
-/* Computes the errors of one quantity at one point. The recorded reference is that of the first
- * formulation that has a reference. */
+/* Computes the errors of one quantity at one point. The stored reference is that of the first
+ * formulation that has one. */
 static void fill_quantity(const making *m, int at, int q, const known_truths *k)
 {
     const sweep_point *p = &m->s->point[at];
@@ -268,8 +265,8 @@ static status solve(const parameter_ranges *r, int batch, sweep *s, rows *out, f
 }
 
 /* Computes all points of a batch and stores them in rows, which the caller frees, even after a
- * failure. The failure of a point, a cell or a reference value counts as a result. FAULT: out of
- * memory, or a failed process. */
+ * failure. A point, cell or reference value that fails counts as a result. FAULT: out of memory, or
+ * a failed process. */
 static status ranges_solve(const parameter_ranges *r, int batch, rows *out, fault *f)
 {
     sweep s = {.values_only = 1};

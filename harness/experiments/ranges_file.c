@@ -10,13 +10,13 @@
 enum { MOST_RANKS = 4, LEVEL = 3, LINE = 1024 };
 static const double piece_bytes = 256 * 1024, cache_bytes = 4 << 20;
 
-/* A column of the file: its position in `rows`, and its dimensions after the points. */
+/* A column of the file: the position in `rows`, and the dimensions after the points. */
 typedef struct file_column {
     const char *name, *unit;
     hid_t type;
     int ranks, size[MOST_RANKS - 1];
-    const void *first; /* address of the first value in these rows; NULL: a column of points */
-    int missing;       /* value of missing entries in columns of whole numbers */
+    const void *first;
+    int missing; /* value of missing entries, for columns of whole numbers */
 } file_column;
 
 static int columns_of(const parameter_ranges *r, const rows *w,
@@ -49,8 +49,8 @@ static hsize_t line_of(const file_column *c)
     return line;
 }
 
-/* Returns the number of points in a compressed chunk, which contains whole batches if these are
- * small. */
+/* Returns the number of points in a compressed chunk. If batches are small, a chunk contains whole
+ * batches. */
 static hsize_t piece_of(const parameter_ranges *r, const file_column *c)
 {
     const double most = fmax(1, piece_bytes / (double)(line_of(c) * H5Tget_size(c->type)));
@@ -92,7 +92,7 @@ static hid_t make_column(ranges_file *file, const file_column *c)
     return set;
 }
 
-/* Writes the names of the numbers 0 to count - 1, in one line each. */
+/* Writes the names that `of` returns for the numbers 0 to count - 1, one in each line. */
 static void put_names(record_file *r, hid_t set, const char *name, const char *(*of)(int),
                       int count)
 {
@@ -110,8 +110,7 @@ static const char *name_of_bit(int bit)
     return words;
 }
 
-/* Writes the words of an axis. In the file, the values of the axis are the indices of these
- * words. */
+/* Writes the words of an axis. The file stores the values of this axis as indices of words. */
 static void put_words(record_file *r, hid_t points, const sweep_axis *a)
 {
     char *text = NULL;
@@ -240,8 +239,8 @@ static void write_text(FILE *to, const void *text)
     fputs(text, to);
 }
 
-/* Writes the scene of a point as a string, which the caller frees. The string is "" if a scene file
- * cannot express the scene. */
+/* Writes the scene of a point as a string, which the caller frees. The string is "" if the scene
+ * cannot be written as a scene file. */
 static status text_of(const parameter_ranges *r, long index, char **text, fault *f)
 {
     double at[CASE_MAX_PARAMETERS], value[CASE_MAX_PARAMETERS];

@@ -95,7 +95,7 @@ void ranges_file_request(record_file *r, hid_t at, const parameter_ranges *of, c
     if (q->select != NULL)
         record_text(r, at, "selection", q->select);
     snprintf(noise, sizeof noise, "%.15g", counted_cost_noise);
-    /* costs count as equal if their ratio is below this value */
+    /* costs count as equal if their ratio is smaller */
     record_text(r, at, "cost_noise", noise);
     record_count(r, at, "axes", of->design.axes);
     record_number(r, at, "tolerance", q->tolerance);
@@ -155,10 +155,10 @@ void ranges_points_text(const parameter_ranges *r, const double at[], char *text
     }
 }
 
-enum { LAST_KNOWN = 2 /* index of the last kind that has a reference value */ };
+enum { LAST_KNOWN = 2 };
 
-/* Names the formulations to which the reference does not apply at some points, and writes the
- * numbers of these points. */
+/* Writes the formulations to which the reference does not apply at some points, with the numbers of
+ * these points. */
 static void describe_unmeasured(const tally *t, int q, char *text, size_t size)
 {
     enum { NAMED = 3 };
@@ -178,7 +178,6 @@ static void describe_unmeasured(const tally *t, int q, char *text, size_t size)
         snprintf(text + used, size - used, " and %d more", count - NAMED);
 }
 
-/* Describes the reference values of a quantity. */
 static void describe_reference(const tally *t, int q, char text[RANGES_TABLE_LINE])
 {
     const long *kind = t->kind[q];
@@ -211,8 +210,8 @@ static void describe_reference(const tally *t, int q, char text[RANGES_TABLE_LIN
     describe_unmeasured(t, q, text + used, RANGES_TABLE_LINE - used);
 }
 
-/* Writes the kinds of references of a quantity. Later quantities with the same text are written in
- * the same paragraph and are marked in the last argument. */
+/* Writes the kinds of references of a quantity. Later quantities with the same text share the
+ * paragraph; their entries of `written` are set to 1. */
 static void write_reference(FILE *to, const tally *t, int q, char written[])
 {
     char text[RANGES_TABLE_LINE], other[RANGES_TABLE_LINE];
@@ -262,9 +261,8 @@ void ranges_table_known(FILE *to, const tally *t)
         write_without_scene(to, t);
 }
 
-/* Returns 1 if the row contains both errors with respect to reference values and errors with
- * respect to limits. Only errors of the first kind show the effect of physics that a theory omits.
- * */
+/* Returns 1 if the row contains errors with respect to reference values and errors with respect to
+ * limits. Only the former show the effect of physics that a theory omits. */
 static int is_mixed(const tally *t, int which, int q)
 {
     const tally_series *s = tally_of(t, which, q);
@@ -288,7 +286,6 @@ static void write_place(FILE *to, const tally_place *p, int mixed)
     fprintf(to, "%*s", RANGES_TABLE_COLUMN, text);
 }
 
-/* Writes a value of an axis with few digits. */
 static void edge_text(const tally *t, int index, int place, char *text, int size)
 {
     const sweep_axis *a = &t->of->axis[index];
@@ -298,7 +295,6 @@ static void edge_text(const tally *t, int index, int place, char *text, int size
         snprintf(text, (size_t)size, "%.3g", tally_edge(t, index, place));
 }
 
-/* Prints the values of the first axis as headings of columns. */
 static void write_columns(FILE *to, const tally *t)
 {
     char edge[ASSIGNMENT_VALUE];
@@ -373,7 +369,7 @@ static int has_unknown(const tally *t, int parts)
     return unknown;
 }
 
-/* Returns 1 if some fields contain several values of an axis. */
+/* Returns 1 if some fields cover several values of an axis. */
 static int is_coarse(const tally *t)
 {
     const int shown[] = {t->columns, t->lines};

@@ -159,8 +159,8 @@ static status run(const void *requested, void *found, fault *f)
     return shard_run(&s->all, &request, &done, f);
 }
 
-/* Starts the summary and the file. Every batch that is read is added to both. Only one batch is in
- * memory at a time. */
+/* Starts the summary and the file. Every batch that is read is added to both, and only one batch is
+ * in memory at a time. */
 static status begin(range_sweep *s, fault *f)
 {
     TRY(tally_alloc(&s->ranges, &s->tally, f));
@@ -189,8 +189,7 @@ static status end(range_sweep *s, status taken, fault *f)
     return taken;
 }
 
-/* Reads the batches of the store `there`. there NULL: reads the batches that the caller
- * supplies. */
+/* Reads the batches of the store `there`; NULL: the batches that the caller supplies. */
 static status take_all(range_sweep *s, const batch_store *there, fault *f)
 {
     const range_sweep_request *r = s->requested;
@@ -215,7 +214,7 @@ static status remove_batches(const batch_store *there, const char *folder, fault
 }
 
 /* Reads the computed batches and removes them. If batches are missing, none is read, and a folder
- * next to the output is kept. */
+ * next to the output remains. */
 static status collect(range_sweep *s, fault *f)
 {
     const char *const folder[] = {s->batches};

@@ -92,15 +92,13 @@ static void write_line(FILE *to, const tally *t, int which, int q)
         const int cell = which * r->meshes + mesh;
         const double cost = t->cost[cell] / (double)(t->ran[cell] > 0 ? t->ran[cell] : 1);
         fprintf(to, "   n = %-6d", s->everywhere);
-        if (isfinite(cost)) /* the counted work has no cost if it includes finite differences or
-                               another process */
+        if (isfinite(cost)) /* work that includes finite differences or another process has no known
+                               cost */
             fprintf(to, " %.2g ms", 1e3 * cost);
     }
     fprintf(to, s->requested < t->points ? ", %ld points\n" : "\n", s->requested);
 }
 
-/* Prints the percentages of points within the tolerance for a quantity, with a line for each
- * formulation. */
 static void write_shares(FILE *to, const tally *t, int q)
 {
     const parameter_ranges *r = t->of;
@@ -116,7 +114,8 @@ static void write_shares(FILE *to, const tally *t, int q)
         write_line(to, t, i, q);
 }
 
-/* Prints the number of elements for which a formulation is within the tolerance at all points. */
+/* Prints the smallest number of elements for which a formulation is within the tolerance at all
+ * points. */
 static void write_least(FILE *to, const tally *t, int which, int q, int width)
 {
     const tally_series *s = tally_of(t, which, q);
@@ -152,7 +151,7 @@ static void write_leasts(FILE *to, const tally *t)
     }
 }
 
-/* Explains how points are counted if some of their quantities have no reference. */
+/* Explains how points are counted at which some quantities have no reference. */
 static void write_open(FILE *to, const tally *t)
 {
     int open = 0;
@@ -178,7 +177,7 @@ static void write_all_shares(FILE *to, const tally *t, int every)
     }
 }
 
-/* Names the formulations that solve another model at some points, with the physics that they
+/* Prints the formulations that solve another model at some points, with the physics that they
  * omit. */
 static void write_others(FILE *to, const tally *t)
 {
@@ -240,7 +239,6 @@ static void write_worst(FILE *to, const parameter_ranges *r, int which, const ta
             where, w->scene[0] != '\0' ? "  " : "", w->scene);
 }
 
-/* Prints a command that examines the worst point `w` of a formulation. */
 static void write_command(FILE *to, const parameter_ranges *r, int which, const tally_worst *w,
                           const char *folder, fault *f)
 {

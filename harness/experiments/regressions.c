@@ -6,17 +6,17 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Allowed increase of an error. The kernels of LAPACK for different processors change small errors
- * of some series by up to 1.2 %. */
+/* Allowed relative increase of an error. LAPACK kernels for different processors change small
+ * errors of some series by up to 1.2 %. */
 static const double LARGER = 0.02;
 
-/* Allowed relative change of a limit, unless a reference value checks the limit as closely. With
- * 1e-5, a stiffness with an error of 1e-3 is detected if the relative change of the limit is at
+/* Allowed relative change of a limit, unless an exact reference value checks the limit as closely.
+ * With 1e-5, an error of 1e-3 in a stiffness is detected if it changes the limit, relatively, by at
  * least a hundredth of this error. */
 static const double MOVED = 1e-5;
 
-/* Writes the run to a temporary file and reads this file, so the run is compared with a former run
- * in the same form. */
+/* Writes the run to a temporary file and reads it again, so that both runs are compared in the same
+ * form. */
 static status read_back(const sweep *s, const evaluation *j, stored_results *out, fault *f)
 {
     const char *folder = getenv("TMPDIR");
@@ -90,7 +90,7 @@ static status compare(const stored_results *former, const char *name, const stor
     return outcome;
 }
 
-/* Returns the limit that the former run has stored for the quantity and the formulation of the
+/* Returns the limit that the previous run has stored for the quantity and formulation of the
  * verdict at the default point; NULL: none. */
 static const result_limit *limit_of_former(const stored_results *former, const sweep *s,
                                            const verdict *v)
@@ -108,9 +108,8 @@ static const result_limit *limit_of_former(const stored_results *former, const s
     return NULL;
 }
 
-/* Returns 1 if a reference value checks the limit to within `slack`. Returns 0 if the reference
- * value is an estimate, if the limit has a larger uncertainty, or if a known deviation allows the
- * limit to differ. */
+/* Returns 1 if an exact reference value checks the limit to within `slack`, uncertainties
+ * included. */
 static int is_evaluated_closely(const verdict *v, double slack)
 {
     return (v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED_AS_PREDICTED ||

@@ -7,10 +7,10 @@
 #include "cases/format/format.h"
 #include "cases/scene/scene.h"
 
-/* Writes the scene as the text of a scene file, which the caller frees. REFUSED: a scene file
- * cannot express the scene. */
+/* Writes the scene as a scene file in a string, which the caller frees. REFUSED: the scene cannot
+ * be written as a scene file. */
 static status restart_text(const scene *, char **out, fault *);
-/* Compares the scene with the stored text. REFUSED: the texts differ. The message gives the first
+/* Compares the scene with the stored text. REFUSED: the texts differ; the message gives the first
  * different line. */
 static status restart_text_check(const char *former, const scene *, fault *);
 
@@ -54,7 +54,7 @@ static status check_chosen(const restart *r, const solution_request *of, fault *
     return STATUS_OK;
 }
 
-/* Removes the stations before the stored state. REFUSED: no station is later. */
+/* Removes the stations before the stored state. REFUSED: there is no later station. */
 static status drop_stations(outcome_end *e, scene *s, fault *f)
 {
     scene_motion *m = &s->analysis[e->analysis].of.motion;
@@ -197,15 +197,14 @@ status restart_write(const char *path, const solution_request *of, const sweep *
     return outcome;
 }
 
-/* A file that is being read. path: for messages. */
 typedef struct source {
     hid_t file;
     const char *path;
 } source;
 
 /* Returns the contents of a one-dimensional data set, followed by a zero; NULL: the data set does
- * not exist or has another form. *count: required number of values on entry (negative: any number),
- * number of values on return. */
+ * not exist or has another form. *count: on entry, the required number of values (negative: any
+ * number); on return, the number of values. */
 static void *take(const source *from, const char *name, hid_t type, size_t size, long *count)
 {
     const hid_t set =
@@ -355,7 +354,7 @@ static int line_of(const char **text)
     return (int)strcspn(*text, "\n");
 }
 
-/* Numbers of characters that are reported before a difference, and from each of the different
+/* Numbers of characters that are reported: before a difference, and from each of the different
  * lines. */
 enum { BEFORE = 30, EXCERPT = 70 };
 static int excerpt_length(int length)

@@ -64,8 +64,8 @@ static status start_process(worker_pool *c, int self, fault *f)
     return STATUS_OK;
 }
 
-/* Closes the pipe of a process and waits for its end. A process that does not end is killed.
- * Returns the status from waitpid. */
+/* Closes the pipe of a process and waits for the end of the process. A process that does not end is
+ * killed. Returns the status from waitpid. */
 static int end_process(worker_pool *c, int self)
 {
     close(c->worker[self].from);
@@ -182,8 +182,8 @@ static status make_folder(const char *into, fault *f)
                      strerror(errno));
 }
 
-/* Lists the missing batches of the shard, the most expensive first. mine[batches]: 1 for
- * the batches of the shard. */
+/* Lists the missing batches of the shard in decreasing order of cost. mine[batches]: 1 for the
+ * batches of the shard. */
 static status make_list(worker_pool *c, char mine[], fault *f)
 {
     const shard_work *w = c->todo.w;

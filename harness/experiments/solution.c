@@ -24,8 +24,8 @@ void solution_choice_free(solution_choice *why)
     why->change = NULL;
 }
 
-/* Copies the chosen formulation and number of elements into the request, and the reasons and
- * changes to `why`. */
+/* Copies the chosen formulation and number of elements to the request, and the reasons and changes
+ * to `why`. */
 static void take(solution_request *r, default_choice *p, solution_choice *why)
 {
     r->formulation = p->chosen;
@@ -202,8 +202,6 @@ point_reference reference_of(const sweep *s, int series_index, int quantity, con
                                               : of_limits(s, series_index, quantity, tolerance);
 }
 
-/* Finds the rows of the request that apply at the point. There are few such rows, so the search for
- * each quantity is short. */
 static status borrow(const truths *all, const sweep_point *p, known_truths *out, fault *f)
 {
     out->borrowed = 1;
@@ -294,7 +292,7 @@ static status derive(const parameter_ranges *r, const sweep_point *p, known_trut
     fault why;
     parameters_source_text(p->type, p->parameter, text, sizeof text);
     if (case_omits_nothing(p->type, p->parameter))
-        return STATUS_OK; /* the derived values are those of the model of the original source */
+        return STATUS_OK; /* the program computes values for the model of the original source */
     const status outcome =
         r->request.file != NULL
             ? ask_scene(r->request.derive, p, &value, &count, &why)
@@ -368,7 +366,6 @@ static status evaluate(const void *requested, void *found, fault *f)
     return evaluation_make(&c->sweep, &c->truths, 0, &c->evaluation, f);
 }
 
-/* Returns the number of formulations that run. */
 static int running(const sweep *s)
 {
     int count = 0;

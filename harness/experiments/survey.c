@@ -12,10 +12,10 @@ enum { LOOKED_AT = 9 };
 typedef struct survey_selected {
     const char *select;
     select_words words;
-    /* [formulations] 1: the selection includes at least one quantity of the formulation */
+    /* [formulations] 1: at least one quantity of the formulation is selected */
     char formulation[RANGES_FORMULATIONS];
     char runs[RANGES_FORMULATIONS];
-    /* reason why the formulation does not run, at the first point where this happens */
+    /* reason at the first point where the formulation does not run */
     const char *missing[RANGES_FORMULATIONS];
 } survey_selected;
 
@@ -165,8 +165,8 @@ static void take_formulations(parameter_ranges *r)
             formulation_default(formulations_at(i), &r->formulation[r->formulations++]);
 }
 
-/* estimated times [s] for a point in addition to its cells: building the scene; deriving a
- * reference value for a case; deriving a reference value for a scene */
+/* estimated times [s] of a point, in addition to the cells: building the scene; computing a
+ * reference value for a case; computing a reference value for a scene */
 static const double scene_cost = 5e-5, derive_cost = 0.5, derive_scene_cost = 4;
 
 /* Returns the estimated time [s] for the scenes and all cells. */
@@ -237,8 +237,8 @@ static scene_edit edit_of(const extreme *e, double x)
     return (scene_edit){SCENE_EDIT_NONE, 0};
 }
 
-/* Returns 1 if the selection includes the formulation. Always records the words of the selection
- * that match. */
+/* Returns 1 if the selection includes the formulation. In any case, records the words of the
+ * selection that match. */
 static int is_selected(const extreme_request *request, const extreme *e, const formulation *chosen,
                        select_words *words)
 {
@@ -276,7 +276,6 @@ static int quantity_index(const scene *s, const char *name)
     return -1;
 }
 
-/* Adds an outcome for every quantity of the last planned series. */
 static status add_outcomes(extreme_sweep *out, int extreme_index, int value, int formulation_index,
                            fault *f)
 {

@@ -103,15 +103,15 @@ static int frame_motion_of(const tally *t, int axis_index, double value)
 /* Result of one formulation and quantity at one point. */
 typedef struct seen {
     int requested; /* 1: the point has a reference */
-    int proven;    /* 1: the reference is a stored or computed reference value */
+    int proven;    /* 1: the reference is a stored or computed reference value, not a limit */
     int open;      /* 1: there is a value without a reference */
     int other;     /* 1: the formulation solves another model */
     int least;     /* number of elements of the coarsest mesh within the tolerance; 0: none */
     char within[SERIES_MAX_MESHES];
 } seen;
 
-/* Examines a formulation and a quantity. A value without an error has no reference, for example
- * because the value belongs to another theory. */
+/* Examines the values of a formulation for a quantity. A value without an error has no reference,
+ * for example because the value belongs to another theory. */
 static seen look_at(const tally *t, const rows *w, int here, int which, int quantity)
 {
     const int kind = w->kind[rows_quantity(w, here, quantity)];
@@ -172,8 +172,8 @@ static void join(const tally *t, seen *all, const seen *one)
 }
 
 /* Completes the result for all quantities together. A point at which some quantity has no reference
- * counts only if another quantity is outside the tolerance. The point is then not within the
- * tolerance on any mesh. */
+ * counts only if another quantity is never within the tolerance. The point is then outside the
+ * tolerance on all meshes. */
 static void close_counts(seen *all)
 {
     if (!all->open)
@@ -205,8 +205,8 @@ static void keep_worst(tally *t, int which, const tally_worst *one)
     list[at] = *one;
 }
 
-/* Finds the worst result at the point on the finest mesh: a cell without a solution, or the largest
- * error of all quantities. */
+/* Finds the worst result on the finest mesh at the point: no solution, or the largest error of all
+ * quantities. */
 static void look_for_worst(tally *t, const rows *w, int here, long index, int which)
 {
     const int finest = t->of->meshes - 1;
@@ -263,7 +263,7 @@ static void count_references(tally *t, const rows *w, int here)
     for (int q = 0; q < t->of->quantities; q++) {
         const size_t at = rows_quantity(w, here, q);
         t->kind[q][w->kind[at] < ROWS_REFERENCES ? w->kind[at] : ROWS_NONE]++;
-        t->uncertainty[q] = fmax(t->uncertainty[q], w->uncertainty[at]); /* a NAN is ignored */
+        t->uncertainty[q] = fmax(t->uncertainty[q], w->uncertainty[at]);
     }
 }
 
@@ -298,8 +298,8 @@ status tally_add(tally *t, long first, const rows *w, fault *f)
     return outcome;
 }
 
-/* Divides the block into columns, the widest numbers first. Returns the size of the block [bytes].
- * */
+/* Sets the pointers of the columns, with the widest numbers first in the block. Returns the size of
+ * the block [bytes]. */
 static size_t lay_out(rows *r)
 {
     const size_t points = (size_t)r->points, f = (size_t)r->shape.formulations,

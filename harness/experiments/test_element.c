@@ -204,7 +204,6 @@ const char *test_element_coordinate(const test_element *s, int c, char words[TES
     return words;
 }
 
-/* Describes the special properties of the test element. */
 static void describe(const test_element_request *what, const formulation *chosen, test_element *s)
 {
     static const char *const section_words[] = {"", ", unsymmetric section",
@@ -216,7 +215,6 @@ static void describe(const test_element_request *what, const formulation *chosen
              curved ? ", initially curved" : "");
 }
 
-/* One variant of the test element. */
 typedef struct way {
     const formulation *chosen;
     test_element_request made;
@@ -225,8 +223,8 @@ typedef struct way {
 
 static const char failure[] = "the functions return results";
 
-/* Returns 1 if the element gives results. If the code of the formulation fails, only this failure
- * is reported, because it causes all other deviations. */
+/* Returns 1 if the element gives results. If not, only this failure is reported, because it causes
+ * all other deviations. */
 static int returns_values(const test_element *s, check_results *c)
 {
     node_state x[ELEMENT_MAX_NODES];
@@ -302,7 +300,6 @@ static void all_forms(const formulation *chosen, check_results *c, test_elements
     }
 }
 
-/* Checks each choice of an option. The other options are unchanged. */
 static void other_choices(const formulation *chosen, int option, check_results *c,
                           test_elements_check *check)
 {
@@ -362,8 +359,7 @@ static int force_at(const void *context, int i, double si, int j, double sj, dou
     return (int)call(at->s, x, &(force_output){.F = values});
 }
 
-/* Multiplies the forces by the units of their coordinates [J]. Returns the largest absolute value.
- * */
+/* Multiplies the forces by the units of their coordinates [J]. Returns the largest magnitude. */
 static double works(const test_element *s, const double F[], double out[])
 {
     double largest = 0;
@@ -391,8 +387,8 @@ static void check_force(const test_element_stencil *at, const double F[], check_
     }
 }
 
-/* Checks the symmetric part of K, which corresponds to the exponential chart, or, with a history,
- * all of K, which then consists of derivatives along spatial increments. */
+/* Checks the symmetric part of K, which corresponds to the exponential chart. With a history, all
+ * of K is checked; K then consists of derivatives with respect to spatial increments. */
 static void check_stiffness(const test_element_stencil *at, const double K[], check_result *one)
 {
     const test_element *s = at->s;

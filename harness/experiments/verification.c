@@ -27,7 +27,6 @@ static const case_type *case_of(const sweep *s, int series_index)
     return s->point[s->series[series_index].point].type;
 }
 
-/* Reports that a case is complete if this is its last series. */
 static void store_results(evaluation_run *v, const sweep *s, int series_index)
 {
     const case_type *type = case_of(s, series_index);
@@ -71,7 +70,7 @@ static status whole(void *context, const sweep *s, int series_index, fault *f)
 
 enum { MOST_OWN = 64 };
 
-/* Lists the formulations that were named or loaded, without repetition. */
+/* Lists without repetition the formulations that the user named or loaded. */
 static int find_own(const sweep *s, formulation out[MOST_OWN])
 {
     int count = 0;
@@ -98,8 +97,8 @@ static status add_breach(const certificate *c, evaluation *out, fault *f)
     return memory_append(&out->breach, &out->breaches, &one, sizeof one, "broken contracts", f);
 }
 
-/* Checks the named and loaded formulations against the interface requirements before any cell is
- * run. The results of a formulation that violates them are meaningless. */
+/* Before any cell is run, checks that the formulations named or loaded by the user satisfy the
+ * interface requirements. The results of other formulations would be meaningless. */
 static status hold_contracts(const sweep *s, int jobs, int time_limit, evaluation *out, fault *f)
 {
     formulation own[MOST_OWN];
@@ -126,8 +125,6 @@ static status begin(evaluation_run *v, const sweep *s, int jobs, int time_limit,
     return hold_contracts(s, jobs, time_limit, v->evaluation, f);
 }
 
-/* Evaluates the remaining series, which an interrupted run may leave, and completes the
- * evaluation. */
 static status end(evaluation_run *v, const sweep *s, int everything, fault *f)
 {
     TRY(evaluate_to(v, s, s->seriess, f));
@@ -187,8 +184,7 @@ static void files_case(void *files, const case_type *type)
         json_part_add(&to->part, to->sweep, to->evaluated);
 }
 
-/* Determines the path of an output file. If the run was interrupted, the name of the file shows
- * this. */
+/* Determines the path of an output file. If the run was interrupted, the file name shows this. */
 static status name_place(const verification_files *files, const char *path, char out[PATH_MAX],
                          fault *f)
 {
@@ -249,7 +245,7 @@ static status write_texts(verification_files *to, const overview *o, const envir
     return to->propose != NULL ? write_proposal(to, f) : STATUS_OK;
 }
 
-/* Completes and closes the store. The store is closed even after a failure. */
+/* Completes the store, and closes it even after a failure. */
 static status write_store(verification_files *to, const environment *e, fault *f)
 {
     char where[PATH_MAX];
@@ -281,8 +277,8 @@ static void files_drop(verification_files *to)
     to->open = 0;
 }
 
-/* Adds the results of another program to the comparison, and reports its series that match no point
- * of this run. */
+/* Adds the results of another program to the comparison. Reports its series that match no point of
+ * this run. */
 static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
 {
     import_left left;
@@ -305,7 +301,7 @@ static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if a verdict on another program affects the exit status. */
+/* Returns 1 if a verdict on results of another program affects the exit status. */
 static int imported_was_evaluated(const sweep *s, const evaluation *j)
 {
     for (int i = 0; i < j->verdicts; i++) {
@@ -324,7 +320,6 @@ static status plan(const void *requested, void *found, fault *f)
     return plan_sweep(&v->requested->cells, &v->truths, &v->sweep, f);
 }
 
-/* Runs the cells and evaluates the series as they arrive. */
 static status run(const void *requested, void *found, fault *f)
 {
     const verification_request *r = requested;
@@ -354,14 +349,14 @@ static status evaluate(const void *requested, void *found, fault *f)
     return overview_make(&v->sweep, &v->evaluation, &v->overview, f);
 }
 
-/* Returns 1 if all limits are shown: with --verbose, with -k, or if the overview has a single
+/* Returns 1 if all limits are printed: with --verbose, with -k, or if the overview has a single
  * row. */
 static int shows_limits(const verification *v)
 {
     return v->requested->verbose || v->requested->cells.select != NULL || v->overview.rows == 1;
 }
 
-/* Prints the matrix, the counts, unexpected results and the conclusion. */
+/* Prints the overview, the counts, unexpected results and the conclusion. */
 static void print(FILE *to, const verification *v)
 {
     const screen look = screen_of(to);
@@ -386,7 +381,7 @@ static void print(FILE *to, const verification *v)
     table_run_end(to, look, sentence);
 }
 
-/* Completes the files. The parts for evaluated cases were prepared during the run. */
+/* Completes the files, whose parts for evaluated cases were prepared during the run. */
 static status write_form(FILE *to, const char *format, const void *found, fault *f)
 {
     const verification *v = found;

@@ -1,5 +1,5 @@
-/* Folders with invalid files. Each invalid file must be reported in one line, and no invalid file
- * may be used. */
+/* Folders with invalid files. Each invalid file must be reported in one line, and must not be
+ * used. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -9,12 +9,11 @@
 #include "harness/experiments/test/number_work.h"
 #include "harness/records/records.h"
 
-/* A folder with all batches of the work. Batch 4 will be damaged. */
 typedef struct filled {
     test_folder of;
     const char *folder[1];
     numbers_work w;
-    char name[BATCH_NAME]; /* name of batch 4 */
+    char name[BATCH_NAME];
     folder_entry path;
 } filled;
 
@@ -32,7 +31,6 @@ static void fill(filled *out)
     out->path = folder_path(&out->of, out->name);
 }
 
-/* Reads the folder into a stock. `printed` receives the messages. */
 static status take(filled *of, batch_store *s, char printed[400], fault *f)
 {
     memset(printed, 0, 400);
@@ -93,7 +91,7 @@ static void damaged(void)
     folder_remove(&of.of);
 }
 
-/* A merge and a restart must both reject the folder, with a message that contains these words. */
+/* A merge and a restart must both reject the folder with a message that contains these words. */
 static void is_refused(filled *of, const char *words)
 {
     batch_store s;
@@ -139,7 +137,6 @@ static void foreign(void)
     folder_remove(&of.of);
 }
 
-/* Files that killed processes have left, and files that are not batches. */
 static void others(void)
 {
     filled of;
@@ -183,8 +180,8 @@ static void nowhere(void)
     folder_remove(&of);
 }
 
-/* Batches that were computed on another processor or with another BLAS must be reported. Batches
- * from another host with the same processor and BLAS must not be reported. */
+/* Batches from another processor or BLAS library must be reported. Batches from another host with
+ * the same processor and BLAS library must not be reported. */
 static void machines(void)
 {
     filled of;
@@ -292,8 +289,6 @@ static void cut(void)
     gsl_test_int(batches_cut(0, cost, 0.5, first), 0, "of nothing no batch");
 }
 
-/* Each batch must be assigned to one shard. The costs of the shards must be nearly equal, and the
- * assignment reproducible. */
 static void assigned(void)
 {
     enum { BATCHES = 500, SHARDS = 7 };
@@ -316,8 +311,8 @@ static void assigned(void)
     gsl_test(most > 1.01 * least, "shards end together: %g to %g", least, most);
 }
 
-/* The rule is that the most expensive remaining batch is assigned to the shard with the lowest
- * cost, and to the first of such shards if costs are equal. */
+/* The batch with the highest remaining cost must be assigned to the shard with the lowest cost; if
+ * costs are equal, to the first of these shards. */
 static void assigned_by_the_rule(void)
 {
     enum { BATCHES = 300, MOST = 40 };
@@ -348,8 +343,6 @@ static void assignment_tests(void)
     cut();
     assigned();
 }
-
-/* Checks how a list on the command line is read, such as steps or tolerances. */
 
 static void list_is(const char *text, double ratio, int count, const double right[])
 {

@@ -1,5 +1,5 @@
-/* A benchmark must draw a conclusion about times only if the noise allows it. The counted work must
- * be the same in every repetition. */
+/* A comparison of times must give a result only if the scatter allows it. The counted work must be
+ * the same in every repetition. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -14,8 +14,8 @@
 
 enum { PAIRS = 101, TRIALS = 300 };
 
-/* Returns a random time of a lap of 1.7 ms on a shared machine. The noise is mostly small,
- * sometimes large, and drifts. */
+/* Returns a random time of a lap of 1.7 ms, with the scatter of a shared machine: mostly small,
+ * sometimes large. */
 static double noisy(const gsl_rng *random, double drift)
 {
     const double tail =
@@ -56,8 +56,8 @@ static void test_against(void)
                  "no pair decides nothing");
 }
 
-/* Checks the confidence interval of the median of 101 draws. The tail of 5e-4 is between
- * P(Binomial(101, 1/2) < 34) = 3.2e-4 and P(< 35) = 6.7e-4. */
+/* The tail of 5e-4 is between P(Binomial(101, 1/2) < 34) = 3.2e-4 and P(Binomial(101, 1/2) < 35) =
+ * 6.7e-4. */
 static void test_interval(void)
 {
     double a[PAIRS], b[PAIRS];
@@ -97,7 +97,7 @@ static void test_compare(void)
 }
 
 /* The meshes have the errors 20 %, 0.5 %, 3 %, 0.2 % and 0.05 %. A level is reached by the coarsest
- * mesh that is within the level, as are all finer meshes. */
+ * mesh that is within the level together with all finer meshes. */
 static void test_reach(void)
 {
     const double error[5] = {0.2, -0.005, 0.03, 0.002, -0.0005};
@@ -172,7 +172,6 @@ static void bench_tests(void)
     test_rounds();
 }
 
-/* Returns the order of the matrix that is eliminated. */
 static int order_of(const cell_request *request)
 {
     scene s;
@@ -255,8 +254,6 @@ static void dense_tests(void)
 
 static char all[] = "*", word[32];
 
-/* Returns the counts for one outcome of the given kind, with a known deviation that expects this or
- * another outcome. */
 static extreme_count evaluated(outcome_kind kind, const char *expected, int whole, int *unexpected,
                                int *code)
 {
@@ -331,8 +328,8 @@ static void one_outcome(outcome_kind kind, double x, expectation *out)
                              .count = &out->count};
 }
 
-/* If no outcome shows a known deviation, a complete run must fail, but a run of a selection must
- * not. */
+/* A known deviation that no outcome shows must fail a complete run, but not a run of a
+ * selection. */
 static void unobserved(void)
 {
     for (int whole = 0; whole < 2; whole++) {
@@ -345,8 +342,7 @@ static void unobserved(void)
     }
 }
 
-/* Counts two outcomes, in one cell or, if one_cell is 0, in two cells, in either order. The outcome
- * of a cell is its worst outcome. */
+/* The outcome of a cell is the worse of two outcomes, in either order. */
 static void cells(void)
 {
     for (int good = 0; good < OUTCOME_KINDS; good++)
@@ -377,7 +373,7 @@ static void cells(void)
             }
 }
 
-/* A known deviation applies to a range of x, including both ends up to their last digits. */
+/* A known deviation applies to a range of x that includes both ends to within rounding. */
 static void ranges(void)
 {
     static const struct {
@@ -409,9 +405,8 @@ static void expect_tests(void)
     unobserved();
 }
 
-/* An inaccurate value is classified as under-resolved if its error decreases with more elements,
- * otherwise as wrong. The neighbouring meshes are artificial: finer or coarser than the mesh
- * itself, with and without values. */
+/* An inaccurate value is under-resolved if the error decreases with more elements; otherwise it is
+ * wrong. The neighbouring meshes are artificial: finer or coarser, with and without values. */
 
 enum { MESHES = 1 + OUTCOME_NEIGHBOURS };
 static const double exact = 7;
@@ -431,7 +426,6 @@ typedef struct neighbours_bench {
 
 static char words[][16] = {"", "exact", "same", "m"};
 
-/* Returns the index of an extreme whose quantities have exact values. */
 static int exact_extreme(void)
 {
     int i = 0;
@@ -440,8 +434,8 @@ static int exact_extreme(void)
     return i;
 }
 
-/* Makes an outcome on the mesh with `own` elements, whose relative error is error[0], and its
- * neighbouring meshes with the other errors. NAN: no value. */
+/* Makes an outcome with the relative error error[0] on a mesh of `own` elements. The neighbouring
+ * meshes have the other errors. NAN: no value. */
 static void make(int own, const int mesh[OUTCOME_NEIGHBOURS], const double error[MESHES],
                  neighbours_bench *b)
 {

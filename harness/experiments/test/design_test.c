@@ -38,7 +38,7 @@ static void grid(void)
     axis_free(&a[1]);
 }
 
-/* The five points are those printed in the GSL manual (quasi-random sequences). */
+/* The five points are those printed in the GSL manual. */
 static void sobol(void)
 {
     static const double right[] = {0.5, 0.5, 0.75, 0.25, 0.25, 0.75, 0.375, 0.375, 0.875, 0.875};
@@ -143,7 +143,6 @@ static void design_tests(void)
 
 enum { RUNS = 5 };
 
-/* Makes runs of one integrator with steps 0.1, 0.05, ... */
 static void fill(integrators *p, integrators_group *g, integrators_run run[RUNS],
                  const char *method, int nominal, const double error[RUNS])
 {
@@ -201,8 +200,8 @@ static void order_of_each(void)
     gsl_test_rel(run[2].order, 1, 1e-14, "against the run before");
 }
 
-/* Errors and costs are powers of the step size. The cost of a level between the errors of two runs
- * must be interpolated with this power. */
+/* Errors and costs are powers of the step size. Between two runs, the cost at an error level must
+ * be interpolated with this power. */
 static void cost_of_a_level(void)
 {
     integrators p;
@@ -221,8 +220,6 @@ static void cost_of_a_level(void)
     gsl_test(r.run != NULL, "a shorter step is not within it");
 }
 
-/* Returns 1 if integrators_order_stagnates reports that a quantity with these errors does not
- * converge. The errors of positions converge. */
 static int stands(const double error[RUNS], double floor)
 {
     integrators p;

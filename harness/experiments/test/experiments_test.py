@@ -24,7 +24,6 @@ SAYS = ("schema", "schema_version", "program_version", "commit", "clock")
 
 
 def content(group):
-    """Returns the entire contents of a group as bytes."""
     found = {"": sorted((name, str(value)) for name, value in group.attrs.items())}
 
     def take(name, one):
@@ -36,7 +35,7 @@ def content(group):
 
 
 def contents(path):
-    """Returns {group: contents}. The key `verify` is for the contents outside groups."""
+    """Returns {group: contents}. The key `verify` has the contents outside the groups."""
     with h5py.File(path) as file:
         groups = {name: content(group) for name, group in file["experiments"].items()}
         own = {name: value for name, value in content(file).items()
@@ -48,7 +47,7 @@ class Experiments(ProgramTest):
 
     @classmethod
     def setUpClass(cls):
-        """Runs all experiments at once, into a file that does not exist yet."""
+        """Runs all experiments at once; all write to a file that does not exist yet."""
         cls.stored = cls.class_folder() / "results.h5"
         jobs = [subprocess.Popen([PROGRAM, *words, "-o", cls.stored], stdout=subprocess.DEVNULL,
                                  stderr=subprocess.PIPE, text=True)

@@ -1,4 +1,3 @@
-"""Time-integration errors, orders, energy and momenta of `beamwork motion`."""
 import csv
 import io
 import json

@@ -1,5 +1,5 @@
-/* A job for tests. Each batch consists of some numbers. The result is their sum in the order of the
- * batches. */
+/* Work for tests. Each batch consists of some numbers. The result is the sum of all numbers in the
+ * order of the batches. */
 #ifndef BEAMWORK_TEST_NUMBER_WORK_H
 #define BEAMWORK_TEST_NUMBER_WORK_H
 
@@ -16,11 +16,11 @@
 enum { NUMBERS_BATCHES = 40 };
 
 typedef struct numbers {
-    int crashes; /* number of the batch whose process ends itself, or -1 */
+    int crashes; /* number of the batch whose process ends early, or -1 */
     int fails;   /* number of the batch whose computation fails, or -1 */
     int wait;    /* [us] duration of a batch */
     double busy; /* [s] processor time of a batch */
-    double sign; /* sign of the numbers; -1 gives different results */
+    double sign; /* sign of the numbers; -1 gives other results */
     int taken, next;
     double sum;
 } numbers;
@@ -73,7 +73,7 @@ typedef struct numbers_work {
     shard_work w;
 } numbers_work;
 
-/* Prepares the work. The structure contains a pointer to itself and must not be copied. */
+/* Prepares the work. The structure contains a pointer to itself, so it must not be copied. */
 static inline void numbers_begin(numbers_work *out)
 {
     out->n = (numbers){.crashes = -1, .fails = -1, .sign = 1};
@@ -91,7 +91,7 @@ static inline void numbers_begin(numbers_work *out)
                           .take = numbers_take};
 }
 
-/* Returns the result of all batches when computed in this process alone. */
+/* Returns the result of all batches if this process computes them alone. */
 static inline double numbers_alone(void)
 {
     numbers_work here;
@@ -110,7 +110,6 @@ static inline status numbers_shard(const numbers_work *of, const char *into, int
     return shard_run(&of->w, &request, out, f);
 }
 
-/* Merges the batches in the folders, and computes the result. */
 static inline status numbers_merge(numbers_work *of, const char *const folder[], int folders,
                                    batch_store *s, fault *f)
 {

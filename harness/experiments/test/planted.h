@@ -1,4 +1,4 @@
-/* Injects faults into formulations without faults. */
+/* Injects faults into correct formulations. */
 #ifndef BEAMWORK_TEST_PLANTED_H
 #define BEAMWORK_TEST_PLANTED_H
 
@@ -9,8 +9,8 @@
 
 static const element_type *base; /* the formulation into which the fault is injected */
 
-/* Checks a type with a fault. `family` is the family of checks that must detect the fault. The last
- * arguments are words that the message must contain. */
+/* Checks a type with a fault, which the family of checks `family` must detect. The message must
+ * contain `first` and `second`. */
 static inline void planted(const char *family, const element_type *fault_type, const char *first,
                            const char *second)
 {

@@ -1,5 +1,5 @@
-/* Injects faults into formulations without faults. Each fault changes the output of one function
- * and must be detected, with a message that names the cause. */
+/* Injects faults into correct formulations. Each fault changes the output of one function, and must
+ * be detected with a message that names the cause. */
 #include "harness/experiments/experiments_impl.h"
 #include <math.h>
 
@@ -12,7 +12,7 @@ static void strain_changed(const element_data *d, const node_state x[], strain_o
     change(out);
 }
 
-/* Defines a strain function that evaluates the formulation and then changes its outputs by
+/* Defines a strain function that evaluates the formulation and then changes the outputs by
  * `statement`. */
 #define STRAIN(name, statement)                                                                    \
     static void name##_change(strain_output *out)                                                  \
@@ -60,7 +60,7 @@ static status half_energy(const element_data *d, const double e[], const double 
     return outcome;
 }
 
-/* Copies the nodes and replaces a position (turn 0) or a rotation (turn 1) that is NaN by a value
+/* Copies the nodes, and replaces a position (turn 0) or a rotation (turn 1) that is NaN by a value
  * at rest. The element then ignores an invalid input. */
 static void insensitive(const node_state x[], int node, int turn, node_state out[2])
 {
@@ -98,7 +98,6 @@ static status insensitive_to_strains(const element_data *d, const double e[], co
     return base->stress(d, f, inner, out);
 }
 
-/* Makes bending about z softer than the constants of the section require. */
 static status soft_about_z(const element_data *d, const double e[], const double inner[],
                            stress_output *out)
 {
@@ -112,8 +111,8 @@ static status soft_about_z(const element_data *d, const double e[], const double
     return outcome;
 }
 
-/* A formulation that does not claim to be exact is made too soft. The message must give its error.
- */
+/* A formulation that does not declare that it is exact becomes too soft. The message must give the
+ * error. */
 static void not_exact(void)
 {
     static check_results c;
@@ -219,7 +218,6 @@ static void one_strain(int count, const element_data *const data[], const node_s
     }
 }
 
-/* Prepares an element without some of the requested features. */
 static status without(const element_request *request, unsigned features, element_data *out,
                       fault *f)
 {
@@ -308,8 +306,8 @@ static void planted_tests(void)
     the_rest();
 }
 
-/* Defines an inertia function that evaluates the formulation and then changes its outputs by
- * `statement`. Each of these faults must be detected, with a message that names the cause. */
+/* Defines an inertia function that evaluates the formulation and then changes the outputs by
+ * `statement`. */
 #define INERTIA(name, statement)                                                                   \
     static status name(const element_data *d, const node_state x[],                                \
                        const element_rotating_frame *frame, inertia_output *out)                   \
@@ -330,8 +328,8 @@ INERTIA(half_potential, if (out->potential != NULL) *out->potential /= 2)
 INERTIA(wrong_force, if (out->force != NULL) out->force[8] *= -1)
 INERTIA(wrong_softening, if (out->N != NULL) out->N[14 * 2 + 2] *= 1.01)
 INERTIA(unsymmetric_softening, if (out->N != NULL) out->N[14 * 1 + 2] *= 1.01)
-/* the fault is larger for rotations than for translations; 0.2385 m is the length of the test
- * element */
+/* the fault is larger for rotations than for translations; the test element has a length of 0.2385
+ * m */
 INERTIA(
     unsymmetric_turns, if (out->N != NULL) {
         out->N[14 * 5 + 4] += 0.03 * 0.2385 * 0.2385 * out->N[0];

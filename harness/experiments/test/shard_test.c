@@ -1,5 +1,4 @@
-/* Shards that are computed into folders and merged must give the same results as one process,
- * however they end. */
+/* Shards that are computed into folders and merged must give the same results as one process. */
 #include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -33,8 +32,8 @@ static void one_folder(void)
     folder_remove(&of);
 }
 
-/* Merges two folders of the same work that was divided into different numbers of shards. A batch
- * that is in both folders must be used once. */
+/* Merges two folders of the same work with different numbers of shards. A batch that is in both
+ * folders must be used once. */
 static void two_folders(void)
 {
     const test_folder a = folder_make(), b = folder_make();
@@ -63,7 +62,7 @@ static void two_folders(void)
     folder_remove(&other);
 }
 
-/* If the process of a batch ends, only this batch may be lost. A restart must compute it. */
+/* If the process of a batch ends early, only this batch may be lost. A restart must compute it. */
 static void lost(void)
 {
     const test_folder of = folder_make();
@@ -83,8 +82,7 @@ static void lost(void)
     folder_remove(&of);
 }
 
-/* A batch that fails, or a full disk, must end the run with a message. Existing batches are kept.
- */
+/* A failed batch, or a full disk, must end the run with a message. Existing batches must remain. */
 static void failures(void)
 {
     const test_folder of = folder_make();
@@ -116,7 +114,7 @@ static void failures(void)
     folder_remove(&of);
 }
 
-/* The run is killed at twenty random times, and then runs to completion. */
+/* The run is killed at twenty random times, then runs to completion. */
 static void killed(void)
 {
     const test_folder of = folder_make();
@@ -146,8 +144,7 @@ static void killed(void)
     folder_remove(&of);
 }
 
-/* After a request to stop, completed batches must be kept, and no partly written file may remain.
- */
+/* After a request to stop, completed batches must remain. No incomplete file may remain. */
 static void interrupted(void)
 {
     const test_folder of = folder_make();

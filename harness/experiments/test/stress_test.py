@@ -10,7 +10,7 @@ from harness.tools.kit import program
 from harness.tools.kit.program import ProgramTest, ROOT
 
 
-# `beamwork stress`: exit status, agreement of the output forms, and reports of wrong numbers.
+# `beamwork stress`: exit status, agreement of the output forms, and reports of wrong values.
 SMALL = "decay_free or soft_square or twist_wagner"
 
 
@@ -26,7 +26,6 @@ class Stress(ProgramTest):
         cls.code, cls.record = done.returncode, json.loads(done.stdout)
 
     def altered(self, change):
-        """Packs the reference values of a copy of reference/, to which `change` was applied."""
         copy = self.folder / "reference"
         left_out = shutil.ignore_patterns("__pycache__", "derive", "test")
         shutil.copytree(ROOT / "reference", copy, ignore=left_out)
@@ -103,7 +102,7 @@ class Stress(ProgramTest):
         self.assertEqual(done.returncode, 1, done.stdout)
 
     def test_motions(self):
-        """The step sizes of these motions are prescribed. A rotation that is too large for a step must be reported."""
+        """The step sizes of these motions are prescribed. A rotation that is too large for one step must be reported."""
         done = run("-k", "(turn_alpha or long_steps_radau) and collocation", "--format", "json")
         self.assertEqual(done.returncode, 0, done.stdout)
         record = json.loads(done.stdout)
@@ -140,10 +139,10 @@ class Stress(ProgramTest):
             self.refused(code, "", "stress", *arguments, silent=False)
 
 
-# In extreme motions, each integrator must give a value with its error, or fail with a reason.
+# In extreme motions, an integrator must give a value with its error, or fail with a reason.
 STEEL = 200e9, 7800.0
 
-# A sheet is a thousand times as long as it is thick. It is held in a deflected position and then released.
+# The sheet is a thousand times as long as it is thick. It is released from a deflected position.
 SHEET = """beamwork: 1
 sections:
   sheet: {rectangle: {width: 0.05, thickness: 1e-4}, young: 200e9, shear_modulus: 77e9,
@@ -164,7 +163,7 @@ omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
 SHEET_PERIOD = 0.1**2 * 2 * math.pi / 1.8751041**2 / math.sqrt(STEEL[0] * 1e-8 / 12 / STEEL[1])
 
-# A rod with a body at one end flies freely. MASS is the mass of the body relative to that of the rod.
+# A free rod with a body at one end. MASS: mass of the body relative to that of the rod.
 BODY = """beamwork: 1
 sections:
   rod: {rectangle: {width: 0.02, thickness: 0.02}, young: 5e6, shear_modulus: 2e6, density: DENSITY}
@@ -197,7 +196,7 @@ class Extremes(ProgramTest):
         return {r["integrator"]: r for r in json.loads(done.stdout)["runs"]}
 
     def is_named(self, run):
-        """Checks that a motion that failed states the reason and the time at which it stopped."""
+        """A failed motion must report the reason and the time at which it stopped."""
         self.assertEqual(run["status"], "not_converged")
         self.assertIn(" s: ", run["reason"] + " s: ")
         self.assertIsNotNone(run["stopped"])

@@ -17,8 +17,6 @@ static const parameter_type table[] = {
 };
 static const case_type box = {.name = "box", .parameters = {table}};
 
-/* Makes the ranges of a sweep with a grid of 3 x 2 points, one formulation, meshes with 4 and 8
- * elements, and two quantities. */
 static void make(parameter_ranges *r)
 {
     memset(r, 0, sizeof *r);
@@ -35,14 +33,14 @@ static void make(parameter_ranges *r)
     r->batches = 1;
 }
 
-/* Errors at each point, for 4 and 8 elements, of both quantities. */
+/* errors of both quantities at each point, with 4 and 8 elements */
 static const double errors[POINTS][MESHES][2] = {
     {{0.001, 0.002},
      {0.0001, 0.0002}}, /* both quantities are within the tolerance with 4 and more elements */
-    {{0.02, 0.002}, {0.003, 0.0002}}, /* the first quantity is within the tolerance only with 8
-                                         elements */
+    {{0.02, 0.002},
+     {0.003, 0.0002}}, /* the first quantity is within the tolerance only with 8 elements */
     {{0.001, 0.002}, {0.05, 0.0002}}, /* the first quantity is never within the tolerance, because
-                                         its error is large on the finer mesh */
+                                         the error is large on the finer mesh */
     {{NAN, NAN}, {NAN, NAN}},         /* no solution */
     {{NAN, 0.004}, {NAN, -0.0004}},   /* the first quantity has no reference value */
     {{NAN, NAN}, {NAN, NAN}},         /* no scene */
@@ -113,8 +111,8 @@ static void map_is(const tally *t)
     gsl_test_rel(tally_edge(t, 1, 1), 20, 0, "second line");
 }
 
-/* Points without a solution come first, then the other points by the magnitude of the error on the
- * finest mesh. */
+/* Points without a solution come first. The other points follow in decreasing order of the error on
+ * the finest mesh. */
 static void worst_are(const tally *t)
 {
     gsl_test_int(t->worsts[0], 3, "worst points");
@@ -129,7 +127,7 @@ static void worst_are(const tally *t)
     gsl_test_rel(t->uncertainty[1], 4e-4, 1e-15, "the largest doubt");
 }
 
-/* The summary must be the same whether points are added in one call or one by one. */
+/* The summary must be the same whether the points are added in one call or in several. */
 static void same_in_pieces(const parameter_ranges *r, const rows *whole, const tally *right)
 {
     tally t;
@@ -204,8 +202,8 @@ static void values_are(const char *text, axis_kind kind, int count, const double
     axis_free(&a);
 }
 
-/* The first and last values of an axis must be exactly the given numbers, without round-off of
- * sums. */
+/* The first and last values of an axis must be exactly the given numbers, without rounding
+ * errors. */
 static void ends_are_exact(void)
 {
     sweep_axis a = read_good("width=0.2..0.9/7"), b = read_good("width=0.2..0.9/7:log");
@@ -215,7 +213,6 @@ static void ends_are_exact(void)
     axis_free(&b);
 }
 
-/* Checks values at fractions of an axis, and the word of a list at each fraction. */
 static void shares(void)
 {
     sweep_axis a = read_good("turn=-1..1"), b = read_good("width=0.01..1:log"),
@@ -268,8 +265,6 @@ static void axis_tests(void)
     is_refused("ends=fixd", "unknown choice");
 }
 
-/* A formulation must satisfy every claim that it makes, and at least one claim must be compared. */
-
 static void report(const char *key, const checks_family *family, const check_results *c)
 {
     for (int i = 0; i < c->count; i++)
@@ -298,15 +293,13 @@ static void interface_tests(void)
     gsl_test(by_matrices < 1, "%d formulations carry sections by their matrices", by_matrices);
 }
 
-/* Marks in the map of a sweep, one field of each kind. */
-
 enum { PLACES = 8 };
 
 static const parameter_type map_table[] = {{"a", "m", 1, -100, 100, NULL, ""}, {0}};
 static const case_type map_box = {.name = "box", .parameters = {map_table}};
 
-/* Fields, and their marks if some (mixed) or all (alike) of the references in the sweep are stored
- * or computed values. */
+/* Fields, and their marks if some (mixed) or all (alike) of the references in the sweep are
+ * reference values. */
 static const struct {
     tally_place place;
     const char *mixed, *alike;
