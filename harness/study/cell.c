@@ -43,7 +43,8 @@ static status set_up(const cell_request *request, const scene *s, model **m, cel
     return copy_left_out(*m, out, f);
 }
 
-/* Sets *s to the scene of the request, or builds the scene and stores it in the result. */
+/* Sets *s to the scene of the request. If the request has none, builds the scene and stores it in
+ * the result. */
 static status scene_of(const cell_request *request, const scene **s, cell_result *out, fault *f)
 {
     *s = request->scene;
@@ -79,7 +80,7 @@ void cell_formulation(cell_request *request, const formulation *chosen)
     request->solve.newton = formulation_newton(chosen);
 }
 
-/* Marks the solution as not converged for the reason `trouble`, and all quantities as missing. */
+/* Marks the solution as not converged, with the reason `trouble`, and all quantities as missing. */
 static status nothing_counts(const char *trouble, solve_result *out, fault *f)
 {
     out->status = STATUS_NOT_CONVERGED;
@@ -125,17 +126,17 @@ void cell_result_free(cell_result *r)
 
 const double omission_most = 1e-4;
 const double omission_safety = 2;
-/* [s] longest estimated time of a solution; if the time is longer, the change is reported as
+/* [s] longest estimated time of a solution; if it would take longer, the change is reported as
  * unknown */
 static const double longest = 20;
 /* [s] a solution with a shorter estimated time is always made */
 static const double brief = 0.2;
-/* A change larger than this multiple of omission_most is significant without further checks. */
+/* A change larger than this multiple of omission_most is significant without the safety factor. */
 static const double many_times = 100;
-/* values below this limit, relative to the largest value in the same unit, count as zero */
+/* values below this fraction of the largest value in the same unit count as zero */
 static const double nothing = 1e-9;
 
-/* Returns the physics that have no effect in the section, because its constants for them are
+/* Returns the physics that have no effect because the corresponding constants of the section are
  * zero. */
 static unsigned absent_in(const section *c)
 {
@@ -154,8 +155,8 @@ static unsigned absent_in(const section *c)
     return absent | (c->Iw <= 0 ? FEATURE_WARPING : 0);
 }
 
-/* Returns the physics that have no effect in the scene: second-order physics in linear analyses,
- * and rotary inertia in static analyses. */
+/* Returns the physics that have no effect in the analyses of the scene: second-order physics in
+ * linear analyses, and rotary inertia in static analyses. */
 static unsigned absent_in_analyses(const scene *s)
 {
     const unsigned higher = FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE;
@@ -182,8 +183,8 @@ static unsigned absent_in_sections(const scene *s)
     return absent;
 }
 
-/* Returns 0 if a section is given by matrices. No physics can be removed from matrices, so the
- * effect of an omission cannot be computed. Returns 1 otherwise. */
+/* Returns 0 if a section is given by matrices, otherwise 1. Physics cannot be removed from
+ * matrices, so the effect of an omission cannot be computed. */
 static int can_be_shown(const scene *s)
 {
     int can = 1;
@@ -192,8 +193,8 @@ static int can_be_shown(const scene *s)
     return can;
 }
 
-/* Returns the formulation with the highest order among those that support all physics of the scene;
- * NULL: none. */
+/* Among the formulations that support all physics of the scene, returns the one with the highest
+ * order; NULL: none. */
 static const element_type *whole_model(const scene *s)
 {
     const element_type *best = NULL;
@@ -240,8 +241,8 @@ static double relative(double apart, double scale)
     return apart > 0 ? apart / scale : isfinite(apart) ? 0 : INFINITY;
 }
 
-/* Returns the largest difference over the points of two curves, relative to the largest absolute
- * value of a, or to `least` if this is larger. INFINITY: the curves have different points. */
+/* Returns the largest difference between two curves over their points, relative to the largest
+ * magnitude of a or, if larger, to `least`. INFINITY: the curves have different points. */
 static double change_of_curve(const curve *a, const curve *b, double least)
 {
     double apart = 0, size = least;
@@ -270,7 +271,8 @@ static double change_of(const scene *s, const solve_result *with, const solve_re
     return relative(fabs(b->value - a->value), fmax(fabs(a->value), least));
 }
 
-/* Returns 1 if all requested quantities have a value. Otherwise `why` gives the reason. */
+/* Returns 1 if all requested quantities have a value. Otherwise returns 0, and `why` gives the
+ * reason. */
 static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
 {
     if (c->solve.status != STATUS_OK || c->solve.quantities < s->quantities) {
@@ -286,7 +288,7 @@ static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
     return 1;
 }
 
-/* Returns the largest relative change of a quantity on one mesh if the physics out->what is
+/* Returns the largest relative change of a quantity on one mesh if the physics out->what are
  * omitted. NAN: a value is missing, and out->why gives the reason. */
 static double change_on(const scene *s, const element_type *type, int elements, omission *out)
 {
@@ -310,8 +312,8 @@ static double change_on(const scene *s, const element_type *type, int elements, 
     return largest;
 }
 
-/* Returns 1 if the changes on two meshes agree within a factor of two. Changes below the noise
- * agree. */
+/* Returns 1 if the changes on two meshes differ by at most a factor of two. Changes below the
+ * scatter also agree. */
 static int agree(double coarse, double fine)
 {
     const double noise = 1e-9, apart = 2;
@@ -320,7 +322,7 @@ static int agree(double coarse, double fine)
 
 /* Solves on repeatedly doubled meshes until the changes on two meshes agree. The result is the
  * larger of these changes times omission_safety. A clearly significant change is used without this
- * factor. It is computed on finer meshes only if the run time is short. */
+ * factor, and is computed on finer meshes only if these take little time. */
 static void estimate(const scene *s, const element_type *type, omission *out)
 {
     enum { FINEST = 32 };

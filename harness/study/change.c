@@ -6,8 +6,8 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* Scales for strains, for positions and rotations, and for other values. Rounding is below a
- * thousandth of the scale. */
+/* Scales for strains, for positions and rotations, and for other values. Rounding errors are below
+ * a thousandth of the scale. */
 static const double small_strain = 1e-14, small_part = 1e-12, small_beside = 1e-9;
 
 double change_size(const scene *s)
@@ -24,7 +24,7 @@ double change_size(const scene *s)
     return sqrt(sum);
 }
 
-/* Returns the largest EA [N]. */
+/* Returns the largest EA of the sections [N]. */
 static double stiffness_of(const scene *s)
 {
     double largest = 0;
@@ -63,7 +63,7 @@ static double of_resultant(const scene *s, scene_resultant which)
     return which <= SCENE_QZ ? force : force * size;
 }
 
-/* Returns the scale of a reading from its unit, for positions, rotations and dimensionless numbers.
+/* Returns the scale of a reading in this unit: a position, a rotation or a dimensionless number.
  * Returns 0 (unknown) for rates and other values. */
 static double of_reading(const scene *s, const char *unit)
 {
@@ -72,7 +72,7 @@ static double of_reading(const scene *s, const char *unit)
     return strcmp(unit, "rad") == 0 || strcmp(unit, "1") == 0 ? small_part : 0;
 }
 
-/* Returns the scale of a quantity from its kind, in SI units. */
+/* Returns the scale of a quantity according to its kind, in SI units. */
 static double physical_scale(const scene *s, const scene_quantity *q)
 {
     switch (q->what.kind) {
@@ -119,8 +119,8 @@ double change_scale(const scene *s, int quantity, const solve_result *r)
     return is_of_time(q) ? out : fmax(out, fabs(q->factor) * physical_scale(s, q));
 }
 
-/* Returns the change of a quantity relative to its value or, if larger, to its scale; NAN: the
- * value is missing in both results; INFINITY: it is missing in one of them. */
+/* Returns the change of a quantity relative to the value or, if larger, to the scale. NAN: the
+ * value is missing in both results; INFINITY: in one of them. */
 static double change_of(const scene *s, int index, const solve_result *a, const solve_result *b)
 {
     const double x = index < a->quantities ? a->quantity[index].value : (double)NAN,
@@ -161,7 +161,7 @@ void change_between(const scene *s, const cell_result *before, const cell_result
         out->largest = INFINITY;
 }
 
-/* Returns 1 if the points of the curve are those of steps, which differ between meshes. */
+/* Returns 1 if the points of the curve are those of the steps, which differ between meshes. */
 static int has_own_points(const scene *s, const scene_quantity *q)
 {
     return s->analysis[q->analysis].kind == SCENE_CONTINUATION;

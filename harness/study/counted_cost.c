@@ -42,8 +42,7 @@ static double count_of(const cell_result *c, counted_work which)
     }
 }
 
-/* Returns 1 if "key=value", whose length is given, is one of the options in "name:key=value,...".
- * */
+/* Returns 1 if "key=value" of the given length is one of the options in "name:key=value,...". */
 static int has_option(const char *key, const char *option, size_t length)
 {
     const char *at = strchr(key, ':');
@@ -56,8 +55,8 @@ static int has_option(const char *key, const char *option, size_t length)
     return 0;
 }
 
-/* Returns the number of options of the row that the formulation has, plus one; 0: the row does not
- * apply. */
+/* Returns one plus the number of options of the row, all of which the formulation must have; 0: the
+ * row does not apply. */
 static int match(const char *row, const char *key)
 {
     const size_t name = strcspn(row, ":");
@@ -73,7 +72,7 @@ static int match(const char *row, const char *key)
     return options;
 }
 
-/* Returns the name in the rows that match with the most options; "*": no row matches. */
+/* Returns the name in the matching rows with the most options; "*": no row matches. */
 static const char *row_name(const cost_coefficient *rows, const char *key)
 {
     const char *best = "*";
@@ -145,8 +144,8 @@ const char *reach_defect_words(verdict_kind kind)
     }
 }
 
-/* Returns 1 if the question includes the quantity: it is the given quantity, or at least one
- * formulation has a reference value for it. */
+/* Returns 1 if the question includes the quantity. REACH_EVERY includes each quantity for which at
+ * least one formulation has a reference value. */
 static int is_requested(const reach_question *q, int quantity)
 {
     int known = 0;
@@ -197,8 +196,6 @@ static int has_no_rank(const formulation *chosen)
     return reach_unranked(chosen->type)[0] != '\0';
 }
 
-/* Answers the question for a series. Returns 0 if the series does not meet the target in all
- * requested quantities. */
 static int reach_one(const reach_question *q, int series_index, reached *out)
 {
     const series *one = &q->s->series[series_index];
@@ -224,8 +221,8 @@ static int reach_one(const reach_question *q, int series_index, reached *out)
     return 1;
 }
 
-/* Returns 1 if a ranks before b. Formulations without a defect rank first, then those with a lower
- * cost, then by name. */
+/* Returns 1 if a ranks before b. Formulations without a defect rank before the others. Within both
+ * groups, the order is that of cost, then of name. */
 static int is_before(const sweep *s, const reached *a, const reached *b)
 {
     if ((a->defect != NULL) != (b->defect != NULL))

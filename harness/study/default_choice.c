@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reasons against a formulation, with the most serious reason first. The formulation with the least
- * serious reasons is chosen. */
+/* Reasons against a formulation, the most serious first. The formulation with the least serious
+ * reasons is chosen. */
 enum { AGAINST_OMITTED, AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };
 typedef struct standing {
     int against[REASONS];
@@ -24,7 +24,6 @@ static int holds_here(const rule *r, const scene *s, rule_subject at)
     return 0;
 }
 
-/* Returns the number of features of the scene that the formulation does not support. */
 static int count_omits(const scene *s, const element_type *type)
 {
     int count = 0;
@@ -33,8 +32,7 @@ static int count_omits(const scene *s, const element_type *type)
     return count;
 }
 
-/* Returns the smallest of the highest orders that the formulation declares for the requested
- * quantities. */
+/* Returns the smallest of the highest declared orders over the requested quantities. */
 static int order_of(const scene *s, const element_type *type)
 {
     double options[ELEMENT_MAX_OPTIONS] = {0};
@@ -77,8 +75,8 @@ static int is_better(const standing *a, const standing *b)
     return 0;
 }
 
-/* Returns 1 if the type supports the whole scene. other 1: it may also support enough of the scene
- * to run as another model. */
+/* Returns 1 if the type supports all features of the scene. other 1: also if it supports enough of
+ * them to run as another model. */
 static int can_run(const scene *s, const element_type *type, int other)
 {
     char words[OMIT_WORDS];
@@ -87,8 +85,8 @@ static int can_run(const scene *s, const element_type *type, int other)
     return !missing_words(s, type, words, sizeof words) && !lacks_of(s, type, words, sizeof words);
 }
 
-/* Candidates, with the best candidate first. All are ranked equal to the first candidate. There are
- * at most two per family. */
+/* Candidates, the best first. All rank equal with the first candidate. At most two belong to the
+ * same family. */
 enum { CANDIDATES = 5, OF_FAMILY = 2 };
 typedef struct default_choice_candidates {
     int count;
@@ -116,8 +114,8 @@ static int is_equal_rank(const standing *a, const standing *b)
     return 1;
 }
 
-/* Appends the best candidate that has not been chosen yet. Returns 0 if no other type is ranked
- * equal to the first candidate. */
+/* Appends the best type that is not yet a candidate. Returns 0 if no other type ranks equal with
+ * the first candidate. */
 static int take_next(const scene *s, const rule_subject *where, const rule *rules, int count,
                      int other, default_choice_candidates *all)
 {
@@ -127,7 +125,7 @@ static int take_next(const scene *s, const rule_subject *where, const rule *rule
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *type = registry_formulations[i];
         if (formulations_is_new(type) || type->misprint != NULL || is_taken(all, type) ||
-            !can_run(s, type, other)) /* defects of new formulations are unknown */
+            !can_run(s, type, other)) /* defects of new formulations are not known */
             continue;
         const standing here = standing_of(s, type, where, rules, rules != NULL ? count : 0);
         if (*chosen != NULL && !is_better(&here, best))
@@ -149,7 +147,7 @@ static default_choice_candidates candidates_of(const scene *s, const rule_subjec
     return out;
 }
 
-/* Finds the candidates and writes the first half of the explanation. */
+/* Finds the candidates and writes the first half of the reason for the choice. */
 static status find(const scene *s, const rule_subject *where, const rule *rules, int count,
                    default_choice_candidates *all, char why[FAULT_TEXT], fault *f)
 {
@@ -182,7 +180,7 @@ status default_choice_formulation(const scene *s, const rule_subject *where, con
     return STATUS_OK;
 }
 
-/* Returns 1 for a path with unstable states. On such a path, a coarse mesh may follow another
+/* Returns 1 if the path has unstable states. On such a path, a coarse mesh may follow another
  * branch. */
 static int met_unstable(const solve_result *r)
 {
@@ -192,11 +190,10 @@ static int met_unstable(const solve_result *r)
     return 0;
 }
 
-/* A scene that is solved with one formulation on successively finer meshes. */
 typedef struct candidate_run {
     cell_request request;
     formulation chosen;
-    cell_result cell[2]; /* results of the last two meshes; they are stored alternately */
+    cell_result cell[2]; /* results of the last two meshes, stored alternately */
     double requested;    /* relative change that counts as converged */
     value_change last;   /* expected change from the last mesh to finer meshes */
     /* [quantities] earlier changes, and changes between the last two meshes */
@@ -205,7 +202,7 @@ typedef struct candidate_run {
     double slow;
     /* number of meshes, and numbers of elements of the last two meshes */
     int tried, before, elements;
-    int unstable;      /* 1: a mesh had unstable states that finer meshes may not have */
+    int unstable;      /* 1: some mesh had unstable states, which finer meshes may not have */
     double cost, next; /* [s] cost of the last mesh, and estimated cost of the next mesh */
 } candidate_run;
 
@@ -238,8 +235,8 @@ static void end(candidate_run *r)
     cell_result_free(&r->cell[1]);
 }
 
-/* Returns the number of elements of the next mesh: first the meshes of the scene, then twice the
- * number of elements each time. */
+/* Returns the number of elements of the next mesh. After the meshes of the scene, it is doubled
+ * each time. */
 static int next_mesh(const scene *s, const candidate_run *r)
 {
     return r->tried < s->meshes ? s->mesh[r->tried] : 2 * r->elements;
@@ -251,19 +248,18 @@ static int has_converged(const scene *s, const candidate_run *r)
     return r->last.largest <= r->requested && (sure || r->tried >= s->meshes);
 }
 
-/* Returns 1 if no further mesh is solved, because it would be too expensive or too fine, or because
- * finer meshes cannot converge. */
+/* Returns 1 if no further mesh is solved: all meshes of the scene have been solved, and a finer
+ * mesh would cost too much, have too many elements, or cannot converge. */
 static int exhausted(const scene *s, const candidate_run *r)
 {
     const int may_converge =
-        r->tried < 2 || isfinite(r->last.largest); /* a finer mesh could still converge */
+        r->tried < 2 || isfinite(r->last.largest); /* a finer mesh can still converge */
     return r->tried >= s->meshes &&
            (!may_converge || r->next > DEFAULT_CHOICE_COST || r->elements >= DEFAULT_CHOICE_FINEST);
 }
 
-/* Estimates the remaining change if the order is below one. The remaining change then exceeds the
- * last change c. It is estimated as c (q + q^2 + ...), where q is the ratio of the last change to
- * the previous change. */
+/* Estimates the remaining change if the order is below one, where it exceeds the last change c. The
+ * estimate is c (q + q^2 + ...), where q is the ratio of the last change to the previous one. */
 static void expect_more(const scene *s, candidate_run *r)
 {
     /* smallest relative change that gives an order, and largest multiple of the last change */
@@ -306,8 +302,8 @@ static void refine(const scene *s, candidate_run *r)
     r->tried++;
 }
 
-/* Repeatedly advances the runner whose next mesh has the lowest cost, until a runner has converged.
- * Returns this runner; NULL: no runner converges within the limits. */
+/* Repeatedly solves the next mesh of the candidate for which this mesh has the lowest cost, until a
+ * candidate has converged. Returns this candidate; NULL: none converges within the limits. */
 static candidate_run *run_candidates(const scene *s, candidate_run of[], int count)
 {
     for (;;) {
@@ -342,7 +338,7 @@ static void describe_elements(const scene *s, const candidate_run *r, char why[F
                  r->unstable ? "; coarser meshes had unstable states" : "");
 }
 
-/* Returns the runner with the smallest change of values, for the case that none has converged. */
+/* Returns the candidate with the smallest change of values. Used if no candidate has converged. */
 static candidate_run *smallest_change(candidate_run of[], int count)
 {
     candidate_run *out = &of[0];
@@ -352,7 +348,7 @@ static candidate_run *smallest_change(candidate_run of[], int count)
     return out;
 }
 
-/* Stores the result of a runner. *out takes ownership of the changes. */
+/* Stores the result of a candidate. *out takes ownership of the changes. */
 static void keep(const scene *s, candidate_run *r, default_choice *out)
 {
     out->chosen = r->chosen;
@@ -381,8 +377,8 @@ status default_choice_elements(const cell_request *request, const formulation *c
     return STATUS_OK;
 }
 
-/* Chooses the first candidate whose values converge. If none converges, chooses the candidate with
- * the smallest change. */
+/* Chooses the first candidate whose values converge or, if none converges, the candidate with the
+ * smallest change. */
 static void choose(const scene *s, candidate_run of[], int count, default_choice *out)
 {
     candidate_run *first = run_candidates(s, of, count);

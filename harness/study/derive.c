@@ -27,7 +27,6 @@ typedef struct script {
     FILE *output, *errors;
 } script;
 
-/* Request to a program of reference/derive. */
 typedef struct derive_question {
     const char *path;
     const char *case_name, *parameters; /* NULL: none */
@@ -54,9 +53,8 @@ static status start(const derive_question *q, script *s, fault *f)
         }
         if (q->input != NULL && dup2(fileno(q->input), STDIN_FILENO) < 0)
             _exit(127);
-        /* Uses the full path, because Python finds its libraries relative to the path by which it
-         * was called. The option -I ignores environment variables, for users of virtual
-         * environments. */
+        /* The full path is used, because Python finds its libraries relative to the path by which
+         * it was called. The option -I makes Python ignore environment variables. */
         execl(python, python, "-I", "-B", q->path, q->case_name, q->parameters, (char *)NULL);
         _exit(127);
     }
@@ -111,7 +109,8 @@ static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
     return STATUS_OK;
 }
 
-/* Closes the streams of the script and waits for its end. Returns its status from waitpid. */
+/* Closes the streams of the script and waits until the process ends. Returns the status from
+ * waitpid. */
 static int stop(script *s)
 {
     int how = 0;
@@ -125,17 +124,17 @@ static int stop(script *s)
     return how;
 }
 
-/* Runs the script and reads its values. The caller derive_requested() stops the script and frees
- * memory, even after a failure. */
+/* Runs the script and reads the values that it writes. The caller derive_requested() stops the
+ * script and frees memory, even after a failure. */
 static status derive(const derive_question *q, script *s, derived_value **out, int *count, fault *f)
 {
     char error_text[LINE] = "", more[LINE];
     TRY(start(q, s, f));
     TRY(read_lines(s->output, out, count, f));
     while (fgets(more, sizeof more, s->errors) != NULL) {
-        memcpy(error_text, more, sizeof error_text); /* the reason is in the last line */
+        memcpy(error_text, more, sizeof error_text);
         if (*count > 0)
-            /* prints the parts of the scene that the program cannot compute */
+            /* prints the list of everything in the scene that the program cannot compute */
             fputs(error_text, stderr);
     }
     error_text[strcspn(error_text, "\n")] = '\0';
@@ -181,8 +180,8 @@ status derive_scene(const char *path, FILE *scene_text, derived_value **out, int
     return derive_requested(&q, out, count, f);
 }
 
-/* Folder that contains the data of an installed copy. No other source file depends on the
- * installation prefix. */
+/* Folder with the data of an installed copy. No other source file depends on the installation
+ * prefix. */
 #ifndef BEAMWORK_DATA
 #define BEAMWORK_DATA "/usr/local/share/beamwork"
 #endif
@@ -196,8 +195,8 @@ static int is_in(const char *folder, const char *below, const char *name, char p
 }
 
 /* Searches for `name` in the folder of the program or library, in the two folders above it, and in
- * share/beamwork/ inside these two. A folder such as lib/x86_64-linux-gnu is one level deeper than
- * bin/ and lib/. */
+ * share/beamwork/ of these two. A folder such as lib/x86_64-linux-gnu is one level deeper than bin/
+ * and lib/. */
 static int is_near(const char *folder, const char *name, char path[PATH_MAX])
 {
     static const char *const below[] = {"", "../", "../../", "../share/beamwork/",
@@ -220,8 +219,8 @@ static void program_folder(char out[PATH_MAX])
         snprintf(out, PATH_MAX, ".");
 }
 
-/* Finds the folder of the shared library that contains this code. Returns 0 if the code is
- * linked into a program. */
+/* Finds the folder of the shared library that contains this code. Returns 0 if the code is part of
+ * a program. */
 static int library_folder(char out[PATH_MAX])
 {
     static const char here = 0;
@@ -271,6 +270,7 @@ void data_place_modules(void)
     snprintf(both, room, "%s%s%s", given != NULL ? given : "",
              given != NULL && given[0] != '\0' ? ":" : "", path);
     setenv("PYTHONPATH", both, 1);
-    setenv("PYTHONDONTWRITEBYTECODE", "1", 0); /* Python must not write into an installed copy */
+    setenv("PYTHONDONTWRITEBYTECODE", "1",
+           0); /* Python must not write compiled files into an installed copy */
     free(both);
 }

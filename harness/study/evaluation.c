@@ -1,5 +1,3 @@
-/* Evaluates all verdicts of a sweep, compares them with the expected verdicts, and sets the exit
- * status. */
 #include "harness/study/study_impl.h"
 
 #include <fnmatch.h>
@@ -9,18 +7,17 @@
 
 #include "harness/numerics/numerics.h"
 
-/* Marks missed rules (rule.missed) and returns their number. whole 1: no selection was made, so the
- * run should have shown every rule. Otherwise a rule counts only if it is in a user table
- * (rule.from) and its formulations and cases were run completely, with all points and quantities. A
- * selection (-k) includes a case completely if it matches the name of the case. */
+/* Sets rule.missed of each rule that the run should have shown but did not, and returns the number
+ * of these rules. whole 1: no selection was made, so the run should have shown every rule.
+ * Otherwise only rules of a user table (rule.from) count, and only if their formulations and cases
+ * were run with all points and quantities. A selection (-k) that matches the name of a case
+ * includes the whole case. */
 static int missed_rules(const sweep *s, truths *t, int whole);
 /* Counts the reference values that a complete run did not use: unmet, waiting and unread. An unread
- * value counts as met (truth.met) but is not evaluated, because a run evaluates motions only at a
- * few times and for a few structures. `make lab L=motions` evaluates all of them. */
+ * value counts as met (truth.met), but is not evaluated. The reason is that a run evaluates motions
+ * at few times and for few structures. `make lab L=motions` evaluates all of them. */
 static void missed_truths(const sweep *s, truths *t, evaluation *out);
 
-/* Returns 1 if the limit is outside the range that the rule covers. If a limit was derived, the
- * distance from the derived limit counts. */
 static int is_beyond(const rule *r, const verdict *v)
 {
     return isfinite(v->departure) && isfinite(r->largest_error) &&
@@ -87,8 +84,8 @@ static status check_cells(const sweep *s, int index, evaluation *out, fault *f)
     return STATUS_OK;
 }
 
-/* Marks the reference values of this quantity as used, including values of lower rank and values of
- * other models. */
+/* Marks the reference values of this quantity as used, including those of lower rank and of other
+ * models. */
 static void mark_met(truths *t, const sweep_point *p, const formulation *chosen,
                      const char *quantity, int evaluated)
 {
@@ -133,7 +130,7 @@ static int is_imported(const series *one, int quantity)
     return 0;
 }
 
-/* Returns 1 if the verdict means that the limit is certainly within the tolerance. */
+/* Returns 1 if the verdict implies that the limit is within the tolerance. */
 static int is_within(const verdict *v)
 {
     return v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED ||
@@ -173,7 +170,8 @@ static void evaluate_quantity(const sweep *s, truths *t, int index, int quantity
              v->kind != VERDICT_SKIP && v->kind != VERDICT_OTHER_MODEL);
 }
 
-/* Returns 1 if noise could explain the whole last change, or if the verdict is undecided. */
+/* Returns 1 if the quantity has a reference value, and scatter may explain the whole last change or
+ * the verdict is undecided. */
 static int noise_may_decide(const sweep *s, const truths *t, int index, int quantity)
 {
     const double small_change = 1e-7;
@@ -213,7 +211,7 @@ static void evaluate_series(const sweep *s, truths *t, int index, evaluation *ou
     const sweep_point *p = &s->point[one->point];
     for (int q = 0; q < p->scene.quantities; q++) {
         const scene_quantity *quantity = &p->scene.quantity[q];
-        /* Curves are drawn with their reference values, but are not evaluated. Other quantities
+        /* Curves are shown with their reference values, but are not evaluated. Other quantities
          * evaluate points of curves. */
         if (one->imported != NULL && (quantity->reduction == SCENE_CURVE || !is_imported(one, q)))
             continue;
@@ -251,7 +249,7 @@ status evaluation_add(const sweep *s, truths *t, int series_index, evaluation *o
 
 void evaluation_end(const sweep *s, truths *t, int whole, evaluation *out)
 {
-    /* The list of known deviations assumes the tolerances of the cases. */
+    /* The list of known deviations is valid for the tolerances of the cases. */
     out->unobserved = s->tolerance > 0 ? 0 : missed_rules(s, t, whole);
     if (whole)
         missed_truths(s, t, out);
@@ -329,7 +327,7 @@ static int formulations_are_run(const sweep *s, const char *word)
     return all && found;
 }
 
-/* Returns 1 if the run includes all points and quantities of every case that matches the word. */
+/* Returns 1 if the run includes all points and quantities of each case that matches the word. */
 static int cases_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;

@@ -9,7 +9,6 @@
 
 enum { MOST_SERIES = 64 };
 
-/* A limit and its uncertainty. */
 typedef struct families_known_limit {
     int series;
     const char *family;
@@ -17,8 +16,8 @@ typedef struct families_known_limit {
     double value, uncertainty;
 } families_known_limit;
 
-/* Returns 1 if the formulation is known to have a biased or wrong limit for a feature of the scene.
- * */
+/* Returns 1 if a known deviation says that the formulation has a biased or wrong limit for a
+ * feature of the scene. */
 static int is_known_wrong(const truths *t, unsigned features, const char *key)
 {
     for (int i = 0; i < t->rules; i++) {
@@ -31,7 +30,7 @@ static int is_known_wrong(const truths *t, unsigned features, const char *key)
     return 0;
 }
 
-/* Returns 1 if the limit of the series may take part in an agreement. */
+/* Returns 1 if the limit of the series may contribute to an agreement. */
 static int is_eligible(const sweep *s, const series *one, const truths *t)
 {
     const element_type *type = one->formulation.type;
@@ -61,7 +60,6 @@ static int known_limits(const sweep *s, int point_index, int quantity, const tru
     return count;
 }
 
-/* Difference of two limits, and their combined uncertainty. */
 typedef struct families_difference {
     double apart, unknown;
 } families_difference;
@@ -82,9 +80,9 @@ static int agree(const scene_quantity *q, const families_known_limit *a,
     return d.apart + d.unknown <= FAMILIES_APART * size;
 }
 
-/* Returns the agreement around limit `centre`, with the nearest agreeing limit of each family. The
- * uncertainty covers the nearest limit of another family, and the part of the other differences
- * that exceeds the combined uncertainty. */
+/* Returns the agreement with limit `centre`: the nearest agreeing limit of each family. The
+ * uncertainty covers the nearest limit of another family. It also covers the largest part of a
+ * difference that exceeds the combined uncertainty. */
 static families_limit around(const scene_quantity *q, const families_known_limit *all, int count,
                              int centre)
 {
@@ -115,7 +113,8 @@ static families_limit around(const scene_quantity *q, const families_known_limit
     return out;
 }
 
-/* Mean of limits, weighted by 1/U^2, with its uncertainty and the weighted spread of the limits. */
+/* Mean of limits, weighted by 1/U^2, with the uncertainty of the mean and the weighted spread of
+ * the limits. */
 typedef struct mean {
     double value, uncertainty, spread;
 } mean;
@@ -125,7 +124,7 @@ static mean mean_of(const families_known_limit *all, int count, const int in[])
     double sum = 0, weights = 0, squares = 0;
     mean out;
     for (int pass = 0; pass < 2; pass++) {
-        out.value = sum / weights; /* centre found in the first pass */
+        out.value = sum / weights; /* mean, from the sums of the first pass */
         for (int i = 0; i < count; i++) {
             const double least = 1e-15 * fabs(all[i].value) + DBL_MIN,
                          u = fmax(all[i].uncertainty, least), w = 1 / (u * u);
@@ -149,9 +148,9 @@ static int is_near(const families_known_limit *one, const mean *m)
     return fabs(one->value - m->value) <= one->uncertainty + m->uncertainty;
 }
 
-/* Repeatedly removes from in[count] the limit with the largest distance from the mean relative
- * to its uncertainty, until all limits agree with the mean. Returns the mean of the remaining
- * limits. */
+/* Repeatedly removes one limit from in[count] until all limits agree with their mean: the one with
+ * the largest distance from the mean relative to the uncertainties. Returns the mean of the
+ * remaining limits. */
 static mean weighted_mean(const families_known_limit *all, int count, int in[])
 {
     for (;;) {
@@ -270,9 +269,8 @@ static const char *of_another_family(const sweep *s, int point_index, const char
     return NULL;
 }
 
-/* Writes "A, B", preceded by the text `before`, for the series of a point that are excluded for
- * this reason. reason NULL: for the series that are included. Returns the number of these
- * series. */
+/* Writes "A, B" after the text `before`, for the series of a point that are excluded for this
+ * reason (NULL: that are included). Returns their number. */
 static int put_series(FILE *to, const sweep *s, int point_index, int quantity, const truths *t,
                       const char *reason, const char *before)
 {
@@ -314,7 +312,7 @@ void families_why(FILE *to, const sweep *s, int point_index, int quantity, const
 }
 
 /* Returns the source of the reference value, such as "beamw_consistent (beamw) and collocation
- * (reissner) agree". The caller frees the text. NULL: out of memory. */
+ * (reissner) agree", which the caller frees. NULL: out of memory. */
 static char *source_of(const sweep *s, const families_limit *l)
 {
     char *text = NULL;
@@ -380,7 +378,7 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
     return STATUS_OK;
 }
 
-/* Returns 1 if agreements may become reference values at this point. */
+/* Returns 1 if agreements may serve as reference values at this point. */
 static int is_open(const sweep_point *p, int files_only)
 {
     return p->status == STATUS_OK && (!files_only || p->type->file != NULL);

@@ -9,7 +9,7 @@
 
 enum { HALVINGS = 20 };
 
-/* Adds a sample. The walk takes ownership of the shapes, even after a failure. */
+/* Adds a sample. The state takes ownership of the shapes, even after a failure. */
 static status keep_sample(follow_state *w, double value, int requested, follow_shapes *s, fault *f)
 {
     follow_curves *c = w->out;
@@ -50,7 +50,7 @@ static void drop_sample(follow_state *w)
     follow_match_free(&w->shapes[last]);
 }
 
-/* Makes one step from the last sample. If *least < follow_sure, the step is too large, and nothing
+/* Makes one step from the last sample. If *least < follow_sure, the step is too large and no sample
  * is stored. */
 static status try_step(follow_state *w, double target, int requested, double *least, fault *f)
 {
@@ -135,8 +135,8 @@ void follow_free(follow_curves *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Largest last correction of a converged step. The next correction would be its square. A larger
- * last correction, up to largest_correction, is accepted if the next correction is predicted to be
+/* Largest last correction of a converged step; the next correction would be about its square. A
+ * larger last correction, up to largest_correction, is accepted if the predicted next correction is
  * negligible. Above many_elements, promised_correction grows with the number of elements, because
  * rounding of positions limits the corrections. */
 static const double promised_correction = 1e-8, largest_correction = 1e-6,
@@ -170,8 +170,8 @@ static int unfinished_step(const solve_result *r, double promised)
     return -1;
 }
 
-/* Returns 1 if the solution consists only of Newton iterations without rejected steps. Each
- * iteration then evaluates every element once and factors once. */
+/* Returns 1 if the solution consists only of Newton iterations, without rejected steps. Each
+ * iteration then evaluates each element once and factors the matrix once. */
 static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -180,8 +180,8 @@ static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
     return newton == NEWTON_MIXED && cell->counters.rejected_steps == 0;
 }
 
-/* Returns the largest number of factorisations that continuation saves. Each of its steps starts
- * with the last tangent of the previous step. */
+/* Returns the largest number of factorisations that continuation can save: each step starts with
+ * the last tangent of the previous step. */
 static long most_reused(const cell_result *cell, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -190,8 +190,8 @@ static long most_reused(const cell_result *cell, const scene *s)
     return 0;
 }
 
-/* Returns the largest number of factorisations that time steps save. Their iterations reuse earlier
- * factors. */
+/* Returns the largest number of factorisations that time steps can save, because iterations reuse
+ * earlier factors. */
 static long most_stale(const cell_result *cell, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -200,8 +200,8 @@ static long most_stale(const cell_result *cell, const scene *s)
     return 0;
 }
 
-/* Returns the name of the first count that is smaller than the iterations require; NULL: none.
- * Counts of a plain solution must equal the required count. */
+/* Returns the name of the first count that is smaller than the iterations require; NULL: none. In a
+ * plain solution, counts must equal the required numbers. */
 static const char *wrong_count(const cell_result *cell, long reused, long stale, int plain)
 {
     const counters *c = &cell->counters;
@@ -256,7 +256,7 @@ int record_is_consistent(const cell_result *cell, const scene *s, newton_form ne
     return 0;
 }
 
-/* largest relative difference between a value and its stored discrete value */
+/* largest relative difference between a value and the stored discrete value */
 static const double agreement_least = 1e-6;
 
 static status add_agreement(const agreement *one, evaluation *out, fault *f)
@@ -303,7 +303,8 @@ status agreements_add(const sweep *s, const truths *t, int index, evaluation *ou
     return STATUS_OK;
 }
 
-/* Counts how often limits agree with an exact reference value within their uncertainty. */
+/* Counts how often limits agree with an exact reference value to within the uncertainty of the
+ * limit. */
 
 /* Returns the row for the case and the formulation of the series, and adds it if necessary. NULL:
  * out of memory. */

@@ -7,8 +7,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/scalar.h"
 
-/* Frequencies count as equal if their relative difference is below this value. Their shapes are
- * then not unique. */
+/* Frequencies count as equal below this relative difference; their shapes are then not unique. */
 static const double alike = 1e-6;
 
 static status allocate(int modes, int rows, follow_shapes *out, fault *f)
@@ -65,7 +64,6 @@ static status follow_match_first(const state_matrices *s, int modes, follow_shap
     return outcome;
 }
 
-/* Returns the end of the group of equal frequencies that starts at mode j. */
 static int group_end(const state_matrices *s, int j)
 {
     int end = j + 1;
@@ -81,8 +79,8 @@ typedef struct match_workspace {
     int *taken; /* [modes] number of followed modes in the group that starts with this mode */
 } match_workspace;
 
-/* Finds the group of modes with equal frequencies that contains the largest part of mode i of
- * `before`. Stores this part as the new shape, with its match and its mean frequency. */
+/* Among the groups of equal frequencies, finds the group whose modes span the largest part of shape
+ * i of `before`. Stores this part as the new shape, with the match and the mean frequency. */
 static void match_one(const follow_shapes *before, int i, const state_matrices *s,
                       match_workspace *w, follow_shapes *out)
 {
@@ -156,7 +154,8 @@ status follow_match_next(const follow_shapes *before, const state_matrices *s, f
     return outcome;
 }
 
-/* Finds the first modal analysis, and returns the number of its frequency quantities; 0: none. */
+/* Finds the first modal analysis, and returns the number of quantities that are frequencies of this
+ * analysis; 0: none. */
 static int count_wanted(const scene *s, int *analysis)
 {
     int count = 0;
@@ -217,11 +216,12 @@ status follow_solve(follow_state *w, double value, const follow_shapes *before, 
 enum { MOST_REFINEMENTS = 30 };
 static const double equal = 1e-9; /* relative difference of equal frequencies */
 static const double exact =
-    1e-12; /* accuracy of the position of a crossing, relative to the step */
-static const double close_enough = 0.1; /* largest relative gap of a veering that is reported */
+    1e-12; /* accuracy of the parameter value at a crossing, relative to the step */
+static const double close_enough =
+    0.1; /* largest reported gap of a veering, relative to the mean frequency */
 
-/* Computes f_i - f_j at a parameter value, where modes are matched with sample k. *mean: mean of
- * both frequencies [Hz]. *least is replaced by the worst match if this is smaller. */
+/* Computes f_i - f_j at a parameter value where modes are matched with sample k. *mean: mean of
+ * both frequencies [Hz]. If the worst match is below *least, *least is set to it. */
 static status difference_at(follow_state *w, int k, double value, const int mode[2],
                             double *difference, double *mean, double *least, fault *f)
 {
@@ -242,14 +242,14 @@ static double difference_of(const follow_sample *s, const int mode[2])
     return s->frequency[mode[0]] - s->frequency[mode[1]];
 }
 
-/* Returns the difference of the two frequencies relative to their mean. */
+/* Returns the difference between the two frequencies, relative to their mean. */
 static double gap_of(const follow_sample *s, const int mode[2])
 {
     return 2 * fabs(difference_of(s, mode)) / (s->frequency[mode[0]] + s->frequency[mode[1]]);
 }
 
-/* Finds the crossing between samples a and b, where the differences have opposite signs, with the
- * Illinois variant of regula falsi. Stops if *least falls below follow_sure. */
+/* Finds the crossing between samples a and b, where the frequency differences have opposite signs,
+ * by the Illinois variant of regula falsi. Stops if *least falls below follow_sure. */
 static status find_crossing(follow_state *w, int a, int b, follow_event *e, double *least, fault *f)
 {
     const follow_sample *s = w->out->sample;
@@ -319,8 +319,8 @@ static status find_veerings(follow_state *w, const int mode[2], fault *f)
     return STATUS_OK;
 }
 
-/* Adds the crossings of two modes at samples, where the frequencies are equal. follow_events_step
- * finds crossings between samples. */
+/* Adds the crossings of two modes that are at samples. Crossings between samples are found by
+ * follow_events_step. */
 static status find_crossings(follow_state *w, const int mode[2], fault *f)
 {
     const follow_sample *s = w->out->sample;

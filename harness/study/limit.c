@@ -2,35 +2,36 @@
 
 #include <math.h>
 
-/* Returns the order from three values, at most bisected_order, by bisection; NAN: no order fits the
+/* Finds by bisection the order from three values, at most bisected_order; NAN: no order fits the
  * changes. */
 static double richardson_order(const double n[3], const double f[3]);
-/* Returns Richardson's limit f from the last two of three values. The values are assumed to be f +
- * c n^-p for n elements. */
+/* Returns Richardson's limit f from the last two of three values, which are assumed to be f + c
+ * n^-p for n elements. */
 static double richardson_limit(const double n[3], const double f[3], double p);
-/* Returns the amplification of errors: the Euclidean norm of the gradient of the extrapolated limit
- * with respect to the values. */
+/* Returns the factor by which errors of the values are amplified: the Euclidean norm of the
+ * gradient of the extrapolated limit with respect to the values. */
 static double richardson_amplification(const double n[3], const double f[3], double p);
 
-/* smallest ratio of the numbers of elements of successive meshes; changes between closer meshes are
- * mostly noise */
+/* smallest ratio of the numbers of elements of successive meshes; for smaller ratios, changes are
+ * mostly scatter */
 static const double least_refinement = 1.4;
 static const double unmeasured_noise = 3e-11,
-                    least_noise = 2.3e-16; /* relative noise that is assumed if it was not measured,
-                                              and smallest relative noise */
-/* changes below this multiple of the noise do not give an order */
+                    least_noise = 2.3e-16; /* relative scatter that is assumed if it was not
+                                              measured, and smallest relative scatter */
+/* changes below this multiple of the scatter do not give an order */
 static const double noisy_changes = 10;
 static const double least_seen_order = 0.5; /* smallest observed order that is accepted */
 /* order that is assumed for the remaining error */
 static const double remaining_order = 1;
 static const double converged_part = 1e-4;
-/* smallest uncertainty if scatter was not measured, as a fraction of the extrapolation step */
+/* smallest change of the limit if scatter was not measured, as a fraction of the extrapolation
+ * step */
 static const double uncertain_step = 0.02;
 static const double safety_small = 1.25, safety_large = 3;
 static const double end_factor =
     4; /* uncertainty of a value without extrapolation, as a multiple of the scatter */
 
-/* The selected meshes, with the coarsest mesh first, and values derived from it. */
+/* The selected meshes, the coarsest first, and values derived from them. */
 typedef struct meshes {
     int count;
     double n[LIMIT_MESHES], f[LIMIT_MESHES];
@@ -46,8 +47,8 @@ const char *limit_kind_name(limit_kind kind)
     return names[kind];
 }
 
-/* Returns the index of the finest mesh with a value for which the number of elements is smaller
- * than `fine` by at least the factor least_refinement; -1: none. */
+/* Among the meshes that have a value and are coarser than `fine` elements by at least the factor
+ * least_refinement, returns the index of the finest; -1: none. */
 static int coarser_than(const limit_sequence *s, double fine)
 {
     int best = -1;
@@ -58,8 +59,8 @@ static int coarser_than(const limit_sequence *s, double fine)
     return best;
 }
 
-/* Selects meshes, starting with the finest mesh. Each selected mesh is coarser than the previous
- * one by at least the factor least_refinement. */
+/* Selects meshes, starting with the finest. Each further mesh is coarser than the previous one by
+ * at least the factor least_refinement. */
 static void thin(const limit_sequence *s, meshes *m)
 {
     int kept[LIMIT_MESHES];
@@ -109,7 +110,7 @@ static double refinement(const meshes *m, int before_last)
     return m->n[i] / m->n[i - 1];
 }
 
-/* Sets the limit to the last value, for fewer than three meshes. With two meshes, the uncertainty
+/* For fewer than three meshes, sets the limit to the last value. With two meshes, the uncertainty
  * follows from an assumed order. */
 static void few(const meshes *m, mesh_limit *out)
 {
@@ -122,8 +123,8 @@ static void few(const meshes *m, mesh_limit *out)
             end_factor * m->noise;
 }
 
-/* Sets the limit and returns 1 if the last change is within the noise. Returns 0 if the previous
- * change is so large that the last change may be small by accident. */
+/* If the last change is within the scatter, sets the limit and returns 1. Otherwise returns 0, as
+ * well as if the previous change is so large that the last change may be small by accident. */
 static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const double a = fabs(m->change[m->count - 2]), b = fabs(m->change[m->count - 3]),
@@ -138,15 +139,14 @@ static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Returns the limit from the meshes first, first + 1 and first + 2 with the order observed for
- * them. */
+/* Returns the limit from meshes first, first + 1 and first + 2, with the order observed on them. */
 static double own_limit(const meshes *m, int first)
 {
     return richardson_limit(m->n + first, m->f + first, m->order[first]);
 }
 
-/* Returns the change of the limit due to the last mesh, and the factor for its uncertainty. The
- * last three meshes start at k > 0. */
+/* Returns the change of the limit due to the last mesh, and the factor for the uncertainty of the
+ * limit. k > 0: first of the last three meshes. */
 static double change_of_limit(const limit_sequence *s, const meshes *m, int k, double *factor)
 {
     const double R = refinement(m, 0), value = own_limit(m, k);
@@ -155,13 +155,13 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
     *factor = safety_small;
     if (k > 1 && is_good(m->order[k - 2], s)) {
         const double before = fabs(own_limit(m, k - 1) - own_limit(m, k - 2));
-        /* The limits do not converge, possibly because of noise. */
+        /* The limits do not converge, possibly because of scatter. */
         if (!measured && change > before / pow(R, remaining_order)) {
             change = fmax(change, before);
             *factor = safety_large;
         }
-        /* A small change may be accidental. An order above the highest possible order means that
-         * another error term contributes, which makes such accidents likely. */
+        /* A small change may be accidental. An order above the highest possible order shows another
+         * error term, which makes such accidents likely. */
         const double next =
             m->order[k] <= 1.1 * s->highest_order ? m->order[k] + 2 : s->nominal_order;
         change = fmax(change, before / pow(R, next));
@@ -169,15 +169,15 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
     return measured ? change : fmax(change, uncertain_step * fabs(value - m->f[k + 2]));
 }
 
-/* Returns 1 if the middle order is the smallest or the largest by more than the scatter of orders
- * of a single error term. */
+/* Returns 1 if the middle order is the smallest or the largest by more than the scatter that orders
+ * of a single error term have. */
 static int turns(double a, double b, double c)
 {
     static const double scatter = 0.1;
     return (a - b) * (b - c) < 0 && fmin(fabs(a - b), fabs(b - c)) > scatter;
 }
 
-/* Sets the limit and returns 1 if two orders agree. The change of the limit then bounds the
+/* If two orders agree, sets the limit and returns 1. The change of the limit then bounds the
  * remaining error. */
 static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
@@ -201,9 +201,9 @@ static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Sets the limit if the order still changes, or if there are only three meshes, and returns 1. The
- * uncertainty follows from the largest of the last changes and the smallest plausible order.
- * Returns 0 in other cases. */
+/* Sets the limit and returns 1 if the order still changes or if there are only three meshes;
+ * returns 0 in other cases. The uncertainty follows from the largest of the last changes and the
+ * smallest plausible order. */
 static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int k = m->count - 3;
@@ -234,9 +234,9 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Sets the limit to the last value if no order was observed. Its uncertainty follows from the
+/* If no order was observed, sets the limit to the last value. The uncertainty follows from the
  * largest of the last three changes, each reduced according to the nominal order. It is larger if
- * the changes grow. */
+ * the changes increase. */
 static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int last = m->count - 1;

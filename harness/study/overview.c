@@ -5,9 +5,9 @@
 #include <string.h>
 #include <zlib.h>
 
-/* If there are more columns, all options of a formulation share one column. */
+/* if there are more columns, all options of a formulation share a column */
 enum { MOST_COLUMNS = 10 };
-/* If there are more cases, cases that pass share lines. */
+/* if there are more cases, cases that pass share lines */
 enum { MOST_ROWS = 24 };
 
 static const overview_mark marks[VERDICT_KINDS] = {
@@ -55,7 +55,6 @@ void overview_text(const overview_cell *c, int utf8, char text[OVERVIEW_TEXT])
         snprintf(text, OVERVIEW_TEXT, "%s%s%d", first, sign, c->count);
 }
 
-/* Returns the name of the column of a series. */
 static const char *name_of(const series *one, int joined)
 {
     return joined && one->imported == NULL ? one->formulation.type->name : one->formulation.key;
@@ -91,7 +90,7 @@ static void add_columns(const sweep *s, overview *out, int of_new)
     }
 }
 
-/* Finds the columns. New formulations come after all other formulations. */
+/* Finds the columns, those of new formulations last. */
 static void find_columns(const sweep *s, overview *out, int joined)
 {
     out->joined = joined;
@@ -233,7 +232,7 @@ status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *
 }
 
 /* Computes the checksum of all bytes except the last CHECKSUM_LENGTH bytes, which are copied to
- * `tail`. Returns the length of the file without these bytes; -1: the file is too short. */
+ * `tail`. Returns the length of the file without `tail`; -1: the file is too short. */
 static long read_body(FILE *from, uint32_t *sum, char tail[CHECKSUM_LENGTH + 1])
 {
     enum { PIECE = 1 << 18 };

@@ -11,7 +11,8 @@
 
 enum { WORD = RULES_WORD };
 
-/* Copies the next word of a string. Returns the rest; NULL: the string has ended. */
+/* Copies the next word of a string. Returns the rest of the string; NULL: there is no further
+ * word. */
 static const char *next_word(const char *text, const char *separators, char word[WORD])
 {
     text += strspn(text, separators);
@@ -43,7 +44,6 @@ typedef struct rules_term {
     char parameter[WORD], sign[3], values[WORD];
 } rules_term;
 
-/* Parses a term. Returns 0 if the text is not a term. */
 static int term_parse(const char *text, rules_term *out)
 {
     char copy[WORD];
@@ -66,7 +66,7 @@ static int term_parse(const char *text, rules_term *out)
     return 0;
 }
 
-/* Returns a number, or the index of a choice; NAN: the word is neither a number nor a choice. */
+/* Returns a number, or the index of a choice; NAN: the word is neither. */
 static double value_of(const parameter_type *p, const char *word)
 {
     double value;
@@ -153,7 +153,7 @@ int rules_is_observed(const rule *r)
 }
 
 /* Returns 1 if the term is a feature, or if a case of the rule has the parameter of the term and
- * the parameter can have all values of the term. */
+ * this parameter can have all values in the term. */
 static int term_means_something(const rule *r, const rules_term *t, const case_type *const cases[])
 {
     int found = t->feature != 0;
@@ -287,7 +287,8 @@ status columns_strings(const table_columns *r, const char *column, char **out)
     int good = stored >= 0 && H5Tget_class(stored) == H5T_STRING && !H5Tis_variable_str(stored);
     const size_t size = good ? H5Tget_size(stored) : 1;
     char *all = good && size < 100000 ? calloc((size_t)r->rows + 1, size) : NULL;
-    /* Reads the stored type, because HDF5 clears a large buffer for each conversion. */
+    /* The stored type is read without conversion, because HDF5 clears a large buffer for each
+     * conversion. */
     good = good && all != NULL && H5Dread(set, stored, H5S_ALL, H5S_ALL, H5P_DEFAULT, all) >= 0;
     for (int i = 0; i < r->rows && good; i++)
         good = (out[i] = strndup(all + (size_t)i * size, size)) != NULL;

@@ -22,8 +22,8 @@ static void report(progress *p, const workload *w, int last)
     progress_show(p, now, w->finished, workload_share(w), what);
 }
 
-/* Handles a worker that has sent results or has ended, and updates the number of workers *running.
- * */
+/* Handles a worker that has sent results or has ended. *running: number of workers, which is
+ * updated. */
 static status attend(progress *p, workload *w, int self, worker *one, int *running, fault *f)
 {
     const int i = worker_receive(w, one);
@@ -43,8 +43,8 @@ static status attend(progress *p, workload *w, int self, worker *one, int *runni
 static int wait_for_any(const workload *w, int jobs, const worker workers[], int requested,
                         struct pollfd ends[])
 {
-    /* [ms] Interval between checks for workers that exceed the time limit, and for workers that
-     * have ended while another process keeps their pipe open. */
+    /* [ms] Interval between checks: for workers that exceed the time limit, and for workers that
+     * have ended while another process has their pipe open. */
     const int interval = workload_can_pass(w) ? 0 : w->time_limit > 0 ? 100 : 1000;
     for (int i = 0; i < jobs; i++)
         ends[i] = (struct pollfd){.fd = workers[i].from, .events = POLLIN};
@@ -54,7 +54,6 @@ static int wait_for_any(const workload *w, int jobs, const worker workers[], int
     return ends[jobs].revents != 0;
 }
 
-/* The running processes, and the descriptor of requests to stop. */
 typedef struct cell_pool {
     int jobs, running, interrupted;
     int requested; /* becomes readable when a stop is requested; -1: none */
@@ -70,7 +69,7 @@ static status start_all(const workload *w, cell_pool *c, fault *f)
     return STATUS_OK;
 }
 
-/* Reads from processes that have sent data, and checks the time limit of the other processes. */
+/* Reads from workers that have sent data, and checks the time limit of the others. */
 static status attend_all(progress *p, workload *w, cell_pool *c, const struct pollfd ends[],
                          fault *f)
 {
@@ -159,8 +158,8 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
     return outcome == STATUS_OK ? pass_all(w, f) : outcome;
 }
 
-/* Cells run in separate processes even if there is only one job. A crash is then reported as a
- * result, and results do not depend on the number of jobs. */
+/* Cells run in separate processes even if there is only one job. A crash is then a result, and
+ * results do not depend on the number of jobs. */
 status run_sweep(const sweep_request *request, sweep *s, fault *f)
 {
     workload w;
@@ -175,7 +174,7 @@ status run_sweep(const sweep_request *request, sweep *s, fault *f)
 }
 
 enum { COLUMNS = 79, LINE = 400 };
-/* [s] time between two outputs, and time until the remaining time is first estimated */
+/* [s] time between two outputs, and time before the remaining time is first estimated */
 static const double interval = 0.2, first_word = 1;
 /* smallest completed fraction from which the remaining time is estimated */
 static const double least_share = 0.01;
@@ -211,7 +210,6 @@ static void write_time(double seconds, char *text, size_t size)
         snprintf(text, size, "%d h %d min", minutes / 60, minutes % 60);
 }
 
-/* Overwrites the progress line. */
 static void write_over(progress *p, const char *line)
 {
     const int most = columns_of(p->to);
@@ -271,7 +269,7 @@ void interrupt_end(interrupt *out)
     if (out->descriptor < 0)
         return;
     while (read(out->descriptor, &requested, sizeof requested) >
-           0) /* discards requests that have been handled */
+           0) /* removes requests that have been handled */
         ;
     close(out->descriptor);
     out->descriptor = -1;

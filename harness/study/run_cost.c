@@ -4,8 +4,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns the number of stations of the path that an analysis follows, which may be the path of its
- * base analysis. */
+/* Returns the number of stations of the path of an analysis, or of the path of its base
+ * analysis. */
 static double stations_of(const scene *s, const scene_analysis *a)
 {
     while (scene_path_of(a) == NULL && a->follows != SCENE_NONE)
@@ -14,16 +14,15 @@ static double stations_of(const scene *s, const scene_analysis *a)
 }
 
 /* Returns the estimated number of load steps. The shorter steps before the first station count as
- * complete steps. */
+ * full steps. */
 static double steps_of(const scene_analysis *a, int steps)
 {
     const int between = steps > 0 ? steps : scene_walk_of(a)->steps_between;
     return scene_path_of(a)->stations + between - 1;
 }
 
-/* Returns the estimated number of time steps. If a tolerance is given, the number is a power of the
- * tolerance and depends little on the motion, whose time scale is given by the scene. This was
- * measured for four motions. */
+/* Returns the estimated number of time steps. With a tolerance, the number is a power of the
+ * tolerance that was fitted to four motions; the motion itself has little effect. */
 static double motion_steps(const scene_motion *m)
 {
     static const double usual = 1e-4, steps[] = {80, 40}, power[] = {0.45, 0.3};
@@ -102,8 +101,7 @@ double run_cost_of_cell(const sweep *s, int series_index, int mesh)
     return run_cost_of_scene(&p->scene, p->steps, one->formulation.type, one->mesh[mesh]);
 }
 
-/* share of the work of one process above which a series is expensive; the order of cheaper series
- * does not matter */
+/* fraction of the work of one process above which a series is expensive */
 static const double expensive_share = 0.01;
 
 /* A series that is run. */
@@ -112,7 +110,7 @@ typedef struct expense {
     int series;
 } expense;
 
-/* Orders series by decreasing cost. Series with equal costs keep their order. */
+/* Orders series by decreasing cost. Series with equal costs remain in order. */
 static int most_expensive_first(const void *left, const void *right)
 {
     const expense *a = left, *b = right;
@@ -149,9 +147,9 @@ int run_cost_order(const sweep *s, int jobs, workload_task tasks[])
     return 0;
 }
 
-/* The result of a cell is a tree of arrays. Records and elements are sent as stored in memory, and
- * pointers are replaced by those of the receiving process. A new array in a record requires a line
- * in the tables below; a new number does not. */
+/* The result of a cell is a tree of arrays. Records and elements are sent as they are in memory,
+ * and the receiver replaces the pointers by its own. A new array in a record requires a line in the
+ * tables below; a new number does not. */
 typedef struct branch branch;
 struct branch {
     /* position of the pointer in the record, and size of an element [bytes] */
@@ -247,15 +245,15 @@ static int put_parts(FILE *to, const void *record, const branch parts[])
     return 0;
 }
 
-/* Clears pointers, which are valid only in the other process. */
+/* Clears pointers, which are valid only in the sending process. */
 static void free_branch(void *record, const branch parts[])
 {
     for (const branch *b = parts; b->size > 0; b++)
         set_address(record, b, NULL);
 }
 
-/* Reads an array of `count` elements. Returns 0, SERIALISE_DAMAGED or SERIALISE_NO_MEMORY. *out is
- * NULL after a failure. */
+/* Reads an array of `count` elements. Returns 0, SERIALISE_DAMAGED or SERIALISE_NO_MEMORY. After a
+ * failure, *out is NULL. */
 static int get_array(FILE *from, const branch *b, size_t count, char **out)
 {
     enum { LARGEST = 1 << 28 }; /* [bytes] larger arrays mean that the data are damaged */
@@ -331,6 +329,6 @@ int serialise_read(FILE *from, cell_result *cell)
     if (bad == 0)
         return 0;
     free_parts(cell, of_cell);
-    memset(cell, 0, sizeof *cell); /* removes partly read data */
+    memset(cell, 0, sizeof *cell); /* removes data of an incomplete result */
     return bad;
 }

@@ -1,4 +1,4 @@
-/* Describes verdicts in words, with the numbers that determine them. */
+/* Describes verdicts in words, with the numbers on which they depend. */
 #include "harness/study/study.h"
 
 #include <math.h>
@@ -24,7 +24,7 @@ static void passed(const verdict *v, char *text, size_t size)
 }
 
 /* Writes the uncertainty of a limit in percent of the reference value. If the reference value is
- * zero or very small, the error is relative to near_zero, and the uncertainty has the unit of the
+ * zero or very small, errors are relative to near_zero, and the uncertainty has the unit of the
  * quantity. */
 static void uncertainty_of(const verdict *v, char text[2 * ROUNDING_TEXT])
 {
@@ -48,9 +48,9 @@ static void undecided(const verdict *v, char *text, size_t size)
              100 * v->error, uncertainty, limit_kind_name(v->fit.kind), v->fit.meshes);
 }
 
-/* Describes a limit within the tolerance. A limit that is neither the reference value nor the limit
- * derived for the formulation is probably not the true limit: values seem to converge while
- * elements are longer than the thickness of a boundary layer. */
+/* Describes a biased limit. If it is neither the reference value nor the limit derived for the
+ * formulation, it is probably not the true limit. Values seem to converge while elements are longer
+ * than the thickness of a boundary layer. */
 static void biased(const verdict *v, char *text, size_t size)
 {
     char uncertainty[2 * ROUNDING_TEXT];
@@ -81,7 +81,7 @@ static void not_evaluated(const verdict *v, char *text, size_t size)
         snprintf(text, size, "no reference value to compare with");
 }
 
-/* Names the omitted physics and the resulting difference from the reference value. */
+/* Writes the omitted physics and the resulting difference from the reference value. */
 static void other_model(const verdict *v, char *text, size_t size)
 {
     const int agreed = v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0;
@@ -142,7 +142,7 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
     not_evaluated(v, text, size);
 }
 
-/* Appends a part to a string. If the string is not empty, the joint is inserted before the part. */
+/* Appends a part to a string. If the string is not empty, `joint` is inserted before the part. */
 static void add_part(char *text, size_t size, int *parts, const char *joint, const char *part)
 {
     const size_t used = strlen(text);
@@ -168,7 +168,7 @@ static int count_undecided(const evaluation *j)
     return count;
 }
 
-/* Lists the numbers of all findings that make a run fail, such as unexpected verdicts and
+/* Lists the numbers of all causes of failure of a run, such as unexpected verdicts and
  * regressions. */
 static void failures(const evaluation *j, char *text, size_t size)
 {
@@ -190,10 +190,9 @@ static void failures(const evaluation *j, char *text, size_t size)
                "reference values refer to unknown names");
 }
 
-/* Numbers of expected verdicts other than pass: verdicts due to a derived limit, and verdicts due
- * to a rule alone. */
+/* Numbers of expected verdicts other than pass: due to a derived limit, and due to a rule alone. */
 typedef struct known_value {
-    int derived[2]; /* numbers of derived limits within and outside the tolerance */
+    int derived[2]; /* numbers of derived limits: within the tolerance, outside the tolerance */
     int by_rule;
 } known_value;
 
@@ -212,8 +211,8 @@ static known_value count_known(const evaluation *j)
     return out;
 }
 
-/* Describes the verdicts on formulations that do not affect the exit status, and gives the number
- * of verdicts that would need a known deviation. */
+/* Describes the verdicts on formulations that do not affect the exit status, with the number of
+ * verdicts that would need a known deviation. */
 static void new_ones(const evaluation *j, char *text, size_t size)
 {
     if (j->proposed == 0)

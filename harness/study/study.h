@@ -28,22 +28,23 @@
 #include "harness/model/model.h"
 #include "harness/newton/newton.h"
 
-/* Limit of a sequence of values on successively finer meshes, with its uncertainty.
+/* Limit of a sequence of values on successively finer meshes, with the uncertainty of the limit.
  *
  * The limit is Richardson's extrapolation with the observed order of the last three meshes. If two
- * observed orders agree, its uncertainty is 1.25 times the change of the limit due to the last
- * mesh. Otherwise the uncertainty is 3 times the largest of the last changes. If there are two
- * estimates, the larger estimate is used. Sources: Roache, Verification and Validation in
- * Computational Science and Engineering (1998), grid convergence index and its factors 1.25 and 3;
- * Eca and Hoekstra, J. Comput. Phys. 262 (2014) 104-130, range of the data, poor orders, noise;
- * Phillips and Roy, J. Fluids Eng. 136 (2014) 121401, uncertainty of extrapolated limits; Oberkampf
- * and Roy, Verification and Validation in Scientific Computing (2010), chapter 8. */
+ * observed orders agree, the uncertainty is usually 1.25 times the change of the limit due to the
+ * last mesh. Otherwise the uncertainty follows from the last changes of the values, usually with a
+ * factor of 3.
+ * Sources: Roache, Verification and Validation in Computational Science and Engineering (1998),
+ * grid convergence index and its factors 1.25 and 3; Eca and Hoekstra, J. Comput. Phys. 262 (2014)
+ * 104-130, range of the data, poor orders, noise; Phillips and Roy, J. Fluids Eng. 136 (2014)
+ * 121401, uncertainty of extrapolated limits; Oberkampf and Roy, Verification and Validation in
+ * Scientific Computing (2010), chapter 8. */
 
-/* Kind of a sequence, for information. Verdicts depend only on the value and its uncertainty. */
+/* Kind of a sequence, for information. */
 typedef enum limit_kind {
     LIMIT_NONE,            /* no value */
-    LIMIT_NOISE_DOMINATED, /* the last two changes are within the noise */
-    /* the relative uncertainty is below 1e-4, or the last change is within the noise */
+    LIMIT_NOISE_DOMINATED, /* the last two changes are within the scatter */
+    /* the relative uncertainty is below 1e-4, or the last change is within the scatter */
     LIMIT_CONVERGED,
     LIMIT_ASYMPTOTIC,  /* two observed orders agree: value(n) = limit + c n^-order */
     LIMIT_OSCILLATING, /* the last two changes differ in sign */
@@ -55,26 +56,25 @@ typedef struct limit_sequence {
     int count;           /* at most LIMIT_MESHES */
     const int *n;        /* [count] numbers of elements, in any order */
     const double *value; /* [count] values; values that are not finite are ignored */
-    double noise;        /* relative noise of the values; NAN: not measured */
-    /* lowest and highest possible order for the formulation and quantity */
+    double noise;        /* relative scatter of the values; NAN: not measured */
+    /* nominal and highest possible order for the formulation and quantity */
     double nominal_order, highest_order;
-    /* [unit of value] reference size if the limit may be zero; 0: differences are relative to the
-     * limit */
+    /* [unit of value] scale of differences if the limit may be zero; 0: differences are relative to
+     * the limit */
     double near_zero;
 } limit_sequence;
 
 typedef struct mesh_limit {
     limit_kind kind;
     double limit, limit_uncertainty; /* NAN, INFINITY: none */
-    /* order (NAN: none was observed); its uncertainty is the difference between the last two orders
-     * */
+    /* order (NAN: none was observed), and the difference between the last two orders */
     double order, order_uncertainty;
-    double earlier_order; /* order of the three meshes before the last two; NAN: none */
+    double earlier_order; /* order of the last three meshes but two; NAN: none */
     /* 1: the middle one of the last three orders is clearly the smallest or the largest */
     int order_turns;
-    double noise;       /* [unit of value] noise that the limit uses */
+    double noise;       /* [unit of value] scatter that was assumed for the limit */
     double last_change; /* |last value - previous value|; NAN: there is only one mesh */
-    /* coarsest mesh that was used (0: none), and number of meshes after thinning */
+    /* coarsest mesh that was used (0: none), and number of meshes after selection */
     int from, meshes;
 } mesh_limit;
 
@@ -84,7 +84,8 @@ const char *limit_kind_name(limit_kind kind);
 /* A cell is one run of a case: a parameter point, a formulation with its options, and a mesh. */
 
 typedef struct cell_request {
-    /* valid scene that all cells of a point share; NULL: to be built from the next three members */
+    /* valid scene that all cells of a point share; NULL: the cell builds the scene from the next
+     * three members */
     const scene *scene;
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
@@ -103,7 +104,7 @@ typedef struct cell_request {
 } cell_request;
 
 typedef struct cell_result {
-    scene scene; /* the scene if the cell built it, otherwise empty */
+    scene scene; /* the scene, if the cell built it; otherwise empty */
     model_size size;
     double mass; /* mass of the members [kg] */
     counters counters;
@@ -112,15 +113,15 @@ typedef struct cell_result {
     solve_result solve;
 } cell_result;
 
-/* Sets the formulation, its options and the form of Newton's method. */
+/* Sets the formulation, its options and the form of Newton's method in the request. */
 void cell_formulation(cell_request *, const formulation *chosen);
 /* Builds the valid scene of a case for given parameters, changed by the edit (NULL: unchanged). The
  * caller frees the scene, even after a failure. */
 status cell_scene(const case_type *type, const double parameter[], const scene_edit *edit,
                   scene *out, fault *f);
 status cell_run(const cell_request *, cell_result *, fault *);
-/* Returns the number of quantities with a value, even if an analysis failed. A missing value does
- * not affect other values. */
+/* Returns the number of quantities that have a value. After a failed analysis, other quantities may
+ * still have one. */
 int cell_values(const cell_result *);
 void cell_result_free(cell_result *);
 
@@ -129,7 +130,7 @@ void cell_result_free(cell_result *);
 
 enum { IMPORTED_UNIT = 48, IMPORTED_FILE = 256, IMPORTED_WORD = 48 };
 
-/* A value of the file; `factor` converts it to the unit of the case. */
+/* A value of the file. `factor` converts it to the unit of the case. */
 typedef struct imported_row {
     int line;               /* line of the file */
     int elements, unknowns; /* numbers of elements and of unknowns; 0: not given */
@@ -144,8 +145,8 @@ typedef struct imported_row {
 typedef struct imported {
     char program[FORMULATION_KEY]; /* name of the program, used like the key of a formulation */
     char file[IMPORTED_FILE];
-    /* "beam": the model of the beams; any other word: another model, whose difference from the
-     * beams is a model error */
+    /* "beam": the model of the beams; any other word: another model, whose differences from the
+     * beams are model errors */
     char model[IMPORTED_WORD];
     char convention[IMPORTED_WORD]; /* convention of moments; empty: not given */
     char version[IMPORTED_WORD];    /* version of the program; empty: not given */
@@ -160,34 +161,34 @@ int imported_same_model(const imported *);
 void imported_free(imported *); /* may be NULL */
 
 /* Physics of a scene that a formulation omits, and the resulting change of values. If no requested
- * quantity changes, the formulation solves the same model. Otherwise it solves another model. */
+ * quantity changes, the formulation solves the same model; otherwise it solves another model. */
 
 typedef struct omission {
     unsigned what;          /* FEATURE_* and OMIT_* bits (model.h); 0: nothing */
     char words[OMIT_WORDS]; /* the omitted physics as text, as stored in results */
     int other;              /* 1: the formulation solves another model */
-    /* 1: no value changes, because the sections do not have such physics or the analyses do not
-     * depend on it */
+    /* 1: no value changes, because these physics have no effect in the sections or in the
+     * analyses */
     int exact;
     double change;             /* upper bound of the relative change of values; NAN: unknown */
     char quantity[SCENE_NAME]; /* quantity with the largest change; empty: none */
     char why[FAULT_TEXT];      /* reason why the bound is unknown */
 } omission;
 
-/* Finds the physics of a scene that the type omits, and bounds the resulting change. The bound is
- * unknown if no formulation includes all of this physics, or if that formulation finds no values.
- * The model then counts as another model. */
+/* Finds the physics of a scene that the type omits, and bounds the resulting change of values. The
+ * bound is unknown if no formulation includes all these physics, or if that formulation finds no
+ * values. The type then solves another model. */
 void omission_of(const scene *, const element_type *, omission *out);
 /* Writes "without shear: changes no value by more than 2e-06", or "another model: shear is not
  * modelled (changes frequency_1 by about 16 %)". */
 enum { OMISSION_TEXT = OMIT_WORDS + SCENE_NAME + FAULT_TEXT + 80 };
 void omission_words(const omission *, char text[OMISSION_TEXT]);
 
-/* The list of known deviations (reference/findings.csv): expected verdicts other than pass. There
- * is one rule for each cause. */
+/* The list of known deviations (reference/findings.csv): expected verdicts other than pass. Each
+ * rule has one cause. */
 
-/* Lists contain words separated by blanks, with the wildcards * and ?. A list matches if one of its
- * words matches. */
+/* Lists contain words separated by blanks. Words may contain the wildcards * and ?. A list matches
+ * if one of its words matches. */
 typedef struct rule {
     char *name;         /* one word */
     char *formulations; /* list of formulations, with options ("beamw:mass=lumped") or without */
@@ -197,18 +198,18 @@ typedef struct rule {
     char *verdicts;     /* "wrong limit|undecided" */
     char *predicted;    /* list of "case/quantity" with a derived limit; empty: none */
     char *cause, *proof;
-    /* largest relative difference that the rule covers: from the derived limit to the limit, or
-     * from the reference value if no limit was derived */
+    /* largest relative difference that the rule covers, between the limit and the derived limit or,
+     * if no limit was derived, the reference value */
     double largest_error;
     /* "file:line" for a rule of a user table; NULL: the rule is in the list of known deviations */
     char *from;
-    int missed; /* set by the evaluation; 1: the run should have shown this deviation but did not */
+    int missed;   /* set by the evaluation; 1: the run should have shown this deviation, but did not
+                   */
     int observed; /* set by the evaluation: number of verdicts that the rule explains */
     unsigned
         confirmed; /* set by the evaluation: bits of the derived limits that verdicts confirmed */
 } rule;
 
-/* Attributes by which rules are matched. */
 typedef struct rule_subject {
     const case_type *type;
     const double *parameter;
@@ -216,7 +217,7 @@ typedef struct rule_subject {
     const char *formulation, *quantity, *verdict;
 } rule_subject;
 
-/* Returns 1 if the formulation, given by its key, is among those of the rule. */
+/* Returns 1 if the list of formulations of the rule includes the formulation with this key. */
 int rules_apply_to(const rule *, const char *formulation);
 
 /* The packed reference values and known deviations (reference/pack.py). */
@@ -227,16 +228,17 @@ typedef struct truth {
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
     int any[CASE_MAX_PARAMETERS]; /* 1: the row is valid for any value of the parameter */
-    /* "": value of the continuum; otherwise the formulation for which the value is valid */
+    /* "": the value is that of the continuum; otherwise the formulation for which the value is
+     * valid */
     char *formulation;
-    /* 0: value of the continuum, or a limit (kind predicted); otherwise the number of elements for
-     * which the value is valid */
+    /* 0: value of the continuum, or a derived limit (kind predicted); otherwise the number of
+     * elements for which the value is valid */
     int elements;
     char *theory, *quantity, *unit, *kind, *model, *convention, *source;
     int on_curve; /* 1: the row is a point of a curve at abscissa `at` */
     double at;
     double value, uncertainty;
-    /* set by the evaluation; met 1: the quantity of the row exists; evaluated 1: at least one
+    /* set by the evaluation. met 1: the quantity of the row exists. evaluated 1: at least one
      * formulation evaluates the row */
     int met, evaluated;
 } truth;
@@ -244,7 +246,7 @@ typedef struct truth {
 typedef struct truths {
     int rows, rules, room; /* numbers of rows and rules, and capacity in rows */
     truth *row;
-    /* index (study_impl.h): the first row of each case and quantity, and for each row the next row
+    /* index (study_impl.h): for each case and quantity, the first row; for each row, the next row
      * of the same quantity */
     int indexed, places; /* number of indexed rows, which precede all other rows */
     int *first, *next;   /* [places], [indexed] */
@@ -253,9 +255,9 @@ typedef struct truths {
     char unknown_case[64];
 } truths;
 
-/* Reads all reference values, and registers the formulations that affect the exit status
- * (formulations_accept). FAULT: the file is missing, truncated or not such a file, or a row is
- * stale because the defaults of its case have changed. */
+/* Reads all reference values. Registers the formulations that affect the exit status
+ * (formulations_accept). FAULT: the file is missing, truncated or of another kind; or the defaults
+ * of a case have changed, so that a row is stale. */
 status truths_read(const char *path, truths *out, fault *f);
 /* Like truths_read, for one case (NULL: all cases). */
 status truths_read_case(const char *path, const case_type *type, truths *out, fault *f);
@@ -263,14 +265,14 @@ status truths_read_case(const char *path, const case_type *type, truths *out, fa
  * status. */
 status truths_read_rules(const char *path, truths *out, fault *f);
 /* Adds the exact values of extremes, which are not part of a verification. After a failure, the
- * previous reference values remain. */
+ * reference values are those before the call. */
 status truths_read_extremes(const char *path, truths *out, fault *f);
 /* Adds a row of zeros and returns it; NULL: out of memory. */
 truth *truths_add(truths *, fault *f);
 void truths_free(truths *t);
 
-/* All cells of a verification: a series of meshes for every case, parameter point and formulation,
- * run by several processes. */
+/* All cells of a verification: a series of meshes for every case, parameter point and formulation.
+ * Several processes run the cells. */
 
 enum { SERIES_MAX_MESHES = SCENE_MESHES };
 
@@ -301,27 +303,28 @@ typedef struct series {
     /* [quantities] relative scatter of the values on the finest mesh; NULL: not measured */
     double *noise;
     struct cell_timing *timing; /* [meshes] times of a benchmark; NULL: none */
-    /* results of another program, whose cells are not run; NULL: a formulation */
+    /* results of another program, whose cells are not run; NULL: the series is that of a
+     * formulation */
     imported *imported;
 } series;
 
 typedef struct sweep {
-    /* selection in the request, which excludes other quantities from the evaluation; NULL: all
-     * quantities are selected */
+    /* selection in the request; quantities that do not match are not evaluated; NULL: all
+     * quantities are evaluated */
     const char *select;
-    /* arrays of the request, not copied: its cases (NULL: the sweep was planned by hand), and its
-     * formulations (NULL: all) */
+    /* arrays of the request, not copied. cases NULL: the sweep was planned point by point. given
+     * NULL: all formulations */
     const case_type *const *cases;
     const formulation *given;
     int givens;
     int named;        /* as in the request */
     double tolerance; /* as in the request */
     int shapes;       /* as in the request */
-    int whole_only;   /* 1: a formulation that lacks required features does not run */
+    int whole_only;   /* 1: a formulation that does not support a required feature does not run */
     int values_only;  /* 1: values that only curves and matrices need are not computed */
     int doublings;    /* as in the request */
     int threads;      /* threads for the loop over elements in every cell; 0 or 1: one thread */
-    /* number of cells that an interrupted run did not complete; their series were removed */
+    /* number of cells that an interrupted run did not complete; incomplete series were removed */
     int unfinished;
     int partial; /* 1: batches are missing, although the run was not interrupted */
     int points, seriess;
@@ -329,43 +332,44 @@ typedef struct sweep {
     series *series;
 } sweep;
 
-/* Callbacks of a run. The process that runs the sweep calls both functions between two results. */
+/* Callbacks of a run. The process that runs the sweep calls them between two results. */
 typedef struct sweep_follower {
     void *context;
-    /* Returns 1 if the finest mesh of this complete series must be run again to measure its
+    /* Returns 1 if the finest mesh of this complete series must be run again to measure the
      * scatter. NULL: no scatter is measured. */
     int (*needs_scatter)(void *context, const sweep *, int series_index);
-    /* Called once for every series, in order, when this series and all previous series are complete
-     * and their scatter has been measured. A failure ends the run. An interrupted run removes
-     * incomplete series, which changes the indices of later series. NULL: no call. */
+    /* Called once for every series, in order. At the call, this series and all previous series are
+     * complete and their scatter has been measured. A failure ends the run. An interrupted run
+     * removes incomplete series, which changes the indices of later series. NULL: no call. */
     status (*whole)(void *context, const sweep *, int series_index, fault *);
 } sweep_follower;
 
 typedef struct sweep_request {
-    const char *select; /* expression over "case/point/formulation/quantity", or NULL */
-    int jobs;           /* number of processes, >= 1 */
-    int whole_only;     /* see sweep */
-    /* 1: problems with provably equal results are solved once; their cells have the same times */
+    const char
+        *select;    /* expression that selects among "case/point/formulation/quantity"; NULL: all */
+    int jobs;       /* number of processes, >= 1 */
+    int whole_only; /* see sweep */
+    /* 1: problems with provably equal results are solved only once; their cells have the same
+     * times */
     int share;
-    /* [s] time limit of a cell, enforced by its process and by the parent process; 0: none */
+    /* [s] time limit of a cell, which its process and the parent process enforce; 0: none */
     int time_limit;
-    /* 1: if a worker is killed (SIGKILL), this process ends as well, so that its result is not
-     * used; 0: the cell counts as crashed */
+    /* 1: if a worker is killed (SIGKILL), this process also ends, so that its result is not used;
+     * 0: the cell counts as crashed */
     int together;
-    int interruptible;             /* 1: Ctrl-C ends the run, and finished results are kept */
-    int stop;                      /* descriptor that becomes readable to stop the run; 0: none */
+    int interruptible; /* 1: Ctrl-C ends the run, and finished results remain */
+    int stop;          /* file descriptor that becomes readable to stop the run; 0: none */
     const case_type *const *cases; /* NULL-terminated; NULL: all cases */
     /* number of additional meshes, each with twice as many elements as the previous mesh */
     int doublings;
     int formulations; /* number of formulations in the list; 0: all */
     const formulation *formulation;
-    /* 1: the user named these formulations, so their verdicts affect the exit status even if the
-     * project has not accepted them */
+    /* 1: the user named these formulations, so their verdicts affect the exit status even if they
+     * are not in reference/accepted.csv */
     int named;
-    /* relative tolerance that replaces the tolerances of the cases; 0: the tolerances of the cases
-     * */
+    /* relative tolerance that replaces the tolerances of the cases; 0: these are used */
     double tolerance;
-    /* largest number of states of a path whose centre lines are stored, on the finest mesh of
+    /* largest number of states of a path for which centre lines are stored, on the finest mesh of
      * default points; 0: none */
     int shapes;
     const sweep_follower *follower; /* NULL: none */
@@ -373,13 +377,13 @@ typedef struct sweep_request {
     const char *things;             /* word for cells in messages; NULL: "cells" */
 } sweep_request;
 
-/* Text that a selection matches: case/parameters/formulation/quantity. */
+/* Text to which a selection is applied: case/parameters/formulation/quantity. */
 enum { SWEEP_TEXT = PARAMETERS_TEXT + FORMULATION_KEY + 2 * FAULT_TEXT };
 void sweep_text(const sweep_point *, const formulation *, const char *quantity,
                 char text[SWEEP_TEXT]);
 
-/* Returns 1 if the verdicts of a series affect the exit status. This is the case for accepted,
- * named or loaded formulations and, on request, for other programs. */
+/* Returns 1 if the verdicts of a series affect the exit status: the formulation is accepted, named
+ * or loaded, or the results are those of another program and the user requested this effect. */
 int sweep_gates(const sweep *, const series *);
 /* Returns the request for one mesh of a series. */
 cell_request sweep_cell(const sweep *s, int series_index, int mesh);
@@ -387,13 +391,13 @@ int sweep_cells(const sweep *s); /* returns the number of cells that this sweep 
 void sweep_series_free(series *);
 void sweep_free(sweep *s);
 
-/* Verdict on a quantity of a series, compared with its reference value. */
+/* Verdict on a quantity of a series, with respect to the reference value. */
 
 typedef enum verdict_kind {
     VERDICT_PASS,
     VERDICT_BIASED, /* within the tolerance, but significantly different from the reference value */
     VERDICT_WRONG_LIMIT, /* significantly outside the tolerance */
-    /* the preceding two kinds, if the limit equals the limit derived for the formulation */
+    /* the preceding two kinds, if the limit agrees with the limit derived for the formulation */
     VERDICT_BIASED_AS_PREDICTED,
     VERDICT_WRONG_AS_PREDICTED,
     VERDICT_LOW_ORDER,
@@ -403,7 +407,7 @@ typedef enum verdict_kind {
     VERDICT_SKIP, /* the formulation does not support a required feature */
     /* there is no reference value, or none for the shear theory of the formulation */
     VERDICT_NO_TRUTH,
-    /* the formulation omits physics of the scene that changes the requested quantity */
+    /* the formulation omits physics of the scene that change the requested quantity */
     VERDICT_OTHER_MODEL,
     VERDICT_KINDS
 } verdict_kind;
@@ -413,10 +417,10 @@ typedef struct verdict {
     verdict_kind kind, expected;
     /* reference value of the same model and shear theory; NULL: none */
     const truth *truth;
-    /* a reference value of another model, or a cross-formulation agreement, for information if
-     * `truth` is NULL; NULL: none */
+    /* for information if `truth` is NULL: a reference value of another model, or a
+     * cross-formulation agreement; NULL: none */
     const truth *model_truth;
-    /* a reference value of another shear theory, for information if `truth` is NULL; NULL: none */
+    /* for information if `truth` is NULL: a reference value of another shear theory; NULL: none */
     const truth *theory_truth;
     const truth *predicted; /* limit derived for the formulation; NULL: none */
     /* published value that differs from the limit by more than the sum of both uncertainties; NULL:
@@ -424,14 +428,14 @@ typedef struct verdict {
     const truth *contradicted;
     mesh_limit fit;
     double finest; /* value on the finest mesh; NAN: none */
-    /* (limit - truth)/truth, or relative to near_zero if the reference value is almost zero; NAN:
+    /* (limit - truth)/truth or, if the reference value is almost zero, relative to near_zero; NAN:
      * none */
     double error;
-    /* relative difference between the limit and the derived limit, or the reference value if no
-     * limit was derived */
+    /* relative difference between the limit and the derived limit or, if no limit was derived, the
+     * reference value */
     double departure;
     double model_error; /* relative difference from the reference value of another model */
-    /* absolute tolerance, including the uncertainty of the reference value and the effect of
+    /* absolute tolerance, which includes the uncertainty of the reference value and the effect of
      * omitted physics */
     double tolerance;
     double unmodelled; /* absolute bound of the change due to omitted physics */
@@ -439,35 +443,32 @@ typedef struct verdict {
      * value */
     int below_digits;
     int matches; /* 1: verdict as expected */
-    /* 1: the verdict of a new or named formulation is not a pass, and no known deviation explains
-     * it */
+    /* 1: the formulation is new or named, the verdict is not a pass, and no known deviation
+     * explains it */
     int needs_deviation;
     const rule *rule; /* rule that explains a verdict other than pass; NULL: none */
     char reason[FAULT_TEXT];
 } verdict;
 
 const char *verdict_name(verdict_kind kind);
-/* Computes the limit of a quantity of a series without the `left_out` finest meshes. */
-/* Returns the number of meshes up to the finest mesh that has a value of the quantity. Results of
- * another program may contain the quantity for fewer meshes. */
+/* verdict_meshes returns the number of meshes up to the finest mesh that has a value of the
+ * quantity. Results of another program may have the quantity on fewer meshes. verdict_limit returns
+ * the limit without the `left_out` finest meshes. */
 int verdict_meshes(const series *, int quantity);
 mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int left_out);
-/* Returns the reference value with which a formulation is compared: of the same model, and of the
- * shear theory of the formulation; NULL: none. */
+/* Returns the reference value for a formulation: of the same model, and of the shear theory of the
+ * formulation; NULL: none. */
 const truth *verdict_truth(const truths *t, const sweep_point *p, const formulation *chosen,
                            int quantity);
 /* Like verdict_truth. If there is no such reference value, returns the cross-formulation agreement,
  * which is for information and never affects the exit status. */
 const truth *verdict_reference(const truths *t, const sweep_point *p, const formulation *chosen,
                                int quantity);
-/* Evaluates the quantity and the series of v. Sets the kind of the verdict, its fit and its errors.
- * Sets `matches` if the verdict is as expected without known deviations. */
+/* Evaluates the quantity and the series of v. Sets the verdict, its limit and its errors. Sets
+ * `matches` if the verdict is expected without a known deviation. */
 void verdict_reach(const sweep *s, const truths *t, verdict *v);
 /* Returns the relative error of a value of a quantity with respect to a reference value. */
 double verdict_error(const scene_quantity *q, double value, double truth_value);
-
-/* Evaluation of all runs (case, point, formulation, quantity): comparison with reference values and
- * expected verdicts. */
 
 /* A value on a mesh, compared with the discrete value stored for this mesh. */
 typedef struct agreement {
@@ -477,7 +478,7 @@ typedef struct agreement {
     int good;
 } agreement;
 
-/* A cell with inconsistent records of its run (study_impl.h). */
+/* A cell whose run records are inconsistent (study_impl.h). */
 typedef struct flaw {
     int series, mesh;
     char why[FAULT_TEXT];
@@ -497,16 +498,16 @@ typedef struct regression {
 
 enum { COVERAGE_MESHES = 4 };
 
-/* Counts how often the limits of a formulation on a case, computed without the k finest meshes,
- * agree with an exact reference value within their uncertainty. The counts check the uncertainties.
- * If a formulation has biased limits, its coverage is low for this reason, and not because of its
- * uncertainties. */
+/* For each formulation and case: how often limits agree with an exact reference value to within
+ * their uncertainty. The limits are computed without the k finest meshes. These counts check the
+ * uncertainties. A formulation with biased limits has a low coverage, although its uncertainties
+ * may be correct. */
 typedef struct coverage {
     const case_type *of;
     const element_type *type;
     int point; /* first point of the case in the sweep */
-    /* [k] number of series with at least three remaining meshes, and number of their limits that
-     * are covered */
+    /* [k] number of series with at least three remaining meshes, and number of those whose limit is
+     * covered */
     int series[COVERAGE_MESHES], covered[COVERAGE_MESHES];
 } coverage;
 
@@ -526,51 +527,50 @@ typedef struct evaluation {
     int proposed; /* number of verdicts of new formulations that need a known deviation */
     int disagreements;
     int evaluated; /* number of verdicts that have a reference value */
-    /* number of rules that no verdict matched, or whose derived limits no verdict confirmed: in the
-     * built-in list (complete runs only) and in user tables (study_impl.h) */
+    /* number of rules in the built-in list (complete runs only) and in user tables that no verdict
+     * matched, or whose derived limits no verdict confirmed (study_impl.h) */
     int unobserved;
     int unmet; /* number of reference values whose case, point or quantity does not exist
                   (complete runs only) */
     /* number of reference values that every formulation skips, or whose formulation is not loaded
      * (complete runs only) */
     int waiting;
-    /* number of reference values for times during a motion that the run does not evaluate (complete
-     * runs only) */
+    /* number of reference values at times of a motion that the run does not evaluate (complete runs
+     * only) */
     int unread;
 } evaluation;
 
-/* Returns 1 if verdicts on the series may depend on the scatter of its finest mesh. The scatter
- * must then be measured. */
+/* Returns 1 if verdicts on the series may depend on the scatter on its finest mesh, which must then
+ * be measured. */
 int evaluation_needs_scatter(const sweep *s, const truths *t, int series_index);
-/* Starts an evaluation. The planned series are evaluated in order, after they have run. FAULT: the
- * unit of a reference value is not the unit of its quantity. */
+/* Starts an evaluation. evaluation_add then evaluates the planned series in order, after they have
+ * run. FAULT: the unit of a reference value is not the unit of its quantity. */
 status evaluation_begin(const sweep *s, truths *t, evaluation *out, fault *f);
 status evaluation_add(const sweep *s, truths *t, int series_index, evaluation *out, fault *f);
-/* Ends an evaluation. whole 1: no selection was made. Unobserved rules, and reference values whose
- * quantity does not exist, are then failures. */
+/* Ends an evaluation. whole 1: no selection was made. Rules that were not observed, and reference
+ * values without a quantity, are then failures. */
 void evaluation_end(const sweep *s, truths *t, int whole, evaluation *out);
 /* Calls evaluation_begin, evaluation_add for every series, and evaluation_end. */
 status evaluation_make(const sweep *s, truths *t, int whole, evaluation *out, fault *f);
 void evaluation_free(evaluation *j);
 enum { EVALUATION_AS_EXPECTED = 0, EVALUATION_DIFFERS = 1, EVALUATION_NOTHING = 3 };
 /* Returns the exit status: 0 if all verdicts are as expected, 1 if a verdict that affects the exit
- * status is not as expected, 3 if nothing was evaluated. No other function determines the exit
- * status. */
+ * status is not, 3 if nothing was evaluated. */
 int evaluation_exit(const evaluation *j);
 /* Returns "pass", "fail" or "nothing was judged". */
 const char *evaluation_outcome(const evaluation *j);
 
-/* Returns the largest extent of the positions of nodes [m]. */
+/* Returns the diagonal of the smallest box, along the axes, that contains all nodes [m]. */
 double change_size(const scene *);
-/* Returns the scale of a quantity [unit of the quantity], below which values may be rounding
- * errors. The scale is the largest of near_zero of the quantity, 1e-9 times the other values in the
- * same unit, and a physical scale: 1e-14 for strains, 1e-12 for rotations, 1e-12 times the size of
+/* Returns the scale of a quantity [unit of the quantity]; smaller values may be rounding errors.
+ * The scale is the largest of near_zero, 1e-9 times the other values in the same unit, and a
+ * physical scale. The latter is 1e-14 for strains, 1e-12 for rotations, and 1e-12 times the size of
  * the structure for lengths. */
 double change_scale(const scene *s, int quantity, const solve_result *r);
 
-/* Last line of a beamwork file, with its length and checksum. The checksum reveals truncated,
- * damaged or altered files before the HDF5 library reads them. The HDF5 library does not check the
- * contents (version 1.10 reads past its buffers in damaged files). */
+/* Last line of a beamwork file, with the length and the checksum of the file. Truncated, damaged or
+ * altered files are detected before the HDF5 library reads them, because this library does not
+ * check the contents. Version 1.10 reads past its buffers in damaged files. */
 
 enum { CHECKSUM_LENGTH = 40 }; /* "beamwork-seal %016zx %08x\n" */
 
@@ -582,21 +582,18 @@ status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *
  * altered. */
 status checksum_check(const char *path, fault *f);
 
-/* A child process that works for its parent. The child ends if its parent ends or if its time limit
- * is exceeded. */
-
 /* The child calls this function first. The child then ends with its parent, even if the parent is
- * killed or has already ended. The child also ends at an alarm. */
+ * killed or has already ended, and at an alarm. */
 void child_begin(pid_t parent);
 /* Sets the remaining time [s] of the child; 0: no limit. */
 void child_alarm(int seconds);
-/* Returns 1 if the child has ended. The parent calls this function. The child is not reaped. */
+/* Returns 1 if the child has ended. The child is not reaped. */
 int child_has_ended(pid_t process);
 /* Waits at most two seconds for the end of the child, then kills it. Reaps the child and returns
- * its status from waitpid. The parent calls this function. */
+ * the status from waitpid. */
 int child_reap(pid_t process);
-/* Describes how the child ended. The parent calls this function. how: status from waitpid. late 1:
- * the child was killed after the time limit. Returns 1 if the time limit was the reason. */
+/* Describes how the child ended. how: status from waitpid. late 1: the child was killed after the
+ * time limit. Returns 1 if the time limit was the reason. */
 int child_ended(int how, int late, int seconds, char *words, size_t size);
 
 typedef struct task_locks task_locks;
@@ -618,7 +615,7 @@ typedef struct columns_field {
     size_t offset;
 } columns_field;
 
-/* Returns FAULT. The message says that the column is missing or damaged. */
+/* Returns FAULT, with the message that the column is missing or damaged. */
 status columns_broken(const table_columns *r, const char *column);
 /* Returns the number of rows of a column; -1: there is no such column. */
 int columns_length(hid_t group, const char *column);
@@ -628,41 +625,40 @@ status columns_read(const table_columns *r, const columns_field *field, void *ba
 
 /* Difference between two curves of a quantity, from two meshes or two formulations. */
 
-/* Returns the largest difference over the common points, relative to the largest value of the
- * second curve; NAN: there are no common points, or `one` does not reach the end. at: point with
+/* Returns the largest difference over the common points, relative to the largest magnitude of the
+ * second curve. NAN: there are no common points, or `one` does not reach the end. at: point with
  * the largest difference (may be NULL). Points of a path with given stations are matched by number,
  * other points by abscissa. */
 double curve_error_between(const scene *s, int quantity, const solve_result *one,
                            const solve_result *two, int *at);
 /* Returns the index of the finest mesh of a series that has the whole curve; -1: none. */
 int curve_error_finest(const series *, int quantity);
-/* Returns the index of the series with which others are compared; -1: none. This is the series
- * whose curve changed least when its last mesh was added. */
+/* Among the curves of all series, finds the one that changed least when the last mesh was added.
+ * Returns the index of this series, with which others are compared; -1: none. */
 int curve_error_reference(const sweep *, int quantity);
 
 /* Location of data files: reference values, and programs that compute them. */
 
-/* Finds a data file or folder. Searches next to the program or shared library, in the folder above
- * (a clone), in share/beamwork of the installation prefix, and in share/beamwork of the prefix set
- * at build time. Returns 0 if the file is in none of these folders. The path is then that of a file
- * next to the program. */
+/* Finds a data file or folder: next to the program or shared library, in the folder above it (a
+ * clone), in share/beamwork of the installation prefix, or in share/beamwork of the prefix set at
+ * build time. Returns 0 if it is in none of these. The path is then one next to the program. */
 int data_place(const char *name, char path[PATH_MAX]);
 /* Writes the path of the packed reference values, from the variable BEAMWORK_TRUTHS or from
  * data_place. */
 void data_place_truths(char path[PATH_MAX]);
-/* Makes beamwork_element.py available to Python processes that are started later: appends its
+/* Makes beamwork_element.py available to Python processes that are started later, by appending its
  * folder to PYTHONPATH if the folder exists. Prevents Python from writing compiled files. */
 void data_place_modules(void);
 
 /* Reference values at new parameter points. The programs of reference/derive compute them on
- * demand, and share no code with this program. */
+ * demand; they share no code with this program. */
 
 typedef struct derived_value {
     char quantity[SCENE_NAME], unit[16], convention[96], source[96];
     double value, uncertainty; /* [unit] */
 } derived_value;
 
-/* Writes the path of a program of reference/derive, in the folder BEAMWORK_REFERENCE or with the
+/* Writes the path of a program of reference/derive. The folder is BEAMWORK_REFERENCE or that of the
  * other data. FAULT: the path is too long. */
 status derive_script(const char *name, char out[PATH_MAX], fault *f);
 /* Runs `script CASE PARAMETERS`. *out: the values, allocated with malloc. REFUSED: no program
@@ -671,7 +667,7 @@ status derive_script(const char *name, char out[PATH_MAX], fault *f);
 status derive_values(const char *script, const char *case_name, const char *parameters,
                      derived_value **out, int *count, fault *f);
 /* Like derive_values, with a scene in the format of write_scene on the standard input of `script`.
- * On standard error, the script lists everything that it cannot compute, with one item per line. */
+ * The script lists everything that it cannot compute on standard error, one item per line. */
 status derive_scene(const char *script, FILE *scene_text, derived_value **out, int *count,
                     fault *f);
 
@@ -681,16 +677,16 @@ enum { WORKERS_MOST = 64 };
 double run_cost_of_scene(const scene *s, int steps, const element_type *type, int elements);
 double run_cost_of_cell(const sweep *s, int index, int mesh);
 
-/* Writes the reason why there is no agreement, and which formulation could give an agreement. */
+/* Writes why there is no agreement, and which formulation could contribute to one. */
 void families_why(FILE *to, const sweep *s, int point_index, int quantity, const truths *);
-/* Adds cross-formulation agreements as reference values of the kind agreement, for every quantity
- * of a point that has no reference value of its model. files_only 1: only for scene files and not
- * for built-in cases. */
+/* For every quantity of a point that has no reference value of its model, adds the
+ * cross-formulation agreement as a reference value of the kind agreement. files_only 1: only for
+ * scene files, not for built-in cases. */
 status families_add_truths(const sweep *s, int files_only, truths *t, fault *f);
-/* Like families_add_truths, for one point. Call this function when all series of the point are
- * complete. */
+/* Like families_add_truths, for one point. Call when all series of the point are complete. */
 status families_add_point(const sweep *s, int point_index, int files_only, truths *t, fault *f);
-/* Reserves memory for all rows that may be added. Verdicts point to rows, so rows must not move. */
+/* Allocates memory for all rows that may be added. Verdicts point to rows, so rows must not
+ * move. */
 status families_reserve(const sweep *s, int files_only, truths *t, fault *f);
 
 /* Follows modes over a parameter of a case.
@@ -698,11 +694,12 @@ status families_reserve(const sweep *s, int files_only, truths *t, fault *f);
  * Modes at neighbouring parameter values are matched by the modal assurance criterion with the mass
  * matrix M at the new value, (v^T M w)^2/((v^T M v)(w^T M w)), which is 1 for equal shapes. If a
  * match is below 0.9, the step is halved. Shapes of equal frequencies are not unique, so the
- * previous shape is projected onto their space. Frequencies of followed modes may cross. They may
- * also veer: they approach and separate again while the modes exchange their shapes. */
+ * previous shape is projected onto the space that they span. Frequencies of followed modes may
+ * cross. They may also veer: they approach each other and separate again, while the modes exchange
+ * their shapes. */
 
 typedef struct follow_request {
-    /* cell with the type and its parameters; follow_run sets the analyses to be solved */
+    /* the case and its parameters; follow_run sets the analyses to be solved */
     cell_request cell;
     int parameter; /* index of the parameter that varies */
     double from, to;
@@ -721,7 +718,7 @@ typedef struct follow_event {
     int mode[2];
     double value;     /* value of the parameter */
     double frequency; /* [Hz] mean frequency of both modes */
-    /* smallest difference of the two frequencies of a veering, relative to their mean */
+    /* at a veering: smallest difference of the two frequencies, relative to their mean */
     double gap;
 } follow_event;
 
@@ -737,8 +734,8 @@ typedef struct follow_curves {
 status follow_run(const follow_request *, follow_curves *, fault *);
 void follow_free(follow_curves *);
 
-/* Glossary: explanations of words of the program and the report (reference/glossary.csv), from the
- * packed data. */
+/* Glossary from the packed data: explanations of words of the program and the report
+ * (reference/glossary.csv). */
 
 typedef struct glossary_entry {
     char *term;
@@ -759,8 +756,8 @@ enum { GLOSSARY_WORD = 128 };
  * glossary. */
 status glossary_read(const char *path, glossary *out, fault *f);
 void glossary_free(glossary *);
-/* Finds the entry with this term or alternative name; NULL: none. Case is ignored, and '_' and '-'
- * count as blanks. */
+/* Finds the entry with this term or alternative name; NULL: none. Upper and lower case count as
+ * equal, as do '_', '-' and blanks. */
 const glossary_entry *glossary_find(const glossary *, const char *word);
 /* Returns 1 if glossary_find treats the two words as equal. */
 int glossary_same(const char *a, const char *b);
@@ -777,55 +774,52 @@ static inline void handles_close(int count, const hid_t handle[])
             H5Idec_ref(handle[i]);
 }
 
-/* Makes requests to stop (Ctrl-C, SIGTERM, SIGHUP) available on a descriptor. A process can then
- * wait for such requests and for its workers at the same time. */
+/* Makes requests to stop (Ctrl-C, SIGTERM, SIGHUP) available on a file descriptor, so that a
+ * process can wait for them and for its workers at the same time. */
 
 typedef struct interrupt {
-    int descriptor;  /* descriptor that becomes readable when a request arrives; -1: none */
+    int descriptor;  /* file descriptor that becomes readable when a request arrives; -1: none */
     sigset_t before; /* signal mask that interrupt_end restores */
 } interrupt;
 
-/* From this call on, requests stay pending until they are read, in this process and in processes
- * that it starts. Signals that were ignored (nohup) stay ignored. */
+/* From this call on, requests are pending until they are read, in this process and in processes
+ * that it starts. Ignored signals (nohup) remain ignored. */
 void interrupt_begin(interrupt *);
 /* Restores the signal mask. A further request then ends the process immediately. */
 void interrupt_end(interrupt *);
 
-/* Compares the numbers of elements that two formulations need for equal errors. */
-
-/* Result for series 0 and 1 of a sweep with one point. */
+/* Numbers of elements that two formulations need for equal errors: series 0 and 1 of a sweep with
+ * one point. */
 typedef struct equal_error {
-    /* index of the coarsest mesh for which all quantities are within the error target on this and
-     * all finer meshes; -1: none */
+    /* index of the coarsest mesh for which all quantities are within the error target on this mesh
+     * and all finer meshes; -1: none */
     int mesh[2];
     double error[2]; /* largest relative error on this mesh; NAN: none */
 } equal_error;
 
-/* Returns 1 if the comparison includes the quantity. The quantity must not be a curve, and both
- * series need a reference value or an agreement. */
+/* Returns 1 if the comparison includes the quantity: it is not a curve, and both series have a
+ * reference value or an agreement. */
 int equal_error_includes(const sweep *s, const truths *t, int quantity);
 /* Returns the number of quantities in the comparison. */
 int equal_error_quantities(const sweep *s, const truths *t);
-/* Compares all quantities in the comparison at the relative error target `level`. */
+/* Compares all these quantities for the relative error target `level`. */
 equal_error equal_error_at(const sweep *s, const truths *t, double level);
 /* Returns 1 if both series meet the target. */
 int equal_error_met(const equal_error *);
 
-/* Reduces the last point of a planned sweep to the selected quantities and formulations. */
-
-/* Keeps the quantities and the formulations that appear in at least one selected combination
- * (formulations/formulations.h). Call this function before the run. select NULL: keeps all.
+/* At the last point of a planned sweep, keeps the quantities and formulations that are part of a
+ * selected combination (formulations/formulations.h). Call before the run. select NULL: all.
  * REFUSED: the selection is malformed, has a word that matches no name, or selects nothing. */
 status narrow_to(sweep *s, const char *select, fault *f);
-/* Like narrow_to, for a scene before planning. If the formulation has not been chosen (type NULL),
- * words that may name a formulation have no effect. */
+/* Like narrow_to, for a scene before planning. If no formulation has been chosen (type NULL), words
+ * that may be names of formulations have no effect. */
 status narrow_scene(scene *, const case_type *, const double parameter[], const formulation *,
                     const char *select, fault *);
 
 int noise_cells(const sweep *s); /* returns the number of cells run to measure scatter */
 
-/* Overview of a run: the worst verdict for each case and formulation over all parameter points, and
- * the number of quantities with this verdict. */
+/* Overview of a run. For each case and formulation: the worst verdict over all parameter points,
+ * and the number of quantities with this verdict. */
 
 /* Marks in increasing order of severity. */
 typedef enum overview_mark {
@@ -844,14 +838,13 @@ typedef enum overview_mark {
 
 typedef struct overview_cell {
     overview_mark mark;
-    int unexpected; /* 1: unexpected; unexpected marks take precedence over expected marks */
+    int unexpected; /* 1: unexpected; unexpected marks replace expected marks */
     int count;      /* number of quantities (for a flaw: cells) with this mark */
 } overview_cell;
 
 typedef struct overview {
     int rows, columns;
-    /* number of columns before the columns of new formulations, which do not affect the exit status
-     * */
+    /* 1: all options of a formulation share a column */
     int joined;
     int accepted; /* number of columns before those of new formulations, which do not affect the
                      exit status */
@@ -868,25 +861,23 @@ void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
 /* Returns 1 if the row has an evaluated run. */
 int overview_evaluated(const overview *, int row);
-/* Returns 1 if the row is shown on a separate line. Every row has a separate line if there are few
- * rows. Otherwise passing cases share lines, so that the table fits on one screen. */
+/* Returns 1 if the row is printed on a separate line. If there are many rows, cases that pass share
+ * lines, so that the table fits on one screen. */
 int overview_shown(const overview *, int row);
-/* Writes the mark, for example "ok", "~3" or "!#2". The mark is readable without colours. utf8 1:
- * uses characters outside ASCII. */
+/* Writes the mark, for example "ok", "~3" or "!#2". It is readable without colours. utf8 1: uses
+ * characters outside ASCII. */
 void overview_text(const overview_cell *, int utf8, char text[OVERVIEW_TEXT]);
 /* Returns a description of the mark. */
 const char *overview_words(overview_mark mark);
 
-/* Known deviations of a user project: rules in addition to the built-in list, with the same
- * columns. */
+/* Known deviations of a user: rules in addition to the built-in list, with the same columns. */
 
 /* Adds the rules of a file to the rules of t. run: cases of the run, NULL-terminated. Errors in the
  * file are reported to `m`, and rows with errors are skipped. FAULT: the file cannot be read. */
 status user_deviations_read(const char *path, const case_type *const run[], truths *t, mistakes *m,
                             fault *f);
 
-/* A user table in CSV format, with given columns and one record per line. All fields are checked.
- * */
+/* A user table in CSV format with given columns and one record per line. All fields are checked. */
 
 enum { USER_TABLE_COLUMNS = 16 };
 
@@ -902,14 +893,15 @@ typedef struct user_table {
 } user_table;
 
 /* Reads a user table. columns: names of the columns, in order and separated by commas; the first
- * line of the file must be equal. Errors in lines are reported to `m`, and lines with errors are
- * skipped. FAULT: the file cannot be read. The caller frees *out, even after a failure. */
+ * line of the file must be equal to this text. Errors in lines are reported to `m`, and lines with
+ * errors are skipped. FAULT: the file cannot be read. The caller frees *out, even after a
+ * failure. */
 status user_table_read(const char *path, const char *columns, user_table *out, mistakes *m,
                        fault *f);
 void user_table_free(user_table *);
 
-/* Reference values of a user project, in addition to the packed reference values, with the columns
- * of reference/tables. */
+/* Reference values of a user, in addition to the packed ones, with the columns of
+ * reference/tables. */
 
 /* Adds the rows of a file to the rows of t. run: cases of the run, NULL-terminated. only: the only
  * case to read; NULL: all cases. Errors in the file are reported to `m`, and rows with errors are
@@ -917,29 +909,24 @@ void user_table_free(user_table *);
 status user_truths_read(const char *path, const case_type *const run[], const case_type *only,
                         truths *t, mistakes *m, fault *f);
 
-/* Plans the cells of a verification. */
-
-/* Plans the default point and every point that has a reference value. */
+/* Plans the default point and every point with a reference value. */
 status plan_sweep(const sweep_request *request, const truths *t, sweep *out, fault *f);
 /* Plans one point with the given formulations and meshes. */
 status plan_one(const case_type *type, const double value[], const formulation those[], int count,
                 const int mesh[], int meshes, sweep *out, fault *f);
-/* Adds a point to a sweep that is planned by hand. The edit changes the scene of the point; NULL:
- * no change. The steps and the condition of the point may be set before the run. */
+/* Adds a point to a sweep. The edit changes the scene of the point; NULL: no change. The members
+ * `steps` and `condition` of the point may be set before the run. */
 status plan_add(sweep *s, const case_type *type, const double value[], const scene_edit *edit,
                 const int mesh[], int meshes, fault *f);
 /* Adds a series to the last point, with the meshes of its scene. */
 status plan_extend(sweep *s, const formulation those[], int count, fault *f);
 
-/* Default formulation and mesh: a formulation that suits the scene, as far as this is known without
- * a solution, and a number of elements for which values have converged. */
-
-/* Chooses a formulation that supports everything that the scene requires, has the shear theory of
- * the scene, and has no rule according to which the limit of a requested quantity is wrong or
- * biased. Among several formulations, those with the fewest such rules for other quantities are
- * preferred, then those with the highest order in the requested quantities, then the first in the
- * order of names. rules NULL: no list of known deviations. REFUSED: no formulation supports
- * everything that the scene requires. why: reason for the choice, in one line. */
+/* Chooses a formulation that supports all features that the scene requires and has the shear theory
+ * of the scene. No rule may say that the limit of a requested quantity is wrong or biased. Among
+ * such formulations, the first criterion is the smallest number of such rules for other quantities.
+ * The second is the order in the requested quantities, the third the order of names.
+ * rules NULL: no list of known deviations. REFUSED: no formulation supports all features that the
+ * scene requires. why: reason for the choice, in one line. */
 status default_choice_formulation(const scene *, const rule_subject *where, const rule *rules,
                                   int count, formulation *out, char why[FAULT_TEXT], fault *f);
 
@@ -949,7 +936,7 @@ status default_choice_formulation(const scene *, const rule_subject *where, cons
 typedef struct default_choice {
     formulation chosen;
     int elements;
-    int short_of; /* 1: values still change by more than the requested error on the finest mesh */
+    int short_of; /* 1: on the finest mesh, values still change by more than the requested error */
     /* [quantities of the scene] relative change from the previous mesh to the chosen mesh; NAN:
      * unknown */
     double *change;
@@ -957,32 +944,32 @@ typedef struct default_choice {
 } default_choice;
 void default_choice_free(default_choice *);
 
-/* Finds the coarsest mesh on which all values differ from those of the previous mesh by less than
- * `requested`, or the finest mesh that was tried. Solves all meshes up to this mesh. request: the
- * cell without the number of elements. */
+/* Finds the coarsest mesh on which all values differ by less than `requested` from those on the
+ * previous mesh or, if there is none, the finest mesh that was tried. Solves all meshes up to this
+ * one. request: the cell without the number of elements. */
 status default_choice_elements(const cell_request *, const formulation *chosen, double requested,
                                default_choice *out, fault *f);
 
-/* Chooses formulation and mesh together. Candidates are the formulations that
- * default_choice_formulation ranks equal to the first formulation (at most five, and at most two
- * per family). The first candidate that converges is chosen. The next mesh to be solved is always
- * the mesh with the lowest counted work. request: the cell without formulation and elements. */
+/* Chooses formulation and mesh together. Candidates are the formulations that rank equal with the
+ * first in default_choice_formulation: at most five, and at most two per family. In each step, the
+ * mesh with the lowest counted work is solved next. The first candidate that converges is chosen.
+ * request: the cell without formulation and elements. */
 status default_choice_both(const cell_request *, const rule_subject *where, const rule *rules,
                            int count, double requested, default_choice *out, fault *f);
 
-/* Cost of a cell: the sum of the counts of its work times cost coefficients. Counts, and therefore
- * costs, are equal in every run and on every machine. Formulations are ranked by cost and not by
- * measured times, because times scatter. The coefficients are fitted to measured times (`make lab
- * L=cost-coefficients`) and stored in harness/study/cost_coefficients.csv, from which the build
- * generates the table. A formulation without coefficients uses the common coefficients ("*"), which
- * depend on its number of strains. */
+/* Cost of a cell: sum of products of cost coefficients and counts of its work. Counts and costs are
+ * equal in every run and on every machine. Formulations are ranked by cost, because measured times
+ * scatter.
+ * The coefficients are fitted to measured times (`make lab L=cost-coefficients`) and stored in
+ * harness/study/cost_coefficients.csv, from which the build generates the table. Formulations
+ * without coefficients have the common ones ("*"), which depend on the number of strains. */
 
 /* Counted work. The names are those of the columns of the table `cells`. */
 typedef enum counted_work {
     COUNTED_one, /* one per cell */
     COUNTED_elements_total,
     COUNTED_element_kinds,
-    COUNTED_strains, /* number of strains of an element plus its number of inner unknowns */
+    COUNTED_strains, /* number of strains of an element plus the number of inner unknowns */
     COUNTED_free,
     COUNTED_strain_evaluations,
     COUNTED_stress_evaluations,
@@ -999,8 +986,8 @@ typedef enum counted_work {
 } counted_work;
 
 typedef struct cost_coefficient {
-    /* name of the formulation, with options if they affect the coefficient; "": the row applies to
-     * all formulations; "*": it applies to formulations without coefficients */
+    /* name of the formulation, with options if these affect the coefficient; "": all formulations;
+     * "*": formulations without coefficients */
     const char *formulation;
     counted_work first, second; /* the cost is proportional to the product of both counts */
     double seconds;             /* [s] cost per unit of the product, on the reference machine */
@@ -1008,8 +995,8 @@ typedef struct cost_coefficient {
 
 extern const cost_coefficient
     cost_coefficients[]; /* generated table, whose last row has no formulation */
-/* Smallest ratio of two costs that shows which formulation is faster. The cost coefficients are not
- * accurate enough for smaller ratios. */
+/* Smallest ratio of two costs that shows which formulation costs less. For smaller ratios, the cost
+ * coefficients are not accurate enough. */
 extern const double counted_cost_noise;
 
 /* Like counted_cost_of, with the committed coefficients. */
@@ -1018,7 +1005,7 @@ double counted_cost(const formulation *chosen, const cell_result *cell);
  * */
 int has_cost_coefficients(const cost_coefficient *rows, const formulation *chosen);
 
-/* Progress of a long run, in one line of the terminal, which is overwritten and finally removed. */
+/* Progress of a long run, in one line of the terminal that is overwritten and finally removed. */
 
 typedef struct progress {
     FILE *to;           /* NULL: no output */
@@ -1026,15 +1013,15 @@ typedef struct progress {
     int count;          /* number of items in the run */
     double begun;       /* [s] start, by clock_wall_seconds */
     double last;        /* [s] last output */
-    int width;          /* width of the present line in columns */
+    int width;          /* width of the current line in columns */
 } progress;
 
-/* now: present time [s] of clock_wall_seconds, here and below. */
+/* Here and below, `now` is the current time [s] of clock_wall_seconds. */
 progress progress_begin(FILE *to, const char *things, int count, double now);
 /* Returns 1 if the next output is due. */
 int progress_is_due(const progress *, double now);
 /* Prints "cells 12 of 40, 25 %, about 3 min left: WHAT". share: completed fraction of the work, 0
- * to 1. The remaining time is estimated from `share` if this is large enough. */
+ * to 1. If it is large enough, the remaining time is estimated from it. */
 void progress_show(progress *, double now, int done, double share, const char *what);
 /* Clears the line. */
 void progress_end(progress *);
@@ -1042,15 +1029,14 @@ void progress_end(progress *);
 /* Known deviations (reference/findings.csv) that a new formulation would need. */
 
 /* Writes CSV with the columns of the list of known deviations, including the header. There is one
- * rule for each formulation, case and verdict, which lists all quantities. largest_error is 4/3 of
- * the largest error found, and the cause is a placeholder. Returns the number of rules. */
+ * rule for each formulation, case and verdict, with all quantities. largest_error is 4/3 of the
+ * largest observed error, and the cause is a placeholder. Returns the number of rules. */
 int proposal_write(FILE *to, const sweep *s, const evaluation *j);
 
-/* Determines which formulations meet an error target, and on which mesh. A formulation meets the
- * target with the coarsest mesh for which the errors of this mesh and of all finer meshes are
- * within the target. Formulations are ranked by the cost of their counted work on this mesh, with
- * the committed cost coefficients, and not by measured times. Formulations with a known deviation
- * in the requested quantity come last. */
+/* Determines which formulations meet an error target, and on which mesh. The target is met on the
+ * coarsest mesh for which the errors on this mesh and on all finer meshes are within the target.
+ * Formulations are ranked by the cost of their counted work on this mesh. Formulations with a known
+ * deviation in the requested quantity come last. */
 
 enum { REACH_LEVELS = 4, REACH_EVERY = -1 };
 extern const double reach_level[REACH_LEVELS]; /* 10 %, 1 %, 0.1 %, 0.01 % */
@@ -1060,7 +1046,7 @@ typedef struct reached {
     /* index of the series, and index of the coarsest mesh that meets the target */
     int series, mesh;
     /* [s] cost of the counted work; INFINITY: the formulation uses finite differences or runs in
-     * another process, and is ranked after all others */
+     * another process, and ranks after all others */
     double cost;
     const verdict *defect; /* first verdict other than pass; NULL: all verdicts are pass */
 } reached;
@@ -1076,26 +1062,27 @@ typedef struct reach_question {
     double level; /* relative error */
 } reach_question;
 
-/* Returns the reason why a type is not ranked by its work: "by differences" or "in another
- * process"; "": the type is ranked. */
+/* Returns why a type is not ranked by its work: "by differences" or "in another process"; "": it is
+ * ranked. */
 const char *reach_unranked(const element_type *type);
-/* Returns the index of the coarsest mesh for which the errors of this mesh and of all finer meshes
+/* Returns the index of the coarsest mesh for which the errors on this mesh and on all finer meshes
  * are within the target; -1: none. */
 int reach_mesh(const sweep *s, const verdict *v, double level);
-/* Returns a description of a formulation that meets the target but has a verdict of this kind. */
+/* Returns a description of a formulation that meets the target, but with a verdict of this kind. */
 const char *reach_defect_words(verdict_kind kind);
-/* Ranks the formulations that meet the target and returns their number. Formulations without a
- * defect come first. Both groups are in order of cost, then of name. out must have room for all
- * series. Other programs are excluded, because their work is not counted. */
+/* Ranks the formulations that meet the target, and returns their number. Formulations without a
+ * defect come before the others; the order in both groups is that of cost, then of name. out must
+ * have room for all series. Results of other programs are excluded, because their work is not
+ * counted. */
 int reach_ranking(const reach_question *q, reached out[]);
-/* Returns the number of tied formulations at the start of the list. They have no defect, and their
- * costs differ by less than the uncertainty of the cost coefficients. 0: no ranked formulation is
- * without a defect. 1: the first formulation has the lowest cost. */
+/* Returns the number of tied formulations at the start of the list: they have no defect, and their
+ * costs differ by less than the uncertainty of the cost coefficients. 1: the first formulation has
+ * the lowest cost. 0: no formulation has both a cost and no defect. */
 int reach_ties(const reached list[], int count);
-/* Returns 1 if every quantity of the series has a reference value of the shear theory of the
- * formulation, 0 if some quantities have none, and -1 if the series does not run. */
+/* Returns 1 if every quantity of the series has a reference value for the shear theory of the
+ * formulation, 0 if some quantity has none, and -1 if the series does not run. */
 int reach_has_references(const reach_question *q, int series_index);
-/* Computes the verdicts on every series and quantity of a sweep that has no evaluation. Quantities
+/* Returns the verdicts on every series and quantity of a sweep without an evaluation. Quantities
  * without a reference value use the cross-formulation agreement. The caller frees the array; NULL:
  * out of memory. */
 verdict *reach_verdicts(const sweep *s, const truths *t, int *count);
@@ -1107,19 +1094,18 @@ enum { ROUNDING_TEXT = 32, ROUNDING_MOST = 11 /* largest number of digits */ };
 /* Writes a number with the given number of digits, or "-" if the number is not finite. The exponent
  * is omitted if the result is short: "0.0031", but "3.1e-9". */
 void rounding_digits(double value, int digits, char text[ROUNDING_TEXT]);
-/* Writes a value up to the second digit of its uncertainty, which has the same unit. uncertainty 0:
- * the value is exact. If the uncertainty is not finite, the value has seven digits. */
+/* Writes a value up to the second digit of its uncertainty, which is in the same unit. uncertainty
+ * 0: the value is exact. If the uncertainty is not finite, seven digits are written. */
 void rounding_known(double value, double uncertainty, char text[ROUNDING_TEXT]);
 /* Writes a relative error in percent, for example "-2.7801 %" or "+2.1e-9 %", with at most 11
  * characters. */
 void rounding_percent(double error, char text[ROUNDING_TEXT]);
 
-/* Run time of a cell: the shortest time of several repetitions. The repetitions are made in rounds
- * that alternate with the other cells in the comparison. The differences between rounds give the
- * scatter. */
+/* Run time of a cell: the shortest time of several repetitions. The repetitions are made in rounds,
+ * in which all cells of the comparison alternate. Differences between rounds show the scatter. */
 
-/* Two cells differ if all rounds of one cell are faster than all rounds of the other. If both have
- * the same distribution, the probability of this result is 2 (5! 5!)/10! = 0.8 %. */
+/* The times of two cells differ if all rounds of one are faster than all rounds of the other. For
+ * equal distributions, the probability of this is 2 (5! 5!)/10! = 0.8 %. */
 enum { ROUNDS_COUNT = 5 };
 
 typedef struct rounds_reading {
@@ -1131,44 +1117,40 @@ typedef struct rounds_reading {
 /* returns the shortest round [s]; INFINITY: the cell was never run */
 double rounds_least(const rounds_reading *);
 double rounds_most(const rounds_reading *); /* returns the longest round [s] */
-/* Returns -1 if every round of a is faster than every round of b, 1 if every round of a is
- * slower, and 0 if the comparison is undecided. */
+/* Returns -1 if every round of a is faster than every round of b, 1 if every round of a is slower,
+ * and 0 otherwise. */
 int rounds_compare(const rounds_reading *a, const rounds_reading *b);
 
-/* The published algorithm, for comparison: all coordinates, strains and stresses are unknowns of a
- * single system, which is solved by dense Gaussian elimination (newton=dense). */
+/* The published algorithm, for comparison: all coordinates, strains and stresses are unknowns of
+ * one system of equations, which is solved by dense Gaussian elimination (newton=dense). */
 typedef struct dense_reference {
     int unknowns;     /* number of unknowns of the dense system; 0: not measured */
     double iteration; /* [s] shortest time of an iteration */
-    /* times of complete runs if these are short enough; otherwise rounds = 0 */
+    /* times of complete runs, if these are short enough; otherwise rounds = 0 */
     rounds_reading whole;
 } dense_reference;
 
-/* Returns the time [s] of a run: the measured time, or the time of an iteration times the number of
- * iterations of the usual solution; INFINITY: not measured. */
+/* Returns the time [s] of a run: measured, or the time of an iteration times the given number of
+ * iterations; INFINITY: not measured. */
 double dense_reference_seconds(const dense_reference *b, long iterations);
 
 /* Run times of a cell: in its usual form, and with all degrees of freedom kept (--all-dofs). */
 typedef struct cell_timing {
     rounds_reading as_is, keep_all; /* rounds = 0: not measured */
     int free_keep_all;              /* number of unknowns if all degrees of freedom are kept */
-    /* [s] times of the parts of the iterations, from an additional run that measures them */
+    /* [s] times of the parts of the iterations, from an additional run */
     double phase[PHASES];
     dense_reference dense; /* measured on request */
 } cell_timing;
 
-/* Runs all cells of a sweep in several processes. */
-
-/* Runs every cell. A cell that fails or crashes counts as a result. The order of results does not
- * depend on the number of jobs. */
+/* Runs every cell of a sweep in several processes. A cell that fails or crashes counts as a result.
+ * The order of results does not depend on the number of jobs. */
 status run_sweep(const sweep_request *request, sweep *s, fault *f);
 
-/* Reference values of a scene file. */
-
-/* Adds the reference values of the file that apply at a point of its parameters. They are evaluated
- * at this point. */
+/* Adds the reference values of the scene file that apply at a point of its parameters, evaluated at
+ * this point. */
 status scene_truths_add(const scene_file *, const double value[], truths *t, fault *f);
-/* Like scene_truths_add, for the default point and for every point that a reference value names. */
+/* Like scene_truths_add, for the default point and for every point that a reference value gives. */
 status scene_truths_add_all(const scene_file *, truths *t, fault *f);
 
 /* Verdicts in words. */
@@ -1177,26 +1159,26 @@ status scene_truths_add_all(const scene_file *, truths *t, fault *f);
 void sentence_of_verdict(const verdict *v, double least_order, char *text, size_t size);
 enum { SENTENCE_OF_RUN = 1000 };
 
-/* Writes a summary of the whole run in one sentence. The sentence starts with PASS, FAIL,
- * INTERRUPTED (after an interruption) or INCOMPLETE (if batches are missing), and names expected
- * verdicts other than pass. The text is empty if nothing was evaluated. */
+/* Writes a summary of the run in one sentence, which starts with PASS, FAIL, INTERRUPTED (after an
+ * interruption) or INCOMPLETE (if batches are missing). It lists expected verdicts other than pass.
+ * The text is empty if nothing was evaluated. */
 void sentence_of_run(const sweep *s, const evaluation *j, char *text, size_t size);
 
 /* Result of a cell as bytes, which are sent to the parent process. */
 
 int serialise_write(FILE *to, const cell_result *cell); /* Returns 0, or -1. */
 enum { SERIALISE_DAMAGED = -1, SERIALISE_NO_MEMORY = -2 };
-/* Reads the result of a cell. Returns 0, or SERIALISE_DAMAGED if the stream has ended or is
- * damaged; the cell is then empty. */
+/* Reads the result of a cell. Returns 0, SERIALISE_NO_MEMORY, or SERIALISE_DAMAGED if the stream
+ * has ended or is damaged. After a failure, the cell is empty. */
 int serialise_read(FILE *from, cell_result *cell);
 
 int truth_holds(const truth *row, const case_type *type, const double value[]);
-/* Values of truth.kind. A verdict uses the first kind in this list that has a value. truth_gates
- * returns 1 if a verdict may depend on a row. "predicted" is a limit derived for a formulation. */
+/* Values of truth.kind, in order of decreasing rank: a verdict uses the first kind that has a
+ * value. "predicted" is a limit derived for a formulation. truth_gates returns 1 if verdicts may
+ * depend on a row. */
 extern const char truth_kinds[];
-/* Returns the reference value of the continuum for a model; NULL: none. Exact values take
- * precedence over published values. Points of a curve are never returned. Verdicts of the same
- * model affect the exit status. */
+/* Returns the reference value of the continuum for a model; NULL: none. Exact values rank before
+ * published values. Points of a curve are never returned. */
 const truth *truth_of(const truths *t, const case_type *type, const double value[],
                       const char *quantity, const char *model);
 

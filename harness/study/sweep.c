@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns 0 if the options of the formulation change only features on which the quantity does not
- * depend. */
+/* Returns 0 if the options of the formulation change only features that do not affect the
+ * quantity. */
 static int option_matters(const sweep_point *p, const formulation *chosen, const char *quantity)
 {
     const unsigned features = formulation_bears_on(chosen);
@@ -206,7 +206,7 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
 }
 
 /* Copies the omission from a formulation that omits the same physics at the same point. If there is
- * no such formulation, computes the omission. */
+ * none, computes the omission. */
 static void find_omission(const sweep *s, int index)
 {
     series *one = &s->series[index];
@@ -220,8 +220,8 @@ static void find_omission(const sweep *s, int index)
     omission_of(here, one->formulation.type, &one->without);
 }
 
-/* Determines the omissions of the series of a point again. The caller has changed the quantities of
- * the point. */
+/* Computes the omissions of the series of a point again, because the quantities of the point have
+ * changed. */
 static void plan_omissions(sweep *s, int point_index)
 {
     const sweep_point *p = &s->point[point_index];
@@ -296,8 +296,8 @@ static int is_selected(const sweep *s, const sweep_point *p, const formulation *
     return selected;
 }
 
-/* Plans the formulations at a point: the requested formulations or all, and options with a discrete
- * reference value. */
+/* Plans the formulations at a point: those requested (or all), and those with options for which the
+ * point has a discrete reference value. */
 static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index,
                           select_words *words, char requested[], fault *f)
 {
@@ -313,7 +313,6 @@ static status plan_series(const sweep_request *request, const truths *t, sweep *
     return STATUS_OK;
 }
 
-/* Removes quantities that no formulation requests. */
 static void drop_quantities(scene *s, const char requested[])
 {
     int kept = 0;
@@ -330,8 +329,8 @@ static status plan_point(const sweep_request *request, const truths *t, sweep *s
     if (requested == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a selection");
     const status outcome = plan_series(request, t, s, index, words, requested, f);
-    /* Omissions depend on all quantities. Thus a selection does not change which formulations solve
-     * another model. */
+    /* Omissions depend on all quantities. A selection therefore does not change which formulations
+     * solve another model. */
     plan_omissions(s, index);
     drop_quantities(&s->point[index].scene, requested);
     free(requested);

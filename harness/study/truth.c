@@ -13,8 +13,8 @@ const char truth_kinds[] =
     "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment|"
     "unrepeatable";
 
-/* Returns 1 if the row also applies to other values of the parameter. Lumped and consistent masses
- * have the same limit, and only their discrete values differ. */
+/* Returns 1 if the row also holds for other values of the parameter. Results with lumped and
+ * consistent mass have the same limit; only their discrete values differ. */
 static int may_differ(const truth *row, const parameter_type *p)
 {
     return row->formulation[0] == '\0' && case_is_mass(p);
@@ -103,7 +103,6 @@ static int is_of(const truth *row, const case_type *type, const char *quantity)
     return row->type == type && strcmp(row->quantity, quantity) == 0;
 }
 
-/* Returns the FNV-1a hash of case and quantity. */
 static uint64_t hash_of(const case_type *type, const char *quantity)
 {
     uint64_t hash = 14695981039346656037ULL ^ (uint64_t)(uintptr_t)type;
@@ -112,7 +111,7 @@ static uint64_t hash_of(const case_type *type, const char *quantity)
     return hash;
 }
 
-/* Returns the position of the first row of the case and quantity in the hash table, or the free
+/* Returns the position in the hash table of the first row of the case and quantity, or the free
  * position for such a row. */
 static int frame_motion_of(const truths *t, const case_type *type, const char *quantity)
 {
@@ -122,7 +121,7 @@ static int frame_motion_of(const truths *t, const case_type *type, const char *q
     return at;
 }
 
-/* Searches from row i on without the index. */
+/* Searches without the index, from row i on. */
 static int walk(const truths *t, const case_type *type, const char *quantity, int i)
 {
     while (i < t->rows && !is_of(&t->row[i], type, quantity))
@@ -144,7 +143,7 @@ int truth_index_next(const truths *t, int i)
     return walk(t, row->type, row->quantity, i < t->indexed ? t->indexed : i + 1);
 }
 
-/* Fills the index from the last row to the first row, so each entry links to the next row of the
+/* Fills the index from the last row to the first, so that each entry links to the next row of the
  * same quantity. */
 static void chain(truths *t)
 {
@@ -184,7 +183,7 @@ void truth_index_free(truths *t)
     t->indexed = t->places = 0;
 }
 
-/* Reads the parameters of a row and checks that their meaning has not changed since the table was
+/* Reads the parameters of a row. Checks that their meaning has not changed since the table was
  * packed. */
 static status check_row(const table_columns *r, const case_type *type, int i, const char *text,
                         uint64_t hash, parameters_words *before, double value[], int any[])
@@ -216,7 +215,8 @@ static int is_known_or_empty(const char *word, const char *choices)
     return word[0] == '\0' || is_known(word, choices);
 }
 
-/* Returns 1 if formulation and number of elements are given as the kind requires. */
+/* Returns 1 if the row gives a formulation and a number of elements where its kind requires them,
+ * and not otherwise. */
 static int elements_fit(const truth *row)
 {
     const int of_formulation = row->formulation[0] != '\0';

@@ -48,7 +48,7 @@ static status read_case(const char *path, hid_t all, const case_type *type, trut
     table_columns r = {.path = path, .f = f};
     snprintf(r.name, sizeof r.name, "%s", type->name);
     if (H5Lexists(all, type->name, H5P_DEFAULT) <= 0)
-        return STATUS_OK; /* verdicts will be "no truth" */
+        return STATUS_OK;
     r.group = H5Gopen2(all, type->name, H5P_DEFAULT);
     const status outcome = read_table(&r, type, out);
     if (r.group >= 0)
@@ -65,8 +65,8 @@ static status read_cases(const char *path, hid_t all, const case_type *only, tru
     return STATUS_OK;
 }
 
-/* Counts the tables of cases that the program does not have, and records the name of the first one.
- * Otherwise these tables would remain unused without notice. */
+/* Counts the tables of cases that the program does not contain, and records the name of the first
+ * one, so that unused tables are reported. */
 static void find_unknown_cases(hid_t all, truths *out)
 {
     char name[64];
@@ -81,7 +81,6 @@ static void find_unknown_cases(hid_t all, truths *out)
     }
 }
 
-/* Tables to be read from a file. */
 typedef struct truths_wanted {
     const char *group; /* group that contains one table per case; NULL: none */
     const case_type *only;

@@ -9,7 +9,7 @@
 #include "cases/format/format.h"
 #include "elements/shared/choice.h"
 
-/* Returns case number i: first the cases of the run, then the other built-in cases; NULL after the
+/* Returns case number i: the cases of the run first, then the other built-in cases; NULL after the
  * last case. */
 static const case_type *user_names_case_at(const case_type *const run[], int i);
 
@@ -29,7 +29,6 @@ enum {
     COLUMNS
 };
 
-/* State of the reader. */
 typedef struct deviations_reader {
     const case_type *const *run;
     truths *t;
@@ -38,7 +37,6 @@ typedef struct deviations_reader {
     int good; /* 1: no error has been found in the current row */
 } deviations_reader;
 
-/* Reports an error in a column of the row. */
 #define WRONG(r, column, ...)                                                                      \
     ((r)->good = 0, mistakes_add((r)->m, (r)->row->line, (column) + 1, __VA_ARGS__))
 
@@ -71,8 +69,8 @@ static void check_case(deviations_reader *r, const char *word)
               user_names_near_case(r->run, word, near));
 }
 
-/* Returns 1 if the case has the quantity at its default point or at points with reference values.
- * */
+/* Returns 1 if the case has the quantity at the default point or at a point with reference
+ * values. */
 static int case_has(const deviations_reader *r, const case_type *type, const char *quantity,
                     scene *defaults)
 {
@@ -166,7 +164,7 @@ static void check_name(deviations_reader *r)
                   r->t->rule[i].from != NULL ? r->t->rule[i].from : "the list of known deviations");
 }
 
-/* Checks that the rule gives the cause and its proof. */
+/* Checks that the rule gives a cause and the proof of this cause. */
 static void check_grounds(deviations_reader *r)
 {
     if (r->row->field[CAUSE][0] == '\0' || strcmp(r->row->field[CAUSE], PROPOSAL_CAUSE) == 0)

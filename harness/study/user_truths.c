@@ -30,17 +30,15 @@ static const char *const names[COLUMNS] = {
     "case",  "parameters", "formulation", "theory", "elements", "quantity",   "at",
     "value", "unit",       "uncertainty", "kind",   "model",    "convention", "source"};
 
-/* State of the reader. */
 typedef struct truths_reader {
     const case_type *const *run;
     const case_type *only;
     truths *t;
     mistakes *m;
     const user_table_row *row;
-    int good; /* 1: no error has been found in the current row */
+    int good;
 } truths_reader;
 
-/* Reports an error in a column of the row. */
 #define WRONG(r, column, ...)                                                                      \
     ((r)->good = 0, mistakes_add((r)->m, (r)->row->line, (column) + 1, __VA_ARGS__))
 
@@ -68,7 +66,7 @@ static void take_elements(truths_reader *r, int *out)
         *out = (int)count;
 }
 
-/* Checks the quantity and its unit in the scene for these parameters. */
+/* Checks that the scene with these parameters has the quantity in this unit. */
 static void check_quantity(truths_reader *r, const case_type *type, const double value[])
 {
     char near[FAULT_TEXT];
@@ -129,7 +127,7 @@ static const truth *known(const truths *t, const truth *row)
     return NULL;
 }
 
-/* Converts the row to a reference value and checks it. The strings are not copied. */
+/* Converts the row to a reference value and checks it. The strings of the row are not copied. */
 static void take_row(truths_reader *r, const case_type *type, truth *out)
 {
     char *const *field = r->row->field;
@@ -160,7 +158,7 @@ static void take_row(truths_reader *r, const case_type *type, truth *out)
     check_quantity(r, type, out->parameter);
 }
 
-/* Checks a row: words from fixed lists, and members that require each other. */
+/* Checks the words of a row, and members that require each other. */
 static void check_row(truths_reader *r, const truth *row)
 {
     const char *wrong = truth_rows_wrong(row);

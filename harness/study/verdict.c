@@ -18,8 +18,8 @@ static const char *const names[VERDICT_KINDS] = {"pass",
                                                  "skip",
                                                  "no truth",
                                                  "other model"};
-static const double order_slack = 0.3; /* accuracy of orders that are observed on finite meshes */
-/* A difference is significant if it is larger than this multiple of the uncertainty. */
+static const double order_slack = 0.3; /* accuracy of observed orders on finite meshes */
+/* a difference is significant if it exceeds this multiple of the uncertainty */
 static const double many_times = 3;
 
 const verdict_kind verdict_defects[VERDICT_DEFECTS] = {
@@ -121,11 +121,10 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
     return limit_of(&sequence);
 }
 
-/* Returns 1 if the order is known and too low. Two low orders may agree by accident: error terms
- * with opposite signs may cancel, or elements may be as long as a boundary layer. Therefore, if
- * there are five meshes or more, the previous order must also be below the nominal order, and the
- * three orders must be monotonic. Changes below the uncertainty of the reference value are ignored.
- * */
+/* Returns 1 if the order is known and too low. Two low orders may agree by accident, if error terms
+ * have opposite signs or if elements are as long as a boundary layer. With five or more meshes, the
+ * previous order must therefore also be below the nominal order, and the three orders must be
+ * monotonic. Changes below the uncertainty of the reference value are ignored. */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
     const double least = q->least_order - order_slack, nominal = ceil(q->least_order);
@@ -134,8 +133,8 @@ static int order_is_low(const scene_quantity *q, const verdict *v)
            v->fit.last_change > v->truth->uncertainty;
 }
 
-/* Returns 1 if the limit equals the derived limit within both uncertainties. The criterion is the
- * same as for a bias, so a significantly different limit is not the derived limit. */
+/* Returns 1 if the limit agrees with the derived limit: their distance is at most many_times the
+ * uncertainty of the limit plus that of the derived limit. */
 static int is_predicted(const verdict *v)
 {
     if (v->predicted == NULL)
@@ -144,8 +143,8 @@ static int is_predicted(const verdict *v)
     return apart <= many_times * v->fit.limit_uncertainty + v->predicted->uncertainty;
 }
 
-/* Returns the verdict with respect to the reference value. If the uncertainty of the reference
- * value is only an estimate, the verdict is never a bias. */
+/* Returns the verdict with respect to the reference value. Only a limit that differs from an exact
+ * reference value can be biased. */
 static verdict_kind compare(const scene_quantity *q, const verdict *v)
 {
     const double error = fabs(v->fit.limit - v->truth->value),
@@ -163,8 +162,8 @@ static verdict_kind compare(const scene_quantity *q, const verdict *v)
 }
 
 /* Returns the values of truth.theory that apply to the formulation; NULL: any. A formulation whose
- * modes exclude shear has a separate theory, and its limits are compared with any reference value.
- * */
+ * modes exclude shear has a separate theory, and its limits are compared with any reference
+ * value. */
 static const char *theories_of(const scene *s, const element_type *type)
 {
     switch (features_theory(s, type)) {
@@ -214,8 +213,8 @@ static void find_truths(const sweep *s, const truths *t, verdict *v)
     v->predicted = truth_predicted(t, p->type, p->parameter, name, one->formulation.key);
 }
 
-/* Returns a published value of the same model and theory that differs from the limit and ranks
- * below the reference value; NULL: none. */
+/* Returns a published value of the same model and theory that differs from the limit and has a
+ * lower rank than the reference value; NULL: none. */
 static const truth *contradiction(const sweep *s, const truths *t, const verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -326,8 +325,8 @@ static const char *quantity_of(const sweep *s, const verdict *v)
     return s->point[series_of(s, v)->point].scene.quantity[v->quantity].name;
 }
 
-/* Returns 1 if one proposed rule covers both verdicts: they have the same case, formulation and
- * kind. */
+/* Returns 1 if one proposed rule covers both verdicts, because they have the same case, formulation
+ * and kind. */
 static int same_rule(const sweep *s, const verdict *a, const verdict *b)
 {
     return a->needs_deviation && b->needs_deviation && a->kind == b->kind &&

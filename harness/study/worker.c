@@ -12,7 +12,6 @@
 
 #include "harness/numerics/numerics.h"
 
-/* A task that a worker performs. */
 typedef struct requested {
     const workload *w;
     const cell_request *request;
@@ -20,7 +19,7 @@ typedef struct requested {
     int task, same;
 } requested;
 
-/* Adds the inputs of a cell that the model does not contain, such as the case, its parameters, the
+/* Adds the inputs of a cell that are not part of the model, such as the case, its parameters, the
  * options of the solution, and the number of quantities. */
 static void add_request(identity *out, const workload *w, const requested *a)
 {
@@ -62,8 +61,8 @@ static int is_known(void *context, const model *m)
     return a->same >= 0;
 }
 
-/* Runs the equivalent scene of a repetition, of which only the values are needed. If this scene is
- * invalid, there is no result. */
+/* Solves the equivalent scene of a repetition, for its values only. If this scene is invalid, there
+ * is no result. */
 static void run_again(const workload *w, const requested *a, cell_request *request,
                       cell_result *out)
 {
@@ -81,7 +80,8 @@ static void run_again(const workload *w, const requested *a, cell_request *reque
     scene_free(&edited);
 }
 
-/* Runs a task. Returns the task with the same results; -1: the results are in *out. */
+/* Runs a task. Returns -1 if *out has the results; otherwise, the task that has the same
+ * results. */
 static int run_task(const workload *w, int i, int alone, cell_result *out)
 {
     cell_request request = sweep_cell(w->s, w->tasks[i].series, w->tasks[i].mesh);
@@ -100,7 +100,6 @@ static int run_task(const workload *w, int i, int alone, cell_result *out)
     return a.same;
 }
 
-/* Header of every result. */
 typedef struct heading {
     int task, same; /* same: task with the same results; -1: results follow */
     size_t bytes;
@@ -139,7 +138,6 @@ static int send_result(int to, int i, int same, const cell_result *cell)
     return bad ? -1 : 0;
 }
 
-/* Runs tasks in the child process until none is left. */
 static void work(const workload *w, int self, int to)
 {
     int alone, i, bad = 0;
@@ -179,7 +177,6 @@ status worker_start(const workload *w, int self, worker *out, fault *f)
     return STATUS_OK;
 }
 
-/* Enlarges the buffer. Returns 0 on success. */
 static int grow(worker *from)
 {
     enum { LEAST = 1 << 16 };
@@ -212,7 +209,7 @@ static int take_result(workload *w, const heading *head, char *bytes)
 }
 
 /* Returns 1 if the header is that of an unfinished task. A worker with corrupted memory may write
- * anything. */
+ * any bytes. */
 static int is_heading(const workload *w, const heading *head)
 {
     enum { LARGEST = 1 << 30 }; /* [bytes] */
@@ -220,7 +217,7 @@ static int is_heading(const workload *w, const heading *head)
            head->bytes <= LARGEST && (head->same >= 0 ? head->bytes == 0 : head->bytes > 0);
 }
 
-/* Marks the output of the worker as damaged, and kills the worker, which closes its pipe. */
+/* Marks the output of the worker as damaged and kills the worker, which closes the pipe. */
 static int corrupted(worker *from)
 {
     from->damaged = 1;
@@ -254,7 +251,7 @@ static int take_whole(workload *w, worker *from)
 int worker_receive(workload *w, worker *from)
 {
     ssize_t got;
-    /* after the end of the worker, no more data will arrive */
+    /* after the worker has ended, no more data will arrive */
     const int ended = child_has_ended(from->process);
     if (grow(from) != 0)
         return WORKER_NO_MEMORY;

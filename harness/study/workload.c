@@ -7,12 +7,12 @@
 
 #include "harness/numerics/numerics.h"
 
-/* Returns the edit that makes equivalent scene number `repetition`. */
+/* Returns the edit that produces equivalent scene number `repetition`. */
 static scene_edit noise_words(const formulation *, int repetition);
 /* Sets series.noise to twice the larger of the differences between the repetitions and the value on
- * the finest mesh. The differences are relative to the value or to near_zero. If the formulation
- * uses finite differences and their error is larger, the noise is this error. NAN: a value or a
- * repetition is missing. Returns -1 if out of memory. */
+ * the finest mesh, relative to the value or to near_zero. If the formulation uses finite
+ * differences with a larger error, the noise is this error. NAN: a value or a repetition is
+ * missing. Returns -1 if out of memory. */
 static int noise_take(const sweep_point *, const cell_result again[NOISE_REPETITIONS], series *);
 
 static int is_run(const sweep *s, int i)
@@ -103,9 +103,9 @@ void workload_end(workload *w)
     free(w->after);
 }
 
-/* Takes task i if the counter is still n, and then increases the counter. The worker first records
- * that it works on the task, so the task is not lost if the worker ends before taking it. Returns 0
- * if another worker has taken the task. */
+/* Takes task i if the counter is still n, and increases the counter. Before that, the worker
+ * records the task as its own, so that the task is not lost if the worker ends. Returns 0 if
+ * another worker has taken the task. */
 static int take(board *b, int self, atomic_int *counter, int n, int i)
 {
     b->since[self] = clock_wall_seconds();
@@ -168,8 +168,8 @@ static void begin_noise(workload *w, int i)
         add_task(w, task_of_noise(w, i, k));
 }
 
-/* Handles a series whose tasks are all done. If the scatter is needed, adds the repetitions of the
- * finest mesh. Otherwise marks the series as complete. *last: last task of the series. */
+/* Handles a series without unfinished tasks. If the scatter is needed, adds the repetitions of the
+ * finest mesh; otherwise marks the series as complete. *last: last task of the series. */
 static void all_done(workload *w, int i, const workload_task *last)
 {
     series *one = &w->s->series[i];
@@ -199,7 +199,6 @@ static void mark(workload *w, int i)
         sem_post(&w->board->changed);
 }
 
-/* Copies a result. Returns 0 on success. */
 static int copy(const cell_result *from, cell_result *to)
 {
     char *bytes = NULL;
@@ -216,7 +215,7 @@ static int copy(const cell_result *from, cell_result *to)
     return bad;
 }
 
-/* Copies the results of another task, which is complete. A failed solution is repeated by each
+/* Copies the results of another task, which is complete. A failed solution is repeated for each
  * task, because the messages differ. */
 static void finish(workload *w, int i, int same)
 {
@@ -253,7 +252,7 @@ double workload_share(const workload *w)
     for (int i = 0; i < w->all; i++) {
         const workload_task *t = &w->tasks[i];
         if (t->again > 0 && w->state[t->series] != SERIES_NOISE && !w->done[i])
-            continue; /* the repetition is not requested, or not at present */
+            continue; /* the repetition is not requested, or not now */
         const double cost = run_cost_of_cell(w->s, t->series, t->mesh);
         all += cost;
         done += w->done[i] ? cost : 0;
@@ -288,7 +287,7 @@ void workload_keep_whole(workload *w)
     w->s->seriess = kept;
 }
 
-/* Twice the larger of two differences exceeds the standard deviation in 19 of 20 cases. */
+/* Factor for the larger of two differences, because both may be small by accident. */
 static const double cover = 2;
 
 static scene_edit noise_words(const formulation *chosen, int repetition)
@@ -334,8 +333,8 @@ static int noise_take(const sweep_point *p, const cell_result again[NOISE_REPETI
             value[k] = value_of(&again[k], q);
         const double measured =
             noise_of(&p->scene.quantity[q], value_of(&one->cell[one->meshes - 1], q), value);
-        /* Errors of finite differences are the same on all meshes and in equivalent scenes, so
-         * scatter does not show them. */
+        /* Errors of finite differences are the same on all meshes and in equivalent scenes, so they
+         * do not appear as scatter. */
         one->noise[q] =
             isnan(measured) ? measured : fmax(measured, adapters_error(one->formulation.type));
     }
@@ -350,7 +349,7 @@ int noise_cells(const sweep *s)
     return cells;
 }
 
-/* Claim of a task; key 0: the entry is free. */
+/* Lock of a problem; key 0: the entry is free. */
 typedef struct task_lock {
     _Atomic uint64_t key, check;
     atomic_int task; /* task + 1; 0: not written yet */
@@ -380,7 +379,7 @@ void task_locks_free(task_locks *c)
         munmap(c, c->size);
 }
 
-/* Returns 1 if the lock is for the same problem. A lock that is being written counts as another
+/* Returns 1 if the lock is for this problem. A lock that is being written counts as another
  * problem. */
 static int is_same(task_lock *at, const identity *what)
 {

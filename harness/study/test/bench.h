@@ -1,4 +1,4 @@
-/* An artificial series with its reference values and its evaluation, for tests of verdicts. */
+/* An artificial series with reference values and an evaluation, for tests of verdicts. */
 #ifndef BEAMWORK_TEST_BENCH_H
 #define BEAMWORK_TEST_BENCH_H
 
@@ -28,7 +28,7 @@ static const case_type made_up = {.name = "made_up",
 static const element_type element = {.name = "element", .abi = ELEMENT_ABI};
 
 /* One point, one series of five meshes, and one quantity. The reference value is 3, the tolerance
- * 1e-4, and the minimum order 2. */
+ * 1e-4, the minimum order 2. */
 typedef struct evaluation_bench {
     sweep s;
     sweep_point p;
@@ -99,8 +99,8 @@ static inline void bench_make(evaluation_bench *b)
     b->t = (truths){.rows = 1, .row = b->row};
 }
 
-/* Adds a second row with this value. It is otherwise equal to the first row, and the caller may
- * change it. */
+/* Adds a second row with this value, otherwise equal to the first row. The caller may change the
+ * new row. */
 static inline truth *bench_add_row(evaluation_bench *b, double value)
 {
     b->row[1] = b->row[0];
@@ -109,7 +109,7 @@ static inline truth *bench_add_row(evaluation_bench *b, double value)
     return &b->row[1];
 }
 
-/* Adds a second row, which is the limit derived for the formulation. */
+/* Adds a second row with the limit derived for the formulation. */
 static inline truth *bench_add_prediction(evaluation_bench *b, double limit)
 {
     truth *row = bench_add_row(b, limit);
@@ -125,7 +125,6 @@ static inline void bench_fill(evaluation_bench *b, double limit, double size, do
         b->quantity[i].value = limit + size * pow(mesh[i], -order);
 }
 
-/* Makes a bench whose series converges to the reference value with order 2. */
 static inline void bench_converge(evaluation_bench *b)
 {
     bench_make(b);
@@ -154,7 +153,6 @@ static inline void bench_expect(evaluation_bench *b, verdict_kind kind, int code
     gsl_test_int(evaluation_exit(&b->j), code, "%s: exit code", what);
 }
 
-/* Checks the text of the verdict. */
 static inline void bench_expect_words(const evaluation_bench *b, const char *words_of_it)
 {
     char sentence[2 * FAULT_TEXT];

@@ -1,5 +1,5 @@
-"""Tests of the verb bench: rows, rejected input, and comparison of two programs or formulations. The times are checked
-by make lab L=bench-check."""
+"""Tests of the verb bench: rows, rejected input, and comparison of two programs or formulations. `make lab
+L=bench-check` checks the times."""
 import csv
 import io
 import re
@@ -52,15 +52,15 @@ class Bench(ProgramTest):
         self.refused(2, "selects no quantity of elastica", "bench", "warping_torsion", "elastica", "-k", "warping_torsion")
 
     def test_ranks_as_converge(self):
-        """Without a reference value, bench ranks as converge does: by errors with respect to the agreement. A
-        formulation that omits physics without effect is included."""
+        """Without a reference value, bench must rank as converge does: by errors with respect to the agreement. A
+        formulation that omits physics without effect must be included."""
         text = self.answered("bench", "--scene", LEAF, "--set", "stroke=0.009", "-n", "1,2,4").stdout
         self.assertNotIn("no reference value", text)
         self.assertRegex(text, r"(?m)^  collocation +4 .* %$")
 
     def test_none_that_passes(self):
-        """Formulations that are within the error target but have a different limit must be named separately. Equal lines
-        for several quantities are joined."""
+        """Formulations that are within the error target but have another limit must be printed separately. Equal lines
+        for several quantities must be joined."""
         done = self.answered("bench", "shear_elastica", "-f", "beamw", "-f", "sheet_third", "-n",
                              "2,4,8,16")
         text = " ".join(done.stdout.split())
@@ -119,8 +119,8 @@ class Bench(ProgramTest):
         self.refused(2, "selects only one formulation", *work, "1%", "-k", "beamw")
 
     def least(self, case, formulation, level):
-        """Returns, from converge, the smallest number of elements for which this mesh and all finer meshes are within
-        the error level."""
+        """Returns the smallest number of elements for which this mesh and all finer meshes are within the error level,
+        according to converge."""
         series = self.record("converge", *case, "-f", formulation)["series"][0]
         meshes = [m["elements"] for m in series["quantities"][0]["meshes"]]
         bad = [k for q in series["quantities"] for k, m in enumerate(q["meshes"])
@@ -147,8 +147,8 @@ class Bench(ProgramTest):
         self.assertIsNone(missed["elements_b"])
 
     def test_equal_error_of_a_scene(self):
-        """By default, formulations are compared at errors that both reach. If a formulation converges to a different
-        limit, this must be stated."""
+        """By default, formulations are compared at errors that both achieve. If a formulation converges to another
+        limit, this must be printed."""
         text = self.answered("bench", "--scene", LEAF, "-f", "sheet_third", "--against",
                              "collocation", "-k", "k_pushed").stdout
         self.assertEqual(re.findall(r"(?m)^at ([\d.]+) %: ", text), ["10", "1", "0.1"])

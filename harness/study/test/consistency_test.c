@@ -1,6 +1,6 @@
-/* Tests the check of run records. One cell is artificial and consistent, and each of its numbers is
- * changed separately. Other cells are computed, with every kind of analysis and of Newton's method,
- * and with elements that count their evaluations. */
+/* Tests the check of run records. In one artificial, consistent cell, each number is changed
+ * separately. Other cells are computed, with every kind of analysis and of Newton's method, and
+ * with elements that count their evaluations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -32,7 +32,7 @@ static void add_analysis(scene_analysis_kind kind, scene *s)
         scene_add_rotation(s, 1, &end, 1, 0, (scene_rotating_frame){{0}, {0}});
 }
 
-/* Makes a record of three steps with four iterations each. Each step of a continuation starts with
+/* Makes a record of three steps with four iterations each. In a continuation, each step starts with
  * the existing tangent. */
 static void make(scene_analysis_kind kind, consistency_bench *b)
 {
@@ -161,7 +161,6 @@ static status counted_inertia(const element_data *d, const node_state x[],
     return inner->inertia(d, x, frame, out);
 }
 
-/* Counts the evaluations of several elements. */
 static void counted_strains(int count, const element_data *const data[], const node_state x[],
                             strain_output out[])
 {
@@ -185,8 +184,8 @@ static void counted_equations(int count, const element_data *const data[], const
     inner->equations_many(count, data, x, e, own, s, out, outcome);
 }
 
-/* For a cell that is computed, the counters must agree with the counts of the elements. Strains
- * that are evaluated for reactions are not counted. */
+/* The counts of a computed cell must agree with those of the elements. Strains that are evaluated
+ * for reactions are not counted. */
 static void actual(const char *name, int elements, const char *formulation_name,
                    const char *parameters, newton_form newton, int reactions, int checks_flutter)
 {
@@ -216,8 +215,8 @@ static void actual(const char *name, int elements, const char *formulation_name,
              formulation_name, newton, f.text);
     gsl_test(record_is_consistent(&cell, &cell.scene, newton, why) != 1, "%s, %s, Newton %d: %s",
              name, formulation_name, newton, why);
-    /* if a path is unstable, the stiffness at rest is evaluated in addition, which is not counted
-     * as work of the solution */
+    /* if a path is unstable, the stiffness at rest is also evaluated, which does not count as work
+     * of the solution */
     stresses -= checks_flutter * cell.size.elements;
     strains -= checks_flutter * cell.size.elements;
     gsl_test(cell.counters.stress_evaluations != stresses,
@@ -256,8 +255,8 @@ static void consistency_tests(void)
     actual("hexapod", 3, "sheet_third", "steps=3", NEWTON_MIXED, 1, 0);
 }
 
-/* The times of the parts of a solution and of the whole solution must come from one clock. They
- * must not include idle time, and no part may be missing. */
+/* The times of the parts and of the whole solution must be from one clock. They must not include
+ * idle time, and no part may be missing. */
 
 static const element_type *without_strain_type;
 
@@ -291,8 +290,8 @@ static void parts_are_the_whole(const cell_request *request, const char *what)
                  phase_name((newton_phase)k), cell.solve.phase[k], cell.solve.seconds_solve);
     }
     gsl_test(!(cell.solve.phase[PHASE_ELEMENTS] > 0), "%s: elements take time", what);
-    /* the times of the parts must sum to at least a fifth of the total time; the rest is between
-     * the readings */
+    /* the sum of the parts must be at least a fifth of the total time; the rest is between the
+     * readings of the clock */
     gsl_test(!(sum <= cell.solve.seconds_solve && sum > 0.2 * cell.solve.seconds_solve),
              "%s: the parts, %g s, are the whole, %g s, but for the readings", what, sum,
              cell.solve.seconds_solve);

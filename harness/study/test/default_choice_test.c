@@ -42,8 +42,8 @@ static rule made_up(char *formulations, char *cases, char *verdicts)
                   .largest_error = 1};
 }
 
-/* The chosen formulation must support the whole scene. If it has a known deviation for this case,
- * another must be chosen. */
+/* The chosen formulation must support all features of the scene. If it has a known deviation for
+ * this case, another must be chosen. */
 static void of_case(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -74,8 +74,8 @@ static void of_case(const case_type *type)
     scene_free(&s);
 }
 
-/* The chosen mesh must be one of the meshes of the scene or have twice the elements of the finest
- * of them. The values must have converged, unless the output states the contrary.. */
+/* The chosen mesh must be one of the scene, or the finest of these after repeated doubling. The
+ * values must have converged, unless the output says that they have not. */
 static void of_meshes(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -127,7 +127,7 @@ static void nothing_offers_all(void)
     scene_free(&s);
 }
 
-/* If only one formulation is accepted, either this formulation is chosen or none. */
+/* If only one formulation is accepted, either this formulation or none must be chosen. */
 static void no_new_one(void)
 {
     const element_type *accepted = registry_formulations[0];
@@ -159,8 +159,8 @@ static void default_choice_tests(void)
     no_new_one();
 }
 
-/* Results of a cell that are transferred between processes must arrive bit for bit as they were
- * sent. Truncated data must be rejected. */
+/* Results of a cell must be bit-for-bit the same after transfer between processes. Truncated data
+ * must be rejected. */
 
 static void round_trips(random_source *d)
 {
@@ -175,7 +175,7 @@ static void round_trips(random_source *d)
             unwritten += serialise_write(file, &sent[i]) != 0;
         }
     rewind(file);
-    for (int i = 0; i < CELLS; i++) { /* several cells in sequence, as a worker sends them */
+    for (int i = 0; i < CELLS; i++) {
         cell_result got;
         unread += serialise_read(file, &got) != 0;
         const difference here = compare_cells(&sent[i], &got);
@@ -214,8 +214,8 @@ static int is_empty(const cell_result *c)
            s->shapes.state == NULL && s->shapes.point == NULL && s->shapes.node == NULL;
 }
 
-/* Every truncation must be detected and must leave no data. If `pictured` is 1, the last part of
- * the data is a picture. */
+/* Every truncation must be detected and must leave no data. pictured 1: the last part of the data
+ * is a picture. */
 static void truncated(random_source *d, int pictured)
 {
     cell_result sent = random_cell(d), got;
@@ -253,8 +253,8 @@ static void serialise_tests(void)
         truncated(&d, i % 2);
 }
 
-/* Runs all formulations at two points of a case, on meshes of one and two elements. Cells with
- * equal results are solved once. */
+/* Runs all formulations at two points of a case, on meshes of one and two elements. share 1: cells
+ * with equal results are solved once. */
 static void run(const case_type *type, const char *const text[2], int share, sweep *s)
 {
     static const int mesh[] = {1, 2};
@@ -280,8 +280,8 @@ static double seconds(const cell_result *c)
     return c->solve.seconds_setup + c->solve.seconds_solve;
 }
 
-/* Returns the number of cells whose time is bit for bit that of another cell. Such cells share the
- * results of one solution. */
+/* Returns the number of cells whose time is bit-for-bit that of another cell, and which therefore
+ * share one solution. */
 static int shared(const sweep *s)
 {
     int out = 0;

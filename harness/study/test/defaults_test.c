@@ -1,7 +1,7 @@
 /* reference/defaults.csv, which the programs of reference/derive read, must agree with the
  * parameter tables of the cases: the same parameters in the same order, with the same numbers and
- * words. The last parameters of each case, for omitted physics and the position of mass, are not in
- * the file, because the derivations do not use them. */
+ * words. The last parameters of each case, for omitted physics and for the location of mass, are
+ * not in the file, because the derivations do not use them. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -28,7 +28,7 @@ static const case_type *case_of(const char *name)
     return NULL;
 }
 
-/* Checks a row. `at` is the index of the parameter within its case. */
+/* Checks a row of the parameter with index `at` of its case. */
 static void check_row(const char *line, const case_type *type, int at, const char *name,
                       const char *number, const char *choices)
 {
@@ -45,7 +45,6 @@ static void check_row(const char *line, const case_type *type, int at, const cha
              "defaults.csv: %s: its words", line);
 }
 
-/* Checks all rows. Returns their number. */
 static int check_table(FILE *table)
 {
     char line[LINE], before[LINE] = "";

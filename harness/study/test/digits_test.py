@@ -1,12 +1,13 @@
-"""Predicted limits of which the usual meshes give fewer than four digits, computed on finer meshes.
+"""Derived limits for which the meshes of the cases give fewer than four digits, computed on finer meshes.
 
-The usual meshes cannot resolve a compliance nearly cancelled by shear, elements longer than the thickness of the
-sheet, a rapidly rotating channel, or a high mode. More elements show the predicted limit."""
+Reasons are a compliance in which contributions of shear nearly cancel, elements that are longer than the thickness
+of the sheet, a rapidly rotating channel, and a high mode. With more elements, the limit must agree with the derived
+limit."""
 import unittest
 
 from harness.tools.kit.program import ProgramTest
 
-DIGITS = 1e-4  # relative error of a limit that is known to four digits
+DIGITS = 1e-4  # relative error of a limit with four correct digits
 FINE = "32,64,128,256,512"
 CANCELLED = "warping=0", "trapeze=0", "shear_factor=0.8333333333333334"
 POINTS = (
@@ -24,10 +25,10 @@ POINTS = (
     ("bend_45", "sheet_third", ("force=300", ), "u_tangent", "8,16,32,64,128"),
     ("bend_45", "sheet_third_printed", ("force=300", ), "u_tangent", "8,16,32,64,128"),
 )
-# 64 elements of these sheets are as long as the thickness of the sheet. The observed orders are 3.2 and 3.7, which are
-# not asymptotic, so the limit seems more accurate than it is.
+# With 64 elements, the elements of these sheets are as long as the thickness of the sheet. The observed orders 3.2 and
+# 3.7 are not asymptotic, so the uncertainty of the limit is too small.
 AS_THICK = (("tip_deflection=0.05", ), ("tip_warping=1", ))
-# cases that are undecided or biased on the usual meshes (rules meshes-hexapod, meshes-roll-up), but pass on these
+# cases that are undecided or biased on the default meshes (rules meshes-hexapod, meshes-roll-up), but pass on these
 # meshes
 PASSES = (
     ("hexapod", "beamw_consistent", ("wagner=0", ), "support_stiffness_8", "2,4,8,16,32"),
@@ -35,7 +36,7 @@ PASSES = (
     *(("roll_up", formulation, ("turns=2", ), "tip_gap", "32,64,128,256,512")
       for formulation in ("beamw", "beamw_first", "beamw_vlasov")),
 )
-# frequencies of bending and torsion with orders of 1.1 to 1.3 from 16 to 128 elements
+# frequencies of bending and torsion, with orders from 1.1 to 1.3 on 16 to 128 elements
 SLOW = (("frequency_3", ()), ("frequency_6", ()))
 JOINT = "fold_warping=free", "wagner=0", "tilt=0.1", "steps=10"
 FOLDS = "1,2,4,8,16,32,64,128"
@@ -67,8 +68,8 @@ class Digits(ProgramTest):
                 self.assertGreater(found["order"], 1.9)
 
     def test_orders_that_rise(self):
-        """With up to 128 elements, two successive orders agree on a value below the minimum. The preceding order does
-        not agree, so the verdict must not be a low order. With 1024 elements, the order is two."""
+        """With up to 128 elements, two successive orders agree on a value below the minimum, but the order before them
+        does not. The verdict must not be a low order. With 1024 elements, the order is two."""
         for quantity, given in SLOW:
             with self.subTest(quantity=quantity, given=given):
                 what = "unsymmetric_column", "beamw", given, quantity
@@ -86,9 +87,9 @@ class Digits(ProgramTest):
             self.assertEqual(fine["verdict"], "wrong limit, as predicted")
 
     def test_shorter_than_the_sheet_is_thick(self):
-        """With up to 128 elements, the observed orders of C_uz_My are 4.5 and 4.7. They agree although four is the
-        highest possible order. The limit has a correspondingly larger uncertainty, and 1024 elements agree with the
-        derived limit."""
+        """With up to 128 elements, the observed orders of C_uz_My are 4.5 and 4.7: they agree, although the highest
+        possible order is four. The uncertainty of the limit must be larger for this reason. The limit with 1024
+        elements must agree with the derived limit."""
         what = "sheet_cantilever", "sheet_second", ("tip_warping=1", ), "C_uz_My"
         coarse = self.limit(*what, "1,2,3,4,8,16,32,64,128")
         self.assertGreater(coarse["order"], 4.4)

@@ -1,4 +1,4 @@
-/* A formulation whose cells end in a given way, for example by a crash. */
+/* A formulation whose cells end in a given way, for example with a crash. */
 #ifndef BEAMWORK_TEST_ENDING_H
 #define BEAMWORK_TEST_ENDING_H
 
@@ -19,7 +19,6 @@ static inline void never_end(int output)
         pause();
 }
 
-/* Returns a formulation that runs on the first case. */
 static inline formulation ending_good(void)
 {
     formulation chosen;
@@ -38,12 +37,12 @@ static inline formulation ending_good(void)
     return chosen;
 }
 
-/* A formulation in which the preparation of an element ends the process in the given way. */
+/* A formulation for which the preparation of an element ends the process in the given way. */
 static struct {
     element_type type;
     status (*prepare)(const element_request *, element_data *, fault *);
-    int end, output; /* `end`: how the process ends; `output`: descriptor to which an endless cell
-                      writes its process number */
+    int end, output; /* end: how the process ends; output: descriptor to which an endless cell
+                        writes its process number */
 } ending;
 
 static inline status prepare_end(const element_request *request, element_data *data, fault *f)
@@ -54,7 +53,7 @@ static inline status prepare_end(const element_request *request, element_data *d
         _exit(3);
     if (ending.end == HANGING)
         never_end(ending.output);
-    if (ending.end == STOPPED) /* while a process is stopped, its alarm has no effect */
+    if (ending.end == STOPPED) /* the alarm has no effect on a stopped process */
         raise(SIGSTOP);
     return ending.prepare(request, data, f);
 }

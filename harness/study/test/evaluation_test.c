@@ -35,8 +35,8 @@ static void predictions(void)
     bench_free(&b);
 }
 
-/* A formulation must be compared with the reference value of the shear theory in its equations,
- * whatever theory the scene requests. */
+/* A formulation must be compared with the reference value for the shear theory of its equations,
+ * whatever theory the scene requires. */
 static void theories(void)
 {
     evaluation_bench b;
@@ -78,8 +78,8 @@ static void publications(void)
     bench_free(&b);
 }
 
-/* If a limit was derived, the range of a rule applies to the distance from this limit, not to that
- * from the reference value. */
+/* If a limit was derived, the range of a rule applies to the distance from this limit, not from the
+ * reference value. */
 static void bound_by_the_derived_limit(void)
 {
     static char kind[] = "wrong limit, as predicted|undecided";
@@ -192,8 +192,8 @@ static void expectations(void)
     bench_free(&b);
 }
 
-/* A reference value at a time that the run of a motion does not evaluate must neither be used nor
- * count as unmet. A reference value of a case without a motion must count as unmet. */
+/* A reference value at a time that the run of a motion does not evaluate must not be used, and must
+ * not count as unmet. Without a motion in the case, such a reference value must count as unmet. */
 static void other_instants(void)
 {
     static const parameter_type both[] = {{"length", "m", 2, 1, 9, NULL, "some length"},
@@ -257,8 +257,8 @@ static void stored_values(void)
     bench_free(&b);
 }
 
-/* Stored values must be compared with the series of the same formulation, even if the series before
- * it has the same meshes. */
+/* Stored values must be compared with the series of the same formulation, even if the previous
+ * series has the same meshes. */
 static void of_its_own_series(void)
 {
     evaluation_bench b;
@@ -304,7 +304,7 @@ static void evaluation_truths_tests(void)
     of_its_own_series();
 }
 
-/* Tests verdicts on artificial series: every kind of verdict, and its effect on the exit status. */
+/* Verdicts on artificial series: every kind of verdict, and its effect on the exit status. */
 
 static void limits(void)
 {
@@ -353,7 +353,7 @@ static void orders(void)
     bench_expect(&b, VERDICT_PASS, 0,
                  "changes that the reference value's own uncertainty hides show no order");
     b.row[0].uncertainty = 0;
-    /* changes between meshes, starting with the finest one: orders 1.2, 1.2 and then `earlier` */
+    /* changes between meshes, the finest first: orders 1.2, 1.2, then `earlier` */
     const double earlier[] = {1.2, 2.2};
     for (int k = 0; k < 2; k++) {
         double change = 1e-5, value = 3 + change / (pow(2, 1.2) - 1);
@@ -447,8 +447,8 @@ static void failures(void)
     bench_free(&b);
 }
 
-/* Measuring the noise is requested if the last change is tiny or the verdict is open. There must
- * also be a reference value. */
+/* The scatter must be measured only if there is a reference value, and the last change is tiny or
+ * the verdict is undecided. */
 static void uncertain_noise(void)
 {
     evaluation_bench b;
@@ -465,8 +465,8 @@ static void uncertain_noise(void)
     bench_free(&b);
 }
 
-/* Counts how many limits are within their uncertainty of exact reference values, with and without
- * the finest meshes. */
+/* Counts how many limits agree with exact reference values to within their uncertainty, with and
+ * without the finest meshes. */
 static void coverages(void)
 {
     evaluation_bench b;

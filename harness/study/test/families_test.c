@@ -22,7 +22,6 @@ static const element_type type[] = {
     {.name = "misprinted", .family = "grey", .misprint = "Eq. 1", .abi = ELEMENT_ABI}};
 enum { RED_ONE, RED_TWO, BLUE_ONE, GREEN_ONE, BLUE_TWO, MISPRINTED };
 
-/* A sweep of one point and quantity, to which series are added one by one. */
 typedef struct families_bench {
     sweep s;
     sweep_point p;
@@ -44,7 +43,7 @@ static void make(families_bench *b)
     b->s = (sweep){.points = 1, .point = &b->p, .series = b->one};
 }
 
-/* Adds a formulation with the values limit (1 + size n^-2). */
+/* Adds formulation number `which` with the values limit (1 + size n^-2). */
 static void add(families_bench *b, int which, double limit, double size)
 {
     const int i = b->s.seriess++;
@@ -59,7 +58,7 @@ static void add(families_bench *b, int which, double limit, double size)
     }
 }
 
-/* Adds a formulation of each of the two families, which agree on the limit 3. */
+/* Adds a formulation of each of two families, which agree on the limit 3. */
 static void make_two(families_bench *b)
 {
     make(b);
@@ -114,14 +113,14 @@ static void two_families(void)
     finish(&b);
 }
 
-/* A third family with an uncertain limit must make neither the agreed limit nor its uncertainty
- * worse. */
+/* A third family with an uncertain limit must not make the agreed limit less accurate or its
+ * uncertainty larger. */
 static void known_badly(void)
 {
     families_bench b;
     make(&b);
     add(&b, GREEN_ONE, 3, 0.1);
-    for (int k = 0; k < MESHES; k++) /* the values alternate by 1e-4 */
+    for (int k = 0; k < MESHES; k++)
         b.quantity[0][k].value = 3 * (1 + (k % 2 ? 1e-4 : -1e-4));
     add(&b, RED_ONE, 3, 0.1);
     add(&b, BLUE_ONE, 3.000003, 0.1);
@@ -133,8 +132,8 @@ static void known_badly(void)
     finish(&b);
 }
 
-/* If two families agree on one limit and two on another, there is no agreement. If three families
- * agree on one limit and two on another, the limit of the three is the agreed limit. */
+/* Two families with one limit and two with another do not agree. If three families have one limit
+ * and two another, the limit of the three is the agreed limit. */
 static void disagreements_of_families(void)
 {
     families_bench b;
@@ -152,8 +151,8 @@ static void disagreements_of_families(void)
     finish(&b);
 }
 
-/* The limit with the smallest uncertainty is the centre. A formulation must be named if its
- * distance from the centre exceeds its uncertainty. */
+/* The limit with the smallest uncertainty is the centre. A formulation whose distance from the
+ * centre exceeds its uncertainty must be reported. */
 static void known_best(void)
 {
     families_bench b;
@@ -209,8 +208,8 @@ static void uncertain(void)
     finish(&b);
 }
 
-/* Returns the index of the coarsest mesh on which all quantities of the series are within 1 %, as
- * on all finer meshes. Returns -1 if there is none. */
+/* Returns the index of the coarsest mesh for which all quantities of the series are within 1 % on
+ * this mesh and all finer meshes; -1: none. */
 static int every(const families_bench *b, int series_index)
 {
     reach_question q = {.s = &b->s, .quantity = REACH_EVERY, .level = 0.01};
@@ -225,8 +224,7 @@ static int every(const families_bench *b, int series_index)
     return found;
 }
 
-/* The mesh of every() is found by comparison with the reference values or, if there are none, with
- * the agreement. */
+/* every() must use the reference values or, if there are none, the agreement. */
 static void reach(void)
 {
     families_bench b;
@@ -257,7 +255,7 @@ static void families_tests(void)
     reach();
 }
 
-/* Tests the cost of counted work: the rows that apply to a formulation, and the cost of a cell. */
+/* Cost of counted work: the rows that apply to a formulation, and the cost of a cell. */
 
 static const cost_coefficient rows[] = {
     {"", COUNTED_one, COUNTED_one, 1},
@@ -330,9 +328,9 @@ static void counted_cost_tests(void)
     committed();
 }
 
-/* Formulations that reach an error must be ranked by counted work, never by measured time.
- * Formulations known to be wrong come last. Formulations tie if their costs differ by less than the
- * uncertainty of the cost coefficients. */
+/* Formulations that reach an error must be ranked by the cost of their counted work, never by
+ * measured time. Formulations with a defect come last. Formulations tie if their costs differ by
+ * less than the uncertainty of the cost coefficients. */
 
 enum { SERIES = 4, REACH_MESHES = 4, QUANTITIES = 2 };
 enum { LOW_COST, HIGH_COST, OTHER, LAST };
@@ -350,9 +348,8 @@ typedef struct reach_bench {
     int count;
 } reach_bench;
 
-/* Makes four formulations with general cost coefficients, which are exact on every mesh. The
- * reference value is 1, and the work of each formulation is ten times that of the previous
- * formulation. */
+/* Makes four formulations that are exact on every mesh and have the common cost coefficients. The
+ * reference value is 1. The work of each formulation is ten times that of the previous one. */
 static void reach_make(reach_bench *b)
 {
     static const char *const key[SERIES] = {"cheap", "dear", "other", "last"};
@@ -399,15 +396,16 @@ static void by_work(void)
     expect(&b, (int[]){LOW_COST, HIGH_COST, OTHER, LAST}, 4, "by work");
     gsl_test_int(reach_ties(b.list, b.count), 1, "one is the cheapest");
     gsl_test_int(b.list[0].mesh, 0, "on the least mesh");
-    for (int i = 0; i < SERIES; i++) /* the measured times are in the opposite order of the work */
+    for (int i = 0; i < SERIES;
+         i++) /* the order of the measured times is opposite to that of the work */
         for (int k = 0; k < REACH_MESHES; k++)
             b.cell[i][k].solve.seconds_solve = 1.0 / (1 + i) + k;
     ask(&b, 0, 0.01);
     expect(&b, (int[]){LOW_COST, HIGH_COST, OTHER, LAST}, 4, "whatever the clock says");
 }
 
-/* A formulation that is within 1 % on the coarsest mesh, but not on the second mesh, must be ranked
- * by its work on the third mesh. */
+/* If a formulation is within 1 % on the first mesh but not on the second, it must be ranked by its
+ * work on the third mesh. */
 static void by_accident(void)
 {
     reach_bench b;
@@ -466,7 +464,7 @@ static void ties(void)
     gsl_test_int(reach_ties(b.list, 0), 0, "nothing ties");
 }
 
-/* A formulation that does not run is excluded from the ranking over all quantities, as is one
+/* The ranking over all quantities must exclude a formulation that does not run, and a formulation
  * without a reference value of its theory for some quantity. */
 static void not_requested(void)
 {

@@ -14,15 +14,13 @@
 
 enum { END = 900, WAIT = 120 }; /* [s] time limits of a test and of one event */
 
-/* A process that runs a sweep of endless cells, and a descriptor to which the cells write their
- * process numbers. */
 typedef struct family {
     pid_t parent;
     int output;
 } family;
 
-/* Runs in the child process. Exits with 0 if `complete` cells, followed by endless cells, gave the
- * expected results. */
+/* For the child process: exits with 0 if a run of `complete` cells, followed by endless cells, gave
+ * the expected results. */
 static int run_endless(const sweep_request *request, int complete, int output)
 {
     static const int mesh[] = {1, 2, 3};
@@ -64,8 +62,8 @@ static family begin_family(const sweep_request *request, int complete)
     return out;
 }
 
-/* Returns the process number of the next cell that has started. Returns 0 if no process can report
- * any more, or -1 if nothing happens within WAIT. */
+/* Returns the process number of the next cell that has started; 0: no process can report any more;
+ * -1: nothing happened within WAIT. */
 static pid_t next_cell(const family *of)
 {
     struct pollfd end = {.fd = of->output, .events = POLLIN};
@@ -132,7 +130,7 @@ static void own_limit(void)
     close(of.output);
 }
 
-/* On a request to stop, a run must keep the finished series, and only those. */
+/* After a request to stop, a run must keep the finished series and no others. */
 static void interrupted(int number)
 {
     const sweep_request request = {.jobs = 1, .interruptible = 1};
@@ -151,8 +149,8 @@ static int is_requested(const interrupt *i)
     return poll(&end, 1, 0) > 0;
 }
 
-/* A signal that is ignored (nohup) must not count as a request. The signal mask must be restored at
- * the end. */
+/* A signal that is ignored (nohup) must not count as a request. At the end, the signal mask must be
+ * restored. */
 static void requests(void)
 {
     interrupt i;
@@ -176,7 +174,7 @@ static void requests(void)
 int main(void)
 {
     signal(SIGINT, SIG_DFL); /* a background job of a shell ignores SIGINT, and a signal that is
-                                ignored at the start stays ignored */
+                                ignored at the start remains ignored */
     alarm(END);
     orphans();
     own_limit();

@@ -1,5 +1,5 @@
-/* Measures how often the known limit of a sequence is within the computed uncertainty of the limit,
- * for families of sequences and under noise. Seeds are fixed. */
+/* Measures how often the known limit of a sequence is within the computed uncertainty, for families
+ * of random sequences with and without scatter. The seeds are fixed. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_rng.h>
 #include <gsl/gsl_test.h>
@@ -9,20 +9,20 @@
 
 enum { FEWEST = 4, MOST = 7, DRAWS = 500, GRIDS = 5 };
 
-static const double value = 3; /* the exact limit of all families of sequences */
+static const double value = 3;
 
 static const int grid[GRIDS][MOST] = {
     {1, 2, 4, 8, 16, 32, 64},
     {2, 4, 8, 16, 32, 64, 128},
     {5, 10, 20, 40, 80, 160, 320},
-    {1, 2, 3, 4, 8, 16, 32}, /* mesh 3 is ignored because it is too close to mesh 4 */
+    {1, 2, 3, 4, 8, 16,
+     32}, /* the mesh of 3 elements is ignored, because it is too close to that of 4 */
     {2, 4, 8, 16, 30, 32, 64}};
 
-/* Parameters of one random sequence. */
 typedef struct draw {
     double order, order_2, order_3;
-    double ratio, ratio_3; /* signed ratios of the second and the third term to the first term, on
-                              the coarsest mesh */
+    double ratio, ratio_3; /* signed ratios of the second and third terms to the first term on the
+                              coarsest mesh */
     double bend;           /* number of elements at which the behaviour changes */
     double phase;
     int first, last; /* first and last number of elements */
@@ -43,7 +43,7 @@ static double sign(gsl_rng *r)
     return gsl_rng_uniform(r) < 0.5 ? -1 : 1;
 }
 
-/* Returns the error on mesh i with n elements, relative to that on the first mesh. */
+/* Returns the error on mesh i with n elements, relative to the error on the first mesh. */
 static double power(const draw *d, int i, double n)
 {
     (void)i;
@@ -85,7 +85,7 @@ static double plateau(const draw *d, int i, double n)
 }
 
 /* Returns the error of the mean of a function that decays from one end over the length 1/bend. The
- * order is one until the mesh resolves this length, and then two. */
+ * order is one until the mesh resolves this length, then two. */
 static double layer(const draw *d, int i, double n)
 {
     (void)i;
@@ -113,7 +113,7 @@ typedef struct coverage_family {
     error_function *error;
     mixture mixture;
     double order;   /* 0: an order that is randomly 1, 1.5, 2, 3 or 4 */
-    double covered; /* fraction of the limits that must lie within their uncertainty */
+    double covered; /* smallest fraction of the limits that must be within their uncertainty */
 } coverage_family;
 
 static const coverage_family families[] = {
@@ -186,7 +186,7 @@ static draw draw_from(gsl_rng *r, const coverage_family *f, const int n[], int m
     return d;
 }
 
-/* Returns the computed limit for one random sequence of the family. */
+/* Returns the computed limit of one random sequence of the family. */
 static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
 {
     const int *n = grid[gsl_rng_uniform_int(r, GRIDS)];
@@ -202,7 +202,6 @@ static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
     return limit_of(&s);
 }
 
-/* Returns 1 if the limit is within its uncertainty. */
 static int is_covered(gsl_rng *r, const coverage_family *f, int meshes)
 {
     const mesh_limit l = shown(r, f, meshes);
@@ -225,8 +224,8 @@ static void coverage_of_families(void)
     gsl_rng_free(r);
 }
 
-/* The values have noise of different sizes. The computation of the limit knows the size only within
- * a factor of three. */
+/* The values have scatter of different sizes. The computation of the limit gets a size that may be
+ * wrong by a factor of three. */
 static void coverage_under_noise(void)
 {
     static const coverage_family noisy[] = {{"n^-2", power, ONE_TERM, 2, 0.95},
@@ -257,16 +256,9 @@ static void coverage_under_noise(void)
     gsl_rng_free(r);
 }
 
-/* The verdict "low order" requires two orders below the minimum and, before them, an order below
- * the nominal order. The three orders must be monotonic (study/verdict.c). In families with a low
- * order, this criterion finds as many series as two orders alone. If terms of opposite sign cancel,
- * the criterion finds most series, because they cannot be distinguished from an accident. Of all
- * passes of verify with the 0 to 3 finest meshes omitted, two orders alone would give four low
- * orders. Their orders on doubled meshes are: bend_45 force=300 sheet_third_printed u_tangent 0.88
- * 1.71 1.90 1.98 2.04 (512); sheet_wagner wagner=0 sheet_second_consistent C_thy_My 0.98 0.80 1.43
- * 1.82 1.95 (512); unsymmetric_column beamw frequency_1, lumped mass, 1.03 1.08 0.48 1.00 1.63
- * (256), and frequency_2, averaged mass, 1.29 1.19 0.60 1.04 1.64 (256): above the least, 1.5, not
- * yet 2. */
+/* The verdict "low order" requires two orders below the minimum, preceded by an order below the
+ * nominal order; the three orders must be monotonic (study/verdict.c). If error terms of opposite
+ * signs cancel, some series with a low order are not found. */
 static void low_orders(void)
 {
     static const coverage_family low[] = {
@@ -300,14 +292,14 @@ static void limit_coverage_tests(void)
     coverage_under_noise();
 }
 
-/* Limits of sequences must agree with results computed by hand, also in special cases. */
+/* Limits of sequences must agree with results computed by hand, including special cases. */
 
 enum { LIMIT_MOST = 7, DOUBLED = 6 };
-static const double limit_value = 3; /* the exact limit of all sequences with one term */
+static const double limit_value = 3; /* the exact limit of all sequences with one error term */
 static const int mesh[LIMIT_MOST] = {1, 2, 4, 8, 16, 32, 64};
 
-/* Computes the limit from values on 1, 2, 4, ... elements. Round-off was not measured, and the
- * nominal order is 2. */
+/* Returns the limit of values on 1, 2, 4, ... elements. The scatter is unknown, and the nominal
+ * order is 2. */
 static mesh_limit doubled(int count, const double v[])
 {
     return limit_of(&(limit_sequence){count, mesh, v, NAN, 2, 4, 0});
@@ -318,7 +310,7 @@ static void is_kind(mesh_limit l, limit_kind kind, const char *what)
     gsl_test(l.kind != kind, "%s: %s", what, limit_kind_name(l.kind));
 }
 
-/* Sets v = limit + size n^-order on meshes n. */
+/* Sets v[i] = limit + size n[i]^-order. */
 static void fill(int count, const int n[], double size, double order, double v[])
 {
     for (int i = 0; i < count; i++)
@@ -352,8 +344,8 @@ static mesh_limit of_changes(int changes, const double change[], double noise)
     return limit_of(&(limit_sequence){changes + 1, mesh, v, noise, 2, 4, 0});
 }
 
-/* On meshes that double, sequences computed by hand have the limit change/(r - 1) beyond the last
- * value, where r is the ratio of the last two changes. */
+/* On meshes that double, the limit must be the last value plus change/(r - 1), where `change` is
+ * the last change and r the ratio of the last two changes. */
 static void worked(void)
 {
     const double pure[] = {-16, -4, -1}, agreeing_by_accident[] = {-20, -4, -1, -0.25},
@@ -362,13 +354,14 @@ static void worked(void)
     gsl_test_abs(of_changes(3, pure, 0).limit_uncertainty, 0, 1e-12, "are of one term");
     gsl_test_rel(of_changes(3, pure, NAN).limit_uncertainty, 1.25 * 0.02 / 3, 1e-6,
                  "2 % of a step is doubted without a measure of noise");
-    /* the ratios are 5, 4, 4, and the limits are -24 - 4/4 = -25, then twice -25.3333; the
-     * uncertainty is 1/3 of the former change, reduced by orders 2 + 2 */
+    /* the ratios of the changes are 5, 4, 4, and the limits are -24 - 4/4 = -25, then twice
+     * -25.3333; the uncertainty follows from the former change of the limit, 1/3, reduced by the
+     * order 2 + 2 */
     gsl_test_rel(of_changes(4, agreeing_by_accident, 0).limit_uncertainty,
                  1.25 * (1.0 / 3 - 0) / 16, 1e-9,
                  "a change of the limit that is small by accident");
     /* the ratios are 4, 4, 4.1667, and the limits are twice -21.3333, then -21.24 - 0.24/3.1667 =
-     * -21.31579, so they do not settle */
+     * -21.31579, so the limits do not converge */
     const double change = 4.0 / 3 - 1 - 0.24 * (1 + 6.0 / 19);
     gsl_test_rel(of_changes(4, unsettled, 0).limit_uncertainty, 1.25 * change, 1e-9,
                  "the change of the limit");
@@ -381,8 +374,8 @@ static void worked(void)
     gsl_test(isfinite(slow.order), "is not believed");
 }
 
-/* From two values, no order can be computed. Order 1 is assumed, and the uncertainty is three times
- * the change plus four times the noise. Three values never suffice to estimate two orders. */
+/* Two values give no order. Order 1 is assumed, and the uncertainty must be three times the change
+ * plus four times the scatter. Three values give only one order. */
 static void few_meshes(void)
 {
     const double v[] = {1, 1.5, 1.75};
@@ -423,15 +416,15 @@ static void settled(void)
              l.limit_uncertainty);
     double v[DOUBLED];
     fill(DOUBLED, mesh, 0.3, 8,
-         v); /* the last change is 0.3/16^8 = 7e-11 of 3, and the preceding one is 2e-8 */
+         v); /* the last change is 0.3/16^8 = 7e-11 of 3, and the previous one is 2e-8 */
     l = limit_of(&(limit_sequence){DOUBLED, mesh, v, NAN, 2, 8, 0});
     is_kind(l, LIMIT_CONVERGED, "a high order that has reached the noise");
     gsl_test_rel(l.order, 8, 0.02, "shows its order above it");
 }
 
 /* C_uz_My of sheet_second (sheet_cantilever, tip_warping=1) [1e-7/N]. From 64 elements on, another
- * term contributes. Orders of 4.5 and 4.7 agree although four is the highest possible, and the
- * limits seem to settle. The value on 1024 elements shows the limit. */
+ * error term contributes. Orders of 4.5 and 4.7 agree although the highest possible order is four,
+ * and the limits seem to converge. The value on 1024 elements shows the limit. */
 static void orders_beyond_the_highest(void)
 {
     static const double v[] = {-7.541557376815, -7.572498677944, -7.749537235739, -7.764447957971,
@@ -467,7 +460,7 @@ static void out_of_order(void)
     is_kind(doubled(DOUBLED, v), LIMIT_CONVERGED, "alternating beyond interest");
 }
 
-/* Failed meshes and meshes too close to each other are ignored. The meshes may be given in any
+/* Failed meshes and meshes too close to each other must be ignored. The meshes may be in any
  * order. */
 static void gaps(void)
 {

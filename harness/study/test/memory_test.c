@@ -1,7 +1,7 @@
-/* Memory exhaustion: every allocation of a few small cells, of the reference values and of a
- * results file fails once. The result must be FAULT with a one-line message, or the correct result
- * if the memory was not essential, and nothing may leak. The test is linked with --wrap, which
- * intercepts calls in the code of this program. */
+/* Memory exhaustion: every allocation fails once, in a few small cells, in reading reference
+ * values, and in a results file. The result must be FAULT with a message of one line or, if the
+ * memory was not essential, the correct result. No memory may leak. The test is linked with --wrap,
+ * which intercepts calls in the code of this program. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -28,7 +28,7 @@ FILE *__wrap_open_memstream(char **text, size_t *size);
 char *__wrap_strndup(const char *text, size_t size);
 
 static long calls, refused_call,
-    live; /* `refused_call` is the number of the call that must fail, or 0 */
+    live; /* refused_call: number of the call that must fail; 0: none */
 
 static int refuse(void)
 {
@@ -85,11 +85,11 @@ FILE *__wrap_open_memstream(char **text, size_t *size)
     return file;
 }
 
-/* An operation to be tested. Sets *value to a sum over its results and returns STATUS_OK, or
+/* An operation to be tested. Returns STATUS_OK and sets *value to a sum over the results, or
  * returns a failure. */
 typedef status memory_attempt(const void *what, double *value, fault *f);
 
-/* Runs the operation once with enough memory. Then runs it again with the k-th allocation failing,
+/* Runs the operation once with enough memory. Then runs it again while the k-th allocation fails,
  * for k = 1, 1 + step, ... */
 static void exhaust(const char *name, memory_attempt *run, const void *what, int most)
 {
@@ -166,8 +166,8 @@ static status read_truths(const void *what, double *value, fault *f)
     return outcome;
 }
 
-/* Reads a scene file, its scene and its reference values. *value becomes the number of reference
- * values plus a weighted sum of the positions of nodes. */
+/* Reads a scene file, the scene and the reference values. *value: number of reference values plus a
+ * weighted sum of the positions of nodes. */
 static status read_scene(const void *what, double *value, fault *f)
 {
     scene_file *file = NULL;
@@ -210,9 +210,8 @@ static status write_results(const void *what, double *value, fault *f)
         outcome = store_write(what, NULL, &s, &j, &e, f);
     *value = access(what, F_OK) == 0;
     if (outcome != STATUS_OK && *value != 0)
-        fault_set(
-            f, STATUS_OK,
-            "a file\nwas left"); /* lets the test fail, because this message is not one line */
+        fault_set(f, STATUS_OK,
+                  "a file\nwas left"); /* the test must fail, because this message has two lines */
     unlink(what);
     evaluation_free(&j);
     sweep_free(&s);

@@ -1,11 +1,11 @@
-"""The order of high modes differs between coarse and fine meshes (rule meshes-high-modes). A quantity with the number
-of a high mode is then another mode on coarse meshes, so its limit is uncertain. With one more mesh, the verdict is a
+"""The order of high modes differs between coarse and fine meshes (rule meshes-high-modes). On coarse meshes, a quantity
+with the number of a high mode is then another mode, so its limit is uncertain. With one more mesh, the verdict is a
 pass."""
 import unittest
 
 from harness.tools.kit.program import ProgramTest
 
-# case, formulation, parameters, quantity, the quantity that has the mode on the coarsest mesh, and the meshes
+# case, formulation, parameters, quantity, the quantity that has this mode on the coarsest mesh, and the meshes
 CROSSINGS = (
     ("c_column", "beamw:mass=lumped", (), "frequency_12", "frequency_11",
      (8, 16, 32, 64, 128, 256)),
@@ -43,7 +43,7 @@ class Modes(ProgramTest):
                 self.assertLess(abs(found["order"] - 2), 0.01)
 
     def test_modes_cross(self):
-        """The order-2 extrapolation of a mode from the finer meshes to the coarsest mesh must give the value of another
+        """Extrapolating a mode from the finer meshes to the coarsest mesh with order 2 must give the value of another
         quantity there."""
         for case, formulation, given, quantity, other, meshes in CROSSINGS:
             with self.subTest(case=case, formulation=formulation, quantity=quantity):

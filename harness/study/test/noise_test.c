@@ -1,5 +1,5 @@
-/* The noise of the values on the finest mesh is measured on request. It is twice the larger of two
- * differences, and is due only to round-off. */
+/* The scatter of the values on the finest mesh is measured on request. It must be twice the larger
+ * of two differences, and be due only to rounding. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -11,7 +11,7 @@
 static const sweep_request request = {.jobs = 2};
 
 /* Runs all formulations on one case, with meshes of one and two elements and the given follower.
- * Series of formulations that do not run stay empty. */
+ * Series of formulations that do not run are empty. */
 static int measure(const case_type *type, const sweep_follower *follower, sweep *s)
 {
     static const int mesh[] = {1, 2};
@@ -39,7 +39,7 @@ static int all_but_the_first(void *context, const sweep *s, int series_index)
     return series_index > 0;
 }
 
-/* The measured noise must be due only to round-off, also for formulations that depend on the order
+/* The measured scatter must be due only to rounding, even for formulations that depend on the order
  * of nodes. */
 static void rounding(const case_type *type)
 {
@@ -63,7 +63,6 @@ static void rounding(const case_type *type)
     sweep_free(&s);
 }
 
-/* An artificial change of a value on the finest mesh. */
 typedef struct accident {
     sweep *of;
     double factor;
@@ -77,7 +76,7 @@ static int change(void *context, const sweep *s, int series_index)
     return 1;
 }
 
-/* If a value is changed, both repetitions differ from it by this change. The noise must be twice
+/* If a value is changed, both repetitions differ from it by this change. The scatter must be twice
  * the change. */
 static void size_of_it(const case_type *type)
 {
@@ -98,8 +97,8 @@ static void size_of_it(const case_type *type)
     }
 }
 
-/* Returns one value of a case and formulation for a scene that `edit` changes to an equivalent
- * scene. */
+/* Returns a value of a case and formulation for a scene that `edit` changes to an equivalent
+ * one. */
 static double in_other_words(const case_type *type, const formulation *chosen, scene_edit edit,
                              int quantity)
 {
@@ -117,7 +116,7 @@ static double in_other_words(const case_type *type, const formulation *chosen, s
     return out;
 }
 
-/* The larger of the differences between a value and its two repetitions must determine the noise,
+/* The larger of the differences between a value and its two repetitions must determine the scatter,
  * whichever it is. */
 static void larger_of_two(const case_type *type)
 {
@@ -160,8 +159,8 @@ static void run_values(const char *name, const char *text, int values_only, swee
     gsl_test(run_sweep(&request, s, &f) != STATUS_OK, "run %s", f.text);
 }
 
-/* If only values are requested, numbers for curves and matrices are not computed, and the other
- * values are bit-for-bit equal. */
+/* If only values are requested, numbers for curves and matrices must not be computed. The other
+ * values must be bit-for-bit equal. */
 static void values_only(const char *name, const char *text)
 {
     sweep whole, some;
@@ -198,12 +197,11 @@ static void noise_tests(void)
     larger_of_two(case_find("elastica", &f));
 }
 
-/* Every cell must be one of the tasks exactly once. Cells of the most expensive series come first,
- * and the other cells follow in order. Within a series, the finest mesh comes first. */
+/* Every cell must be exactly one of the tasks. Cells of the most expensive series come first; the
+ * other cells follow in order. Within a series, the finest mesh comes first. */
 
 static const int mesh[] = {1, 2, 4};
 
-/* Adds all formulations on a case. */
 static void add(const char *name, sweep *s)
 {
     formulation all[64];
@@ -227,7 +225,7 @@ static double run_cost_of(const sweep *s, int index)
     return all;
 }
 
-/* Returns 1 if the cost of the series is less than a hundredth of the work of one process. */
+/* Returns 1 if the cost of the series is below a hundredth of the work of one process. */
 static int is_small(const sweep *s, int jobs, int index)
 {
     double all = 0;
@@ -279,7 +277,6 @@ static void order(int jobs)
     sweep_free(&s);
 }
 
-/* Checks the counted work of the analyses of a case with its default parameters. */
 static void counted(const char *name, run_cost_kind kind, double wanted)
 {
     fault f = {""};
@@ -297,8 +294,8 @@ static void counted(const char *name, run_cost_kind kind, double wanted)
     scene_free(&s);
 }
 
-/* The estimated number of adaptive steps must be a power of the tolerance. The steps of Radau are
- * longer. */
+/* The estimated number of adaptive steps must be a power of the tolerance, and smaller for Radau,
+ * which makes longer steps. */
 static void adapts(void)
 {
     const double instant = 3;

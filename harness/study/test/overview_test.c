@@ -1,5 +1,5 @@
-/* The overview must show the worst verdict of each case and formulation, with unexpected verdicts
- * first. The sentence at the end of a run summarises the verdicts. */
+/* The overview must show the worst verdict for each case and formulation, with unexpected verdicts
+ * before expected ones. The sentence at the end of a run summarises the verdicts. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -12,7 +12,6 @@
 
 enum { VERDICTS = 40 };
 
-/* A sweep of two cases and three formulations with artificial verdicts. */
 typedef struct run {
     sweep s;
     sweep_point point[2];
@@ -59,8 +58,8 @@ static void shows(const run *r, int row, int column, const char *ascii, const ch
     overview_free(&o);
 }
 
-/* The worst kind of verdict must be shown, whether it occurs alone or with less severe verdicts in
- * any order. */
+/* The worst kind of verdict must be shown, whether it occurs alone or together with less severe
+ * verdicts in any order. */
 static void the_worst(void)
 {
     static const verdict_kind rising[] = {VERDICT_SKIP,
@@ -86,7 +85,7 @@ static void the_worst(void)
         }
 }
 
-/* One unexpected verdict must be shown, even if there are ten expected verdicts that are worse. */
+/* One unexpected verdict must be shown, even if ten expected verdicts are worse. */
 static void the_unexpected(void)
 {
     run r;
@@ -257,13 +256,13 @@ static void overview_tests(void)
     new_ones();
 }
 
-/* Counts each of which makes the run fail. */
+/* Counts that make the run fail if they are not zero. */
 static const size_t failing[] = {
     offsetof(evaluation, unexpected), offsetof(evaluation, disagreements),
     offsetof(evaluation, unobserved), offsetof(evaluation, unmet),
     offsetof(evaluation, flaws),      offsetof(evaluation, breaches),
     offsetof(evaluation, regressions)};
-/* Counts that make the run fail if they are not zero. */
+/* Counts that make the run fail if they are zero. */
 static const size_t checking[] = {offsetof(evaluation, evaluated),
                                   offsetof(evaluation, agreements)};
 enum {
@@ -296,8 +295,8 @@ static void set(evaluation *j, size_t offset, int value)
     memcpy((char *)j + offset, &value, sizeof value);
 }
 
-/* Changes every count of the judgement separately. Counts that are added to the structure in future
- * are included. */
+/* Changes every count of the evaluation separately, including counts that will be added to the
+ * structure. */
 static void exit_codes(void)
 {
     int walked = 0;
@@ -341,7 +340,6 @@ static void failures_together(void)
 
 static const double truth_value = -4;
 
-/* A series with measured times, and the verdict on it. */
 typedef struct timed {
     evaluation_bench b;
     cell_timing timing[MESHES];
@@ -364,7 +362,7 @@ static double uniform(void)
     return rand() / (RAND_MAX + 1.0);
 }
 
-/* Makes random errors of every size and sign, some exactly at a level, some missing. */
+/* Makes random errors of any size and sign; some are exactly at a level, some are missing. */
 static void throw_errors(double error[MESHES])
 {
     for (int i = 0; i < MESHES; i++) {
@@ -376,8 +374,8 @@ static void throw_errors(double error[MESHES])
     }
 }
 
-/* Returns the index of the coarsest mesh whose error is within the level, as are those of all finer
- * meshes. Each mesh is tested. */
+/* Returns the index of the coarsest mesh for which the errors on this mesh and all finer meshes are
+ * within the level. Each mesh is tested. */
 static int by_definition(const double error[MESHES], double level)
 {
     for (int first = 0; first < MESHES; first++) {
@@ -422,7 +420,7 @@ static void levels(void)
         gsl_test_rel(reach_level[k], pow(10, -1 - k), 1e-15, "level %d", k);
 }
 
-/* A level cannot be reached without a reference value, without the formulation, or if a value is
+/* A level must not be reached without a reference value, without the formulation, or if a value is
  * missing. */
 static void unreached(void)
 {
@@ -454,21 +452,20 @@ static void gate_tests(void)
     unreached();
 }
 
-/* Determines if a limit agrees with the derived limit: at the edges given by the uncertainties, on
- * either side of the reference value, and for any source of the uncertainty. */
+/* Whether a limit agrees with the derived limit is tested on both sides of the edges that the
+ * uncertainties give, on both sides of the reference value, and for each source of the
+ * uncertainty. */
 
 /* distance of a test value from an edge, relative to the distance of the edge */
 static const double just = 3e-3;
 
-/* Whether a limit agrees with the derived limit is tested at the edges given by the uncertainties,
- * on either side of the reference value, and for any source of the uncertainty. */
 static verdict_kind evaluated(evaluation_bench *b, double limit, double apart)
 {
     b->row[1].value = limit + apart;
     return bench_evaluate(b)->kind;
 }
 
-/* A limit must agree with the derived limit if their distance is up to `edge`, but not beyond. */
+/* A limit must agree with the derived limit up to the distance `edge`, but not beyond. */
 static void edges(evaluation_bench *b, double edge, verdict_kind beyond, const char *what)
 {
     const double limit = bench_evaluate(b)->fit.limit;
@@ -488,14 +485,14 @@ static void with_prediction(evaluation_bench *b, double limit)
 {
     static double none[1] = {0};
     bench_make(b);
-    b->one.noise = none; /* noise was measured, and is zero */
+    b->one.noise = none;
     bench_fill(b, limit, 0.7, 2);
     bench_add_prediction(b, limit);
 }
 
-/* The limit is known accurately, so the uncertainty of the derived limit determines the verdict,
- * for any size and sign of the error. Without this uncertainty, even a distance of a thousandth of
- * the error is too large. */
+/* The limit is accurate, so the uncertainty of the derived limit determines the verdict, for any
+ * size and sign of the error. Without this uncertainty, even a distance of a thousandth of the
+ * error is too large. */
 static void sharp_limits(void)
 {
     static const double error[] = {0.003, -0.003, 0.3, -0.03};
@@ -535,8 +532,8 @@ static void uncertain_limits(void)
     bench_free(&b);
 }
 
-/* A limit that is known accurately and differs from the reference value by less than the tolerance
- * is biased, unless the derived limit predicts this difference. */
+/* An accurate limit within the tolerance that differs from the reference value must be biased. The
+ * verdict must say if this difference agrees with the derived limit. */
 static void biases(void)
 {
     static const double error[] = {2e-4, -2e-4};
@@ -560,7 +557,7 @@ static void biases(void)
     }
 }
 
-/* A limit that has not settled must not agree with the derived limit, even if both values are
+/* A limit that has not converged must not agree with the derived limit, even if both values are
  * equal. */
 static void undecided(void)
 {
@@ -588,7 +585,7 @@ int main(void)
 {
     gate_tests();
     predicted_tests();
-    overview_tests(); /* must be last, because after a formulation is loaded, verdicts on others do
-                         not affect the exit status */
+    overview_tests(); /* last, because after a formulation is loaded, verdicts on others do not
+                         affect the exit status */
     return gsl_test_summary();
 }

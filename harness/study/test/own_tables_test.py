@@ -59,13 +59,13 @@ class Own(ProgramTest):
 
     @staticmethod
     def dip(factor):
-        """Returns a row with the deflection of a slender cantilever, times `factor`."""
+        """Returns a row with the deflection of a slender cantilever times `factor`."""
         value = 0.1 * 0.1**3 / 3 / (210e9 * 50e-3 * 0.5e-3**3 / 12)
         return f"leaf,,,,,dip,,{factor * value:.12g},m,{1e-4 * value},exact,same,,beam theory"
 
     @staticmethod
     def explained(needed):
-        """Adds to each proposed rule a cause and how it is known."""
+        """Adds a cause and its proof to each proposed rule."""
         text = needed.read_text(encoding="utf-8")
         needed.write_text(text.replace('"to be found: why is this not a pass?",', "planted,test"),
                           encoding="utf-8")
@@ -107,7 +107,7 @@ class Findings(Own):
         truths = self.write("t.csv", ROWS, self.dip(1))
         run = ("verify", "-f", "collocation", "--scene", self.scene(), "--truths", truths)
         path = self.write("f.csv", RULES, rule)
-        self.answered(*run, "--deviations", path, "-k", "dip")  # with a selection, the deviation may lie outside it
+        self.answered(*run, "--deviations", path, "-k", "dip")  # cells that were not selected may show the deviation
         out = self.answered(*run, "--deviations", path, code=1).stdout
         self.assertIn(f"known deviation old ({path}:2) was not observed", " ".join(out.split()))
         for change in (("collocation", "collocation beamw"), ("leaf", "leaf elastica")):
@@ -181,7 +181,7 @@ class Repository(Own):
         self.assertEqual(codes, [0, 0, 0, 0, 1])
 
     def called(self, words):
-        """Runs a command from the documentation with the paths of this clone, on two cases only."""
+        """Runs a command of the documentation with the paths of this clone, on two cases only."""
         program = [str(ROOT) if w == "beamwork" else w for w in words]
         if program[0].endswith("/beamwork"):
             program = [PROGRAM, *program[1:], "-k", "elastica or tapered_cantilever/default"]
@@ -240,8 +240,8 @@ class Truths(Own):
 FORMULATIONS = ("beamw", "beamw_vlasov", "beamw_consistent", "sheet_second", "sheet_third",
                 "geometrically_exact", "collocation")
 
-# Bending in both planes: f is proportional to the thickness and to the width. The frequencies cross where the section
-# is square.
+# Bending in two planes: one frequency is proportional to the thickness, the other to the width. They cross where the
+# section is square.
 CANTILEVER = """beamwork: 1
 parameters:
   width: {value: 5e-3, unit: m, min: 1e-4, max: 1, about: "across"}
@@ -267,7 +267,7 @@ omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 PLAIN = CANTILEVER.replace("MASS", "").replace("WANTED", "4")
 COUPLED = CANTILEVER.replace("WANTED", "2").replace(
     "MASS", ", mass: 1e-3, inertia: [2e-5, 2e-5, 2e-5, 0, coupling, 0]")
-# Torsional frequencies are proportional to 1/length, and bending frequencies to 1/length^2. The modes are not coupled.
+# Torsional frequencies are proportional to 1/length, bending frequencies to 1/length^2. The modes are not coupled.
 TWIST = PLAIN.replace("It: 1e-3*width*thickness", "It: 1e-12").replace("1..4", "1..6").replace(
     "wanted: 4", "wanted: 6")
 
@@ -284,7 +284,7 @@ class Follow(ProgramTest):
         self.assertLess(max(curve) / min(curve) - 1, tolerance, what)
 
     def test_crossing(self):
-        """The modes cross at the square section and must follow their laws before and after it, also if one of the
+        """The modes must cross at the square section, and follow their laws before and after it, even if one of the
         values is at the crossing."""
         for formulation in FORMULATIONS:
             for over in ("width=5e-3..12e-3/7", "width=12e-3..4.5e-3/3"):
@@ -304,7 +304,7 @@ class Follow(ProgramTest):
                 self.assertEqual([e for e in got["events"] if e["kind"] == "veering"], [])
 
     def test_torsion(self):
-        """The frequencies of torsion and bending cross at the length at which their two laws give equal values."""
+        """The frequencies of torsion and bending must cross at the length for which their laws give equal values."""
         got = self.follow(TWIST, "collocation", "length=0.3..1.5/12")
         values, curves = got["values"], [c["frequency"] for c in got["curves"]]
         powers = {1: [], 2: []}
@@ -323,8 +323,8 @@ class Follow(ProgramTest):
             self.assertLess(abs(found[0] / known[0] - 1), 1e-8)
 
     def test_veering(self):
-        """A body with oblique axes couples the two planes. The frequencies then do not cross and are closest near the
-        square section. No crossing may be reported, however coarse the requested values."""
+        """A body with oblique axes couples the two planes. The frequencies then do not cross, and are closest near the
+        square section. No crossing may be reported, however few values are requested."""
         for parts in (1, 2, 9):
             got = self.follow(COUPLED, "collocation", f"width=6e-3..10e-3/{parts}", "--set",
                               "coupling=1e-5")

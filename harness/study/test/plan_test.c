@@ -1,6 +1,6 @@
 /* The cells of a verification: each point of the reference values must occur once, with the meshes
- * of these values. A row that is valid for any value of a parameter (*) adds no point and applies
- * to all points. */
+ * of these values. A row that is valid for any value of a parameter (*) must add no point, and
+ * apply to all points. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +13,6 @@
 enum { ROWS = 4, OWN_MESH = 37 };
 static char plan_words[][32] = {"", "exact", "same", "m", "geometrically_exact"};
 
-/* Finds the first two numeric parameters of a case. */
 static int numbers_of(const case_type *type, int out[2])
 {
     int count = 0;
@@ -37,8 +36,8 @@ static truth row_of(const case_type *type)
     return row;
 }
 
-/* Counts the points of one case. *own becomes the number of series of the row's formulation that
- * contain the row's mesh. */
+/* Counts the points of one case. *own: number of series of the row's formulation that contain the
+ * row's mesh. */
 static int count_points(const sweep *s, const case_type *type, int *own)
 {
     int points = 0;
@@ -92,7 +91,7 @@ static void points(const case_type *type, const int number[2])
 }
 
 /* With `doublings` n, each series must have n additional meshes. The last has 2^n times the
- * elements of the finest original mesh, and the other meshes do not change. */
+ * elements of the finest original mesh. The original meshes must not change. */
 static void doublings(void)
 {
     const truths none = {.rows = 0};
@@ -115,7 +114,7 @@ static void doublings(void)
     sweep_free(&two);
 }
 
-/* Builds the first case of the registry, with as many meshes as a scene can have, or with one given
+/* Builds the first case of the registry with as many meshes as a scene can have, or with one given
  * mesh. */
 static status with_meshes(const double value[], scene *s, fault *f)
 {
@@ -175,8 +174,8 @@ static void plan_tests(void)
 }
 
 /* Bounds of the effect of omitted physics must agree with results on fine meshes, for beams of any
- * thickness under any load, and for every case at its defaults. If there is no bound, the scene
- * must be treated as another model. */
+ * thickness under any load, and for every case with its default parameters. If there is no bound,
+ * the formulation must solve another model. */
 
 static const double length = 0.1, young = 2e11, shear_modulus = 8e10;
 
@@ -190,7 +189,6 @@ typedef enum omission_acting {
 } omission_acting;
 static const char *const names[LOADINGS] = {"no load", "bent", "twisted", "buckled", "vibrating"};
 
-/* Builds a clamped leaf of the given thickness. */
 static void leaf(scene *s, double thickness, omission_acting how, int held)
 {
     const double y_axis[3] = {0, 1, 0}, end = 1;

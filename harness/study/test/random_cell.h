@@ -1,5 +1,4 @@
-/* Makes cells in which every member is filled with random contents, including special numbers and
- * bytes. */
+/* Makes cells whose members all have random contents, including special numbers and bytes. */
 #ifndef BEAMWORK_TEST_RANDOM_CELL_H
 #define BEAMWORK_TEST_RANDOM_CELL_H
 
@@ -28,7 +27,6 @@ static inline int whole(random_source *d, int most)
     return (int)(roll(d) % (uint64_t)(most + 1));
 }
 
-/* Returns a random number, which is sometimes a special value. */
 static inline double number(random_source *d)
 {
     static const double odd[] = {0, -0.0, INFINITY, -INFINITY, NAN, 5e-324, 1.7e308};
@@ -65,7 +63,7 @@ static inline void fill_counts(random_source *d, cell_result *c)
     for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
         *size[i] = whole(d, 1 << 30);
     c->size.features = (unsigned)roll(d);
-    /* random bits, also for counters that are added to the structure in future */
+    /* random bits, also in counters that will be added to the structure */
     for (size_t at = 0; at < sizeof c->counters; at += sizeof(uint64_t)) {
         const uint64_t bits = roll(d);
         memcpy((char *)&c->counters + at, &bits, sizeof bits);
@@ -212,7 +210,7 @@ static inline cell_result random_cell(random_source *d)
     return c;
 }
 
-/* Checks that every member is filled. If this test fails, a struct has a new member, which must be
+/* Checks that every member is filled. If this check fails, a struct has a new member that must be
  * added above. */
 static inline void random_cell_complete(void)
 {

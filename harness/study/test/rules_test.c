@@ -9,7 +9,6 @@
 #include "harness/study/study_impl.h"
 #include "harness/study/test/truths_file.h"
 
-/* Returns 1 if the rule with this condition applies to a point of the first case. */
 static int holds(const char *path, const char *condition, const rule_subject *s)
 {
     truths t;
@@ -48,7 +47,7 @@ static void subjects(const char *path)
     gsl_test(holds(path, "", &s), "another case");
 }
 
-/* Checks conditions. `first` is the index of a numeric parameter of the case. */
+/* first: index of a numeric parameter of the case */
 static void conditions(const char *path)
 {
     const case_type *type = registry_cases[0];
@@ -90,8 +89,7 @@ static void conditions(const char *path)
     truths_file_refused(path, "condition", r, "a word for a number");
 }
 
-/* A rule is observed if a verdict shows it and, in addition, verdicts confirm each of its derived
- * limits. */
+/* A rule is observed if a verdict shows it and verdicts confirm all of its derived limits. */
 static void predictions(const char *path)
 {
     truths t;

@@ -75,7 +75,7 @@ static void parameters(void)
              "refused: %s", f.text);
 }
 
-/* Every value must be recovered from its text, and every formulation with any option changed. */
+/* Every value and every formulation, with any option changed, must be recovered from its text. */
 static void texts(void)
 {
     static const double value[] = {1.0 / 3, 0.1 + 0.2, 1e-300, 123456789.123456789,
@@ -115,8 +115,8 @@ static void meshes(void)
     sweep_free(&s);
 }
 
-/* Random combinations of pieces of valid input must be accepted, or rejected in one line, without a
- * crash or another status. */
+/* Random combinations of pieces of valid input must be accepted, or rejected in one line. Crashes
+ * and other statuses are not allowed. */
 static void random_input(void)
 {
     static const char *const piece[] = {"length",
@@ -215,7 +215,7 @@ static void run_tests(void)
     truth_files();
 }
 
-/* Makes a scene with the size 5 m, E = 2e11 Pa and A = 0.02 m^2. */
+/* Makes a scene of size 5 m, with E = 2e11 Pa and A = 0.02 m^2. */
 static void make(scene *s)
 {
     const double y[3] = {0, 0, 1};
@@ -258,22 +258,21 @@ static void change_tests(void)
     make(&s);
     for (int i = 0; i < ROWS; i++) {
         char unit[8];
-        snprintf(unit, sizeof unit, "%d", i); /* a unit that no other quantity has */
+        snprintf(unit, sizeof unit, "%d", i);
         scene_add_quantity(&s, row[i].name, unit, 0, row[i].what)->factor = i % 2 ? -1 : 10;
     }
     const solve_result r = {.quantities = ROWS, .quantity = value};
     for (int i = 0; i < ROWS; i++)
         gsl_test_rel(change_scale(&s, i, &r), (i % 2 ? 1 : 10) * row[i].scale, 1e-13, "%s",
                      row[i].name);
-    value[0].value = -3; /* a larger value in the same unit */
+    value[0].value = -3;
     gsl_test_rel(change_scale(&s, 0, &r), 3e-9, 1e-13, "beside a value of its unit");
     s.quantity[0].near_zero = 7;
     gsl_test_rel(change_scale(&s, 0, &r), 7, 1e-13, "beside what the case says");
     scene_free(&s);
 }
 
-/* Numbers are shown to their accuracy: values to the second digit of their uncertainty, errors in
- * percent. */
+/* Values must be written up to the second digit of their uncertainty, errors in percent. */
 
 static void output(const char *text, const char *expected, const char *what)
 {
@@ -295,7 +294,7 @@ static void percent(double error, const char *expected)
     gsl_test(strlen(text) > 11, "'%s' is no wider than its column", text);
 }
 
-/* For any number, the text must contain the value up to its uncertainty and no further digits. */
+/* For any number, the text must contain the value up to its uncertainty, without further digits. */
 static void every_size(void)
 {
     for (int size = -12; size <= 12; size++)
@@ -338,7 +337,7 @@ static void rounding_tests(void)
     every_size();
 }
 
-/* Returns the text of the progress display. The caller frees it. The remaining time is computed
+/* Returns the text of the progress display, which the caller frees. The remaining time must follow
  * from the work, not from the number of cells. */
 static char *shown(double now, int done, double share, int ends)
 {

@@ -1,4 +1,4 @@
-/* Compares two cells field by field, ignoring padding bytes. */
+/* Compares two cells member by member, which ignores padding bytes. */
 #ifndef BEAMWORK_TEST_SAME_CELL_H
 #define BEAMWORK_TEST_SAME_CELL_H
 
@@ -6,7 +6,6 @@
 
 #include "harness/study/study.h"
 
-/* Records the first member that differs. */
 typedef struct difference {
     const char *name;
 } difference;
@@ -163,7 +162,7 @@ static inline void compare_solution(difference *out, const solve_result *a, cons
     SAME(seconds_setup);
     SAME(seconds_solve);
     SAME(phase);
-    if (out->name != NULL) /* arrays with different counts cannot be compared */
+    if (out->name != NULL) /* arrays of different counts cannot be compared */
         return;
     for (int i = 0; i < a->quantities; i++)
         compare_quantity(out, &a->quantity[i], &b->quantity[i]);

@@ -1,5 +1,5 @@
 /* Sweeps in several processes must give the same results for any number of jobs. Crashes and
- * endless cells are results. END only stops a test that would never end. */
+ * endless cells must count as results. END only stops a test that would never end. */
 #include <gsl/gsl_test.h>
 #include <signal.h>
 #include <string.h>
@@ -93,7 +93,6 @@ static void jobs(void)
     sweep_free(&s[1]);
 }
 
-/* A log of the calls of a follower. */
 typedef struct follower_log {
     int passed, disorder, unfinished, measured;
     int most; /* number of series that the follower accepts before it fails */
@@ -118,8 +117,8 @@ static status is_passed(void *context, const sweep *s, int series_index, fault *
     return log->passed <= log->most ? STATUS_OK : fault_set(f, STATUS_REFUSED, "enough");
 }
 
-/* The follower must receive every series in order, with its cells and its noise, while other cells
- * are computed. */
+/* The follower must receive every series in order, with its cells and its scatter, while other
+ * cells are computed. */
 static void followed(int jobs, int most)
 {
     static const int mesh[] = {1, 2, 4};
@@ -148,7 +147,7 @@ static void followed(int jobs, int most)
     sweep_free(&s);
 }
 
-/* Builds the first case of the registry in the planning process, and fails in any other process. */
+/* Builds the first case of the registry in the planning process; fails in any other process. */
 static status build_in_plan(const double value[], scene *s, fault *f)
 {
     double defaults[CASE_MAX_PARAMETERS] = {0};
@@ -184,7 +183,7 @@ static void cells_share_a_scene(void)
 int main(void)
 {
     signal(SIGINT, SIG_DFL); /* a background job of a shell ignores SIGINT, and a signal that is
-                                ignored at the start stays ignored */
+                                ignored at the start remains ignored */
     alarm(END);
     crashes(KILLED, 1, "crashed with signal 9");
     crashes(KILLED, 2, "crashed with signal 9");

@@ -20,8 +20,8 @@ static void fill(truths *t, int from, int to)
     t->rows = to;
 }
 
-/* Checks that the index gives the rows of one case and quantity that a full search finds, in the
- * same order. */
+/* For one case and quantity, the index must give the same rows as a full search, in the same
+ * order. */
 static void compare(const truths *t, const case_type *type, const char *quantity)
 {
     int i = truth_index_first(t, type, quantity), wrong = 0;
@@ -52,10 +52,10 @@ int main(void)
     gsl_test(truth_index_make(&t, &f) != STATUS_OK, "of no rows");
     compare_all(&t);
     fill(&t, 0, ROWS / 3);
-    compare_all(&t); /* the index is empty */
+    compare_all(&t);
     gsl_test(truth_index_make(&t, &f) != STATUS_OK || t.indexed != ROWS / 3, "of a third");
     compare_all(&t);
-    fill(&t, ROWS / 3, ROWS); /* rows that are added after the index was made */
+    fill(&t, ROWS / 3, ROWS);
     compare_all(&t);
     gsl_test(truth_index_make(&t, &f) != STATUS_OK || t.indexed != ROWS, "of all");
     compare_all(&t);

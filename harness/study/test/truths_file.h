@@ -145,7 +145,7 @@ static void truths_file_make(const char *path, const recipe *r)
     truths_file_checksum(path);
 }
 
-/* Checks that the file is rejected with one line that contains the word. */
+/* Checks that the file is rejected, with a message of one line that contains `word`. */
 static inline void truths_file_refused(const char *path, const char *word, recipe r,
                                        const char *what)
 {
@@ -157,7 +157,7 @@ static inline void truths_file_refused(const char *path, const char *word, recip
              "%s: %s", what, f.text);
 }
 
-/* Runs every test with the path of its own file. Returns the exit status of the program. */
+/* Runs every test with the path of its own file. Returns the exit status of the test program. */
 static int truths_file_run(int count, void (*const test[])(const char *path))
 {
     char path[] = "/tmp/beamwork-truths-XXXXXX";

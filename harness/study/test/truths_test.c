@@ -1,5 +1,5 @@
-/* A valid file of reference values must be read, and invalid files of every kind must be rejected.
- */
+/* A valid file of reference values must be read, and invalid files of every kind must be
+ * rejected. */
 #include <gsl/gsl_test.h>
 #include <hdf5.h>
 #include <math.h>
@@ -13,8 +13,8 @@
 #include "harness/study/study.h"
 #include "harness/study/test/truths_file.h"
 
-/* HDF5 1.10 never frees a few bytes of the header of a damaged file. Only these leaks are ignored.
- */
+/* In a damaged file, HDF5 1.10 never frees a few bytes of the header. Only these leaks are
+ * ignored. */
 const char *__lsan_default_suppressions(void);
 const char *__lsan_default_suppressions(void)
 {
@@ -208,8 +208,8 @@ static void damaged_files(const char *path)
     gsl_test_int(broken, 0, "damaged files without a clear refusal");
 }
 
-/* The verdicts on formulations in the table must affect the exit status, and verdicts on other
- * built-in formulations must not. Until a table is read, all verdicts affect the exit status. */
+/* Verdicts on formulations in the table must affect the exit status; verdicts on other built-in
+ * formulations must not. Until a table is read, all verdicts affect it. */
 static void accepted_ones(const char *path)
 {
     truths t;
