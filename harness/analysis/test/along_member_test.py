@@ -44,7 +44,6 @@ quantities:
 
 
 def forces(formulation, support):
-    """Returns the exact values under forces q along y, z and x and moments m about x."""
     exact = {}
     for along, turn, moment, inertia, sign in (("y", "rz", "Mz", Iz, 1), ("z", "ry", "My", Iy, -1)):
         EI, soft = E * inertia, flexibility(formulation, along)
@@ -79,7 +78,6 @@ def forces(formulation, support):
 
 
 def moments(formulation, support):
-    """Returns the exact values under moments m about y and z."""
     exact = {}
     for along, turn, moment, inertia, sign in (("y", "rz", "Mz", Iz, 1), ("z", "ry", "My", Iy, -1)):
         EI, soft = E * inertia, flexibility(formulation, along)
@@ -130,7 +128,8 @@ class AlongMembers(ProgramTest):
 SECTION = """sections: {s: {constants: {A: 0.04, Iy: 3e-4, Iz: 2e-4, It: 4e-4,
                F: [0.001, 0, 0, 0, 0.001, 0, 0, 0, 0]}, young: 70e3, shear_modulus: 27e3}}
 """
-# Reaction at the first end of a hinged beam of length 1 under a load 1 at 0.3 and a load from 2 at 0.5 to 4 at 0.8.
+# [N] reaction at the left end of a hinged beam of length 1 m under 1 N at 0.3 m and a load from 2 N/m at 0.5 m to 4 N/m
+# at 0.8 m
 ROOT = -(0.7 + 2 * 0.3 * 0.35 + 2 * 0.15 * 0.3)
 HINGED = "beamwork: 1\n" + SECTION + """nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]},
         b: {at: [1, 0, 0], hold: [ux, uy, uz]}%s}
@@ -247,8 +246,8 @@ class DividedMember(ProgramTest):
         self.assertIn("'beam' is a member; a tension acts between two nodes; name a node", done.stderr)
 
 
-# Artefacts of the mesh must not be reported as results: a stiffness that is indefinite at rest, or a critical load that
-# grows with the square of the number of elements.
+# Artefacts of the mesh must be rejected: an indefinite stiffness at rest, or a critical load proportional to the square
+# of the number of elements.
 RING = """beamwork: 1
 sections: {leaf: {rectangle: {width: 20e-3, thickness: %(t)s}, young: 200e9, shear_modulus: 80e9}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [0.1, 0.1, 0]}}
@@ -284,7 +283,6 @@ quantities:
   f: {frequency: {analysis: m, which: 0}, unit: Hz}
 omit: [trapeze, rotary_inertia]
 """
-# Two perpendicular bars, pulled down between their ends by a force far beyond their bending stiffness.
 TRUSS = """beamwork: 1
 sections: {s: {constants: {A: 1e-2, Iy: 1e-9, Iz: 1e-9, It: 2e-9, Iw: 0, wagner_torque: 0}, young: 2e11,
                shear_modulus: 8e10}}
@@ -310,8 +308,8 @@ class Discretised(ProgramTest):
         return done.returncode, values, said
 
     def test_arcs(self):
-        """An arc is accepted if EA l^4 k^2/EI of one element, which is 64 (rise/radius of gyration)^2, is below its
-        value for a rise of 2 radii of gyration."""
+        """An arc is accepted if EA l^4 k^2/EI of one element is below the value for a rise of two radii of gyration;
+        it is 64 (rise/radius of gyration)^2."""
         for n in (1, 2, 4, 8):
             turn = math.pi / 2 / n
             for side in (0.25, 0.98, 1.02, 30):
@@ -344,7 +342,7 @@ class Discretised(ProgramTest):
 
     def test_tension_of_states(self):
         """The largest N l^2/EI of one element is 12, 60 or 30 + sqrt(1620), depending on the formulation. Beyond the
-        limit, the tip displacement could have either sign, so it must be rejected."""
+        limit, the tip displacement may have either sign, so no value may be returned."""
         for formulation, most in (("geometrically_exact:nodes=2", 12), ("geometrically_exact", 60),
                                   ("sheet_third", 30 + math.sqrt(1620)), ("sheet_third_printed", 30 + math.sqrt(1620))):
             for n in (1, 2, 16):
@@ -364,7 +362,7 @@ class Discretised(ProgramTest):
                         self.assertIsNone(values.get("u"))
                         self.assertEqual(self.solve(WIRE % {"N": N, "more": ""}, formulation, 2*n)[0], 0, (formulation, n))
         for formulation in ("geometrically_exact", "sheet_third", "collocation"):
-            for ends, status in (("[ry, rz]", 0), ("[rz]", 1)):  # a bar between two hinges does not bend
+            for ends, status in (("[ry, rz]", 0), ("[rz]", 1)):
                 done, values, said = self.solve(TRUSS % (ends, ends, ends, ends), formulation, 1)
                 self.assertEqual(done, status if formulation != "collocation" else 0, (formulation, said))
                 if done == 0:
@@ -374,9 +372,9 @@ class Discretised(ProgramTest):
         self.assertNotIn("so long that its axial force", " ".join(run("list", "collocation").stdout.split()))
 
     def test_tension_with_shear(self):
-        """An element with three nodes accepts a tension N close to GA. In an element with two nodes, the flexibilities
-        due to bending and shear add up, so its limit is lower."""
-        shear = ", F: [%r, 0, 0, 0, %r, 0, 0, 0, 0]" % (8e10 * 1e-4, 8e10 * 1e-4)  # 1/GA = 1e-4
+        """An element with three nodes accepts a tension N close to GA. In an element with two nodes, the
+        flexibilities due to bending and shear add up, so the largest accepted tension is lower."""
+        shear = ", F: [%r, 0, 0, 0, %r, 0, 0, 0, 0]" % (8e10 * 1e-4, 8e10 * 1e-4)  # 1/(k G A) = 1e-4 1/N
         for formulation, N, status in (("geometrically_exact", 9000.0, 0), ("geometrically_exact:nodes=2", 1900.0, 0),
                                        ("geometrically_exact:nodes=2", 1990.0, 1)):
             found, values, said = self.solve(WIRE % {"N": N, "more": shear}, formulation, 1)

@@ -1,4 +1,3 @@
-/* Critical loads of a square bar for every formulation. */
 #ifndef BEAMWORK_TEST_BAR_H
 #define BEAMWORK_TEST_BAR_H
 
@@ -51,8 +50,8 @@ static inline void bar_ask(scene *s, int signs)
         }
 }
 
-/* Finds the critical loads that are positive (signs 1), or those of both signs (signs 2). Returns 1
- * if the formulation answered. */
+/* Finds the positive critical loads (signs 1), or those of both signs (signs 2). Returns 1 if the
+ * formulation supports the analysis. */
 static inline int bar_find_signs(const element_type *e, ask_tally *tally, build *make,
                                  const double direction[3], int n, int signs, loads *out)
 {
@@ -60,7 +59,7 @@ static inline int bar_find_signs(const element_type *e, ask_tally *tally, build 
     scene s;
     memset(out, 0, sizeof *out);
     scene_init(&s, "bar");
-    scene_omit(&s, SCENE_OMITTABLE); /* Euler-Bernoulli beam */
+    scene_omit(&s, SCENE_OMITTABLE);
     make(&s, direction);
     bar_ask(&s, signs);
     ask_scene(&s, e, NULL, n, &a);

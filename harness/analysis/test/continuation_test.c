@@ -46,7 +46,6 @@ static void limit_points(void)
         for (int k = 0; k < 2 && k < r.solve.events; k++) {
             const path_event *e = &r.solve.event[k];
             gsl_test_int((int)e->kind, EVENT_LIMIT_POINT, "%s: a limit point", control[i]);
-            /* a correction may end early if its tangent is singular */
             gsl_test_rel(e->factor, k == 0 ? exact : -exact, 1e-11, "%s: its load", control[i]);
             gsl_test_int(e->negative_after - e->negative_before, k == 0 ? 1 : -1,
                          "%s: one pivot changes its sign", control[i]);
@@ -55,14 +54,14 @@ static void limit_points(void)
     }
 }
 
-/* Builds a perfect cantilever column with its smallest stiffness about z. Its bifurcations are at P
- * (1 - P/EA) = (2 k - 1)^2 pi^2 EI/(4 L^2). */
+/* The bifurcations of a perfect cantilever column with its smallest stiffness about z are at P (1 -
+ * P/EA) = (2 k - 1)^2 pi^2 EI/(4 L^2). */
 static status build_column(const double value[], scene *s, fault *f)
 {
     (void)f;
     const section_spec spec = sections_of(100, 40, 1, 40);
     scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE);
-    /* along x, or rotated so that the load does work on every coordinate */
+    /* along x, or oblique */
     const double along[2][3] = {{1, 0, 0}, {0.48, 0.6, 0.64}},
                  across[2][3] = {{0, 1, 0}, {0.8, 0, -0.6}};
     const double *const t = along[value[1] != 0];
@@ -183,9 +182,9 @@ static status build_long_arcs(const double value[], scene *s, fault *f)
     return outcome;
 }
 
-/* Steps in which the direction of the path changes too much are repeated in smaller steps, which
- * usually lead to the same branch. Arcs of 0.5 meet another branch, on which the loaded point has
- * swayed by 35 m instead of 94 m at the same deflection. */
+/* A load step whose direction changes too much is repeated with a smaller size. Arcs of 0.5 lead
+ * to another branch, on which the loaded point sways by 35 m instead of 94 m at the same
+ * deflection. */
 static void long_arcs(void)
 {
     static const char *const step[] = {"step=0.02", "step=0.05", "step=0.15", "step=0.2"};
@@ -246,9 +245,6 @@ static void continuation_tests(void)
     refusals();
 }
 
-/* Tests frequencies and critical loads about a loaded state: limits known from linear theory, and
- * rejected requests. */
-
 static double value_of(const char *case_name, const char *chosen, int n,
                        const char *const assignment[], const char *quantity)
 {
@@ -263,8 +259,6 @@ static double value_of(const char *case_name, const char *chosen, int n,
     return value;
 }
 
-/* Bending about the strong axis is 1e6 times as stiff as about the weak axis. The critical load is
- * that of linear prestress, 4.012599344, plus a first-order term in 1/ratio. */
 static void stiff_before_buckling(void)
 {
     const char *const included[] = {"prebuckling=included", "ratio=1e6", NULL};
@@ -288,8 +282,6 @@ static void deflected_before_buckling(void)
     }
 }
 
-/* Solves a cantilever with unit constants under a dead tip force P along -x or a dead tip moment M
- * about z, and then an analysis about this state. */
 static status solve_column(scene_analysis_kind kind, double P, double M, double end, double *value,
                            fault *f)
 {
@@ -368,7 +360,6 @@ static void equilibrium_tests(void)
     refused();
 }
 
-/* Solves a case with n elements. The assignments end with NULL. The caller frees the result. */
 static status run(const char *case_name, const char *key, int n, const char *const assignment[],
                   cell_result *out)
 {
@@ -378,8 +369,6 @@ static status run(const char *case_name, const char *key, int n, const char *con
     return cell_run(&request, out, &f);
 }
 
-/* N section 4: if coordinates, strains and stresses are unknowns, Newton's method reaches a
- * rotation of 15 degrees from rest in one load step. */
 static void from_rest_in_one_step(void)
 {
     const char *const once[] = {"steps=1", "wagner=0", NULL};
@@ -425,8 +414,6 @@ static void few_iterations(void)
     }
 }
 
-/* Predicting the next state saves iterations but must not change results. The results must not
- * depend on the number of steps between stations. */
 static void guesses_change_nothing(void)
 {
     const char *const defaults[] = {NULL};
@@ -446,13 +433,13 @@ static void guesses_change_nothing(void)
     cell_result_free(&halved);
 }
 
-/* Formulations that treat both ends in the same way must not depend on the direction of the
- * elements. In other formulations, the direction causes a discretisation error. */
+/* The direction of an element changes results only of formulations that treat its ends differently,
+ * and only by a discretisation error. */
 static void directions(void)
 {
     static const struct {
         const char *formulation;
-        double least, most; /* smallest and largest relative change */
+        double least, most;
     } row[] = {{"sheet_second", 1e-3, 5e-3},
                {"sheet_third", 1e-3, 5e-3},
                {"collocation", 0, 1e-10},
@@ -473,8 +460,6 @@ static void directions(void)
     }
 }
 
-/* The largest stiffnesses of the case with one element per sheet must agree with those of an
- * independent prototype: 9.37, 9.720, 9.92 x 10^5 N/m. */
 static void fold_warping(void)
 {
     static const char *const choice[3] = {"fold_warping=fixed", "fold_warping=shared",
@@ -491,8 +476,6 @@ static void fold_warping(void)
     gsl_test_rel(value[2], 9.92e5, 2e-3, "folds free to warp");
 }
 
-/* Builds a straight cantilever of length 1 with EIy = 4 EIz = 4 under the loads P = path [N]. Its
- * critical loads are (2k - 1)^2 pi^2 EI/4 in both planes. */
 static void straight_column(scene *s, int stations, const double path[])
 {
     const section_spec spec = sections_of(1e8, 4, 1, 10);
@@ -541,8 +524,8 @@ static void inertia_counts_critical_loads(void)
     }
 }
 
-/* Sums have a fixed order, so several threads must give the same bits and the same work, even with
- * incomplete blocks and with more blocks than are stored at a time. */
+/* Sums have a fixed order. Results and counted work must be bitwise equal with one thread and with
+ * several, also if the last block of elements is incomplete. */
 static void threads_change_no_bit(void)
 {
     static const struct {

@@ -8,7 +8,6 @@
 #include "harness/formulations/formulations.h"
 #include "harness/tools/kit/cells.h"
 
-/* Matrices of the last station of a sheet case with collocation elements. */
 typedef struct convention_matrices {
     double C[36], K[36];
 } convention_matrices;
@@ -66,7 +65,6 @@ static void inverse(void)
     gsl_test(worst > 1e-12, "stiffness times compliance is the unit matrix: %.1e", worst);
 }
 
-/* Checks the effect of the convention of moments in the cases of N section 4.1. */
 static void sheets(void)
 {
     const convention_matrices near =
@@ -112,7 +110,7 @@ static void reciprocity(void)
     }
 }
 
-/* In the last step, each correction must be about the square of the previous one. */
+/* near the solution, each correction is about the square of the previous one */
 static void quadratic(void)
 {
     const char *const none[] = {NULL};
@@ -154,8 +152,6 @@ static void turn_vector(const double q[4], double v[3])
     rotation_apply(q, v, v);
 }
 
-/* Builds the cross-flexure hinge under a force at an offset that tilts its arm, optionally in
- * rotated axes. */
 static status tilted_hinge(const double value[], scene *s, fault *f)
 {
     double q[4];
@@ -198,7 +194,6 @@ static convention_matrices of_hinge(const char *rotation, const char *convention
     return out;
 }
 
-/* Computes B = Q A Q^T by blocks of three. */
 static void in_other_axes(const double A[36], double B[36])
 {
     double q[4], Q[9];
@@ -214,7 +209,6 @@ static void in_other_axes(const double A[36], double B[36])
         }
 }
 
-/* Returns the largest difference in a 3 x 3 block, relative to the largest entry of the block. */
 static double block_difference(const double A[36], const double B[36])
 {
     double worst = 0;
@@ -233,8 +227,8 @@ static double block_difference(const double A[36], const double B[36])
     return worst;
 }
 
-/* If a node can rotate about two axes only, these axes span a plane, which may be oblique because
- * of the axes of the scene or because the state is tilted. */
+/* If a node can rotate about two axes only, these axes span a plane. The plane may be oblique to
+ * the axes of the scene. */
 static void partly_free_turns(void)
 {
     static const char *const rotation[] = {"rotation=hinge", "rotation=first", "rotation=last",
@@ -289,9 +283,6 @@ static void convention_tests(void)
     quadratic();
 }
 
-/* Compares the closed-form solution of a clamped-free sheet with one third-order element, which is
- * based on the same potential. */
-
 static void prediction_solve(const char *const assignment[], cell_result *out)
 {
     cell_request request = cells_of(case_find("sheet_cantilever", NULL), "sheet_third", 1);
@@ -300,9 +291,8 @@ static void prediction_solve(const char *const assignment[], cell_result *out)
     gsl_test(cell_run(&request, out, &f) != STATUS_OK, "solved: %s", f.text);
 }
 
-/* For quantities in the plane, all digits must agree, because the element inverts N Eq. 37
- * accurately. Out of the plane, the closed form and the element differ by fourth-order terms, whose
- * size for C_zz is `apart`. */
+/* In the plane, all digits agree, because the element inverts N Eq. 37 accurately. Out of the
+ * plane, fourth-order terms differ; for C_zz, their size is `apart`. */
 static void beside_the_element(const char *const assignment[], double in_plane, double apart)
 {
     cell_result r;
@@ -353,8 +343,7 @@ static void prediction_tests(void)
     beside_the_element(rigid, 1e-11, 1.5e-2);
 }
 
-/* Steps along a path reuse the work of earlier steps. The values must be the same as without this
- * reuse. */
+/* A path with stored factors must give the same values as one without. */
 
 enum { STATIONS = 15 };
 
@@ -378,8 +367,6 @@ static double worst_difference(const cell_result *a, const cell_result *b)
     return worst;
 }
 
-/* In the uncondensed Newton method, each compliance needs a new factorisation. The condensed method
- * can use the last factorisation of Newton's method. */
 static void compliances(void)
 {
     cell_result taken, own;
@@ -396,8 +383,8 @@ static void compliances(void)
     cell_result_free(&own);
 }
 
-/* The axis of the tilt of the joint makes one revolution, so each component of the tilt has two
- * extrema. Steps near the extrema must not need more iterations. */
+/* The tilt axis of the joint makes one revolution, so each component of the tilt has two extrema.
+ * Steps near the extrema must not need more iterations. */
 static void turning_back(void)
 {
     enum { BEGINNING = 10 };
@@ -410,7 +397,7 @@ static void turning_back(void)
     cell_result_free(&r);
 }
 
-/* The initial step size is that of the first station, and successful steps do not reduce it. */
+/* The first step has the size of the first station. Successful steps do not reduce the size. */
 static void shorter_first_steps(void)
 {
     cell_result whole, shorter;

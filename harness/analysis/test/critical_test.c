@@ -24,8 +24,6 @@ static void unloaded(scene *s, const double direction[3])
     bar_push(s, bar_cantilever(s, direction), direction, 0);
 }
 
-/* A bar clamped at both ends and pushed in the middle: one half is in compression, the other in
- * tension. */
 static void half_and_half(scene *s, const double direction[3])
 {
     const int a = scene_add_node(s, 0, 0, 0), b = bar_end(s, direction, length / 2),
@@ -38,8 +36,6 @@ static void half_and_half(scene *s, const double direction[3])
     bar_push(s, b, direction, 1);
 }
 
-/* Builds a bar with the force on a rigid arm, which is as long as the bar and points outwards or
- * inwards from the tip. */
 static void with_arm(scene *s, const double direction[3], double arm)
 {
     const int tip = bar_cantilever(s, direction);
@@ -86,7 +82,6 @@ static void expect_none(const element_type *e, const char *what, const loads *l,
                  "%s, %s: %g, %s", e->name, what, l->value[sign][i], l->why[sign][i]);
 }
 
-/* Each critical load of a column occurs twice, about y and about z. */
 static void columns(const element_type *e, ask_tally *tally, const double direction[3])
 {
     const double first = bar_euler() / 4, exact[WANTED] = {first, first, 9 * first, 9 * first};
@@ -133,8 +128,6 @@ static void critical_tests(void)
     }
 }
 
-/* In the next states, no element or only one element can buckle. A critical load that is reported
- * must not be due to round-off. */
 static void bent_between_forks(scene *s, const double direction[3], int component)
 {
     const int a = scene_add_node(s, 0, 0, 0), b = bar_end(s, direction, length);
@@ -168,8 +161,8 @@ static void bent_in_a_frame(scene *s, const double direction[3])
     bar_push(s, low, y_axis, 1e-3);
 }
 
-/* Builds an equal-leg angle section on fork supports. Warping is neglected, and the shear centre is
- * at the heel. */
+/* An equal-leg angle section on fork supports, with its shear centre at the heel and without
+ * warping stiffness. */
 static void angle(scene *s, int *foot, int *head)
 {
     section_spec spec = section_spec_constants(young, young / 2.6);
@@ -206,14 +199,14 @@ static void angle_compressed(scene *s, const double direction[3])
     bar_push(s, head, direction, -1);
 }
 
-/* The critical loads of one sign must not depend on whether loads of the other sign are requested
- * or found. Some formulations have one spurious load of the other sign per element. */
+/* Loads of one sign must not depend on whether the other sign is requested. Some formulations have
+ * one spurious load of the other sign per element. */
 static void one_side_alone(const element_type *e, ask_tally *tally)
 {
     for (int n = 2; n <= 64; n *= 2) {
         loads both, alone;
-        ask_tally any = {0}; /* the tally of requests for negative loads, which some formulations do
-                                not support */
+        ask_tally any = {
+            0}; /* counts requests for negative loads, which some formulations do not support */
         if (!bar_find_signs(e, tally, angle_compressed, along_x, n, 1, &alone))
             return;
         bar_find_signs(e, &any, angle_compressed, along_x, n, 2, &both);
@@ -228,8 +221,7 @@ static void one_side_alone(const element_type *e, ask_tally *tally)
     }
 }
 
-/* Critical loads must be at most 1e9 times Euler's load. Loads due to round-off are of the order of
- * 1e16. */
+/* A critical load above 1e9 times Euler's load would be due to round-off. */
 static void no_rounding(const element_type *e, ask_tally *tally)
 {
     static build *const state[] = {angle_bent, bent_about_y, bent_about_z, pushed_across,

@@ -36,7 +36,6 @@ COMPONENTS = ("ux", "uy", "uz", "rx", "ry", "rz")
 
 
 def cross(scale, skewed):
-    """Returns a matrix with a positive definite symmetric part and a skew part."""
     A, B = RANDOM.normal(size=(6, 6)), RANDOM.normal(size=(6, 6))
     units = numpy.diag([1, 1, 1, 0.1, 0.1, 0.1])
     return scale * units @ (A @ A.T + skewed * (B - B.T)) @ units
@@ -54,7 +53,6 @@ def shift(arm):
 
 
 def beam_end(release):
-    """Returns the stiffness [6 x 6] of the free end of a clamped beam, in the axes of the scene."""
     along = numpy.array([1, 0.15, 0.12])
     length = numpy.linalg.norm(along)
     x = along / length
@@ -65,15 +63,15 @@ def beam_end(release):
     K = numpy.diag([EA / length, 12 * EIz / length**3, 12 * EIy / length**3, GJ / length, 4 * EIy / length, 4 * EIz / length])
     K[1, 5] = K[5, 1] = -6 * EIz / length**2
     K[2, 4] = K[4, 2] = 6 * EIy / length**2
-    if release:  # ry of the member
+    if release:
         K = K - numpy.outer(K[:, 4], K[4]) / K[4, 4]
     turn = numpy.kron(numpy.eye(2), R)
     return turn @ K @ turn.T
 
 
 def matrices(release):
-    """Returns K, C and M for the 13 coordinates, which are the motions of b [6], of c along z [1] and of e [6], and the
-    matrices [6 x 13] of the motions of b, p, c and e due to these."""
+    """Returns K, C and M [13 x 13] for the motions of b (six), of c along z (one) and of e (six). Also returns the
+    matrices [6 x 13] that map these coordinates to the motions of b, p, c and e."""
     G = {"b": numpy.eye(13)[:6], "p": shift((0.1, 0.15, -0.05)) @ numpy.eye(13)[:6], "e": numpy.eye(13)[7:], "c": numpy.zeros((6, 13))}
     G["c"][0, 0], G["c"][2, 6] = -2, 1
     end, apart = shift((0, -0.05, 0.02)) @ G["b"], G["e"] - G["b"]
@@ -115,8 +113,8 @@ class CrossTerms(ProgramTest):
                     self.near(found[name], value, abs(value), f"{formulation}, release {release}: {name}")
 
     def test_rounding(self):
-        """An asymmetry of up to 1e-6 of the diagonal of stiffness or damping must be dropped and reported, and a larger
-        asymmetry must be included."""
+        """An asymmetry of stiffness or damping up to 1e-6 of the diagonal is dropped and reported. A larger asymmetry
+        is included."""
         bar = """beamwork: 1
 sections: {s: {constants: {A: 6e-4, Iy: 2e-8, Iz: 4.5e-8, It: 4e-8}, young: 2e9, shear_modulus: 0.8e9}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], mass: 3, hold: [rx, ry, rz]}}
@@ -157,7 +155,7 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
             for k, (n, c, m, d) in enumerate(sees):
                 text += "".join(f"  {part}{k}: {{response: {{analysis: H, node: {n}, component: {c}, force: {m}, along: {d}, part: {part}}}}}\n" for part in ("real", "imaginary"))
             found = self.values(release, "{D: {modal: {damped: yes}}, H: {harmonic: {frequencies: [1.3]}}}", text)
-            pairs = [(2 * math.pi * found[f"f{i}"], found[f"d{i}"]) for i in range(8) if found[f"f{i}"] > 0]  # the other modes do not vibrate
+            pairs = [(2 * math.pi * found[f"f{i}"], found[f"d{i}"]) for i in range(8) if found[f"f{i}"] > 0]  # without the modes that do not oscillate
             self.assertGreater(len(pairs), 3)
             for (frequency, ratio), root in zip(pairs, roots):
                 self.near(frequency, root.imag, abs(root), f"frequency, release {release}")

@@ -1,7 +1,6 @@
-/* An element must be free of stress in its initial shape, an arc of any constant torsion and
- * curvature, also with initial elongation and shear. About such an arc, the stress must be the
- * derivative of the energy. The geometric stiffness must be the derivative of the tangent if it is
- * for a straight element; other formulations neglect the strains of the prestressed state. */
+/* Elements with an initial shape of constant curvature and torsion. This shape has no stress. About
+ * it, the stress is the derivative of the energy, and the geometric stiffness is the derivative of
+ * the tangent. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -32,8 +31,6 @@ static section rectangle(void)
     return sections_computed(&spec);
 }
 
-/* Prepares an element with rotations up to `most` [rad]. Wagner torque and initial torsion are not
- * supported together. */
 static status prepare(const formulation *chosen, const section *c, double most, uint64_t *state,
                       element_subject *out, fault *f)
 {
@@ -83,7 +80,6 @@ static void along_arc(const element_subject *s, double x, const double strain[3]
     }
 }
 
-/* Sets the nodes of the stress-free element, moved as a rigid body. */
 static void place(const element_subject *s, const double motion[6], node_state x[])
 {
     const double none[3] = {0};
@@ -197,8 +193,7 @@ static void arcs(const formulation *chosen, const section *c)
         if (outcome == STATUS_OK) {
             stress =
                 worst_of(stress, worst_of(stress_of_arc(&s, still), stress_of_arc(&s, motion)));
-            if (chosen->type->inner == NULL) { /* not for elements with inner unknowns, whose values
-                                                  belong to a different state */
+            if (chosen->type->inner == NULL) {
                 derived = worst_of(derived, error_of_stress(&s));
                 geometric = whole ? worst_of(geometric, error_of_geometric(&s)) : 0;
             }
@@ -247,7 +242,6 @@ static void member_of(form shape, scene *s)
     const section_spec spec = sections_of(shape == ARC ? 1e10 : 1e4, 2, 1, 0.7);
     scene_init(s, "along");
     scene_add_node(s, 0, 0, 0);
-    /* the chord of an arc of 1 rad and length 1 */
     scene_add_node(s, shape == ARC ? sin(1) : 1, shape == ARC ? 1 - cos(1) : 0, 0);
     scene_add_member(s, ROOT, TIP, scene_add_section(s, &spec), y_axis);
     scene_hold_all(s, ROOT);
@@ -277,7 +271,6 @@ static void values_of(const scene *s, int stages, int n, double out[VALUES])
         out[i] = a.value[i];
 }
 
-/* Checks the largest error with n elements, and the order between n and 2 n. */
 static void order_of(const char *name, const scene *s, int stages, int n, double least,
                      double error)
 {
@@ -311,12 +304,12 @@ static void large_rotations(void)
         form shape;
         acting what;
         double least[2],
-            error[2]; /* smallest order and largest error, for 3 and 4 stages; errors for n = 4 */
+            error[2]; /* smallest order and largest error at n = 4, for 3 and 4 stages */
     } scenes[] = {
         {"a uniform load", STRAIGHT, UNIFORM, {5.7, 7.5}, {1e-5, 2e-7}},
         {"a linear one", STRAIGHT, LINEAR, {5.7, 7.5}, {1e-5, 2e-7}},
         {"one along a curved member", CURVED, LINEAR, {5.5, 7}, {1e-5, 2e-7}},
-        /* these loads act on the displacement field that all types of elements share */
+        /* loads on the displacement field that is the same for all elements */
         {"one that follows", STRAIGHT, FOLLOWER, {3.6, 3.6}, {1e-2, 1e-2}},
         {"a moment along", STRAIGHT, MOMENT, {3.6, 3.6}, {1e-2, 1e-2}},
     };
@@ -331,8 +324,8 @@ static void large_rotations(void)
     }
 }
 
-/* Uses Castigliano's theorem for an arc of 1 rad with EI = 1, R = 1 and a downward load of 1 per
- * length. The moment at t is due to the load beyond t, and the displacement of the tip is int M m,
+/* Castigliano's theorem for an arc of 1 rad with EI = 1, R = 1 and a downward load of 1 per length.
+ * The moment at t is due to the load beyond t, and the displacement of the tip is int M m/EI,
  * without axial strain. */
 static void arc_by_castigliano(void)
 {
@@ -357,8 +350,7 @@ static void arc_by_castigliano(void)
     scene_free(&s);
 }
 
-/* A column under its own weight buckles at q L^3/EI = 7.837347 (Greenhill). The critical load is
- * computed about a loaded state. */
+/* A column under its own weight buckles at q L^3/EI = 7.837347 (Greenhill). */
 static void own_weight(void)
 {
     const double stations[1] = {1}, option[ELEMENT_MAX_OPTIONS] = {0}, right = 7.83734744;

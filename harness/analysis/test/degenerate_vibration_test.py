@@ -1,15 +1,14 @@
-"""Equal frequencies, and the order of frequencies."""
 import math
 import unittest
 
 from harness.tools.kit.program import ProgramTest
 
 
-# Frequencies of degenerate structures: equal frequencies, motions without stiffness or mass, and ends that transmit no
-# force. They are compared with closed forms, or with an equivalent description of the structure.
+# Frequencies of degenerate structures: equal frequencies, zero frequencies, massless members and released ends. They
+# are compared with closed forms or with equivalent structures.
 YOUNG, SHEAR, DENSITY, AREA, INERTIA, TWIST = 2e11, 8e10, 8000.0, 1e-4, 1e-9, 1.4e-9
 LINE = DENSITY * AREA
-WAVE = math.sqrt(YOUNG * INERTIA / LINE) / (2 * math.pi)  # Hz for the factor 1 and the length 1
+WAVE = math.sqrt(YOUNG * INERTIA / LINE) / (2 * math.pi)  # [Hz] frequency per frequency factor, for the length 1 m
 SCENE = """beamwork: 1
 sections:
   s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1.4e-9, Iw: 0}, young: 2e11, shear_modulus: 8e10, density: 8000}
@@ -41,7 +40,6 @@ def cross(a, b):
 
 
 def turned(v):
-    """Rotates a vector by a fixed quaternion about an oblique axis."""
     size = math.sqrt(0.7**2 + 0.4**2 + 0.3**2 + 0.5**2)
     w, *r = (q / size for q in (0.7, 0.4, -0.3, 0.5))
     half = [c + w * x for c, x in zip(cross(r, v), v)]
@@ -60,7 +58,7 @@ class Degenerate(ProgramTest):
         return path
 
     def found(self, formulation, nodes, members, more="", wanted=8, n=4):
-        """Returns the frequencies [Hz] in ascending order. None means that the mesh has no further mode."""
+        """Returns the frequencies [Hz] in ascending order; None: the mesh has no further mode."""
         path = self.scene(nodes, members, more, wanted)
         return [q["value"] for q in self.record("solve", "--scene", path, "-f", formulation, "-n", n)["quantities"]]
 
@@ -73,8 +71,8 @@ class Degenerate(ProgramTest):
                                      (found, right, *what))
 
     def test_two_of_each(self):
-        """If a section has equal stiffness in all directions, the frequencies occur in pairs. A free bar has six zero
-        frequencies first."""
+        """The bending frequencies of a section with equal second moments occur in pairs. A free bar also has six zero
+        frequencies."""
         for formulation in self.each():
             within = 3e-2 if formulation.endswith("lumped") else 1e-3 if "exact" in formulation else 2e-4
             found = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=4, n=8)
@@ -119,8 +117,8 @@ class Degenerate(ProgramTest):
                                  (formulation, scene, found))
 
     def test_one_member_has_mass(self):
-        """A massless arm beyond the end of a cantilever does not change its frequencies. A massless bar is exact with
-        one element, for any mesh of the heavy bar joined to it."""
+        """A massless arm beyond the tip of a cantilever does not change its frequencies. A massless bar is exact with
+        one element."""
         end = "c: {at: [1, 0, 0.5]}"
         arm = "arm: {from: b, to: c, section: light, y: [0, 1, 0]}"
         pair = f"{bar('light', ', divisions: %d')}, {BEYOND % ('s', ', divisions: 4')}"
@@ -171,7 +169,6 @@ class Degenerate(ProgramTest):
             self.same(found, self.found(formulation, turning, bar(), wanted=4, n=8), 1e-8, formulation)
 
     def test_equal_legs(self):
-        """A frame has the frequencies of its mirror image. Two separate equal legs have each frequency twice."""
         nodes = ("{0}: {{at: [0, 0, 0], hold: all}}, p: {{at: [0, 0, 1]}}, q: {{at: [0.7, 0, 1]}}, "
                  "{1}: {{at: [0.7, 0, 0], hold: all}}")
         leg = "{0}l: {{from: {0}, to: {1}, section: flat, y: [0, 1, 0]}}"
@@ -188,8 +185,8 @@ class Degenerate(ProgramTest):
             self.same(alone[::2], alone[1::2], 1e-9, formulation)
 
     def test_springs_to_the_ground(self):
-        """A stiff bar on two soft springs has the circular transverse frequencies sqrt(2 k/m) and sqrt(6 k/m), each
-        twice."""
+        """A nearly rigid bar on two soft springs has the circular transverse frequencies sqrt(2 k/m) and sqrt(6 k/m),
+        each twice."""
         k = 0.02
         springs = (f"springs: {{p: {{to: a, stiffness: [0, {k}, {k}, 1, 0, 0]}}, "
                    f"q: {{to: b, stiffness: [{k}, {k}, {k}, 0, 0, 0]}}}}")
@@ -201,8 +198,8 @@ class Degenerate(ProgramTest):
             self.same(found, right, 1e-3, formulation)
 
     def test_offsets(self):
-        """For a support, a node at the end of a rigid arm is equivalent to a clamped end. For a body, it is equivalent
-        to a mass at the end of the arm."""
+        """A support at the end of a rigid arm is equivalent to a clamped end, and a body to a mass at the end of the
+        arm."""
         for formulation in self.each():
             plain = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=6)
             beside = "z: {at: [0, 0.3, 0.2], hold: all}, a: {at: [0, 0, 0], part_of: z}"
@@ -254,7 +251,6 @@ WITH_SHEAR = "trapeze, wagner_moments, wagner_torque"
 
 
 def root(function, low, high):
-    """Returns the root of a function that changes sign once between `low` and `high`."""
     sign = function(low) > 0
     for _ in range(200):
         middle = (low + high) / 2
@@ -267,7 +263,7 @@ def root(function, low, high):
 
 def timoshenko(section, wave, upper=False):
     """Returns the frequency [Hz] of a hinged Timoshenko beam. Its deflection and rotation are a sine and a cosine of
-    wave x, so the frequency follows from a 2 x 2 problem."""
+    wave x, so its frequencies are those of a 2 x 2 eigenvalue problem."""
     area, inertia, shear = section["A"], section["Iz"], G / section["F"][0]
     k11, k12, k22 = shear * wave**2, -shear * wave, shear + E * inertia * wave**2
     m1, m2 = RHO * area, RHO * inertia
@@ -286,7 +282,8 @@ def warped(section):
         whole = math.sqrt(GIt**2 + 4 * EIw * square)
         b, a = math.sqrt((whole + GIt) / (2 * EIw)), math.sqrt((whole - GIt) / (2 * EIw))
         cos, sin, cosh, decay = math.cos(a), math.sin(a), math.cosh(b), math.exp(-b)
-        # derivatives at the tip of the rotations (cosh bx - cos ax)/cosh b, and cos ax - b/a sin ax - exp(-bx)
+        # derivatives at the tip of (cosh bx - cos ax)/cosh b and cos ax - b/a sin ax - exp(-bx), the terms of the
+        # rotation
         slope = (b * math.tanh(b) + a * sin / cosh, b * decay - b * cos - a * sin)
         bend = (b**2 + a**2 * cos / cosh, -b**2 * decay + a * b * sin - a**2 * cos)
         third = (b**3 * math.tanh(b) - a**3 * sin / cosh,
@@ -303,7 +300,6 @@ def warped(section):
 class FrequencyOrder(ProgramTest):
 
     def near(self, exact, formulation, n, constants=None, omit=NO_SHEAR, a="", b="", more=""):
-        """Returns the relative error of the frequency nearest to `exact` [Hz]."""
         words = ", ".join(f"{k}: {v!r}" for k, v in (constants or SECTION).items())
         file = self.folder / "scene.yaml"
         file.write_text(FREQUENCY_ORDER_SCENE % {"constants": words, "young": E, "shear": G, "density": RHO, "a": a,
@@ -329,7 +325,6 @@ class FrequencyOrder(ProgramTest):
         for formulation in ALL:
             for factor, held in ((3.5160152685, ", hold: all"), (22.034491565, ", hold: all"),
                                  (22.373285448, "")):
-                # lumped masses of Simpson's rule at three nodes have a larger error than the distributed mass
                 self.assertLess(self.near(self.bending(factor), formulation, 8, a=held),
                                 1e-4 if formulation == "geometrically_exact" else 5e-7,
                                 (formulation, factor))

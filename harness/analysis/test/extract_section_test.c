@@ -1,6 +1,5 @@
-/* Resultants inside members compared with statics, the elastica and Vlasov torsion. Values inside
- * members must converge in the same way as values at the ends. Resultants and stresses are also
- * checked inside members that twist far, rotate steadily, or have an eccentric shear centre. */
+/* Resultants and stresses inside members compared with statics, the elastica and Vlasov torsion,
+ * also in members that twist far, rotate steadily, or have an eccentric shear centre. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -11,15 +10,13 @@
 
 #define BARS "harness/analysis/test/bars.yaml"
 
-/* Checks a bar under a tip force, a tip moment and a distributed load: N, Qy, Qz, Mx, My, Mz at
- * 0.35 of the length, and the extremes of Mz. */
 static void statics(const element_type *e, ask_tally *tally, int elements)
 {
     static answer a;
     scenes_ask(BARS, e, elements, &a, "load=all");
     if (!ask_count(tally, &a, "statics of %d elements", elements))
         return;
-    const double b = 1.3, /* length beyond this position */
+    const double b = 1.3, /* length beyond the position 0.35 */
         top = 0.5 / 0.9; /* position of the extreme of Mz, where its derivative is zero: 0.4 - 0.9 b
                             + 0.1 */
     const double exact[] = {0.5 + 0.1 * b,
@@ -43,7 +40,6 @@ static double slope(double u, void *top)
     return sqrt(2) / sqrt(1 - sine * sine);
 }
 
-/* Returns the arc length from the tip to the point with u. */
 static double arc(double top, double u)
 {
     double sum, error;
@@ -122,9 +118,8 @@ static void twists(const element_type *e, ask_tally *tally)
                  coarse[i], fine[i]);
 }
 
-/* A flat bar that is free to warp, under tension, bending and torsion at its tip. The stress at the
- * root is M/W, and Saint-Venant shear stress acts everywhere. In a flanged beam with restrained
- * warping, the bimoment causes a further stress. */
+/* A flat bar that is free to warp, under tension, bending and torsion at its tip. The normal stress
+ * at the root is N/A + M/W. The shear stress is that of Saint-Venant torsion. */
 static void flat_bar(const element_type *e, ask_tally *tally)
 {
     const double w = 0.05, h = 0.004, l = 0.3;
@@ -162,11 +157,9 @@ static void flanged(const element_type *e, ask_tally *tally)
              a.value[0]);
 }
 
-/* Analyses of a rotating bar and of a bar at rest, in either order: each quantity must belong to
- * its analysis. */
 static void turns_beside_rest(const element_type *e, ask_tally *tally, int turning_first)
 {
-    const double tension = 2; /* rho A Omega^2 l^2/2 */
+    const double tension = 2;
     static answer a;
     scenes_ask(BARS, e, 4, &a, "load=spin;turns=%s", turning_first ? "first" : "last");
     if (!ask_count(tally, &a, "a turning bar beside one at rest, %d", turning_first))
@@ -230,8 +223,8 @@ static void channel(const element_type *e, ask_tally *tally)
         return;
     const double l = 1.5, F = 40, k = sqrt(80e9 * c.It / (200e9 * c.Iw)),
                  B = F * fabs(c.ys) / k * tanh(k * l);
-    /* at the outer corner of a flange and the web; web: distance of the shear centre of a thin C
-     * from the web */
+    /* the stress is that at the outer corner of flange and web; web: distance of the shear centre
+     * of a thin C from the web */
     const double f = 0.05, h = 0.1, t = 3e-3, web = 3 * f * f / (h + 6 * f),
                  corner = h / 2 * (web + t / 2) + t / 2 * (web - t / 2),
                  most = F * l * (h + t) / 2 / c.Iy + B * corner / c.Iw;
@@ -241,9 +234,8 @@ static void channel(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[2], most, 3e-3, "%s: bending and bimoment together", e->name);
 }
 
-/* A bar that tapers from h to h/4 under a force at its thin tip. Its stress 6 F b/(w h(b)^2) at the
- * distance b from the tip is largest at a third of the length from the tip. Each mesh must find
- * this position. Each element has the section at its middle. */
+/* A bar that tapers from height h to h/4 under a force at its thin tip. Its stress 6 F b/(w h(b)^2)
+ * is largest at a third of the length from the tip, where b is the distance from the tip. */
 static void tapered(const element_type *e, ask_tally *tally, int elements)
 {
     const double w = 0.02, h = 0.04, l = 0.9, F = 50;
@@ -258,8 +250,8 @@ static void tapered(const element_type *e, ask_tally *tally, int elements)
                      a.name[i], elements);
 }
 
-/* An angle section whose legs change along the member, so its principal axes rotate. Forces at its
- * ends must refer to the axes of the end sections, not to those of the element. */
+/* An angle section whose legs change along the member, so that its principal axes rotate. End
+ * forces refer to the axes of the end sections. */
 static void turning_axes(const element_type *e, ask_tally *tally, int elements)
 {
     const double F[3] = {0, 30, 50};
@@ -283,7 +275,6 @@ static void turning_axes(const element_type *e, ask_tally *tally, int elements)
     }
 }
 
-/* Builds a member with an unsymmetric section under every kind of load, with all quantities. */
 static void everything(scene *s, int whole)
 {
     static const double y[3] = {0, 1, 0}, t[3] = {3e-3, 2e-3, 4e-3},
@@ -319,8 +310,7 @@ static void everything(scene *s, int whole)
     }
 }
 
-/* The result must not change if the member is reversed, divided into two, or described in
- * millimetres. */
+/* Results are the same if the member is reversed, divided into two, or described in millimetres. */
 static void in_other_words(const element_type *e, ask_tally *tally)
 {
     static const scene_edit edits[] = {

@@ -62,8 +62,8 @@ loads: {{{loads}}}
 class FreeStrains(ProgramTest):
 
     def test_cantilever(self):
-        """A cantilever with uniform free strains expands and bends to an exact arc without stress. In linear analyses,
-        it does so to first order."""
+        """Under uniform free strains, a cantilever becomes a stress-free arc. Linear analyses compute this
+        displacement to first order."""
         kappa, warm = -ALPHA * 50e3, ALPHA * 100
         text = beam("[]", loads="t: {temperature: 100, gradient: [50e3, 0], on: m}", more="""
 analyses: {li: {linear: {}}, st: {static: {stations: [0.5, 1]}}}
@@ -108,8 +108,8 @@ quantities:
                     self.assertIn("can move along", quantity["reason"])
 
     def test_prestressed_mechanism(self):
-        """Ties that are stiff only because of pretension or cooling: forces, deflections, frequencies. Linear statics
-        and buckling must be rejected, and the message must name the static path."""
+        """The ties have stiffness only because of pretension or cooling. The message for linear statics and for
+        buckling must name the static path."""
         for pretension, heat in ((8000, 0), (8000, -20), (0, -20)):
             text = TIES % (f", pretension: {pretension}" * (pretension > 0), heat)
             u, forces, frequency = self.ties(pretension, heat)
@@ -128,8 +128,8 @@ quantities:
                     self.assertIn("; if pretension or temperatures make the structure stiff, use a static path", got[name]["reason"])
 
     def ties(self, pretension, heat):
-        """Returns the displacement of a mass between two hinged bars, the forces in the bars, and the lowest frequency,
-        from the equilibrium of the mass."""
+        """Returns the displacement of a mass between two hinged bars, the forces in the bars and the lowest
+        frequency."""
         def forces(u):
             a, b = math.hypot(0.4 + u[0], u[1]), math.hypot(0.6 - u[0], u[1])
             return pretension + E * A * (a / 0.4 - 1), E * A * (b / 0.6 - 1 - ALPHA * heat), a, b
@@ -144,7 +144,6 @@ quantities:
         return u, forces(u), math.sqrt(numpy.linalg.eigvalsh((K + K.T) / 2)[0] / 20) / (2 * math.pi)
 
     def test_where_the_path_begins(self):
-        """At station 0 of a static path, pretension and constant loads act. They also act in analyses about this state."""
         for keys, loads, force in ((", pretension: 10000", "", 10000),
                                    (f", unstressed_length: {L * (1 - 1e-4)}", "", E * A * 1e-4),
                                    ("", "t: {temperature: -50, on: m, path: [0], factor: [1]}", E * A * ALPHA * 50)):
@@ -181,7 +180,7 @@ quantities:
             self.assertIn(words, solve.stderr)
 
     def test_clamped(self):
-        """A member held at both ends has N = -EA alpha T and M = EI alpha g, about both axes, without displacement."""
+        """A clamped-clamped member has N = -EA alpha T and M = EI alpha g, about both axes, without displacement."""
         text = beam("all", loads="t: {temperature: 20, gradient: [300, 500], on: m}", more="""
 analyses: {li: {linear: {}}, st: {static: {stations: [1]}}}
 quantities:
@@ -198,8 +197,8 @@ quantities:
                     self.assertAlmostEqual(got[name], size, delta=tolerance * abs(size))
 
     def test_length(self):
-        """A member that is too short is in tension. A pretensioned member has its pretension, or half of it if an equal
-        member is in series."""
+        """A member with a short unstressed length is in tension. Two equal members in series, of which one is
+        pretensioned, have half of this pretension."""
         for keys, force in ((", pretension: 500", 500), (f", unstressed_length: {L * (1 - 1e-5)}", E * A * 1e-5),
                             (", strain: [-1e-5, 0, 0]", E * A * 1e-5)):
             text = f"""nodes: {{a: {{at: [0, 0, 0], hold: all}}, b: {{at: [{L}, 0, 0], hold: [uy, uz, rx, ry, rz]}},
@@ -238,7 +237,8 @@ quantities:
                     self.assertAlmostEqual(loose["rz"], free * length, delta=1e-6)
 
     def test_stability_and_frequencies(self):
-        """A pinned member that is heated buckles at alpha T = pi^2 I/(A L^2) and has f = f_0 sqrt(1 + N/N_E)."""
+        """A pinned member that is heated buckles at alpha T = pi^2 I/(A L^2) and before, its frequency is f_0 sqrt(1
+        + N/N_E)."""
         text = beam("[ux, uy, uz, rx]", loads="t: {temperature: 1, on: m}", more="""
 analyses: {cold: {modal: {}}, lin: {buckling: {}}, st: {static: {stations: [2, 4]}}, on: {buckling: {about: st}},
            warm: {modal: {about: st}}}
@@ -260,8 +260,8 @@ omit: [rotary_inertia, trapeze]
                 self.assertAlmostEqual(got["f"] / square, math.sqrt(1 - 4 / critical), delta=rough)
 
     def test_in_time(self):
-        """A member that is heated slowly between walls develops the static force with each integrator, and its energy is
-        the work of the heating."""
+        """Under slow heating, a clamped-clamped member has the static force, and its energy is the work of the
+        heating."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent", "sheet_second"):
             for integrator in ("alpha", "radau"):
                 text = beam("[uy, uz, rx, ry, rz]", loads="t: {temperature: 10, gradient: [100, 0], on: m, time: t^2}",
@@ -284,7 +284,6 @@ quantities:
                     self.assertAlmostEqual(got["drift"] / work, 0, delta=2e-4)
 
     def test_part(self):
-        """The heated part has a third of the member's length and starts at a fifth of it."""
         text = beam("[]", loads=f"t: {{temperature: 90, gradient: [900, 0], on: m, from: 0.2, to: {0.2 + 1 / 3}}}", more="""
 analyses: {li: {linear: {}}}
 quantities:
@@ -298,7 +297,6 @@ quantities:
                 self.assertAlmostEqual(got["uy"], -ALPHA * 300 * (0.8 - 1 / 6) * L**2, delta=1e-12)
 
     def test_refused(self):
-        """An element that returns forces without strains must be rejected for inputs that change strains."""
         element = compile_shared(EXAMPLES / "corotational.c", self.folder / "corotational.so")
         for text, who in ((beam("[]", loads="t: {temperature: 90, on: m}"), "load t"),
                           (beam("[]", keys=", pretension: 9"), "member m")):

@@ -1,5 +1,5 @@
-/* Known frequencies for every formulation with inertia: the equal frequencies of a square bar, the
- * axial frequencies between them, rigid-body modes, and a bar in tension or compression. */
+/* Known frequencies for every formulation with inertia: equal bending frequencies of a square bar,
+ * axial frequencies, rigid-body modes, and a bar in tension or compression. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -11,15 +11,14 @@
 
 enum { MODES = 10, ELEMENTS = 24, RIGID = 6 };
 
-/* A square bar in an oblique direction, so slender that shear and rotary inertia are negligible. */
 static const double young = 2e11, density = 7800, side = 0.01, length = 1;
 static const double direction[3] = {2.0 / 3, -1.0 / 3, 2.0 / 3}, y_axis[3] = {0.1, 1, 0.05};
 
 typedef struct request {
-    int held;            /* 1 if held at one end, 0 if free */
-    double force;        /* force on the free end, along the bar */
-    double arm;          /* distance of the point of action beyond the free end [m] */
-    scene_family family; /* family of the requested modes */
+    int held;
+    double force;
+    double arm; /* distance of the point of action beyond the free end [m] */
+    scene_family family;
 } request;
 
 static void make(scene *s, const request *what)
@@ -54,14 +53,14 @@ static int find(const element_type *e, const request *what, ask_tally *tally, an
 {
     scene s;
     scene_init(&s, "bar");
-    scene_omit(&s, FEATURE_SHEAR | FEATURE_ROTARY_INERTIA); /* Euler-Bernoulli beam */
+    scene_omit(&s, FEATURE_SHEAR | FEATURE_ROTARY_INERTIA);
     make(&s, what);
     ask_scene(&s, e, NULL, ELEMENTS, out);
     scene_free(&s);
     return ask_count(tally, out, "bar, force %g N", what->force);
 }
 
-/* Returns f = (k L)^2/(2 pi L^2) sqrt(E I/(rho A)). */
+/* [Hz] frequency of the root k L = `root` */
 static double bending(double root)
 {
     return root * root / (2 * PI * length * length) * sqrt(young * side * side / (12 * density));
@@ -71,8 +70,8 @@ static const double clamped[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.99
                                  14.137168391};
 static const double loose[] = {4.7300407449, 7.8532046241};
 
-/* Bending frequencies occur in pairs. The axial frequency c/(4 L) and the torsional frequency lie
- * between them and must be counted only if they are requested. */
+/* Bending frequencies occur in pairs. Axial and torsional frequencies lie between them and are
+ * counted only if requested. */
 static void cantilever(const element_type *e, ask_tally *tally)
 {
     static answer any, axial, across;
@@ -127,7 +126,6 @@ static double determinant(double t, double k)
            a * b * (a * S + b * s) * (b * S - a * s);
 }
 
-/* Returns the smallest root k, found by a scan and bisection, for a bar of length 1. */
 static double first_root(double t)
 {
     const double step = 1e-3;
@@ -142,8 +140,7 @@ static double first_root(double t)
     return low;
 }
 
-/* The loads are compression close to Euler's load and half of it, and tension of half of Euler's
- * load and twenty times this load. */
+/* The loads relative to Euler's load are: compression almost 1 and 1/2, tension 1/2 and 20. */
 static void loaded(const element_type *e, ask_tally *tally)
 {
     static const double part[] = {-0.999, -0.5, 0.5, 20};
@@ -162,8 +159,8 @@ static void loaded(const element_type *e, ask_tally *tally)
     }
 }
 
-/* If the load acts on an arm as long as the bar, the critical load is k^2 EI with k tan k = 1. The
- * frequency vanishes only at the critical load. */
+/* If the load acts on an arm as long as the bar, the critical load is k^2 EI with k tan k = 1. At
+ * this load the frequency is zero. */
 static void loaded_on_arm(const element_type *e, ask_tally *tally)
 {
     const double critical = 0.86033358901937976 * 0.86033358901937976 * young * pow(side, 4) / 12;

@@ -9,8 +9,8 @@ import scipy.optimize
 from harness.tools.kit.program import ProgramTest, run
 
 PLAIN = "omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]\n"
-# Three columns with equal sections below a floor that moves and rotates in its plane. The moment M makes the pattern of
-# the matrix unsymmetric, not the structure.
+# Three equal columns below a floor that moves and rotates in its plane. A moment M changes the pattern of the matrix to
+# an unsymmetric one.
 STOREY = """beamwork: 1
 sections: {s: {constants: {A: 1e-3, Iy: 1e-7, Iz: 1e-7, It: 4e-8}, young: 2e11, shear_modulus: 8e10}}
 nodes:
@@ -35,7 +35,6 @@ quantities:
 
 
 def columns(second_moments, wanted):
-    """Returns a scene of separate cantilevers with E A = 1e6, E Iz = 1 and the given E Iy."""
     each = list(enumerate(second_moments))
     lines = ["beamwork: 1", "sections:"]
     lines += [f"  s{k}: {{constants: {{A: 1e6, Iy: {Iy!r}, Iz: 1, It: 1}}, young: 1, shear_modulus: 1}}" for k, Iy in each]
@@ -71,8 +70,8 @@ class FurtherLoads(ProgramTest):
                     self.assertAlmostEqual(value, right, delta=3e-9*right)
 
     def test_storey(self):
-        """The two critical loads of sway are equal, and that of twist is the third. Newton's method fails at loads
-        within 1e-9 of the critical load of twist."""
+        """Two critical loads of sway are equal, and the third is that of twist. Within 1e-9 of the latter, Newton's
+        method fails."""
         EI, EA, GJ, L, r = 2e4, 2e8, 3.2e3, 2, 0.5
 
         def twist(P):

@@ -1,5 +1,5 @@
-"""Stops with gaps: one load step must find the same state as many steps. Each stop must be open or compressed in
-proportion to its force."""
+"""Stops with gaps: one load step and many load steps lead to the same state. Each stop is open, or its force is
+proportional to its compression."""
 import random
 import re
 
@@ -10,8 +10,8 @@ STIFFNESS = 3*200e9*0.02*0.01**3/12/LENGTH**3
 
 
 def scene(seed, stations):
-    """Returns a scene of a cantilever between stops on both sides, up to a million times as stiff as the cantilever,
-    and the gaps and stiffnesses of the stops."""
+    """Returns a scene of a cantilever between stops that are up to 1e6 times as stiff, and the gaps and stiffnesses
+    of the stops."""
     draw = random.Random(seed)
     stiffness, force = STIFFNESS*10**draw.uniform(0, 6), 10**draw.uniform(0, 2.5)
     nodes, members, springs, gaps = "", "", "", []

@@ -8,7 +8,6 @@ import numpy
 
 from harness.tools.kit.program import ProgramTest, run
 
-# A cantilever that only bends, with a dashpot at its tip.
 BEAM = """beamwork: 1
 let: {E: 210e9, b: 0.02, h: 0.01, L: 1, c: 15}
 sections: {s: {constants: {A: b*h, Iy: 1e-4, Iz: b*h^3/12, It: 1e-6}, young: E, shear_modulus: 81e9, density: 7800}}
@@ -40,9 +39,8 @@ SHAKEN = reading("u", component="uy", drive="shake") + reading("r", component="u
 
 
 def beam(hertz, tension, length, by_mass=0.0, by_stiffness=0.0):
-    """Solves EI v'''' - N v'' - mu w^2 v = 0 by its four exponentials and returns the roots, and EI. The total mass is
-    independent of the length. Moments are proportional to the derivative of the rotation with respect to the initial
-    length. Proportional damping replaces EI by EI (1 + i w b) and mu by mu (1 - i a/w)."""
+    """Solves EI v'''' - N v'' - mu w^2 v = 0 with four exponentials. Returns the exponents and EI. Proportional
+    damping replaces EI by EI (1 + i w b) and mu by mu (1 - i a/w)."""
     w = 2*math.pi*hertz
     stiff = EI*length*(1 + 1j*w*by_stiffness)
     s = cmath.sqrt((tension/(2*stiff))**2 + MU/length*w*(w - 1j*by_mass)/stiff)
@@ -64,14 +62,14 @@ def solve(rows, right):
 
 
 def exact(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
-    """Returns the deflection and the slope at the tip, due to a tip force or a displacement of the root."""
+    """Returns deflection and slope at the tip due to a tip force or a root displacement."""
     amplitude, roots, at, _ = waves(hertz, force, shift, tension, length, **damping)
     return (sum(a*e for a, e in zip(amplitude, at)),
             sum(a*k*e for a, k, e in zip(amplitude, roots, at)))
 
 
 def waves(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
-    """Returns the amplitudes of the exponentials, their roots, their values at the tip, and the force on the root."""
+    """Returns the amplitudes of the exponentials, their exponents, their values at the tip and the force on the root."""
     w = 2*math.pi*hertz
     roots, stiff = beam(hertz, tension, length, **damping)
     at = [cmath.exp(k*length) for k in roots]
@@ -81,7 +79,6 @@ def waves(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
     return amplitude, roots, at, sum(a*(stiff*length*k**3 - tension*k) for a, k in zip(amplitude, roots))
 
 
-# Point masses on springs and dashpots along y, each at the end of a massless member.
 MASSES = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 2e11, shear_modulus: 8e10}}
 nodes:
@@ -133,7 +130,7 @@ class DampedModesTest(ProgramTest):
         found, ratios = self.masses(1, 2*3*40)
         self.same(found, [20*(-3 + math.sqrt(8)), 20*(-3 - math.sqrt(8))])
         self.same(ratios, [1, 1])
-        found, ratios = self.masses(1, 2*40) # a double eigenvalue, accurate to the square root of round-off
+        found, ratios = self.masses(1, 2*40) # a double eigenvalue has an error of the order of the square root of the machine precision
         self.same(found[:1], [-20], 1e-6)
 
     def test_two_equal_masses(self):
@@ -142,7 +139,7 @@ class DampedModesTest(ProgramTest):
         self.same(ratios, [0.1]*2)
 
     def test_proportional(self):
-        """Every mode of a beam has the damping ratio (a/w + b w)/2, and its frequency is the undamped frequency."""
+        """Every mode of a beam has the damping ratio (a/w + b w)/2, where w is its undamped circular frequency."""
         scene = BEAM.replace("c: 15", "c: 0").replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {%s}}")
         for formulation in ("collocation", "geometrically_exact", "sheet_third"):
             plain = self.record("solve", "--scene", self.write(scene % ("hold: all", "", "", "", "".join(
@@ -160,9 +157,8 @@ class DampedModesTest(ProgramTest):
         return path
 
     def test_dashpot_at_the_tip(self):
-        """The determinant of the exact beam vanishes at an eigenvalue, which is found as the root of 1/u(s) by the
-        secant method. The cases are no tension, a state in tension, and a load beyond the critical load, where a mode
-        grows."""
+        """The eigenvalues s of the exact beam are zeros of 1/u(s), found by the secant method: without tension, under
+        tension, and beyond the critical load, where a mode grows."""
         scene = BEAM.replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {damped: yes%s}}")
         stretched = 1 + 2000/(210e9*0.02*0.01)
         load = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
@@ -245,8 +241,7 @@ class ByModesTest(ProgramTest):
                 self.close(text, ", solution: modal", formulation, n=4)
 
     def test_few_modes(self):
-        """The error due to omitted modes must be within the stated bound. The bound must not be much larger than the
-        error."""
+        """The stated bound covers the error due to omitted modes and is not much larger than the error."""
         for text in self.scenes():
             for damping in ("", ", damping: {mass: 7, stiffness: 1e-3}"):
                 for modes, most in ((5, 1e-3), (8, 1e-5), (14, 1e-6)):
@@ -257,8 +252,8 @@ class ByModesTest(ProgramTest):
             self.close(lambda k: text(damping + k), ", solution: modal", most=1e-4, least=1e-9)
 
     def test_loops(self):
-        """Closed feedback loops are solved with all modes and with few modes. Some have no damping, some an integral,
-        and one drives a component that it does not measure."""
+        """Closed loops solved with all modes and with few modes: without damping, with an integral, and with
+        different measured and driven components."""
         acts = "path: [0, 1], factor: [0, 0], feedback: {node: tip, component:"
         for loops, commanded in ((f"servo: {{force: [0, 1, 0], on: tip, {acts} uy, proportional: 2000, derivative: 20, integral: 3000}}}}", 1),
                                  (f"servo: {{moment: [0, 0, 1], on: tip, {acts} uy, proportional: 9, derivative: 0.05}}}}, "
@@ -299,7 +294,6 @@ class ByModesTest(ProgramTest):
         self.assertRegex(done.stdout + done.stderr, "require a symmetric stiffness")
 
     def test_many_modes_wanted(self):
-        """More modes may be requested than exist, for a structure that is mostly massless."""
         text = MASSES.replace("analyses: {modes: {modal: {%s}}}",
                               "analyses: {steady: {harmonic: {frequencies: [1, 3, 9]%s}}}")
         each = "0..1"
@@ -313,7 +307,6 @@ class ByModesTest(ProgramTest):
             self.close(scene(c, ", damping: {ratio: 0.3}"), ", solution: modal")
 
     def test_one_mass(self):
-        """Without damping there is no response at resonance."""
         base = MASSES.replace("to: body_$i, ", "from: base, to: body_$i, ").replace(
             "nodes:", "motions: {shake: {unit: m, path: [0, 1], value: [0, 0]}}\nnodes:\n"
             "  base: {at: [0, -1, 0], hold: [ux, uz, rx, ry, rz], drive: {uy: shake}}")
@@ -357,7 +350,7 @@ quantities:
                 self.answered("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout)
 
     def test_closed_form(self):
-        """The extremes must not depend on the frequencies of the analysis, even if the half-power bandwidth is far
+        """The extremes are independent of the frequencies of the analysis, even if the half-power bandwidth is far
         below their spacing."""
         hertz = 20/(2*math.pi)
         for ratio in (0.2, 0.01, 1e-5):
@@ -368,7 +361,7 @@ quantities:
                     self.assertLess(abs(got["most"]["value"]/exact - 1), 1e-8, (ratio, frequencies))
                     self.assertLess(abs(got["most"]["x"]/(hertz*math.sqrt(1 - 2*ratio**2)) - 1), 1e-6)
                     self.assertRegex(text, r"(?m)^most .*, at 3\.\d+ Hz")
-                    if hertz*math.sqrt(1 + 2*ratio) < 4:  # the real part is smallest there
+                    if hertz*math.sqrt(1 + 2*ratio) < 4:
                         self.assertLess(abs(got["least"]["value"]*800*4*ratio*(1 + ratio) + 1), 1e-8)
 
     def test_at_an_end(self):
@@ -407,8 +400,7 @@ quantities:
 """
 
     def test_what_is_not_excited(self):
-        """Modes without damping that are not excited must not make the response unbounded. These are modes of another
-        part, and a mode with a node at the force."""
+        """Undamped modes that are not excited: modes of a separate part, and a mode with a node at the force."""
         w = 2*math.pi*numpy.linspace(0.5, 9, 850001)
         k, own = 700/3, 800/3 - w*w
         exact = {"middle": own/(own*(2j*w + 2*k) - 2*k*k), "left": k/(own*(2j*w + 2*k) - 2*k*k)}
@@ -524,7 +516,7 @@ class HarmonicTest(ProgramTest):
         self.near(one, other, 1e-12, "all")
 
     def test_stiffness_of_tables(self):
-        """Proportional damping uses the stiffness of the segment of a table in which the state lies."""
+        """The stiffness in proportional damping is that of the table segment in which the state lies."""
         text = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e9, shear_modulus: 4e8}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 2}}
@@ -546,8 +538,8 @@ quantities:
         self.assertAlmostEqual(got["im"] / exact.imag, 1, delta=1e-9)
 
     def test_about_a_state(self):
-        """Responses of a beam under tension must equal the closed form, both about a static path, with the elongation
-        of the beam, and about a linear analysis, without it."""
+        """The response of a beam under tension agrees with the closed form. The static path includes the elongation
+        of the beam, the linear analysis does not."""
         loads = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
         stretched = 1 + 2000/(210e9*0.02*0.01)
         for kind, length in (("{static: {stations: [1]}}", stretched), ("{linear: {}}", 1)):
@@ -563,14 +555,13 @@ quantities:
             self.assertLess(abs(a - b), 1e-9*abs(b))
 
     def test_reciprocity(self):
-        """The rotation due to a unit force equals the displacement due to a unit moment."""
         crossed = reading("a", component="rz", force="tip", along="uy") + reading("b", component="uy", force="tip", along="rz")
         found = self.curves(BEAM % ("hold: all", "", "", "", crossed), "sheet_third", 3)
         for one, other in zip(found["a"], found["b"]):
             self.assertLess(abs(one - other), 1e-9*abs(one))
 
     def test_force_in_a_member(self):
-        """A stiff spring in a cut at the root carries the moment that the exponentials of the beam give at the root."""
+        """The spring moment at the root agrees with that of the exact beam."""
         scene = BEAM.replace("  tip: {at", "  cut: {at: [0, 0, 0]}\n  tip: {at").replace("from: root", "from: cut").replace(
             "springs: {", "springs: {joint: {from: root, to: cut, stiffness: [k, k, k, k, k, k]}, ").replace("c: 15", "c: 15, k: 1e10")
         scene = scene % ("hold: all", "", "", "", "".join(

@@ -1,7 +1,6 @@
-/* Structures with hinges compared with closed forms: a beam with an inner hinge, a three-hinged
- * frame, columns, vibration, and a truss that snaps through. Ends are released about the axes in
- * which the section is described, not about its principal axes. For a curved member, these are the
- * axes at the released end. */
+/* Hinges compared with closed forms: a beam, a three-hinged frame, columns, vibration, and
+ * snap-through of a truss. The axes of a release are those of the section description, not its
+ * principal axes. In a curved member, they are those at the released end. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -15,7 +14,6 @@
 
 #define HINGES "harness/analysis/test/hinges.yaml"
 
-/* Compares quantity i with `exact`. If `exact` is zero, the error is relative to `scale`. */
 static void check(const cell_result *r, int i, double exact, double allowed, double scale,
                   const char *chosen)
 {
@@ -93,9 +91,8 @@ static void roof(const char *chosen)
 
 enum { REACTIONS = 3 };
 
-/* The members are clamped at their outer ends and joined by hinges. A moment reaction about the
- * axis of a hinge must be zero. The bits of `released` are the reactions that must be zero, and no
- * other reaction may be zero. */
+/* Members clamped at their outer ends and joined by hinges. Bits of `released`: reactions that must
+ * be zero. All other reactions must differ from zero. */
 static void axes(const char *of, const char *chosen, int n, unsigned released, double least)
 {
     cell_result r;
@@ -132,8 +129,8 @@ static void hinge_tests(void)
 
 #define SPRINGS "harness/analysis/test/springs.yaml"
 
-/* An end released from a clamped node must be equivalent to an end at a support that is free in
- * this component, in every analysis and with every formulation and Newton algorithm. */
+/* An end released from a clamped node is equivalent to a support that is free in the released
+ * component, in every analysis. */
 static void supported(const char *chosen, int dense)
 {
     static const char *const released[] = {"hinge", "two_turns", "ball", "slide"};
@@ -166,7 +163,7 @@ static void hinge_support_tests(void)
         for (int k = 0; k < 3; k++) {
             char chosen[80];
             snprintf(chosen, sizeof chosen, "%s%s", registry_formulations[i]->name, newton[k]);
-            supported(chosen, k == 2); /* dense: without analyses that need a factored tangent */
+            supported(chosen, k == 2);
         }
 }
 

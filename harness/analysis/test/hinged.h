@@ -1,5 +1,3 @@
-/* A bar with only bending, torsion and axial deformation, and the solution of a scene with it, for
- * tests of hinges and springs. */
 #ifndef BEAMWORK_TEST_HINGED_H
 #define BEAMWORK_TEST_HINGED_H
 

@@ -6,8 +6,7 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# A mass on a spring, with a point at a distance from its centre. It is pushed from rest, has an initial velocity, or is
-# twisted.
+# A mass on a spring, with an output point off its centre. The mass has an initial force, velocity or twist.
 PUSHED = """beamwork: 1
 let: {m: 2, k: 200, J: 1, c: 100}
 sections:
@@ -33,7 +32,6 @@ JERKS = """  j: {rate: {analysis: go, node: mass, component: uy, of: jerk, take:
   y: {rate: {analysis: go, node: aside, component: uy, of: jerk, take: curve}}
   rms: {rate: {analysis: go, node: mass, component: uy, of: jerk, take: rms}}
 """
-# A motion that is the sum of two sines and a constant, over a whole number of periods of both sines.
 SHAKEN = """beamwork: 1
 sections:
   post: {tube: {diameter: 40e-3, thickness: 2e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}
@@ -72,7 +70,7 @@ class Histories(ProgramTest):
             self.assertLess(abs(got - e), within*largest)
 
     def test_rates(self):
-        """The errors of integrators must decrease with their orders, at the start and later."""
+        """Errors decrease with the order of the integrator."""
         w, v = math.sqrt(200/2), math.sqrt(100)
         for integrator, coarse, factor in (("radau", 2e-5, 7), ("alpha", 0.06, 3.5)):
             errors = []
@@ -128,7 +126,7 @@ class Histories(ProgramTest):
         self.assertEqual([got[n]["unit"] for n in ("lines", "power", "force")], ["m", "m^2/Hz", "N^2/Hz"])
 
     def test_parseval(self):
-        """The sums of squares over time and over frequency must be equal for any number of stations: even, odd, prime."""
+        """Parseval's theorem for an even, an odd and a prime number of stations."""
         for stations, count in (("0..1/60", 60), ("0..1/45", 45), ("0..1/97", 97), ("0..1/2", 2)):
             got, _ = self.curves(SHAKEN % {"shake": "1e-3*(exp(-3*t)*sin(40*t) + t^2)", "stations": stations, "when": ""})
             history = got["history"]["curve_value"][:count]

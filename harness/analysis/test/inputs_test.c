@@ -1,7 +1,6 @@
-/* Every cell of the table of inputs. An input that is used must change the answer and obey a law:
- * equilibrium, superposition, a compliance that is the derivative of the path, a critical load that
- * is the limit point of a continuation, or a motion that stays in its initial equilibrium. An input
- * without effect must not change the answer. The message must name a rejected input. */
+/* Every entry of the table of inputs (scene_inputs). An input that has an effect must change the
+ * answer and obey a law, such as equilibrium or superposition. An input without effect must not
+ * change the answer. If an input is rejected, the message must name it. */
 #include "cases/scene/scene.h"
 
 #include <gsl/gsl_test.h>
@@ -39,9 +38,6 @@ static void superposition(const scene_input *in, const element_type *e, const an
                      "%s: linear, %s: superposition of %s", e->name, in->name, with->name[i]);
 }
 
-/* Computes the resultant of the load on the second member, from x = 0.5 to 1, beyond `place`: the
- * force, and the moment about `x`. Simpson's rule is exact, because the load is linear in this
- * range. */
 static void resultants(const scene_load *load, double place, double x, double out[6])
 {
     static const double weight[] = {1 / 6.0, 4 / 6.0, 1 / 6.0};
@@ -64,7 +60,7 @@ static void resultants(const scene_load *load, double place, double x, double ou
     }
 }
 
-/* Builds the scene of a row of the table, with the input as the only load. Returns 1 if the load
+/* Builds the scene of a row of the table with this input as the only load. Returns 1 if the load
  * acts on a member. */
 static int load_alone(const scene_input *in, posed *p, scene *s, scene_load *load)
 {
@@ -76,7 +72,6 @@ static int load_alone(const scene_input *in, posed *p, scene *s, scene_load *loa
     return scene_load_along(own) && own->kind != SCENE_GRAVITY && own->kind != SCENE_TEMPERATURE;
 }
 
-/* The reaction of the root must balance the whole load on a member. */
 static void reactions(const scene_input *in, const element_type *e)
 {
     static answer a;
@@ -102,7 +97,6 @@ static void reactions(const scene_input *in, const element_type *e)
     }
 }
 
-/* The resultant in a cross-section must equal the loads beyond it. */
 static void sections(const scene_input *in, const element_type *e)
 {
     static const double place[] = {0, 0.05, 0.2, 0.45, 0.9};
@@ -149,8 +143,8 @@ static int is_motion(const scene_input *in)
     return is_called(in, "motion of a node") || is_called(in, "motion with a load case");
 }
 
-/* Returns the largest difference between the values of these names, relative to the largest value.
- * Returns INFINITY if a value exists in one answer only. */
+/* Returns the largest difference of the named values, relative to the largest value; INFINITY: a
+ * value exists in one answer only. */
 static double largest_apart(const answer *a, const answer *b, const char *const name[])
 {
     double largest = 0, size = 1e-12;
@@ -181,21 +175,21 @@ static void law_of_linear(const scene_input *in, const element_type *e)
              off);
 }
 
-/* A path to the load factor found by a continuation must end in the same state. */
+/* A static path that ends at the load factor of a continuation must end in the same state. */
 static void law_of_continuation(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer path;
     posed p = pose(in->name, SCENE_OF_STATIC, 1);
     p.end = answer_of(with, "factor");
-    if (!(p.end > 0)) /* a static path only increases its parameter */
+    if (!(p.end > 0))
         return;
     solve(&p, e, &path);
     gsl_test_rel(answer_of(&path, "v_1"), end_of_continuation, 1e-7,
                  "%s: continuation, %s: the path at its factor", e->name, in->name);
 }
 
-/* A compliance must be the derivative of the path to which it belongs. The compliance of the
- * unloaded structure must be that at the start of any path. */
+/* A compliance is the derivative of its path. The compliance of the unloaded structure is that at
+ * the start of any path. */
 static void law_of_compliance(const scene_input *in, scene_column column, const element_type *e,
                               const answer *with)
 {
@@ -222,16 +216,14 @@ static void law_of_compliance(const scene_input *in, scene_column column, const 
     }
 }
 
-/* Frequencies of the unloaded structure must be those at the start of any path. About a path,
- * two-node elements lack their internal motions, so a small difference is allowed. */
+/* Frequencies of the unloaded structure are those at the start of any path. About a path, elements
+ * with two nodes have no internal motions, so a small difference is allowed. */
 static void law_of_modal(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer about;
     posed p = pose(in->name, SCENE_OF_MODAL_ABOUT, 1);
     p.end = 1e-9;
     p.turns = 0;
-    /* a stress-free curvature changes the path by its own bending, which the undeformed structure
-     * does not have */
     if (is_called(in, "constant load") || is_called(in, "free curvature"))
         return;
     solve(&p, e, &about);
@@ -241,8 +233,8 @@ static void law_of_modal(const scene_input *in, const element_type *e, const ans
              in->name, off);
 }
 
-/* Under small loads, the changes of frequencies due to the stresses of a linear analysis must equal
- * those due to the stresses of the path. */
+/* Under small loads, the stresses of a linear analysis and those of the path must change
+ * frequencies by equal amounts. */
 static void law_of_modal_linear(const scene_input *in, const element_type *e)
 {
     static answer rest, linear, path;
@@ -256,8 +248,6 @@ static void law_of_modal_linear(const scene_input *in, const element_type *e)
     p.end = 1e-9;
     p.size = 1e-9;
     solve(&p, e, &rest);
-    /* bending of a closed frame, which a linear analysis neglects, changes its frequencies as much
-     * as the stresses do */
     if (linear.values == 0 || path.values == 0 || is_called(in, "node attached to another") ||
         is_called(in, "imperfection given by shifts"))
         return;
@@ -272,8 +262,8 @@ static void law_of_modal_linear(const scene_input *in, const element_type *e)
              in->name, off, largest);
 }
 
-/* The modal analysis about a path must have the same frequencies as a rotation analysis with speed
- * zero, which uses a different solver. */
+/* The modal analysis about a path and a rotation analysis with angular velocity zero use different
+ * solvers, but must have equal frequencies. */
 static void law_of_modal_about(const scene_input *in, const element_type *e)
 {
     static answer a;
@@ -288,14 +278,14 @@ static void law_of_modal_about(const scene_input *in, const element_type *e)
     answer_to(&s, &p, e, &a);
     for (int i = 0; i < 3; i++) {
         const double g = answer_of(&a, (const char *[]){"g0", "g1", "g2"}[i]);
-        if (!isnan(g)) /* a rotation analysis rejects states whose tangent is not symmetric */
+        if (!isnan(g))
             gsl_test_rel(answer_of(&a, modes[i]), g, 1e-6,
                          "%s: modal about a path, %s: %s of a frame at rest", e->name, in->name,
                          modes[i]);
     }
 }
 
-/* The lowest frequency about the stresses of a linear analysis must vanish at the critical load. */
+/* At the critical load, the lowest frequency about the stresses of a linear analysis is zero. */
 static void law_of_buckling(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer near, nearer;
@@ -341,8 +331,8 @@ static void law_of_buckling_about(const scene_input *in, const element_type *e, 
                  "%s: buckling about a path, %s: the first critical point", e->name, in->name);
 }
 
-/* At zero frequency, the response must be the compliance. At other frequencies, the solution with
- * all modes must give the same response. */
+/* At zero frequency, the response is the compliance. Direct and modal solutions with all modes
+ * agree. */
 static void law_of_harmonic(const scene_input *in, scene_column column, const element_type *e,
                             const answer *with)
 {
@@ -355,15 +345,13 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
         in->name,
         column == SCENE_OF_HARMONIC_ABOUT ? SCENE_OF_COMPLIANCE_ABOUT : SCENE_OF_COMPLIANCE, 1);
     scene s;
-    if (column != SCENE_OF_HARMONIC_LINEAR &&
-        !is_called(in, "feedback")) { /* the other inputs are rejected */
+    if (column != SCENE_OF_HARMONIC_LINEAR && !is_called(in, "feedback")) {
         solve(&p, e, &a);
         const double off = largest_apart(with, &a, at_rest);
         gsl_test(!(off <= 1e-7), "%s: %s, %s: at 0 Hz the compliance (%g)", e->name,
                  scene_column_name[column], in->name, off);
     }
-    if (is_called(in,
-                  "rotating axes")) /* harmonic solutions by modes are rejected in rotating axes */
+    if (is_called(in, "rotating axes"))
         return;
     p.column = column;
     structure(&p, &s);
@@ -379,7 +367,7 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
              scene_column_name[column], in->name, off, by_modes.reason);
 }
 
-/* About the start of a motion from equilibrium, the harmonic response must equal that about the
+/* A motion starts from equilibrium. The harmonic response about its start is that about the
  * equilibrium state. */
 static void law_of_harmonic_instant(const scene_input *in, const element_type *e)
 {
@@ -389,7 +377,7 @@ static void law_of_harmonic_instant(const scene_input *in, const element_type *e
     for (int about = 0; about < 2; about++) {
         scene s;
         structure(&p, &s);
-        s.lumped = 1; /* because some formulations support only lumped mass in motions */
+        s.lumped = 1;
         int of = scene_add_static(&s, 1, &p.end, 2);
         of = about ? move(&s, of, p.column) : of;
         const int harmonic = scene_add_harmonic(&s, of, 2, (const double[]){0, shaking});
@@ -404,7 +392,7 @@ static void law_of_harmonic_instant(const scene_input *in, const element_type *e
              e->name, in->name, off, instant.reason);
 }
 
-/* A static path in rotating axes must end in the same state as a rotation analysis. */
+/* A static path in rotating axes and a rotation analysis end in the same state. */
 static void law_of_rotation(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer path;
@@ -416,8 +404,8 @@ static void law_of_rotation(const scene_input *in, const element_type *e, const 
              in->name, off);
 }
 
-/* Successive motions, the first of which starts from equilibrium, must remain in this equilibrium.
- * Inputs without a function of time keep their values. */
+/* Motions that start from equilibrium remain in it. Inputs that are not functions of time keep
+ * their values. */
 static void law_of_motion(const scene_input *in, const element_type *e, int continued)
 {
     static answer path, motion;
@@ -428,7 +416,7 @@ static void law_of_motion(const scene_input *in, const element_type *e, int cont
     p.end = 0.7;
     if (in->part[SCENE_OF_MOTION] == SCENE_PART_REFUSED)
         return;
-    for (int last = 0; last < 2; last++) { /* at the start and at the end of the motions */
+    for (int last = 0; last < 2; last++) {
         scene s;
         structure(&p, &s);
         const int state = analyse(&s, &p), before = scene_add_motion(&s, state, 1, &first, how),
@@ -497,7 +485,7 @@ static void obey(const scene_input *in, scene_column column, const element_type 
 }
 
 /* If the table states that an input has an effect in rotating axes or under loads without a
- * potential, the input must change the answer of the analysis. */
+ * potential, it must change the answer. */
 static void part_of_inertia(const scene_input *in, scene_column column, const element_type *e)
 {
     static answer with, without;
@@ -509,8 +497,7 @@ static void part_of_inertia(const scene_input *in, scene_column column, const el
     p.times = 0;
     solve(&p, e, &without);
     const double change = apart(&with, &without);
-    if (column ==
-            SCENE_OF_MODAL_ABOUT && /* damping changes the growth rate, but no undamped frequency */
+    if (column == SCENE_OF_MODAL_ABOUT &&
         (is_called(in, "damping") || strstr(in->name, "dashpot") != NULL))
         return;
     gsl_test(with.values == 0 || !(change > 1e-6), "%s: %s, %s: changes the answer there (%g; %s)",
@@ -522,12 +509,10 @@ static void cell(const scene_input *in, scene_column column, const element_type 
     static answer with, without;
     const char part = in->part[column];
     const char *where = scene_column_name[column];
-    /* a constant load has no function of time, and the support already moves */
     if ((column == SCENE_OF_MOTION || is_instant(column)) &&
         (is_called(in, "constant load") || is_motion(in) || is_called(in, "rotating axes")))
         return;
-    posed p = pose(in->name, column,
-                   is_motion(in) /* with the factor 0, the node is held */ || divides(in->name));
+    posed p = pose(in->name, column, is_motion(in) || divides(in->name));
     p.times = 0;
     solve(&p, e, &without);
     p = pose(in->name, column, 1);
@@ -538,15 +523,13 @@ static void cell(const scene_input *in, scene_column column, const element_type 
     const int refused = with.status == STATUS_REFUSED;
     if ((column == SCENE_OF_MODAL_LINEAR || column == SCENE_OF_HARMONIC_LINEAR) &&
         in->part[SCENE_OF_LINEAR] == SCENE_PART_REFUSED)
-        where =
-            scene_column_name[SCENE_OF_LINEAR]; /* the linear analysis rejects the input first */
+        where = scene_column_name[SCENE_OF_LINEAR];
     if ((column == SCENE_OF_BUCKLING_ABOUT || column == SCENE_OF_MODAL_ABOUT ||
          column == SCENE_OF_COMPLIANCE_ABOUT || column == SCENE_OF_HARMONIC_ABOUT) &&
         in->part[SCENE_OF_STATIC] == SCENE_PART_REFUSED)
-        where =
-            scene_column_name[SCENE_OF_STATIC]; /* the static analysis rejects the input first */
+        where = scene_column_name[SCENE_OF_STATIC];
     if (is_instant(column) && in->part[SCENE_OF_MOTION] == SCENE_PART_REFUSED)
-        where = scene_column_name[SCENE_OF_MOTION]; /* the motion rejects the input first */
+        where = scene_column_name[SCENE_OF_MOTION];
     if (part == SCENE_PART_REFUSED) {
         gsl_test(!refused || strstr(with.reason, in->name) == NULL ||
                      strstr(with.reason, where) == NULL,
@@ -588,14 +571,13 @@ static void alike(const char *name, const char *other, scene_column column, cons
     solve(&p, e, &one);
     solve(&q, e, &two);
     const double off = apart(&one, &two);
-    const double most = is_instant(column) ? 1e-4 : 1e-7; /* relative to the smallest response */
+    const double most = is_instant(column) ? 1e-4 : 1e-7;
     gsl_test(one.outcome != two.outcome || !(off <= most), "%s: %s, %s: as %s (%g; %s; %s)",
              e->name, scene_column_name[column], name, other, off, one.reason, two.reason);
 }
 
-/* An arm at rest in rotating axes must continue to rotate with its drive, apart from the effect of
- * its mass. The mass is distributed along the elements in the rotation and lumped at the nodes in
- * the motion. */
+/* An arm at rest in rotating axes continues to rotate with its drive. Results differ slightly,
+ * because the rotation analysis has distributed mass and the motion has lumped mass. */
 static void start_turning(const element_type *e)
 {
     static answer a;

@@ -105,8 +105,7 @@ class Instants(ProgramTest):
         self.assertLess(abs(value / right - 1), tolerance, (value, right))
 
     def test_pendulum(self):
-        """A pendulum obeys theta'' = -(g/l) cos(theta) dtheta for small deviations dtheta. The instants are at the
-        start, between two steps, at the end, and in a position above the pin."""
+        """A pendulum obeys theta'' = -(g/l) cos(theta) dtheta for small deviations dtheta."""
         for formulation in FORMULATIONS:
             for integrator in ("radau", "alpha"):
                 for time in (0, 0.31, 0.7):
@@ -141,7 +140,8 @@ class Instants(ProgramTest):
                 self.near(found[f"m_{i}"], found[f"r_{i}"])
 
     def test_bead(self):
-        """Rotation softens a bead on springs: (k/m - w^2 + s^2) (l/m - w^2 + s^2) + 4 w^2 s^2 = 0."""
+        """A bead between springs in rotating axes, with angular velocity w: (k/m - w^2 + s^2) (l/m - w^2 + s^2) + 4
+        w^2 s^2 = 0."""
         for time in (0, 0.123, 0.3):
             found = self.solved(BEAD % {"time": time})
             p, q, w = 800 - 144, 1800 - 144, 12
@@ -151,8 +151,6 @@ class Instants(ProgramTest):
                 self.near(found[f"f_{i}"] * 2 * math.pi, right[i])
 
     def test_nearby_motions(self):
-        """Initial accelerations of motions with different initial velocities differ by -M^-1 (C + G) times the velocity
-        difference."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
             folder = self.folder / formulation
             self.solved(FLYING % {"x": 10.0, "y": -20.0}, formulation, 2, 0,

@@ -1,7 +1,7 @@
 /* Properties that need no reference value, for every formulation on every case that it runs:
  * equivalent descriptions of a mesh, mirror images, rotated symmetric structures, and reciprocity.
- * Differences are relative to the size of the numbers. Two discretisations of the same continuum
- * may differ, but the difference must decrease as the mesh is refined. */
+ * Two discretisations of the same continuum may differ, but the difference must decrease as the
+ * mesh is refined. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -14,8 +14,8 @@
 
 static const scene_edit unchanged = {SCENE_EDIT_NONE, 0};
 
-/* Returns the difference of two values relative to `scale`. A frequency that the mesh does not have
- * is missing in both answers, and then the difference is zero. */
+/* Returns the difference of two values relative to `scale`; 0: both are missing, because the mesh
+ * has no such frequency. */
 static double apart_of(double a, double b, double scale)
 {
     const double size = fmax(fmax(fabs(a), fabs(b)), scale);
@@ -54,8 +54,8 @@ static const parameter_type *parameter_of(const case_type *type, const char *nam
     return i < 0 ? NULL : parameter_at(type->parameters, i);
 }
 
-/* Writes parameters for few stations, if the case has such a parameter, or for constant steps of a
- * motion. Adaptive steps would depend on the size of the members. */
+/* Writes parameters for few stations or, in a motion, for constant steps. Adaptive steps would
+ * depend on the size of the members. */
 static void short_path(const case_type *type, int size, char words[])
 {
     const parameter_type *step = parameter_of(type, "step"), *steps = parameter_of(type, "steps");
@@ -87,8 +87,8 @@ static int found(const invariants_subject *s, int n, int keep_all, scene_edit ed
     return ask_count(s->tally, out, "%s, n = %d", s->type->name, n);
 }
 
-/* Finds the coarsest mesh that can follow the path, and the answers on this mesh and on the next.
- * Two elements cannot follow every path, such as a circle. Returns 0 if no mesh has an answer. */
+/* Finds the coarsest mesh with an answer, and the answers on this mesh and on the next one. Returns
+ * 0 if no mesh has an answer. */
 static int found_coarsest(invariants_subject *s, answer *out, answer *next)
 {
     for (s->coarse = 2; s->coarse <= 32; s->coarse *= 2) {
@@ -100,7 +100,6 @@ static int found_coarsest(invariants_subject *s, answer *out, answer *next)
     return ask_count(s->tally, out, "%s, n = 2 to 32", s->type->name);
 }
 
-/* Checks that an edit of the scene does not change the answer. */
 static void same(const invariants_subject *s, const char *what, const answer *before, int n,
                  scene_edit edit)
 {
@@ -114,8 +113,8 @@ static void same(const invariants_subject *s, const char *what, const answer *be
 }
 
 /* Checks that retaining all coordinates does not change the answer. In some formulations, retained
- * warping coordinates make the twist cubic although nothing warps. The difference must then
- * decrease by a factor of eight on a finer mesh. */
+ * warping coordinates make the twist cubic. The difference must then decrease by a factor of eight
+ * on the next mesh. */
 static void keep_all(const invariants_subject *s, const answer *fine)
 {
     static answer finer, full;
@@ -145,7 +144,7 @@ static void one_case(const case_type *type, const element_type *e, ask_tally *ta
     const int both = ask_count(tally, &fine, "%s, n = %d", type->name, 2 * s.coarse);
     if (both)
         keep_all(&s, &fine);
-    /* the order of nodes is a discretisation error of the other formulations */
+    /* in other formulations, the direction of members causes a discretisation error */
     if (!(e->limits & LIMIT_ORDER_DEPENDENT))
         same(&s, "the other order of nodes changes nothing", &coarse, s.coarse,
              (scene_edit){SCENE_EDIT_REVERSE, 0});
@@ -165,7 +164,6 @@ static void every_case(const element_type *e)
     ask_conclude(&tally, e, "the same in other words");
 }
 
-/* In a mirror image of the structure, certain values must change sign. */
 static void mirrors(const element_type *e)
 {
     static const struct {
@@ -202,7 +200,7 @@ static void mirrors(const element_type *e)
     ask_conclude(&tally, e, "mirror images");
 }
 
-/* With three equal folds, a rotation by 120 degrees must leave the joint unchanged. */
+/* Three equal folds: a rotation by 120 degrees must not change the compliance of the joint. */
 static void thirds(const element_type *e)
 {
     static answer a;
@@ -220,9 +218,6 @@ static void thirds(const element_type *e)
     ask_conclude(&tally, e, "thirds of a turn");
 }
 
-/* Returns the largest difference between the compliance C and its transpose. Maxwell's and Betti's
- * theorems hold for loads with a potential, which includes semitangential moments but not moments
- * about fixed axes. */
 static double asymmetry(const answer *a)
 {
     static const char *const response[] = {"ux", "uy", "uz", "thx", "thy", "thz"};

@@ -1,6 +1,6 @@
-/* A formulation that supports shear must include it in both directions, or declare that one is
- * missing and be rejected where this direction matters. The test is a member of any thickness whose
- * ends do not rotate, under a transverse force. Its deflection is F l^3 (1 + Phi)/(12 EI). */
+/* A formulation that supports shear includes it in both directions, or declares one as missing and
+ * rejects scenes with shear in this direction. A guided cantilever has the deflection F l^3 (1 +
+ * Phi)/(12 EI). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -12,8 +12,6 @@
 
 static const double length = 1, wide = 0.08, young = 2e11, shear_modulus = 8e10, share = 5.0 / 6;
 
-/* Builds a beam of one or more members. Its tip can only move along `direction`, without rotating.
- */
 static void guided(scene *s, double across_y, double across_z, int direction, int members)
 {
     const double y_axis[3] = {0, 1, 0};
@@ -39,7 +37,7 @@ static void guided(scene *s, double across_y, double across_z, int direction, in
     scene_add_quantity(s, "u", "m", scene_add_linear(s), scene_coordinate(tip, direction));
 }
 
-/* Returns the deflection, or NAN if the scene is rejected, with the reason in words[200]. */
+/* Returns the deflection; NAN: the scene is rejected, with the reason in words[200]. */
 static double deflection(const element_type *type, scene *s, char *words)
 {
     formulation chosen;

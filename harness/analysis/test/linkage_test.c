@@ -1,7 +1,5 @@
-/* Members that rotate freely against each other through large angles. A four-bar linkage and a
- * universal joint must follow their exact paths without internal forces. The results of a bent
- * linkage must not depend on the axes of the scene. If nothing drives a linkage, it must be
- * rejected with a message that names it. */
+/* Linkages with large rotations. A four-bar linkage and a universal joint follow their exact paths
+ * without internal forces. The message that rejects a linkage without a drive names the linkage. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -30,7 +28,7 @@ static void fourth(double angle, double out[2])
     out[1] = y + (a * dy + h * dx) / d;
 }
 
-static double Q[9]; /* axes in which the scene is written */
+static double Q[9];
 static double linkage_turned,
     pushed; /* angle of the crank [rad], and force [N] on the joint between coupler and rocker */
 
@@ -42,7 +40,6 @@ static int add_at(scene *s, double x, double y)
     return scene_add_node(s, r[0], r[1], r[2]);
 }
 
-/* Makes a node rotate only about the normal of the plane. `motion` is SCENE_FREE or a driver. */
 static void pivot(scene *s, int node, int motion)
 {
     static const double z[3] = {0, 0, 1};
@@ -53,8 +50,6 @@ static void pivot(scene *s, int node, int motion)
     n->angle[0] = motion;
 }
 
-/* Adds nodes, bars and their load. `turning` is the motion of the first node, as for pivot().
- * Returns the nodes of the coupler. */
 static void add_bars(scene *s, int turning, int *second, int *third)
 {
     static const double z[3] = {0, 0, 1};
@@ -72,7 +67,7 @@ static void add_bars(scene *s, int turning, int *second, int *third)
     scene_add_member(s, first, *second, profile, across);
     const int bar = scene_add_member(s, *second, *third, profile, across);
     scene_add_member(s, *third, last, profile, across);
-    scene_release_end(s, bar, 0, SCENE_RY); /* y is the normal */
+    scene_release_end(s, bar, 0, SCENE_RY); /* the member's y axis is the normal */
     scene_release_end(s, bar, 1, SCENE_RY);
     scene_add_load(s, SCENE_FORCE, *third, load[0], load[1], load[2]);
 }
@@ -139,8 +134,6 @@ static void four_bar(const char *chosen)
     cell_result_free(&r);
 }
 
-/* Compares a linkage that is bent by a force in the plane z = 0 with the same linkage in another
- * plane. */
 static void in_other_axes(const char *chosen)
 {
     static const double about[3] = {0.7, -1.1, 0.4};
@@ -171,8 +164,6 @@ static void in_other_axes(const char *chosen)
     cell_result_free(&b);
 }
 
-/* Builds two shafts at an angle of 0.6 rad, joined by a cross whose first pin is perpendicular to
- * both. */
 static status build_universal(const double value[], scene *s, fault *f)
 {
     static const double path[] = {0, 1}, angle[] = {0, 2.6}, beta = 0.6;
@@ -215,8 +206,6 @@ static void universal_joint(const char *chosen)
     cell_result_free(&r);
 }
 
-/* Builds a four-bar linkage without a drive, which must be rejected in linear and nonlinear
- * analyses. */
 static status build_loose(const double value[], scene *s, fault *f)
 {
     const double end = 1;
@@ -231,7 +220,6 @@ static status build_loose(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Builds a structure held at both ends, whose releases make it a mechanism. */
 static status build_between(const double value[], scene *s, fault *f)
 {
     (void)value;
@@ -293,7 +281,7 @@ static void linkage_tests(void)
 
 #define SPRINGS "harness/analysis/test/springs.yaml"
 
-static const double length = 1.3, kappa = 3.7; /* kappa is the stiffness of the springs in EI/L */
+static const double length = 1.3, kappa = 3.7; /* stiffness of the springs in EI/length */
 
 static void check(const cell_result *r, int i, double exact, double allowed, const char *chosen)
 {
@@ -304,8 +292,6 @@ static void check(const cell_result *r, int i, double exact, double allowed, con
         gsl_test(1, "%s: quantity %d is there", chosen, i);
 }
 
-/* Checks the equilibrium of moments about the origin, due to the load and to the forces and moments
- * at two nodes. */
 static void equilibrium(const cell_result *r, const char *chosen)
 {
     const double load[3] = {0.3, 1, 0.2},
@@ -325,9 +311,6 @@ static void equilibrium(const cell_result *r, const char *chosen)
     }
 }
 
-/* A cantilever with a spring at its tip, where a second body is attached by a spring with six
- * entries. The spring at the tip carries its part of the load, and the clamp and the ground carry
- * the rest. */
 static void supported(const char *chosen)
 {
     cell_result r;
@@ -341,8 +324,8 @@ static void supported(const char *chosen)
     cell_result_free(&r);
 }
 
-/* The zeros u of the next two functions are half of the wave number times the length: tan u = -2
- * u/kappa in buckling, tan u + tanh u = -4 u/kappa in vibration. */
+/* u is half of the product of wave number and length. The next two functions are zero at a
+ * solution: tan u = -2 u/kappa in buckling, tan u + tanh u = -4 u/kappa in vibration. */
 static double buckled(double u)
 {
     return sin(u) + 2 * u / kappa * cos(u);
@@ -372,7 +355,7 @@ static void closed_forms(const char *chosen, int n, double allowed)
     cell_result_free(&r);
 }
 
-/* A very stiff spring must act as a rigid body. */
+/* A very stiff spring is equivalent to a rigid body. */
 static void stiff(const char *chosen)
 {
     cell_result sprung, rigid;

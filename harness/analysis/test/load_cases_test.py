@@ -17,7 +17,7 @@ members:
   ab: {from: a, to: b, section: s, y: [0, 1, 0]}
   bc: {from: b, to: c, section: s, y: [0, 1, 0]PRETENSION}
 """
-# each load, and its case, whose factor multiplies the load
+# each load and its load case
 LOADS = {"weight": ("gravity: [0, -9.81, 0], on: all", "dead"), "wind": ("distributed: [2, 3, 0], on: bc, from: 0.3", "wind"),
          "hit": ("force: [-40, 5, 0], on: c", "wind"), "twist": ("moment: [0, 0, 2], on: ab, where: 0.4", "live"),
          "sun": ("temperature: 10, gradient: [100, 0], on: bc", "live")}
@@ -31,8 +31,8 @@ QUANTITIES = """  u: {displacement: {analysis: A, WHICH node: c, component: uy}}
 
 
 def loads(factors=None, live=1.0, skip=()):
-    """Returns the entries of the loads with their cases. With `factors`, the entries have no cases, and each load is
-    multiplied by the factor of its case."""
+    """Returns the loads of a scene with their load cases. With `factors`, loads have no cases and are multiplied by
+    the factors of their cases."""
     out = ["loads:"]
     for name, (text, case) in LOADS.items():
         if case in skip:
@@ -102,7 +102,7 @@ quantities:
   e: {energy: {analysis: on, of: strain}}
 """
         for formulation in ("collocation", "beamw_consistent", "sheet_third"):
-            follows = loads().replace("on: ab, where: 0.4", "on: b, follower: true")  # a load with the factor 0 is absent
+            follows = loads().replace("on: ab, where: 0.4", "on: b, follower: true")  # a load with the factor 0 has no effect
             cases = (HEAD + COMBINATIONS).replace("PRETENSION", "") + follows + analyses.replace(
                 "COMBINED", ", combination: ULS").replace("ALONE", "combination: ULS")
             plain = HEAD.replace("PRETENSION", "") + loads(FACTORS, skip=("live",)) + analyses.replace(
@@ -135,7 +135,6 @@ quantities:
             self.same(cases, plain, formulation=formulation, delta=1e-8)
 
     def test_one_factorisation(self):
-        """Many cases and combinations must require only one factorisation."""
         kinds = {"ULS": "combination: ULS", "SLS": "combination: SLS", "lift": "combination: lift", "dead": "case: dead",
                  "live": "case: live"}
         head = (HEAD + COMBINATIONS).replace("PRETENSION", ", pretension: 200") + loads()

@@ -10,7 +10,7 @@ from scipy.linalg import expm
 
 from harness.tools.kit.program import ProgramTest, run
 
-# A wall on a shaking base, a cart of 2 kg and a tool of 0.5 kg, joined along x by bars of stiffness k1 and k2.
+# A base with prescribed motion, a cart of 2 kg and a tool of 0.5 kg, connected along x by bars of stiffness k1 and k2.
 SCENE = """beamwork: 1
 let: {k1: %(k1)s, k2: 200}
 sections:
@@ -67,7 +67,6 @@ class Plant:
         self.gains = kp, kd, ki
 
     def poles(self):
-        """Returns the roots of the characteristic polynomial, which is multiplied by s if there is an integral."""
         kp, kd, ki = self.gains
         P = np.poly1d
         k = [[P([M[i, j], self.C[i, j], self.K[i, j]]) for j in range(2)] for i in range(2)]
@@ -80,7 +79,6 @@ class Plant:
         return sorted((z for z in s if z.imag >= 0), key=abs)
 
     def response(self, hertz, what):
-        """Returns the responses of the cart and the tool along x, and of the force on the base along the drive."""
         s = 2j*np.pi*hertz
         kp, kd, ki = self.gains
         D = self.K + s*self.C + s*s*M
@@ -113,8 +111,8 @@ class Loops(ProgramTest):
         return {q["quantity"]: q for q in record["quantities"]}
 
     def test_poles(self):
-        """The poles are compared for a loop that acts as a damper and a spring, a loop with an integral (roots of a
-        cubic), and a loop that drives a mode that it does not measure."""
+        """Three loops: a damper and a spring; an integral, with a cubic characteristic polynomial; and a loop that
+        drives a mode that it does not measure."""
         for at, gains in (("cart", {"kp": 150, "kd": 7}), ("cart", {"kp": 80, "kd": 12, "ki": 90}),
                           ("tool", {"kp": 3, "kd": 0.02, "ki": 2}), ("tool", {"kp": 60, "kd": 9}), ("cart", {"ki": 40}),
                           ("tool", {"kp": 40, "kd": 8, "ki": 100})):
@@ -129,8 +127,8 @@ class Loops(ProgramTest):
                              max(s.real for s in expected) > 1e-9, (at, gains, expected))
 
     def test_single_mass(self):
-        """A PD loop acts as a spring and a dashpot. With an integral, the poles are the roots of a cubic, even without a
-        spring."""
+        """A PD loop acts as a spring and a dashpot. With an integral, the characteristic polynomial is cubic, even
+        without a spring."""
         text = """beamwork: 1
 sections: {bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e6, shear_modulus: 8e5}}
 nodes:
@@ -155,7 +153,8 @@ omit: [trapeze, wagner_moments, wagner_torque]
                 self.assertAlmostEqual(complex(-found[f"d{i}"]["value"], 2*np.pi*found[f"f{i}"]["value"])/s, 1, 11)
 
     def test_slow_integral(self):
-        """A pole far slower than the modes must hide neither a mode nor the growth of a mode."""
+        """A pole whose magnitude is far below that of the modes. All modes must be found, and growth must be
+        reported."""
         k, own = 2e7, np.array([[3e4, -3e4], [-3e4, 3e4]])
         rate = "  rate: {force: [1, 0, 0], on: tool, feedback: {node: tool, component: ux, derivative: -20}}\n"
         for ki, kd in ((1e-2, 0), (1e-4, 0), (1e-8, 0), (1e-2, -20), (1e-5, -20), (1e-8, -20)):
@@ -188,8 +187,8 @@ loads:
             self.assertEqual("a mode grows at 3.754" in done.stderr, kd < 0, done.stderr)
 
     def test_integral_of_drive(self):
-        """A loop with an integral pushes a component whose motion is prescribed. The loop moves nothing and has no
-        pole, and the force of its motor is the reaction."""
+        """An integral loop drives a component with prescribed motion. It has no effect on the motion and no pole;
+        its force changes the reaction."""
         plant = Plant()
         (self.folder / "scene.yaml").write_text((SCENE % {
             "k1": 300, "c": 4, "at": "tool", "time": "", "still": "", "analyses": POLES + STEADY.replace("[0, ", "["),
@@ -260,8 +259,8 @@ quantities:
             A[n:2*n, n:2*n] = -(c*np.eye(n) + kd*S.T @ S)/m
             A[n:2*n, 2*n:] = S.T*gains/m
             A[2*n:, :n] = -S
-            # slow integrals: poles of the 2 x 2 problem for the static stiffness at the carts, with gains far below
-            # this stiffness
+            # slow poles: 2 x 2 eigenvalue problem with the static stiffness at the carts; gains are far below this
+            # stiffness
             C = S @ np.linalg.solve(K + kp*S.T @ S, S.T)
             static = sorted(np.linalg.eigvals(C*gains).real)[:slow]
             expected = sorted((s for s in np.linalg.eigvals(A) if s.imag >= 0), key=abs)[slow:5]
@@ -270,7 +269,7 @@ quantities:
                 self.assertLess(abs(one/s - 1), 1e-6, (n, gains, i, one, s))
 
     def test_responses(self):
-        """Responses must be exact, also at zero frequency, at which an integral leaves no control error."""
+        """Responses agree with the closed form. At zero frequency, an integral makes the control error zero."""
         quantities = "".join(read(f"{node}_{name}", node=node, component="ux", **keys) for name, keys in INPUTS.items()
                              for node in ("cart", "tool")) + "".join(
             read(f"wall_{name}", node="base", component="ux", of="reaction", **keys) for name, keys in INPUTS.items())
@@ -288,7 +287,6 @@ quantities:
                             self.assertLess(abs(one - expected), 1e-9*max(abs(expected), 1e-3), (gains, key, hertz))
 
     def test_largest(self):
-        """The largest response is near a pole of the closed loop, between the frequencies of the analysis."""
         plant = Plant(kp=400, kd=1)
         most = max(abs(plant.response(f, "reference")[0]) for f in np.linspace(0.1, 20, 200001))
         for solution in ("", ", solution: modal"):
@@ -298,7 +296,6 @@ quantities:
             self.assertAlmostEqual(self.values(record)["most"]["value"]/most, 1, 6)
 
     def test_modes_of_open_loop(self):
-        """A structure that is only supported by its loop must have a modal solution."""
         text = """beamwork: 1
 sections: {bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e6, shear_modulus: 8e5}}
 nodes:
@@ -323,7 +320,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
             self.assertLess(abs(complex(found["re"]["value"], found["im"]["value"]) - expected), 1e-9*abs(expected) + found["re"]["rounding"])
 
     def test_unstable(self):
-        """An unstable closed loop has no steady-state vibration. The same structure with the loop open has one."""
+        """An unstable closed loop has no steady-state response; the open loop has one."""
         plant = Plant(at="tool", kp=60, kd=9)
         quantities = read("r", node="cart", component="ux", force="cart", along="ux")
         done = self.solve(plant, STEADY, quantities, at="tool", code=1, kp=60, kd=9)
@@ -358,7 +355,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
             found = sorted((s for s in np.linalg.eigvals(A) if s.imag >= 0 and abs(s) > 1e-6), key=abs)
             for s, e in zip(found, plant.poles()):
                 self.assertAlmostEqual(s/e, 1, 8)
-            # the reference steps at 0 s, when the motion begins, so e' has no impulse
+            # the reference jumps at the start of the motion, so e' has no impulse
             step = np.zeros(len(A))
             step[np.flatnonzero(B[:, reference] == 1)[-1]] = 0.01
             self.assertAlmostEqual((C @ expm(1.5*A) @ step)[0]/self.values(record)["end"]["value"], 1, 6)

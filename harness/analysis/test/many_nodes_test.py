@@ -23,7 +23,7 @@ members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
 SLENDER = "omit: [shear, rotary_inertia]\n"
 TIP = "{displacement: {analysis: run, node: b, component: %s}}"
 
-# Consistent mass of an element, with translations only, from the polynomials at the Gauss points.
+# Consistent mass matrix of an element for translations only, by Gauss quadrature.
 OWN_MASS = """
 static status inertia(const element_data *d, const node_state x[], const element_rotating_frame *frame,
                       inertia_output *out)
@@ -56,7 +56,6 @@ static status inertia(const element_data *d, const node_state x[], const element
 
 static int nodes("""
 
-# The strains of cubic.c without warping, in Python.
 PROCESS = """
 import numpy as np
 from beamwork_element import serve
@@ -98,7 +97,7 @@ serve(prepare, strain, name="cubic_py", summary="four nodes", source="quaternion
 
 
 class Many(PluginTest):
-    """Five nodes at Gauss-Lobatto points, and four equally spaced nodes."""
+    """Elements with five nodes at Gauss-Lobatto points, and with four equally spaced nodes."""
 
     @classmethod
     def setUpClass(cls):
@@ -113,7 +112,6 @@ class Many(PluginTest):
         self.assertAlmostEqual(found / exact, 1, delta=share)
 
     def test_loads_along(self):
-        """Deflections by uniform, linear and partial loads; weights of lumped loads."""
         def tip(loads, key=""):
             return CANTILEVER + f"{key}loads: {{{loads}}}\nanalyses: {{run: {{linear: {{}}}}}}\nquantities: {{u: {TIP % 'uy'}}}\n"
         uniform = L**4 / (8 * EI) + L**2 / (2 * GA)
@@ -136,7 +134,6 @@ class Many(PluginTest):
         self.near(self.solved(tip(cases[0][0]), n=40)["u"], cases[0][1], 1e-8)
 
     def test_inside(self):
-        """Resultants and deflections between the nodes."""
         text = CANTILEVER + """loads: {q: {distributed: [0, 3, 0], on: m}}
 analyses: {run: {%s}}
 quantities:
@@ -168,7 +165,6 @@ quantities: {{x: {TIP % 'ux'}, y: {TIP % 'uy'}}}
                 self.near(found["y"], 2 * L / math.pi, share)
 
     def test_drawing(self):
-        """Drawn lines of a half circle lie on the circle."""
         for name, n in (("legendre", 1), ("cubic", 2)):
             file = self.folder / f"{name}.h5"
             self.half_circle(name, n)
@@ -183,7 +179,6 @@ quantities: {{x: {TIP % 'ux'}, y: {TIP % 'uy'}}}
             self.assertLess(numpy.abs(radius * math.pi / L - 1).max(), 0.02)
 
     def test_frequencies(self):
-        """Lumped mass at the nodes, and the consistent mass of an element."""
         text = CANTILEVER + SLENDER + "analyses: {run: {modal: {}}}\nquantities: {f: {frequency: {analysis: run, which: %d}}}\n"
         made = self.altered("legendre.c", ("\nstatic int nodes(", OWN_MASS.replace("MASS", f"{RHO * A!r}")),
                             (".order = order,", ".order = order,\n    .inertia = inertia,"))
@@ -195,7 +190,6 @@ quantities: {{x: {TIP % 'ux'}, y: {TIP % 'uy'}}}
             self.near(self.solved(text % which, "cubic", 8)["f"], exact, 1e-4)
 
     def test_buckling_and_tension(self):
-        """The load of a column, and the frequency of a beam between supports under tension and on a foundation."""
         column = CANTILEVER + """loads: {P: {force: [-1, 0, 0], on: b}}
 analyses: {run: {buckling: {}}}
 quantities: {P: {critical_factor: {analysis: run}}}
@@ -218,7 +212,6 @@ quantities: {{f: {{frequency: {{analysis: run}}}}}}
                 self.near(self.solved(beam, "cubic", 6)["f"], exact, 1e-4)
 
     def test_arc(self):
-        """A quarter ring under a force: bending, axial force and shear by Castigliano's theorem."""
         text = HEAD + f"""nodes: {{a: {{at: [0, 0, 0], hold: all}}, b: {{at: [1, 1, 0]}}}}
 members: {{m: {{from: a, to: b, section: s, y: [0, 1, 0], curvature: [0, 0, 1]}}}}
 loads: {{F: {{force: [0, -3, 0], on: b}}}}
@@ -231,7 +224,6 @@ quantities: {{u: {TIP % 'uy'}}}
         self.near(self.solved(text, n=4)["u"], -3 * exact, 1e-8)
 
     def test_motion(self):
-        """A sudden tip force: w(L, t) = sum 4 F/(rho A L omega^2) (1 - cos omega t)."""
         roots = [scipy.optimize.brentq(lambda z: math.cos(z) + 1 / math.cosh(z), (k - 1) * math.pi + 1e-3, k * math.pi)
                  for k in range(1, 9)]
         omega = [z * z * math.sqrt(EI / (RHO * A)) / L**2 for z in roots]
@@ -257,7 +249,6 @@ quantities: {{x: {TIP % 'ux'}, y: {TIP % 'uy'}}}
                 self.near(-found["y"], ALPHA * 20 * L * length / 2, 1e-7)
 
     def test_rotation(self):
-        """A rod that rotates about its end: elongation and axial force."""
         text = CANTILEVER + f"""analyses: {{run: {{rotation: {{omega: [0, 0, 3], centre: [0, 0, 0], stations: [1]}}}}}}
 quantities: {{x: {TIP % 'ux'}, N: {{internal: {{analysis: run, member: m, where: 0.25, resultant: N}}}}}}
 """
@@ -267,7 +258,6 @@ quantities: {{x: {TIP % 'ux'}, N: {{internal: {{analysis: run, member: m, where:
             self.near(found["N"], RHO * A * 9 * (L**2 - 0.25**2) / 2, 1e-6)
 
     def test_ends(self):
-        """A hinge between two members, a roller, a spring and a force inside a member."""
         text = HEAD + """plane: xy
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}, c: {at: [2, 0, 0], hold: [uy]}}
 members:
@@ -282,7 +272,6 @@ quantities: {u: {displacement: {analysis: run, node: b, component: uy}}}
             self.near(self.solved(text, name)["u"], 1.5 / (500 + 1 / (L**3 / (3 * EI) + L / GA)), 1e-8)
 
     def test_process(self):
-        """The polynomials of legendre:order=3 in another process, with the positions of its nodes."""
         (self.folder / "cubic.py").write_text(PROCESS, encoding="utf-8")
         command = f"exec:env PYTHONPATH={ROOT / 'elements' / 'examples'} /usr/bin/python3 {self.folder / 'cubic.py'}"
         text = CANTILEVER + f"""loads: {{F: {{distributed: [0, 3, 0], on: m, lumped: yes}}}}

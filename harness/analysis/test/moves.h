@@ -1,5 +1,5 @@
-/* Identifies scenes that have only transient analyses. Such a structure may be free, and then has
- * no static state. */
+/* Returns 1 for scenes with transient analyses only. The structure may be unsupported, and then it
+ * has no static state. */
 #ifndef BEAMWORK_TEST_MOVES_H
 #define BEAMWORK_TEST_MOVES_H
 

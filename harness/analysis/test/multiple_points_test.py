@@ -1,12 +1,11 @@
-"""Paths must find the first critical points even if several coincide, for any step size, and also with zero loads
-added."""
+"""Continuations find the first critical points of a path, also if several coincide, with any step size."""
 import json
 import math
 import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# E Iz = 1, L = 1, pinned or clamped. The critical load is P = (c pi)^2 E I, with negligible shortening.
+# E Iz = 1, L = 1. The critical load is P = (c pi)^2 E I, where c depends on the supports; shortening is negligible.
 COLUMN = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: %(Iy)r, Iz: 1, It: 1}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: %(a)s}, b: {at: [1, 0, 0]%(b)s}}
@@ -18,7 +17,7 @@ quantities:
   P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
-# Snap-through: stability is lost and regained, so there are as many negative pivots before as after.
+# Stability is lost and regained at snap-through, so the numbers of negative pivots before and after it are equal.
 ARCH = """beamwork: 1
 sections: {s: {constants: {A: 1e4, Iy: 10, Iz: 1, It: 1}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [-1, 0, 0], hold: [ux, uy, uz, rx, ry]}, t: {at: [0, 0.12, 0]},
@@ -33,7 +32,6 @@ quantities:
   l_$i: {for: {i: 0..1}, critical_point: {analysis: path, kind: limit, which: $i}, unit: N}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
-# Torque and thrust of fixed direction on both ends of a pinned shaft.
 SHAFT = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: %(Iy)r, Iz: 1, It: %(It)r}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz]}, c: {at: [0.5, 0, 0], hold: [rx]},
@@ -48,7 +46,8 @@ quantities:
   P_$i: {for: {i: 0..3}, critical_point: {analysis: path, kind: bifurcation, which: $i}, unit: N}
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
-# A stiff cantilever is bent in its plane while a thrust rises and falls. It remains stable or buckles out of its plane.
+# A stiff cantilever bent in its plane, under a thrust that rises and falls. Depending on the thrust, it buckles out of
+# its plane.
 PASSING = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: 1, Iz: 1000, It: 1000}, young: 1, shear_modulus: 1}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -109,8 +108,7 @@ class MultiplePoints(ProgramTest):
             self.assertLess(abs(value / right - 1), part, (found, about))
 
     def test_equal_and_almost_equal(self):
-        """Two points, equal or almost equal, must be found both if one step passes all points and if there are many
-        steps."""
+        """Two equal or almost equal critical points must be found with one step as well as with many steps."""
         for off in (0, 1e-9, -1e-9, 1e-6, -1e-6, 1e-3, -1e-3):
             for step in (1e-6, 1e-5, 4.5e-5):
                 self.near(self.points(Iy=1 + off, step=step, to=4.5e-5, **PINNED),
@@ -132,7 +130,6 @@ class MultiplePoints(ProgramTest):
         self.near(self.points(Iy=3, step=1e-3, to=1e-3, **PINNED), (PI2, 3 * PI2, 4 * PI2), 1e-3)
 
     def test_lost_and_regained(self):
-        """The step is a hundredth of the path, or the whole path."""
         fine = self.points(n=4, scene=ARCH, step=0.0024, more="")
         self.near(fine, (2.15466, -0.612777, 2.99647, -0.620572), 1e-5)
         for step in (0.024, 0.08, 0.24):
@@ -141,8 +138,9 @@ class MultiplePoints(ProgramTest):
                 self.near(self.points(n=4, scene=ARCH, step=step, more=more), fine, 1e-7, step)
 
     def test_greenhill(self):
-        """A round shaft under thrust P and a torque m P of fixed direction has double points at (m P/2)^2 + P = pi^2,
-        where the determinant does not change sign. A shaft that is not quite round has two points."""
+        """A round shaft under thrust P and a torque m P of fixed direction has double points at (m P/2)^2 + P =
+        pi^2, where the determinant does not change sign. With slightly different second moments, each double
+        point becomes two points."""
         for m in (1e-8, 0.1, 0.5, 2):
             exact = PI2 if m < 1e-3 else 2 * (math.sqrt(1 + m ** 2 * PI2) - 1) / m ** 2
             for twist in (1, 1e4):
@@ -159,8 +157,8 @@ class MultiplePoints(ProgramTest):
                           fine[:2], 1e-8, Iy, step)
 
     def test_partly_following(self):
-        """A force on the free head of a column follows the rotation of the head by the fraction eta. Stability is lost
-        and regained at cos sqrt P = -eta/(1 - eta). For eta above one half there is no such load."""
+        """A force on the free head of a column rotates by the fraction eta of the rotation of the head. Stability is
+        lost and regained at cos sqrt P = -eta/(1 - eta). For eta above one half there is no such load."""
         for eta in (0.2, 0.4, 0.49, 0.4999, 0.501, 1):
             self.follow(eta, 1, (1e-6, 3e-6, 1e-5))
         self.follow(0.4, 3, (1e-6, 3e-6, 1e-5, 3e-5))
@@ -176,8 +174,8 @@ class MultiplePoints(ProgramTest):
             self.assertEqual(found[len(exact):], [None] * (4 - len(exact)), (eta, step))
 
     def test_words_without_symmetry(self):
-        """The tangent is unsymmetric. Without mass, the stability up to the first point is "no divergence". With mass,
-        the frequencies determine the stability."""
+        """The tangent is unsymmetric. Without mass, the path is reported as "no divergence" up to its first critical
+        point. With mass, the frequencies decide."""
         for density, said in ((0, ["no divergence"] * 3 + ["unstable (2)"] * 3),
                               (1e-9, ["stable"] * 3 + ["unstable: grows"] * 3)):
             path = self.folder / "scene.yaml"
@@ -188,7 +186,7 @@ class MultiplePoints(ProgramTest):
             self.assertEqual([step["stability"] for step in json.loads(done.stdout)["steps"]], said)
 
     def test_frequencies_judge_what_the_determinant_does_not(self):
-        """In Beck's column the determinant never changes its sign. It flutters above the load 20.05."""
+        """Beck's column flutters above the load 20.05. The sign of the determinant of its tangent never changes."""
         path = self.folder / "scene.yaml"
         for density, said in ((0, ["no divergence"] * 6), (1e-9, ["stable"] * 4 + ["unstable: grows"] * 2)):
             path.write_text((FOLLOWED % {"Iy": 2, "fixed": 0.0, "eta": -1.0, "to": 3e-5, "step": 5e-6})
@@ -197,8 +195,7 @@ class MultiplePoints(ProgramTest):
             self.assertEqual([step["stability"] for step in json.loads(done.stdout)["steps"]], said)
 
     def test_passing_thrust(self):
-        """The unstable range is about a fifth of one step. One or two such losses of stability must be found wherever
-        they occur."""
+        """The column is unstable in about a fifth of one step. This range must be found at any position in the step."""
         for middle in (0.21, 0.25, 0.28, 0.33, 0.42, 0.5, 0.58, 0.67, 0.75, 0.79):
             found = self.points(n=4, scene=PASSING, factor=[0, 0, 1, 0, 0], step=0.01,
                                 path=[0] + [30 * (middle + away) for away in (-0.2, 0, 0.2)] + [40])
@@ -210,7 +207,6 @@ class MultiplePoints(ProgramTest):
         self.near(whole, fine, 1e-7)
 
     def test_static_paths_are_looked_into(self):
-        """The same thrust acts on a static path with one station. Each step ends in the unstable range."""
         path = self.folder / "scene.yaml"
         for more, well in (("", "stable"), (", z: {moment: [1e-3, 0, 0], on: b}", "no divergence")):
             for middle in (0.21, 0.3, 0.5, 0.66, 0.79):
@@ -224,8 +220,8 @@ class MultiplePoints(ProgramTest):
                 self.assertEqual(said[-1], well, (more, middle))
 
     def test_what_is_undecided_is_said(self):
-        """If half of the load follows the rotation, an eigenvalue becomes zero at pi^2 without changing its sign. The
-        stability must be reported as undecided."""
+        """If half of the load follows the rotation, an eigenvalue is zero at pi^2 but does not change its sign. The
+        reported stability must be "undecided"."""
         path = self.folder / "scene.yaml"
         for step in (2e-6, 1.2e-5):
             path.write_text(FOLLOWED % {"Iy": 3, "fixed": -0.5, "eta": -0.5, "to": 1.2e-5,
@@ -237,8 +233,8 @@ class MultiplePoints(ProgramTest):
                 self.assertRegex(q["reason"], "undecided: between load factors 9.8[67][0-9]* and 9.8[67]")
 
     def test_held_turn_under_torque(self):
-        """A pinned shaft under Greenhill's loads cannot twist at one end, which is free to rotate about the other axes.
-        The support moment and the load keep their directions."""
+        """Under Greenhill's loads, the rotation about the axis of the shaft is fixed at one end. The support moment
+        and the load keep their directions."""
         for step in (1.5e-5, 1.5e-6):
             path = self.folder / "scene.yaml"
             path.write_text(COLUMN % {"a": "[ux, uy, uz, rx]", "b": ", hold: [uy, uz]", "Iy": 1, "step": step, "to": 1.5e-5,
@@ -250,8 +246,8 @@ class MultiplePoints(ProgramTest):
             self.assertEqual(found[2:], [None, None])
 
     def test_held_turn_in_linear_buckling(self):
-        """Forces on two arms cause a torque that the rotational support at one end carries. This must be rejected by
-        name. Without the forces, Euler's load is found twice."""
+        """Forces on two arms cause a torque that a rotational support carries. The message that rejects them must
+        name the support. Without the forces, Euler's load is found twice."""
         for arms, found in ((1, None), (0, [PI2, PI2])):
             path = self.folder / "scene.yaml"
             path.write_text(TWISTED_BY_ARMS % (arms, -arms))

@@ -1,6 +1,5 @@
-/* Abscissas of the points of a path, and limit points. At a limit point the load factor has an
- * extremum; at a bifurcation it has none. The number of limit points reported must therefore be the
- * number of extrema of the load factor. */
+/* Abscissas of curves, and limit points. The load factor has an extremum at a limit point, but not
+ * at a bifurcation. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -14,10 +13,10 @@
 #include "harness/tools/kit/accepted.h"
 #include "harness/tools/kit/ask.h"
 
-static const double times = -3, shift = 0.7; /* factor and offset of the abscissa */
+static const double times = -3, shift = 0.7;
 
-/* A cantilever bent by a force that rises, falls and rises again, with its largest deflection at
- * the station 0.4. If value[0] is not zero, the path is instead a continuation controlled by the
+/* A cantilever under a force that rises, falls and rises again, with its largest deflection at the
+ * station 0.4. If value[0] is not zero, the analysis is a continuation controlled by the
  * deflection. */
 static status build(const double value[], scene *s, fault *f)
 {
@@ -76,8 +75,6 @@ static status solve(const case_type *type, const element_type *formulation_type,
                         out);
 }
 
-/* Checks the abscissas of curves over the path parameter or the controlled coordinate, with and
- * without a factor and an offset. */
 static void abscissas(int continued)
 {
     cell_result r;
@@ -93,7 +90,7 @@ static void abscissas(int continued)
         gsl_test(moved->value[i] != plain->value[i], "%s: values of point %d", what, i);
         gsl_test_abs(moved->x[i], times * plain->x[i] + shift, 1e-15, "%s: abscissa of point %d",
                      what, i);
-        /* in a continuation, the plotted quantity is the controlled coordinate */
+        /* in a continuation, the abscissa is the controlled coordinate */
         gsl_test_abs(plain->x[i],
                      continued ? plain->value[i] : scene_path_of(&r.scene.analysis[0])->value[i],
                      1e-9, "%s: point %d itself", what, i);
@@ -105,7 +102,7 @@ static void abscissas(int continued)
     cell_result_free(&r);
 }
 
-/* Returns the number of extrema of the load factor along the points of a path. */
+/* Returns the number of extrema of the load factor. */
 static int turns_of(const curve *c)
 {
     int turns = 0;
@@ -123,8 +120,6 @@ static const curve *load_curve(const cell_result *r)
     return NULL;
 }
 
-/* Checks the kinds of critical points. An extremum within the last step may be missing, because no
- * points follow it. */
 static void kinds_of(const char *name, const element_type *type, int n, const char *parameters,
                      int count[EVENT_KINDS])
 {
@@ -165,8 +160,7 @@ static void events(void)
              count[EVENT_BIFURCATION]);
 }
 
-/* The points of the path and the fraction of the work of the load must not depend on the unit of
- * length. */
+/* The points of a path and the fraction of the work must be independent of the length unit. */
 static void units(const char *name, const char *parameters)
 {
     cell_result in_metres, r;
@@ -207,8 +201,8 @@ static int found(const char *name, const char *parameters, const element_type *e
     return ask_count(tally, out, "%s, %s, n = %d", name, parameters, n);
 }
 
-/* As GA tends to infinity, the solution of the shear-flexible cantilever must tend to the elastica
- * (L = 1, load 10, EI = 10). */
+/* As GA tends to infinity, the deflection of the cantilever tends to that of the elastica (L = 1,
+ * load 10, EI = 10). */
 static void stiff_in_shear(const element_type *e)
 {
     static const int n[2] = {4, 16};
@@ -231,8 +225,6 @@ static void stiff_in_shear(const element_type *e)
                      i == 0 ? "deflection" : "shortening", apart[0][i]);
 }
 
-/* Returns the deflection of the elastica beam with an initial curvature [1/m], or NAN if it was not
- * solved. */
 static double curved(const element_type *e, double curvature, ask_tally *tally)
 {
     static answer a;
@@ -249,14 +241,12 @@ static double curved(const element_type *e, double curvature, ask_tally *tally)
     return ask_count(tally, &a, "curvature %g", curvature) ? a.value[0] : NAN;
 }
 
-/* As the curvature tends to zero, the deflection must change in proportion to the curvature, down
- * to round-off. */
 static void nearly_straight(const element_type *e)
 {
     ask_tally tally = {0};
     const double straight = curved(e, 0, &tally), more = curved(e, 1e-4, &tally),
                  slope = (more - curved(e, -1e-4, &tally)) / 2e-4;
-    const int least = isnan(slope) ? 0 : -15; /* too few values for an exponent */
+    const int least = isnan(slope) ? 0 : -15; /* too few corrections for an exponent */
     for (int power = -5; power >= least; power -= 2) {
         const double curvature = pow(10, power), change = curved(e, curvature, &tally) - straight;
         gsl_test_abs(change, slope * curvature, 1e-3 * fabs(slope) * curvature + 2e-14,
@@ -292,8 +282,7 @@ static void limits_tests(void)
 
 static const double length = 1;
 
-/* Checks when a sequence of corrections counts as converged, and that only the last correction
- * does. */
+/* Checks which sequences of corrections are accepted as converged. */
 static void sequences(void)
 {
     static const struct {
@@ -325,8 +314,6 @@ static void sequences(void)
     gsl_test(steps > 100, "what falls slowly ends after %d corrections", steps);
 }
 
-/* Builds a square bar that is pushed along its axis at its tip. The quantities are the
- * displacements of the tip. */
 static void bar(scene *s, double side, const double direction[3])
 {
     static const double y_axis[3] = {0.1, 1, 0.05};
@@ -353,8 +340,7 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
     bar(&s, side, direction);
     ask_scene(&s, e, NULL, n, &a);
     scene_free(&s);
-    if (slenderness >
-        2e4) { /* near the limit of double precision: accurate, or rejected because of round-off */
+    if (slenderness > 2e4) {
         if (a.status == STATUS_SINGULAR)
             gsl_test(strstr(a.reason, "round-off") == NULL,
                      "%s, slenderness %g, %d elements: the cause is named: %s", e->name,
@@ -364,8 +350,7 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
     } else if (!ask_count(tally, &a, "bar of slenderness %g, %d elements", slenderness, n)) {
         return;
     }
-    /* largest error: eps (L/side)^2 from the forces, with a margin, and round-off of the node
-     * positions */
+    /* allowed error: 64 eps (L/side)^2 for the forces, plus round-off of the nodal positions */
     const double settles = 64 * DBL_EPSILON * slenderness * slenderness + 1e-14 * n;
     for (int k = 0; k < 3; k++)
         gsl_test(!(fabs(a.value[k] / exact - direction[k]) <= settles),
@@ -373,8 +358,8 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
                  e->name, slenderness, n, k, a.value[k] / exact - direction[k]);
 }
 
-/* A bar of one element is too slender. No correction reveals the error, because the forces of the
- * element are rounded in the same way each time. */
+/* One element that is too slender. The rounding errors of its forces are equal in every iteration,
+ * so the corrections do not show them. */
 static void too_slender(const element_type *e)
 {
     static const double direction[3] = {0.8, 0.6, 0};
@@ -397,8 +382,8 @@ static void slender_bars(const element_type *e, ask_tally *tally)
                 pushed(e, tally, slenderness, direction[d], n);
 }
 
-/* A model with so many elements that factors have only two correct digits. After refinement, the
- * compliances must equal those with fewer elements, for which the refinement converges. */
+/* With this number of elements, only two digits of a factorisation are correct. After refinement,
+ * compliances must agree with those on a coarser mesh. */
 static void compliance_of_many(void)
 {
     static answer coarse, fine;

@@ -1,4 +1,4 @@
-/* Builds and solves a small frame with one row of the table of inputs and one analysis. */
+/* A small frame with one row of the table of inputs and one analysis. */
 #ifndef BEAMWORK_POSED_H
 #define BEAMWORK_POSED_H
 
@@ -23,7 +23,6 @@ static section_spec spec_of(double size)
     return spec;
 }
 
-/* Builds a cantilever of two members under axial and transverse forces. */
 static void base(scene *s)
 {
     scene_init(s, "base");
@@ -37,7 +36,6 @@ static void base(scene *s)
     scene_add_load(s, SCENE_FORCE, TIP, -300, 90, 60);
 }
 
-/* Builds half of a shallow arch of the same members. It snaps through with any other input. */
 static void arch(scene *s)
 {
     base(s);
@@ -62,17 +60,16 @@ static scene_load *spread(scene *s, double from, double to)
     return load;
 }
 
-/* Makes the section warp and adds an eccentric force, which twists the cantilever and has a
- * potential. */
+/* Makes the section warp and adds an eccentric force with a potential, which twists the
+ * cantilever. */
 static void twist(scene *s)
 {
     s->section[0].constants.Iw = 5e-9;
     scene_set_body(s, TIP,
-                   (scene_body){.inertia = {2, 1, 1, 0, 0, 0}}); /* the body is added first */
+                   (scene_body){.inertia = {2, 1, 1, 0, 0, 0}}); /* the body must be added first */
     scene_add_load(s, SCENE_FORCE, scene_add_attached(s, TIP, 1, 0.2, 0), 0, 5, 40);
 }
 
-/* Puts the tip on a fork, so that it cannot rotate about the axis of the cantilever. */
 static void ended_in_a_fork(scene *s)
 {
     const double *to = s->node[TIP].position, axis[3] = {to[0], to[1], to[2]},
@@ -80,7 +77,6 @@ static void ended_in_a_fork(scene *s)
     scene_fork(s, TIP, axis, web);
 }
 
-/* Prevents free axial expansion of strained members. */
 static void hold_tip(scene *s)
 {
     scene_hold_all(s, TIP);
@@ -95,7 +91,6 @@ static double length_of(const scene *s, int member)
                 (q[2] - p[2]) * (q[2] - p[2]));
 }
 
-/* Adds two load cases and a combination of both. */
 static void combine(scene *s)
 {
     const int all = scene_add_combination(s, "all");
@@ -103,7 +98,6 @@ static void combine(scene *s)
     scene_add_term(s, all, scene_add_case(s, "live"), -1.5);
 }
 
-/* Adds the input, after the entries that it requires. */
 static void add(scene *s, const char *name)
 {
     static const double from = 0, whole = 1;
@@ -148,10 +142,7 @@ static void add(scene *s, const char *name)
         scene_set_factor(s, scene_add_load(s, SCENE_FORCE, TIP, -300, 50, 20), 1, &from, &whole);
     else if (IS("temperature")) {
         scene_load *load = scene_load_at(s, scene_add_load(s, SCENE_TEMPERATURE, 1, 0, 0, 0));
-        load->temperature =
-            s->node[TIP].position[1] > 0
-                ? -20
-                : 20; /* cooling, because a heated arch would rise and not snap through */
+        load->temperature = s->node[TIP].position[1] > 0 ? -20 : 20;
         load->gradient[0] = 80;
         load->gradient[1] = -50;
         hold_tip(s);
@@ -301,13 +292,12 @@ static void add(scene *s, const char *name)
     } else if (IS("damping"))
         for (int i = 0; i < s->members; i++)
             scene_member_at(s, i)->damping = 1e-4;
-    else if (!IS("initial velocity") &&
-             !IS("rotating axes")) /* these inputs are part of the analysis */
+    else if (!IS("initial velocity") && !IS("rotating axes"))
         s->name[0] = '\0';
 #undef IS
 }
 
-/* Adds the entries that the input requires, without the input itself. */
+/* Adds the entries that the input requires. */
 static void carry(scene *s, const char *name)
 {
     static const char *const held[] = {"temperature",       "strain of a member", "pretension",
@@ -325,22 +315,21 @@ static void carry(scene *s, const char *name)
 
 static const double end_of_continuation = 0.01;
 
-/* A scene for one row and one column of the table, with or without the input, with the changes that
- * a law makes. */
+/* A scene for one row and one column of the table. */
 typedef struct posed {
     const char *name;
     scene_column column;
     int with;
-    double times; /* factor of the loads, strains and motions of the input */
+    double times; /* factor of the input */
     double size;  /* factor of all loads, strains and motions */
-    double grown; /* further factor of the loads that have no function of the path */
+    double grown; /* additional factor of loads that are not functions of the path */
     double end;   /* end of the static path */
-    double pull;  /* force at the tip along y, from the start of the path [N] */
-    int turns;    /* 1 if static paths are in rotating axes */
-    int follows;  /* 1 if a force that follows the tip is added */
+    double pull;
+    int turns;   /* 1 if static paths are in rotating axes */
+    int follows; /* 1: a follower force acts on the tip */
 } posed;
 
-/* Returns 1 for loads without a potential, for which flutter is requested. */
+/* Returns 1 if flutter is requested, because the load has no potential. */
 static int flutters(const char *name, scene_column column)
 {
     for (const scene_input *in = scene_inputs; in->name != NULL; in++)
@@ -351,8 +340,7 @@ static int flutters(const char *name, scene_column column)
     return 0;
 }
 
-/* Returns 1 if the input adds nodes to the mesh. Without the input, its member then has different
- * elements. */
+/* Returns 1 if the input adds nodes to the mesh, which changes the elements of its member. */
 static int divides(const char *name)
 {
     return strstr(name, "within a member") != NULL || strstr(name, "part of a member") != NULL;
@@ -371,9 +359,8 @@ static posed pose(const char *name, scene_column column, int with)
                    .follows = flutters(name, column)};
 }
 
-static const double shaking = 17; /* [Hz] */
+static const double shaking = 17; /* [Hz] excitation frequency */
 
-/* Adds responses of a node to a force or a moment on this node, by real or imaginary part. */
 static void respond(scene *s, const char *name, int analysis, int node, int component, int along,
                     scene_vibration_part part, double at)
 {
@@ -404,7 +391,7 @@ static int move(scene *s, int from, scene_column column)
                                            .step = 1e-3});
 }
 
-/* Adds the analysis of a column, after the analysis that it follows, if there is one. */
+/* Adds the analysis of the column, and before it the analysis on which it is based. */
 static int analyse(scene *s, const posed *p)
 {
     const scene_column column = p->column;
@@ -519,7 +506,6 @@ static void want(scene *s, scene_column column, int analysis)
     }
 }
 
-/* Multiplies the initial strains of a member by a factor. */
 static void strain(scene_member *m, double length, double times)
 {
     m->strain[0] *= times;
@@ -534,7 +520,7 @@ static void structure(const posed *p, scene *s)
 {
     static const double from = 0, whole = 1;
     if (p->column == SCENE_OF_BUCKLING_ABOUT &&
-        !p->follows) /* the cantilever flutters if p->follows */
+        !p->follows) /* the cantilever flutters under the follower force */
         arch(s);
     else
         base(s);
@@ -543,11 +529,11 @@ static void structure(const posed *p, scene *s)
         add(s, p->name);
     else
         carry(s, p->name);
-    /* the analysis before the harmonic analysis rejects feedback */
+    /* the analysis that precedes the harmonic analysis rejects feedback */
     if (p->with && strcmp(p->name, "feedback") == 0 &&
         (p->column == SCENE_OF_HARMONIC_LINEAR || p->column == SCENE_OF_HARMONIC_ABOUT))
         scene_set_factor(s, s->loads - 1, 2, (const double[]){0, 1}, (const double[]){0, 0});
-    /* the search for a limit point needs elements of equal length */
+    /* the limit-point search requires elements of equal length */
     for (int i = 0; i < s->loads && p->column == SCENE_OF_BUCKLING_ABOUT; i++)
         for (int k = 0; k < 2; k++)
             s->load[i].range[k] = round(2 * s->load[i].range[k]) / 2;
@@ -571,7 +557,6 @@ static void structure(const posed *p, scene *s)
         follow(s, scene_add_load(s, SCENE_FORCE, TIP, -3000, 0, 0));
 }
 
-/* Assigns the remaining loads to the first case. Analyses with loads use the combination. */
 static void act(scene *s)
 {
     const unsigned unloaded = 1u << SCENE_MODAL | 1u << SCENE_COMPLIANCE | 1u << SCENE_HARMONIC;

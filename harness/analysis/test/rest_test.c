@@ -1,6 +1,5 @@
-/* Without loads, drives and initial strains, all displacements and forces must be zero, in every
- * case at every verified parameter point, for every formulation and every evaluated choice of its
- * options. */
+/* Without loads, drives and initial strains, displacements and forces are zero: in every case, with
+ * every formulation and its evaluated options. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -13,9 +12,8 @@
 #include "harness/study/study.h"
 
 enum { COMPONENTS = 6, CHOICES = 64 };
-/* Limits for displacements, relative to the size of the structure and to one radian, and for
- * forces, relative to the largest EA of the members. They allow for round-off in the curvature of
- * arcs in slender members. */
+/* Limits relative to the size of the structure (displacements), to 1 rad (rotations) and to the
+ * largest EA (forces). They allow for round-off in the curvature of arcs. */
 static const double still = 1e-10, unstressed = 1e-12;
 
 enum { FORMULATIONS = 64 };
@@ -46,7 +44,6 @@ static double stiffest(const scene *s)
     return EA;
 }
 
-/* Sets the values of the loads and drives to zero. */
 static void leave_alone(scene *s)
 {
     for (int i = 0; i < s->loads; i++)
@@ -90,7 +87,6 @@ static void ask_for_all(scene *s)
             }
 }
 
-/* Returns the largest value relative to its limit, and the name of its quantity. */
 static double largest(const scene *s, const solve_result *r, const char **quantity_name)
 {
     const double size = dimension(s), EA = stiffest(s);
@@ -129,7 +125,8 @@ static void rests(const sweep_point *p, const formulation *chosen, int elements)
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&s, m, NULL, &r, &f);
         worst = outcome == STATUS_OK ? largest(&s, &r, &quantity_name) : INFINITY;
-        /* if an arc rises beyond the declared limit of its element, the message names the limit */
+        /* an arc beyond the declared limit of its element is rejected, and the message names the
+         * limit */
         if (outcome == STATUS_NOT_CONVERGED && chosen->type->limits & LIMIT_FLAT_ARC &&
             strstr(f.text, "radii of gyration") != NULL)
             worst = 0;

@@ -1,6 +1,6 @@
-/* Structures in steady rotation. Results must not depend on the frame, the algorithm of the
- * formulation or the reference point of a body. The elongation of a thick beam has a closed form. A
- * structure at rest must cost nothing extra. */
+/* Structures in steady rotation. Results must be independent of the frame, the option values of
+ * the formulation and the reference point of a body. The elongation of a thick beam has a closed
+ * form. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -36,8 +36,8 @@ static double value_of(const char *case_name, const char *chosen, int n,
 }
 
 /* With k = Omega L/c = 1/2, where c is the speed of sound, the elongation is L (tan k/k - 1).
- * Elements of higher order must give this value on the mesh of the test, and other elements in the
- * limit of fine meshes. */
+ * Elements of higher order agree with it on one mesh, other elements in the limit of fine
+ * meshes. */
 static void stretch(void)
 {
     const char *const thick[] = {"omega_star=5", "slenderness=10", NULL};
@@ -83,8 +83,8 @@ static const parameter_type with_body_parameters[] = {
     {0},
 };
 
-/* Builds an inclined channel that rotates about an axis next to it. If value[BODY] is not zero, its
- * tip is attached to another node by a rigid arm. */
+/* Builds an inclined channel that rotates about an axis next to it. If value[BODY] is not zero, a
+ * rigid arm connects its tip to another node. */
 static status build_with_body(const double value[], scene *s, fault *f)
 {
     (void)f;
@@ -111,8 +111,8 @@ static status build_with_body(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* The centrifugal and gyroscopic terms of a body with a rigid offset must not depend on its
- * reference point. */
+/* The centrifugal and gyroscopic terms of a body with an offset are independent of its reference
+ * point. */
 static void reference_point(void)
 {
     static const case_type type = {.name = "with_body",
@@ -146,7 +146,6 @@ static void reference_point(void)
     }
 }
 
-/* Compares the counted work on a path without a frame and in a frame with speed zero. */
 static void at_rest(void)
 {
     const char *const slow[] = {"omega=1e-6", NULL};
@@ -166,7 +165,8 @@ static void at_rest(void)
     cell_result_free(&turning);
 }
 
-/* A beam that points inwards buckles under its own centrifugal force. This must be reported. */
+/* A beam that points towards the axis buckles under its own centrifugal force; the result must
+ * report the instability. */
 static void instability_is_named(void)
 {
     const char *const inward[] = {"hub_radius=-2", "omega_star=4", NULL};
@@ -188,16 +188,14 @@ static void rotation_tests(void)
 }
 
 /* A free beam has six rigid-body modes of frequency zero, then the bending modes (k_i L)^2
- * sqrt(EI/(rho A L^4)) with cos(k_i L) cosh(k_i L) = 1. The stiffness matrix is singular, and its
- * shift must not affect the frequencies. */
+ * sqrt(EI/(rho A L^4)) with cos(k_i L) cosh(k_i L) = 1. The stiffness matrix is singular, so the
+ * solver shifts it. */
 
 enum { MODES = 10, RIGID = 6 };
 static const double length = 2.385, thickness = 0.011, width = 0.017, young = 2.1e11,
-                    density = 7300; /* m, m, m, Pa, kg/m^3 */
+                    density = 7300;
 static const double root[2] = {4.7300407448627040, 7.8532046240958376};
 
-/* Returns frequency i. Frequencies 0 and 1 are the first bending modes about the weak and the
- * strong axis, and 2 and 3 the second modes. */
 static double exact(int i)
 {
     const double height = i % 2 == 0 ? thickness : width, k = root[i / 2] / length;
@@ -223,8 +221,7 @@ static void free_beam_tests(void)
 {
     frequencies("beamw_vlasov", 32, 1e-5);
     frequencies("beamw_first", 32, 1e-5);
-    /* with 600 elements, round-off in the assembly changes the stiffness, and solutions are refined
-     */
+    /* at 600 elements, round-off in the assembly is noticeable, so solutions are refined */
     frequencies("beamw_vlasov", 600, 2e-7);
     frequencies("beamw_vlasov", 2400, 2e-7);
 }
@@ -282,8 +279,6 @@ static void newton(void)
              "mixed Newton takes at most four iterations a step (%ld in 15 steps)", mixed);
 }
 
-/* In a first step of 15 degrees, the ends of short elements would exchange their order along the
- * member. The strains cannot show this, so the solver must detect it. */
 static void no_element_is_turned_round(void)
 {
     const double value = solve_value_of("spherical_joint", "beamw_consistent", 32, 0, "wagner=0",
@@ -316,8 +311,8 @@ static void frame_of_strips(void)
     }
 }
 
-/* Equal elements have equal rounding errors, which add up to much more than independent errors
- * would. */
+/* Rounding errors of equal elements are equal, so their sum is much larger than that of independent
+ * errors. */
 static void equal_elements(void)
 {
     const double critical = solve_value_of("lateral_buckling", "geometrically_exact", 256, 0,
@@ -325,9 +320,8 @@ static void equal_elements(void)
     gsl_test_rel(critical, 16.93613215047, 1e-6, "lateral buckling with 512 elements");
 }
 
-/* Two elements on fork supports have 14 modes, of which two are axial. In some of the other modes,
- * the cross-sections at the nodes rotate and warp without displacement, so these modes are not
- * axial. */
+/* Two elements between fork supports have 14 modes, of which two are axial. In some of the others,
+ * cross-sections at nodes rotate and warp without displacement. */
 static void modes_in_place(void)
 {
     for (int keep_all = 0; keep_all < 2; keep_all++)

@@ -1,4 +1,4 @@
-"""Rotors: a heavy disc on a light shaft, stability of rotating states, and bearings with cross terms."""
+"""Rotors: a heavy disc on a light shaft, stability of rotating states, and bearings with cross-coupled stiffness."""
 import cmath
 import math
 import re
@@ -6,7 +6,6 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# Overhung disc. Its deflection and its rotation, as complex numbers, are the two unknowns of bending.
 SHAFT = """beamwork: 1
 let: {d: 0.02}
 sections:
@@ -20,10 +19,10 @@ analyses: {r: {rotation: {omega: [%(omega)r, 0, 0], stations: [1], wanted: 8}}}
 quantities: {f_$n: {for: {n: 0..%(last)d}, frequency: {analysis: r, which: n}, unit: Hz}}
 omit: [%(omit)s]
 """
-# A point mass on a massless shaft whose end does not tilt. The stiffness is 12 E I/L^3, multiplied by `flat` in one
-# plane.
+# A point mass on a massless shaft whose end does not rotate. The shaft stiffness is 12 E I/L^3, multiplied by `flat` in
+# one plane.
 JEFFCOTT = SHAFT.replace("mass: 5, inertia: [%(polar)r, 0.02, 0.02, 0, 0, 0]", "mass: 5, hold: [ux, rx, ry, rz]")
-# Stiff arm with a mass at its tip, in an eccentric hinge with a soft spring. Three coordinates have a mass.
+# A nearly rigid arm with a mass at its tip, in an eccentric hinge with a soft spring. Three coordinates have mass.
 ARM = """beamwork: 1
 let: {W: 20, e: 0.1, L: 0.9, k: 1}
 sections: {arm: {constants: {A: 1e-2, Iy: 1e-4, Iz: 1e-4, It: 2e-4}, young: %s, shear_modulus: 80e9}}
@@ -35,8 +34,8 @@ quantities:
   lag:  {frequency: {analysis: r, which: 0}, unit: Hz}
   flap: {frequency: {analysis: r, which: 1}, unit: Hz}
 """
-# Under the centrifugal force on its mass, the wire is almost a string. Its elements are longer than its bending
-# boundary layer.
+# Under the centrifugal force on its mass, the wire behaves almost as a string. Its elements are longer than the
+# boundary layer of bending.
 WIRE = """beamwork: 1
 let: {d: 1e-3}
 sections: {wire: {constants: {A: pi*d^2/4, Iy: pi*d^4/64, Iz: pi*d^4/64, It: pi*d^4/32}, young: 2e9, shear_modulus: 1e9, density: 7800}}
@@ -54,7 +53,7 @@ DEFAULT = {"flat": 1.0, "density": 1e-6, "polar": 0.04, "omega": 300.0, "last": 
 
 
 def bending(omega, polar):
-    """Returns |w - W| for the roots w of det(K - w^2 M + w W G) = 0, a polynomial of degree four with real roots."""
+    """Returns |w - W| for the real roots w of det(K - w^2 M + w W G) = 0."""
     def value(w):
         return (K11 - MASS*w*w)*(K22 - DIAMETRAL*w*w + polar*omega*w) - K12*K12
     limit = 10*(FIRST + math.sqrt(K22/DIAMETRAL) + polar/DIAMETRAL*omega)
@@ -78,7 +77,6 @@ def expected(omega, polar):
 
 
 def critical(polar):
-    """Returns the critical speed, at which a frequency in the rotating frame is zero."""
     a, b = 1.0, 300.0
     for _ in range(200):
         m = (a + b)/2
@@ -110,8 +108,6 @@ class Rotors(ProgramTest):
         return values(done.stdout)
 
     def close(self, found, exact, omega, within):
-        """Compares frequencies. A frequency that is zero at the critical speed is only as accurate as this speed, so
-        the allowed error includes a part of omega."""
         self.assertEqual(len(found), len(exact))
         for a, b in zip(found, exact):
             self.assertLess(abs(a - b), within*(b + 1e-2*omega), (found, exact))
@@ -127,8 +123,8 @@ class Rotors(ProgramTest):
                 self.close(self.frequencies(SHAFT % DEFAULT, formulation, n), expected(300, 0.04), 300, 2e-9)
 
     def test_masses(self):
-        """At a density of 7.85 kg/m^3, the mass of the shaft is 2e-4 times that of the disc, and its effect has this
-        order of magnitude."""
+        """At the density 7.85 kg/m^3, the mass of the shaft is 2e-4 times that of the disc. Its effect on the
+        frequencies is of this order of magnitude."""
         for density in (7.85, 1e-3, 1e-6, 1e-9, 1e-12):
             for n in (2, 16):
                 found = self.frequencies(SHAFT % {**DEFAULT, "density": density}, "collocation", n)
@@ -160,8 +156,7 @@ class Rotors(ProgramTest):
                 self.assertIn("critical point", done.stderr)
 
     def known(self, scene, formulation, n, exact, within, floor=2e-13):
-        """Checks the values. Their errors must lie within the estimates of round-off, and these estimates must be below
-        `within`."""
+        """Checks that errors are within the stated round-off, which must be below `within`."""
         done = self.solved(scene, formulation, n)
         self.assertEqual(len(done["quantities"]), len(exact))
         for q, right in zip(done["quantities"], exact):
@@ -171,8 +166,8 @@ class Rotors(ProgramTest):
             self.assertLess(abs(q["value"]/right - 1), q["rounding"] + floor, (formulation, n, q["quantity"]))
 
     def test_massless(self):
-        """Only three coordinates have a mass, so there are only three frequencies. With a modulus of 200e9 Pa, the
-        matrix of 32 elements has only 3 digits for the soft modes, but the frequencies must keep all digits."""
+        """Only three coordinates have mass, so there are three frequencies. With E = 200e9 Pa and 32 elements, the
+        matrix has only three correct digits for the soft modes, but frequencies must have all digits."""
         exact = (math.sqrt(400/9 + 1/0.81)/2/math.pi, math.sqrt(400*(1 + 1/9) + 1/0.81)/2/math.pi)
         for young, stretch in (("20e9", 1e-5), ("200e9", 1e-6)):
             for formulation in ("geometrically_exact", "collocation", "beamw"):
@@ -181,7 +176,7 @@ class Rotors(ProgramTest):
                     scene = ARM % young
                     values = [q["value"] for q in self.solved(scene, formulation, n)["quantities"]]
                     first = first or values
-                    for value, right in zip(first, exact):  # exact values are for a rigid arm
+                    for value, right in zip(first, exact):  # the exact values are those of a rigid arm
                         self.assertLess(abs(value/right - 1), stretch, (formulation, young))
                     self.known(scene, formulation, n, first, 1e-10)
 
@@ -192,8 +187,8 @@ class Rotors(ProgramTest):
             self.assertIn("use fewer elements", q["reason"])
 
     def test_uncertainties(self):
-        """Errors must lie within the estimates of round-off. Near the critical speed, one frequency is almost zero and
-        loses digits, and its estimate must increase accordingly."""
+        """Errors are within the stated round-off. Near the critical speed, one frequency is almost zero and has
+        fewer correct digits."""
         at = critical(0.04)
         for formulation in ("collocation", "geometrically_exact", "beamw", "sheet_third"):
             for n in (1, 4, 16, 64):
@@ -221,8 +216,8 @@ class Rotors(ProgramTest):
                                within)
 
     def test_moment(self):
-        """If a moment may make matrices unsymmetric, both triangles are stored. The gyroscopic matrix must then be
-        included only once."""
+        """If a moment may make matrices unsymmetric, both triangles are stored. The gyroscopic matrix must still be
+        added only once."""
         for moment in ("0", "1e-9"):
             scene = SHAFT % {**DEFAULT, "density": 1e-13}
             scene = scene.replace("analyses:", f"loads: {{turn: {{moment: [0, 0, {moment}], on: disc}}}}\nanalyses:")
@@ -251,8 +246,8 @@ class Rotors(ProgramTest):
             self.assertEqual("stable without damping" in told, part > 1.1, told)
 
     def test_round_shaft(self):
-        """With equal stiffnesses in both planes, the frequencies in the rotating frame are |w -+ W|. Without damping,
-        the shaft is stable above the critical speed."""
+        """With the equal stiffnesses in both planes, the frequencies in the rotating frame are |w -+ W|. Without
+        damping, the shaft is stable above the critical speed."""
         for part in (0.5, 0.999, 1.001, 1.5, 3.0):
             scene = JEFFCOTT % {**DEFAULT, "omega": part*FIRST, "last": 1}
             right = sorted(abs(FIRST*(1 + s*part))/2/math.pi for s in (-1, 1))
@@ -261,7 +256,7 @@ class Rotors(ProgramTest):
             self.assertEqual(self.stability(scene), "stable" if part < 1 else "stable without damping")
 
     def test_without_modes(self):
-        """An odd number of negative eigenvalues proves instability. An even number does not."""
+        """An odd number of negative eigenvalues of K proves instability; an even number does not."""
         for part, said in ((0.9, "stable"), (1.05, "unstable: grows"), (1.5, "undecided")):
             scene = JEFFCOTT % {**DEFAULT, "flat": 1.3, "omega": part*FIRST, "last": 0}
             scene = scene.replace("frequency: {analysis: r, which: n}, unit: Hz",
@@ -270,13 +265,12 @@ class Rotors(ProgramTest):
 
 
 def across(a, b, c, d):
-    """Returns the 36 entries of a spring matrix with the block [[a, b], [c, d]] for uy and uz."""
     rows = [[0]*6 for _ in range(6)]
     rows[1][1:3], rows[2][1:3] = (a, b), (c, d)
     return sum(rows, [])
 
 
-# A disc at the middle of a massless shaft on two bearings. The shaft can tilt freely in the bearings.
+# A disc at the middle of a massless shaft on two bearings, which do not resist rotation.
 JOURNAL = """beamwork: 1
 sections: {s: {constants: {A: 3e-4, Iy: 8e-9, Iz: 8e-9, It: 1.6e-8}, young: 200e9, shear_modulus: 80e9}}
 nodes:
@@ -298,7 +292,7 @@ BEARING, FILM, SHAFT_STIFFNESS = (3e5, 2e5, -4e4, 2e5), (1600, 250, 150, 1500), 
 RESPONSES = ", ".join(f"{part}_{o}{i}: {{response: {{analysis: A, node: disc, component: {o}, force: disc, along: {i}, "
                       f"part: {part}, at: 9}}}}" for o in ("uy", "uz") for i in ("uy", "uz")
                       for part in ("real", "imaginary"))
-# A disc that does not tilt, in a fluid film, on a shaft with the stiffness 192 E I/L^3.
+# A disc that does not rotate, in a fluid film, on a shaft with the stiffness 192 E I/L^3.
 DAMPED = """beamwork: 1
 sections: {s: {constants: {A: 3e-4, Iy: 8e-9, Iz: 8e-9, It: 1.6e-8}, young: 200e9, shear_modulus: 80e9}}
 nodes:
@@ -337,8 +331,7 @@ class Bearings(ProgramTest):
         return done.returncode, " ".join((done.stdout + done.stderr).split())
 
     def test_journal(self):
-        """The determinant of the dynamic stiffness vanishes at the damped modes. The responses are the inverse of the
-        dynamic stiffness."""
+        """The determinant of the dynamic stiffness is zero at the eigenvalues. Responses are columns of its inverse."""
         for formulation in ("collocation", "geometrically_exact", "beamw"):
             got = self.values(JOURNAL, 2, formulation, stiffness=across(*BEARING), damping=across(*FILM),
                               analyses="d: {modal: {damped: yes}}, A: {harmonic: {frequencies: [9]}}, L: {linear: {}}",
@@ -358,7 +351,6 @@ class Bearings(ProgramTest):
             self.assertLess(abs(got["y"]/(98.1*b/(a*d - b*c)) - 1), 1e-7)
 
     def test_onset(self):
-        """With cross stiffness q and damping c, the whirl grows for q > c w. Then there is no steady vibration."""
         stiffness, damping = 192*200e9*8e-9, 40
         onset = damping*math.sqrt(stiffness/10)
         for part in (0.999, 1.001):
@@ -370,8 +362,8 @@ class Bearings(ProgramTest):
             self.assertEqual((code != 0, "a mode grows at" in told), (part > 1, part > 1), told)
 
     def test_motion(self):
-        """A motion z = y + i u from an initial velocity obeys m z'' + (c - i g) z' + (K - i q) z = 0. The energy of the
-        motion includes the energy supplied by the films."""
+        """A motion z = y + i u from an initial velocity satisfies m z'' + (c - i g) z' + (K - i q) z = 0. The energy
+        balance includes the work of the films."""
         m, K, q, c, g, t = 10, 192*200e9*8e-9 + 1e5, 3e4, 300, 900, 0.03
         half = complex(c, -g)/(2*m)
         root = cmath.sqrt(half**2 - complex(K, -q)/m)

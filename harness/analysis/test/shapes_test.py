@@ -1,5 +1,5 @@
-"""Shapes of solutions: equilibrium along the lines, agreement with the quantities, and equal data when the files are
-read by VTK."""
+"""Files of deformed shapes: equilibrium along the lines, agreement with the quantities, and equal data after VTK has
+read them."""
 import unittest
 
 import h5py
@@ -15,7 +15,6 @@ from harness.tools.kit.program import ProgramTest, run
 
 
 def turned(q, v):
-    """Returns v[..., 3] rotated by the unit quaternions q[..., 4] (w x y z)."""
     w, u = q[..., :1], q[..., 1:]
     return v + 2 * numpy.cross(u, numpy.cross(u, v) + w * v)
 
@@ -75,8 +74,8 @@ class Solution(ProgramTest):
                                       rtol=1e-12)
 
     def test_modes(self):
-        """The first buckling mode is stored with an amplitude of a tenth of the length, or with a rotation of half a
-        radian."""
+        """The first buckling mode is scaled so that its largest displacement is a tenth of the length or its largest
+        rotation is 0.5 rad."""
         _, shapes, _ = self.solve("c_column", "beamw_consistent", 16, "--shapes")
         kinds = list(shapes["kind"].asstr()[()])
         self.assertIn("buckling", kinds)
@@ -86,12 +85,12 @@ class Solution(ProgramTest):
         length = numpy.ptp(position[0], axis=0).max()
         moved = numpy.linalg.norm(position[state] - position[0], axis=1).max() / length
         turn = 2 * numpy.arccos(numpy.abs((q[state] * q[0]).sum(axis=1))).max()
-        # the x axes of the triads follow the line
+        # x axes of the triads are tangents of the line
         self.assertAlmostEqual(max(moved / 0.1, turn / 0.5), 1, delta=2e-2)
 
     def test_lines(self):
-        """The line between two nodes is a cubic. Its end tangents are the x axes of the nodes times the element length.
-        The cross-sections between the nodes are perpendicular to the line."""
+        """The line between two nodes is a cubic whose end tangents are the x axes of the nodes times the element
+        length. Cross-sections are perpendicular to it."""
         for formulation in ("sheet_third", "collocation"):
             _, shapes, tables = self.solve("sheet_cantilever", formulation, 1, "--shapes")
             position, length = shapes["position"][-1], tables["points"]["length"][0]
@@ -108,7 +107,8 @@ class Solution(ProgramTest):
             self.assertLess(numpy.abs(across).max(), 1e-12, formulation)
 
     def test_bimoments_of_elements(self):
-        """Bimoments are linear within an element, continuous at nodes, and zero at an end that is free to warp."""
+        """Bimoments are linear within an element and continuous at nodes. They are zero at an end that is free to
+        warp."""
         _, shapes, _ = self.solve("warping_torsion", "collocation", 4, "--shapes")
         bimoment = shapes["bimoment"][-1].ravel()
         size = numpy.abs(bimoment).max()
@@ -177,7 +177,7 @@ class Solution(ProgramTest):
         area.SetInputData(grid)
         area.Update()
         covered = vtk_to_numpy(area.GetOutput().GetCellData().GetArray("Area")).sum()
-        # the quadrilaterals of twisted sheets cover almost the area of the sheets
+        # the area of the quadrilaterals is almost that of the sheets
         self.assertAlmostEqual(covered / (12 * 0.0681 * 0.0282), 1, delta=2e-3)
 
     def test_vtk_steps(self):

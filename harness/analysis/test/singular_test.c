@@ -1,5 +1,5 @@
-/* Stiffness matrices that cannot be factored. A missing support must be distinguished from digits
- * lost in round-off, and no wrong result may be reported. */
+/* Singular stiffness matrices. A missing support must be distinguished from round-off, and no wrong
+ * result may be reported. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -11,8 +11,6 @@
 #include "harness/model/model.h"
 #include "harness/tools/kit/cells.h"
 
-/* Builds two beams along x with loads along z. They are next to each other and supported
- * separately. */
 static void two_beams(scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -36,7 +34,6 @@ static void let_go(scene *s, int node, int first, int last)
                        : &scene_node_at(s, node)->angle[k - SCENE_RX]) = SCENE_FREE;
 }
 
-/* Each function frees the second beam in one way. The motions that result are listed below. */
 static void everywhere(scene *s)
 {
     let_go(s, 2, SCENE_UX, SCENE_RZ);
@@ -53,12 +50,12 @@ static void about_a_hinge(scene *s)
 {
     let_go(s, 2, SCENE_RY, SCENE_RY);
 }
-static void between_hinges(scene *s) /* free to rotate about the line between its ends */
+static void between_hinges(scene *s)
 {
     let_go(s, 2, SCENE_RX, SCENE_RZ);
     scene_hold(s, 3, SCENE_UX, SCENE_UZ);
 }
-static void between_forks(scene *s) /* free along x */
+static void between_forks(scene *s)
 {
     const double x[3] = {1, 0, 0}, z[3] = {0, 0, 1};
     let_go(s, 2, SCENE_UX, SCENE_RZ);
@@ -77,13 +74,12 @@ static void nothing(scene *s)
     (void)s;
 }
 
-/* free motion of the beam: its components, of which the largest is 1, or zeros if the beam is held
- */
+/* free motion of the beam, scaled to the largest component 1; zeros: the beam is supported */
 static const struct {
     const char *what;
     void (*change)(scene *);
     double motion[6];
-    int any; /* 1 if there are several free motions, of which the message may name any */
+    int any; /* 1: there are several free motions; the message may name any of them */
 } changes[] = {
     {"all is held", nothing, {0}, 0},
     {"nothing holds it", everywhere, {0}, 1},
@@ -145,7 +141,6 @@ static status run(const char *case_name, const char *formulation_text, int eleme
     return cell_run(&request, out, f);
 }
 
-/* The structures of all cases are held, so no missing support may be reported. */
 static void all_cases_are_held(void)
 {
     for (int i = 0; registry_cases[i] != NULL; i++) {
@@ -169,8 +164,8 @@ static void all_cases_are_held(void)
     }
 }
 
-/* With stiffnesses that differ by 1e-20, or with very many elements, the result is lost in
- * round-off. No number may be returned, and no missing support may be reported. */
+/* With a stiffness ratio of 1e-20, or with very many elements, no digit of the result is correct.
+ * The analysis must fail, without reporting a missing support. */
 static void round_off(void)
 {
     static const struct {
@@ -204,8 +199,8 @@ static void round_off(void)
     gsl_test(lost < 2, "%d were lost in round-off", lost);
 }
 
-/* The apex of a V with equal arms and different meshes is driven along the axis of symmetry. The
- * drive moves the apex sideways only by round-off, so it cannot satisfy a condition on this
+/* The apex of a V with equal arms and different meshes is prescribed along the axis of symmetry.
+ * It moves sideways only by round-off, so the drive cannot satisfy a condition on this
  * displacement. */
 static void driver_that_moves_nothing(double half_angle, int condition_component)
 {

@@ -1,5 +1,5 @@
-/* Initial strains (temperature, misfit) in analyses about the undeformed state, compared with
- * closed forms, for every formulation that supports initial strains. */
+/* Initial strains due to temperature or misfit, compared with closed forms in analyses about the
+ * undeformed state. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -31,8 +31,8 @@ static double euler(void)
     return PI * PI * E * Iz / (L * L);
 }
 
-/* Two members along x, from 0 over L/2 to L, with these strains and no supports. The nodes are 0,
- * 1, 2. */
+/* Two members along x, from 0 over L/2 to L, with the given initial strains and without supports.
+ * The nodes are 0, 1, 2. */
 static void two_members(scene *s, const char *name, const double first[3], const double second[3])
 {
     scene_init(s, name);
@@ -44,7 +44,6 @@ static void two_members(scene *s, const char *name, const double first[3], const
                i ? second : first, 3 * sizeof *first);
 }
 
-/* Places the ends of the members between rigid walls. The ends are free to rotate about y and z. */
 static void pin(scene *s)
 {
     for (int i = 0; i < 3; i += 2)
@@ -58,8 +57,8 @@ static int solved(scene *s, const element_type *e, ask_tally *tally, int n, answ
     return ask_count(tally, a, "%s, %d elements", s->name, n);
 }
 
-/* Two clamped members, one of which is heated. The force is N = -EA eps/2, and the node in the
- * middle moves by eps L/4. */
+/* Two clamped members, one of which is heated. Then N = -EA eps/2, and the middle node moves by eps
+ * L/4. */
 static void clamped(const element_type *e, ask_tally *tally)
 {
     static const double eps = 1e-4, hot[3] = {1e-4, 0, 0}, none[3] = {0};
@@ -101,7 +100,6 @@ static void cantilever(const element_type *e, ask_tally *tally)
     gsl_test_abs(a.value[2], 0, 1e-6, "%s: without a force", e->name);
 }
 
-/* A frame of two columns and a beam that is too short. */
 static void portal(const element_type *e, ask_tally *tally)
 {
     static const double shrinks = -1e-3, height = 1, width = 2;
@@ -123,8 +121,8 @@ static void portal(const element_type *e, ask_tally *tally)
     scene_add_quantity(&s, "N", "N", linear, scene_internal_at(1, 0.5, SCENE_N));
     if (!solved(&s, e, tally, 4, &a))
         return;
-    /* half of the frame: a column under a force at its head, whose rotation is restrained by half
-     * of the beam with the stiffness 2 EI/width */
+    /* half of the frame: a column under a force at its head, where the beam adds the rotational
+     * stiffness 2 EI/width */
     const double k = E * Iz, head = height * height / (2 * k) / (height / k + width / (2 * k)),
                  flexibility = height * height * height / (3 * k) -
                                head * height * height / (2 * k) + width / (2 * E * A);
@@ -132,11 +130,12 @@ static void portal(const element_type *e, ask_tally *tally)
                  "%s: a beam that is too short pulls its columns", e->name);
 }
 
-/* Checks the frequencies f = f0 sqrt(1 - N/N_Euler) of a heated and a cooled member, and the
- * deflection of its middle due to a force. */
+/* Checks the frequency f = f0 sqrt(1 - N/N_Euler) of a heated and of a cooled member, and the
+ * mid-span deflection under a force. */
 static void pinned(const element_type *e, ask_tally *tally)
 {
-    static const double part[] = {0.5, -1.5}; /* relative to Euler's load, compression positive */
+    static const double part[] = {0.5,
+                                  -1.5}; /* N relative to Euler's load, positive in compression */
     static answer a;
     for (int i = 0; i < 2; i++) {
         const double P = part[i] * euler(), hot[3] = {P / (E * A), 0, 0},
@@ -162,8 +161,8 @@ static void pinned(const element_type *e, ask_tally *tally)
     }
 }
 
-/* A hot column between walls is pushed at its middle. The load factor increases the axial forces P
- * and -P in the two halves, but not the thermal thrust. */
+/* A heated column between walls is loaded at its middle. The load factor scales the axial forces P
+ * and -P in the two halves, but not the thermal force. */
 static void column(const element_type *e, ask_tally *tally)
 {
     static answer a;
@@ -174,12 +173,10 @@ static void column(const element_type *e, ask_tally *tally)
     scene_add_load(&s, SCENE_FORCE, 1, -2, 0, 0);
     scene_add_quantity(&s, "P", "N", scene_add_buckling(&s, SCENE_NONE),
                        scene_critical_factor(1, 0));
-    if (solved(&s, e, tally, 16,
-               &a)) /* the expected value is a root of the determinant of two spans */
+    if (solved(&s, e, tally, 16, &a)) /* root of the determinant of two spans */
         gsl_test_rel(2 * a.value[0], 28005.43, 1e-5, "%s: critical load of a hot column", e->name);
 }
 
-/* The structure is free, so heating causes no stress. */
 static void flying(const element_type *e, ask_tally *tally)
 {
     static const double hot[3] = {1e-3, 0, 0}, none[3] = {0};
@@ -234,8 +231,8 @@ static void strain_tests(void)
 enum { PLANE = 1, BALL = 2 };
 static const double turn_E = 210e9, I = 1e-6, P = 960;
 
-/* Two members of 1 m that meet in hinges about their z axis, rotated by `R`. If `how` is PLANE,
- * motion out of the plane of the frame is fixed. If `how` is BALL, all rotations are released. */
+/* Two members of 1 m with hinges about their z axis between them, rotated by `R`. PLANE: motion out
+ * of the plane is fixed; BALL: all rotations are released. */
 static void two_hinges(scene *s, const double R[9], int how, int moment)
 {
     double at[3][3], y[3], force[3];
@@ -295,7 +292,7 @@ static void ask_one(const element_type *e, ask_tally *tally, const double R[9], 
     scene_free(&s);
     if (!ask_count(tally, &a, "%s", what))
         return;
-    /* the load is carried by two cantilevers; with these sections, shear hardly contributes */
+    /* two cantilevers carry the load; their shear deformation is negligible */
     gsl_test_rel(along_force(&a, R), P / 6 / (turn_E * I), 5e-3, "%s: %s", e->name, what);
     gsl_test(!(a.value[4] > 0), "%s: %s has a frequency", e->name, what);
 }
@@ -310,7 +307,7 @@ static void angle(const element_type *e, const double R[9], int how, const char 
     scene_add_quantity(&s, "rz", "rad", linear, scene_coordinate(1, SCENE_RZ));
     ask_scene(&s, e, NULL, 1, &a);
     scene_free(&s);
-    if (a.count < 2) /* not supported */
+    if (a.count < 2)
         return;
     gsl_test(!isfinite(a.value[0]), "%s: %s moves", e->name, what);
     gsl_test(!isnan(a.value[1]) || strstr(a.why[1], "can rotate freely") == NULL,
@@ -343,12 +340,11 @@ static void idle_turn_tests(void)
     scene_free(&s);
 }
 
-/* Linear buckling with one constant and one growing load. If both act along one line, the critical
+/* Linear buckling with one constant and one scaled load. If both act along one line, the critical
  * factor is Euler's load minus the constant load. */
 
 enum { NO_MODE, PUSHES, PULLS, BOTH_GROW, CRITICAL, BENT, WAYS };
 
-/* Builds a clamped bar with EI = 1 and 2 along x that the growing load 1 pushes. */
 static void staying_column(int way, scene *s)
 {
     static const double stays[WAYS] = {0, -1.5, 2, -0.5, -4, 0}, zero = 0, one = 1,
@@ -358,7 +354,7 @@ static void staying_column(int way, scene *s)
     scene_init(s, "column");
     const int tip = scenes_cantilever(s, &spec);
     const int push = scene_add_load(s, SCENE_FORCE, tip, -1, 0, 0);
-    if (way == BOTH_GROW) /* the load grows from half to its full value */
+    if (way == BOTH_GROW)
         scene_set_factor(s, push, 3, ends, growing);
     else if (way == BENT)
         scene_set_factor(s, push, 3, ends, bent);

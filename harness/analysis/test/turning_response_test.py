@@ -1,5 +1,4 @@
-"""Harmonic responses in rotating axes, compared with the closed form of a mass on springs, and with the same structure in a
-motion."""
+"""Harmonic responses in rotating axes, compared with the closed form of a mass on springs, and with a motion."""
 import numpy as np
 import scipy.io
 
@@ -35,7 +34,7 @@ def quantities():
 
 
 def expected(hertz, what, gain=0.0):
-    """Returns the displacements x, y, the velocity y' and the force on the base, due to the unit input `what`."""
+    """Returns the responses of x, y, y' and of the force on the base to the unit input `what`."""
     s = 2j*np.pi*hertz
     D = np.array([[M*(s*s - W*W) + C[0]*s + K[0], -2*M*W*s], [2*M*W*s + gain, M*(s*s - W*W) + C[1]*s + K[1]]])
     spring = K[0] + C[0]*s
@@ -51,8 +50,8 @@ class TurningResponses(ProgramTest):
         return {c["quantity"]: c["curve_value"] for c in self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)["curves"]}
 
     def test_closed_form(self):
-        """Responses include Coriolis forces, spin softening, dashpots and base motion. A feedback loop measures x and
-        pushes along y."""
+        """The closed form includes Coriolis forces, spin softening, dashpots and base motion. A feedback loop
+        measures x and drives y."""
         for about, gain in ((PATH, 0), (PATH, 20)):
             loads = "loads: {l: {force: [0, 1, 0], on: m, path: [0, 1], factor: [0, 0], feedback: {node: m, component: ux, proportional: 20}}}" if gain else ""
             found = self.curves((SPRUNG + quantities()).replace("ABOUT", about).replace("KEYS", "").replace("LOADS\n", loads + "\n" if loads else ""))
@@ -63,7 +62,6 @@ class TurningResponses(ProgramTest):
                         self.assertLess(abs(one - value), 1e-9*max(abs(value), 1e-3), (about, name, what, hertz))
 
     def test_largest(self):
-        """The largest response between the frequencies is at the frequency of a whirling mode of the damped mass."""
         text = (SPRUNG + "  most: {response: {analysis: A, node: m, component: uy, force: m, along: ux, take: max}}\n").replace("ABOUT", PATH)
         path = self.folder / "scene.yaml"
         path.write_text(text.replace("KEYS", "").replace("LOADS\n", ""), encoding="utf-8")
@@ -72,7 +70,6 @@ class TurningResponses(ProgramTest):
         self.assertAlmostEqual(found["value"] / most, 1, 7)
 
     def test_state_space(self):
-        """The state space about a rotation has the same transfer function."""
         text = SPRUNG + "  y: {response: {analysis: A, node: m, component: uy, force: m, along: ux, at: 4}}\n"
         path, to = self.folder / "scene.yaml", self.folder / "matrices"
         path.write_text(text.replace("ABOUT", PATH).replace("KEYS", "").replace("LOADS\n", ""), encoding="utf-8")
@@ -84,8 +81,8 @@ class TurningResponses(ProgramTest):
             self.assertAlmostEqual(H[0, 0] / expected(hertz, "fx")[1] if hertz else 1, 1, 9)
 
     def test_motion(self):
-        """A flexible arm on a driven hub must have the same response, in the axes of the hub, about a rotation and about an
-        instant of a motion that starts from this rotation."""
+        """In the axes of the driven hub, the response of a flexible arm is the same about a rotation and about an
+        instant of the corresponding motion."""
         text = """beamwork: 1
 sections: {s: {rectangle: {width: 0.01, thickness: 0.02}, young: 70e9, shear_modulus: 26e9, density: 2700}}
 nodes:

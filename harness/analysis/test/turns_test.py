@@ -1,5 +1,4 @@
-"""States of structures: rotations beyond 180 degrees, symmetry of tangents, loaded states about which analyses are
-solved, and sheets with invalid input."""
+"""Rotations beyond 180 degrees, symmetry of tangents, base states of analyses, and sheets with invalid input."""
 import json
 import math
 import resource
@@ -34,8 +33,7 @@ class AboutState(ProgramTest):
                 " ".join((done.stdout + done.stderr).split()))
 
     def test_any_load(self):
-        """The critical load must not depend on the load about which it is computed, from a thousandth of the critical
-        load to a thousand times it."""
+        """The critical load is independent of the base load, from 0.001 to 1000 times the critical load."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
             for force in (1e-3, 0.5, 0.99, 1.01, 30, 1000):
                 (factor,), _ = self.factors(formulation, -force)
@@ -58,15 +56,15 @@ class AboutState(ProgramTest):
         self.assertRegex(said, r"no critical load from path 1 to [0-9.e+]+, because the structure does not lose its stiffness")
 
 
-# Whether a tangent is symmetric depends on the state. An analysis must not be rejected if the loads would only make the
-# tangent of a different state unsymmetric. A load of zero must change no bit.
+# The symmetry of a tangent depends on the state. An analysis is not rejected if the tangent of its own base state is
+# symmetric. A load of zero changes no bit.
 BAR = """beamwork: 1
 sections: {s: {rectangle: {width: 0.05, thickness: 0.005}, young: 210e9, shear_modulus: 81e9,
                density: 7850}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
 members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
 """
-# Each load can make tangents unsymmetric in some state.
+# each load makes the tangent unsymmetric in some states
 LOADS = {"moment": "{moment: [%(s)s, 0, %(s)s], on: b}",
          "clamped": "{moment: [%(s)s, %(s)s, %(s)s], on: a}",
          "following": "{force: [0, %(s)s, 0], on: b, follower: true}",
@@ -124,8 +122,8 @@ quantities:
                     self.assertEqual(found[q]["value"], value["value"], (formulation, name, q))
 
     def test_bent_column(self):
-        """The stiffness of a column that bends from the start does not become singular. Other equilibria that Newton's
-        method finds beyond Euler's load must not be reported as critical loads."""
+        """The tangent of a column with a transverse load is nowhere singular. Other equilibria beyond Euler's load
+        must not be reported as critical loads."""
         scene = BAR + """loads: {p: {force: [-200, 0.5, 0], on: b}}
 analyses: {path: {static: {stations: [1]}}, b: {buckling: {about: path}}}
 quantities: {P: {critical_factor: {analysis: b}}}
@@ -136,8 +134,8 @@ quantities: {P: {critical_factor: {analysis: b}}}
                     self.assertIsNone(self.values(scene, formulation, n, 1)["P"].get("value"), (formulation, n))
 
     def test_bent_column_by_stations(self):
-        """Far beyond Euler's load, the column bends to the side of its transverse load. One long step ends in a
-        different state, which is unstable and must be reported as such."""
+        """Beyond Euler's load, the column bends to the side of its transverse load. One long step ends in another,
+        unstable equilibrium, which must be reported as unstable."""
         scene = BAR + """loads: {p: {force: [-200, 0.5, 0], on: b}}
 analyses: {path: {static: {stations: %r}}}
 quantities: {u: {displacement: {analysis: path, node: b, component: uy}, unit: m}}
@@ -155,7 +153,6 @@ quantities: {u: {displacement: {analysis: path, node: b, component: uy}, unit: m
                 self.assertEqual(last, "stable")
 
     def test_what_is_not_symmetric_has_frequencies(self):
-        """The frequencies must be those of the unloaded bar, apart from the effect of a small moment."""
         rest = """analyses: {path: {static: {stations: [1]}}, v: {modal: {about: path, wanted: 1}}}
 quantities: {f: {frequency: {analysis: v, which: 0}, unit: Hz}}
 """
@@ -166,7 +163,7 @@ quantities: {f: {frequency: {analysis: v, which: 0}, unit: Hz}}
 
 
 # Rotations beyond 180 degrees: springs, drives and quantities must follow them, in statics, rotating axes and motions.
-# Elements must follow up to their declared limit and be rejected beyond it, with a message that names it.
+# Beyond its declared limit, an element is rejected with a message that names the limit.
 ROD = "sections: {s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 2e-9}, young: 200e9, shear_modulus: 80e9}}\n"
 WOUND = """beamwork: 1
 """ + ROD + """parameters: {angle: {value: 10, unit: rad, min: -200, max: 200, about: "of the end that is driven"}}
@@ -182,7 +179,7 @@ quantities:
   curve: {internal: {analysis: st, member: rod, end: from, resultant: Mx, take: curve}}
   turn:  {displacement: {analysis: st, node: b, component: rx, take: curve}}
 """
-# Torsional stiffness G It/L = 160 N m/rad, and bending stiffness E I/L = 200 N m/rad.
+# Torsional stiffness G It/L = 160 N m/rad; bending stiffness E I/L = 200 N m/rad
 TWISTED = """beamwork: 1
 """ + ROD + """parameters: {load: {value: 1600, unit: N m, min: 0, max: 1e5, about: "at the end"}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]%s}}
@@ -194,8 +191,7 @@ quantities:
   last:  {displacement: {analysis: st, node: b, component: %s}}
   curve: {displacement: {analysis: st, node: b, component: %s, take: curve}}
 """
-# The moment must be 160 N m/rad times the prescribed angle, for any number of elements. Otherwise there must be no
-# value.
+# The moment is 160 N m/rad times the prescribed angle, with any number of elements; otherwise no value is reported.
 DRIVEN = """beamwork: 1
 """ + ROD + """parameters: {angle: {value: 10, unit: rad, min: -100, max: 100, about: "of the driven end"}}
 nodes:
@@ -207,7 +203,6 @@ analyses: {st: {static: {stations: [1], steps: 10}}}
 omit: [trapeze, wagner_torque]
 quantities: {M: {internal: {analysis: st, member: rod, end: from, resultant: Mx}}}
 """
-# A disc on a shaft that rotates freely.
 SPINNING = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 2e-9}, young: 200e9, shear_modulus: 80e9, density: 7800}}
 nodes:
@@ -247,7 +242,6 @@ class Turns(ProgramTest):
                     self.assertLess(abs(turn/(-right*part/5) - 1), within*max(1, angle*angle/100), (formulation, angle))
 
     def test_readings(self):
-        """A node rotates by 10 rad about its axis, or about a perpendicular axis."""
         for component, hold, moment, stiffness in (("rx", ", hold: [uy, uz, ry, rz]", "load, 0, 0", 160),
                                                    ("rz", "", "0, 0, load", 200), ("ry", "", "0, load, 0", 200)):
             for formulation in ("collocation", "geometrically_exact", "beamw_consistent"):
@@ -270,15 +264,14 @@ class Turns(ProgramTest):
                 torque, = (q["value"] for q in json.loads(done.stdout)["quantities"])
                 part = angle/n
                 if formulation.startswith("beamw") and formulation != "beamw_consistent":
-                    right = math.sin(2*part)/(2*part)  # the strain measure of this element is a sine of the rotation, which is inaccurate on a coarse mesh
+                    right = math.sin(2*part)/(2*part)  # the strain of this element is a sine of the rotation
                     within = 1e-6
                 else:
                     right, within = 1, 5e-2 if formulation == "geometrically_exact" else 1e-6
                 self.assertLess(abs(torque/(160*angle)/right - 1), within, (formulation, n, angle))
 
     def test_spin_in_time(self):
-        """Angles are read through several revolutions with every integrator, even after a restart."""
-        for integrator, within in (("alpha", 1e-3), ("conserving", 0.02), ("radau", 1e-3)):  # errors due to steps of 0.1 rad
+        for integrator, within in (("alpha", 1e-3), ("conserving", 0.02), ("radau", 1e-3)):  # errors for steps of 0.1 rad
             values, _ = self.solved(SPINNING % ("2", integrator), "collocation", 1)
             self.assertAlmostEqual(values["rx"], 20, delta=within, msg=integrator)
             self.assertAlmostEqual(values["most"], 20, delta=within, msg=integrator)
@@ -289,7 +282,7 @@ class Turns(ProgramTest):
 
 
 def question(case, formulation, n, *assignments, memory=None):
-    """Returns the arguments of the command; `memory` [bytes] limits its memory."""
+    """Returns the command; `memory` [bytes] limits its memory."""
     def limit():
         if memory:
             resource.setrlimit(resource.RLIMIT_AS, (memory, memory))
@@ -348,8 +341,8 @@ class BadInput(ProgramTest):
 
 
 class Extremes(unittest.TestCase):
-    """For L/w from 0.5 to 20, w/t from 10 to 1000 and u_y up to 0.5 L, there must be a value or the reason why there is
-    none. Sheets too thick for N Eq. 50 use a different model, which must be reported."""
+    """For L/w from 0.5 to 20, w/t from 10 to 1000 and u_y up to 0.5 L, there is a value or the reason why there is
+    none. Sheets too thick for N Eq. 50 use a different model, which is reported."""
 
     def test_answer_or_reason(self):
         answers = 0
@@ -362,7 +355,7 @@ class Extremes(unittest.TestCase):
                              f"thickness={0.1 / slenderness}",
                              f"tip_deflection={deflection * length}")
                 at = (formulation, length, slenderness, deflection, done.stderr)
-                # with nu = 0.3 and the shear factor k = 10 (1 + nu)/(12 + 11 nu)
+                # for nu = 0.3 and the shear factor k = 10 (1 + nu)/(12 + 11 nu)
                 Phi = 2.6 / (13 / 15.3) * (0.1 / slenderness / length) ** 2
                 self.assertIn(done.returncode, (0, 1), at)
                 if done.returncode == 0:

@@ -1,5 +1,5 @@
-/* A model does not change once it is made: two simultaneous solutions in two threads must be
- * bitwise equal to a single solution. */
+/* Two simultaneous solutions with one model in two threads must be bitwise equal to a single
+ * solution. */
 #include <gsl/gsl_test.h>
 #include <pthread.h>
 #include <string.h>

@@ -6,7 +6,7 @@ import numpy as np
 
 from harness.tools.kit.program import ProgramTest, run
 
-# A disc at the end of a shaft along x, held at its root, with a bearing at the disc.
+# A disc at the end of a shaft along x that is clamped at its root. A bearing supports the disc.
 SCENE = """beamwork: 1
 let: {E: 210e9, I: 5e-10, L: 0.4}
 sections: {shaft: {constants: {A: 1e-4, Iy: I, Iz: I, It: 1e-9}, young: E, shear_modulus: 8e10}}
@@ -28,7 +28,7 @@ SIX = "ux", "uy", "uz", "rx", "ry", "rz"
 
 
 def matrix(**entries):
-    """Returns the 36 entries of a spring matrix. The argument `uy_uz` is the entry in row uy, column uz."""
+    """Returns the 36 entries of a spring matrix. The keyword `uy_uz` is the entry in row uy, column uz."""
     out = np.zeros((6, 6))
     for name, value in entries.items():
         row, column = name.split("_")
@@ -65,7 +65,7 @@ class Unbalance(ProgramTest):
         """In forward whirl, the response is y + i z = w^2/(K - i q - m w^2 + i c w), and z lags y by 90 degrees."""
         K = 3*E*I/L**3
         for film, cross, damping in ((0, 0, 30), (4e3, 1e3, 40)):
-            # the disc can tilt freely, so its rotations follow the shaft, and rotary inertia is absent
+            # the disc can rotate freely, and without rotary inertia its rotations are those of the shaft
             scene = text(disc="hold: [ux, rx]", stiffness=matrix(uy_uy=film, uz_uz=film, uy_uz=cross, uz_uy=-cross),
                          damping=matrix(uy_uy=damping, uz_uz=damping), quantities=read("uy") + read("uz"))
             found = self.solved(scene.replace(", inertia: [0.01, 0.006, 0.006, 0, 0, 0]", ""))
@@ -76,7 +76,7 @@ class Unbalance(ProgramTest):
                 self.assertAlmostEqual(found["uz_rx"][i]/Z, -1j, 9)
 
     def overhung(self, hertz, speed, k, c, axis_forces):
-        """Returns uy, uz, ry, rz of the disc with gyroscopic moments, from 4 x 4 matrices."""
+        """Returns the responses uy, uz, ry, rz of the disc with gyroscopic moments."""
         w = 2*np.pi*hertz
         b = E*I/L**3
         K = np.array([[12, 0, 0, -6*L], [0, 12, 6*L, 0], [0, 6*L, 4*L*L, 0], [-6*L, 0, 0, 4*L*L]])*b
@@ -88,8 +88,6 @@ class Unbalance(ProgramTest):
         return np.linalg.solve(K + 1j*w*C - w*w*M, w*w*np.array(axis_forces))
 
     def test_bearings(self):
-        """The bearings are anisotropic and have cross terms, and the disc has gyroscopic moments. The orbits at one
-        speed are ellipses."""
         k, c, speed = np.array([[9e3, 2e3], [-1e3, 5e3]]), np.array([[90, 5], [5, 60.]]), 2*np.pi*11
         stiff = matrix(uy_uy=k[0, 0], uy_uz=k[0, 1], uz_uy=k[1, 0], uz_uz=k[1, 1])
         damp = matrix(uy_uy=c[0, 0], uy_uz=c[0, 1], uz_uy=c[1, 0], uz_uz=c[1, 1], ry_rz=0.01*speed, rz_ry=-0.01*speed)
@@ -100,7 +98,7 @@ class Unbalance(ProgramTest):
                 self.assertLess(abs(found[f"{name}_rx"][i] - value), 1e-9*np.abs(expected).max(), (name, hertz))
 
     def test_modal(self):
-        """With all modes, the response must be that of the direct solution. With a few modes, it must be within the
+        """With all modes, the response is the direct solution. With few modes, the difference is within the stated
         bound."""
         damp, parts = matrix(uy_uy=50, uz_uz=20), "".join(map(read, ("uy", "uz", "ry", "rz")))
         stiff = matrix(uy_uy=4e3, uz_uz=9e3)
@@ -110,8 +108,8 @@ class Unbalance(ProgramTest):
             self.assertLess(np.abs(modal[name] - values).max(), 1e-8*np.abs(values).max(), name)
 
     def test_axes(self):
-        """An unbalance about x points along y first and along z 90 degrees later. The same holds for cyclic
-        permutations of the axes. The base carries the force of the unbalance."""
+        """An unbalance in a rotation about x acts along y first and along z 90 degrees later; other axes follow by
+        cyclic permutation. The base reaction includes the unbalance force."""
         free = text(root="hold: all", disc="hold: [rx, ry, rz]", stiffness=matrix(ux_ux=1e4, uy_uy=2e4, uz_uz=3e4),
                     damping=matrix(ux_ux=30, uy_uy=30, uz_uz=30),
                     quantities="".join(read(c, axis) for axis in ("rx", "ry", "rz") for c in ("ux", "uy", "uz")))
@@ -127,8 +125,7 @@ class Unbalance(ProgramTest):
                     self.assertLess(abs(found[f"{SIX[component]}_{SIX[3 + axis]}"][i] - x), 1e-9*max(abs(x), 1e-6))
 
     def test_reaction(self):
-        """The unbalance acts directly on a component with a prescribed motion of zero. The reaction is minus the
-        unbalance force."""
+        """The unbalance acts on a fixed component. The reaction is minus the unbalance force."""
         found = self.solved(text(disc="hold: [ux, rx], drive: {uy: still}",
                                  motions="motions: {still: {unit: m, path: [0, 1], value: [0, 0]}}\n",
                                  quantities=read("uy", of="reaction") + read("uz")))
@@ -137,7 +134,7 @@ class Unbalance(ProgramTest):
             self.assertAlmostEqual(tilted, -1, 9)
 
     def test_units(self):
-        """In a scene in mm and N, masses are in N s^2/mm, so units of results must not contain the kilogram."""
+        """In a scene in mm and N, mass has the unit N s^2/mm, so no unit of a result contains kg."""
         lines = []
         for name, component, part in (("shift", "uy", "real"), ("rate", "uy, of: velocity", "imaginary"), ("turn", "rz", "real")):
             lines.append(f"  {name}: {{response: {{analysis: steady, node: disc, component: {component}, part: {part}, "

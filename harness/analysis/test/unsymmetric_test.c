@@ -15,8 +15,9 @@
 #include "harness/numerics/test/matrices.h"
 #include "harness/study/study.h"
 
-/* Clamped column of length 1, EI = 1, mass 1, with a mass at its tip, in `planes` uncoupled planes.
- * The stiffness in the second plane is `ratio` times that in the first, and P follows the tip. */
+/* Clamped column of length 1, EI = 1, mass 1, with an additional mass at its tip, in `planes`
+ * uncoupled planes. The stiffness in the second plane is `ratio` times that in the first, and P
+ * follows the tip. */
 typedef struct checked_column {
     sparse K, M, C;
 } checked_column;
@@ -83,8 +84,8 @@ static void solve(const checked_column *c, int damped, int wanted, unsymmetric_r
     factor_free(fa);
 }
 
-/* Returns the square of half of the difference of the first two eigenvalues, which are squares of
- * circular frequencies. The result is negative beyond the load at which they coincide. */
+/* Returns (w2^2 - w1^2)^2/4, where w1 and w2 are the first two circular frequencies; negative
+ * beyond the load at which they coincide. */
 static double difference(double P, int elements, double tip)
 {
     checked_column c;
@@ -131,8 +132,6 @@ static void columns(void)
     gsl_test_rel(flutter_load(12, 25, 16, 1), 16.21213, 2e-5, "Pflueger 1");
 }
 
-/* Checks the frequencies, the sum and product of the two that coincide, and that no motion grows
- * below the flutter load. */
 static void near_flutter(void)
 {
     static const double load[] = {19, 20.05, 20.0509, 20.052, 20.1, 22};
@@ -185,8 +184,7 @@ static void damped(void)
     }
 }
 
-/* Without a load, the matrices are symmetric, and the frequencies are those of a clamped column,
- * without growth. */
+/* Without a load, the matrices are symmetric, and the frequencies are those of a clamped column. */
 static void unloaded(void)
 {
     static const double root[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.995540735};
@@ -211,9 +209,8 @@ static void unsymmetric_tests(void)
     unloaded();
 }
 
-/* A rigid body must be equivalent to its point masses. Masses at attached nodes give the same
- * motions as one body with their centre and inertia, at rest, under load and in a rotating frame,
- * for any reference point and any orientation of the body. */
+/* A rigid body is equivalent to point masses at nodes that are rigidly attached: at rest, under
+ * load and in a rotating frame, for any reference point and orientation of the body. */
 
 enum { AS, SUPPORT, LOADED };
 enum { POINTS, AT_HUB, BESIDE };
@@ -233,7 +230,7 @@ static const double mass[MASSES] = {0.31, 0.17, 0.23, 0.41}, hub_at[3] = {0.53, 
                                         {0.58, 0.13, -0.16},
                                         {0.66, 0.02, -0.09}};
 
-/* Returns the body that is equivalent to the points. Its centre of mass is relative to `from`. */
+/* Returns the equivalent body of the point masses; its centre of mass is relative to `from`. */
 static scene_body body_of_points(const double from[3])
 {
     scene_body b = {0};
@@ -382,14 +379,12 @@ static void body_tests(void)
     algorithms();
 }
 
-/* Classification of modes, tested with constructed motions: each family of modes, any number of
- * half-waves, members in any direction, and modes without displacements of nodes. */
+/* Classification of constructed modes: each family, any number of half-waves, members in any
+ * direction, and modes without displacements of nodes. */
 
 enum { ELEMENTS = 24, MEMBERS = 2, MOST_WAVES = 5, TURN_Y = 4, TURN_Z = 5, WARPING = 6 };
 static const double length = 2;
 
-/* Creates two equal members along x', the first axis of a given triad. The second member is not
- * included in the count of half-waves. */
 static int make(const double R[9], scene *s, model **m)
 {
     fault f = {""};
@@ -411,8 +406,8 @@ static int make(const double R[9], scene *s, model **m)
     return made == STATUS_OK;
 }
 
-/* Adds a sine with the given number of half-waves to local component k at every node of a
- * member. */
+/* Adds a sine with the given number of half-waves to component k, in the axes of the member, at all
+ * nodes of the member. */
 static void add(const model *m, const double R[9], int member, int k, int waves, double size,
                 double x[])
 {
@@ -434,8 +429,7 @@ static void add(const model *m, const double R[9], int member, int k, int waves,
 }
 
 typedef struct modes_part {
-    int component, waves; /* component of the motion in the axes of the first member, and number of
-                             half-waves */
+    int component, waves; /* component in the axes of the first member, and number of half-waves */
     double size;
 } modes_part;
 

@@ -1,4 +1,4 @@
-/* Gravity on bodies: forces m g at the centres of mass, which move with their nodes. */
+/* Gravity on bodies: the force m g acts at the centre of mass, which moves with the node. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -26,7 +26,6 @@ static int leaf_profile(scene *s)
 static const scene_body heavy = {
     .mass = 0.4, .centre = {0.02, -0.03, 0.05}, .inertia = {2e-4, 3e-4, 4e-4, 1e-5, 0, 0}};
 
-/* Adds the weight of a body as gravity, or as an explicit force m g at its centre. */
 static void add_weight(scene *s, int node, const double by[3], int by_hand)
 {
     const double m = by_hand ? s->node[node].body.mass : 1;
@@ -47,7 +46,6 @@ static void add_balances(scene *s, int motion, int scheme)
     }
 }
 
-/* Builds a cantilever with an eccentric body at its tip, in all analyses. */
 static void all_analyses(scene *s, int by_hand)
 {
     static const double down[3] = {0.3, -9.81, 1.2}, spin[3] = {3, -2, 5}, path = 2e-4;
@@ -80,7 +78,7 @@ static void all_analyses(scene *s, int by_hand)
     }
 }
 
-/* Every analysis with gravity must agree bitwise with that under the explicit force. */
+/* In every analysis, gravity and the explicit force m g give bitwise equal results. */
 static void by_hand(void)
 {
     scene s;
@@ -98,8 +96,8 @@ static void by_hand(void)
                  one.value[i], other.value[i]);
 }
 
-/* A cantilever with bodies that hang on a short stiff bar. The reaction force is the sum of both
- * weights, and the reaction moment is that of both weights about the root after displacement. */
+/* A cantilever with bodies that hang on a short stiff bar. The reactions balance both weights in
+ * the displaced configuration. */
 static void hanging(void)
 {
     static const double down[3] = {0, -9.81, 0};
@@ -127,7 +125,6 @@ static void hanging(void)
                  "moment, but for the bar's own weight where it bends");
 }
 
-/* Builds a body on a pin that rotates only about z, or freely, with the given supports. */
 static int pinned(scene *s, int holds, scene_body body)
 {
     static const int last[] = {SCENE_RY, SCENE_UZ, SCENE_UY, SCENE_UY},
@@ -179,9 +176,8 @@ static void period(void)
                      steps[i] > 1000 ? 2e-7 : 2e-8, "period of scheme %d: %s", i, a.reason);
 }
 
-/* A heavy top falls, on a fixed pin or on a pin that slides along z or in the plane. The work of
- * its weight must equal the decrease of the potential -m g . r_c and the increase of the kinetic
- * energy. */
+/* A heavy top on a pin that is fixed or slides. The sum of its kinetic energy and of the potential
+ * -m g . r_c is constant. */
 static void top(int holds)
 {
     static const scene_body body = {
@@ -263,20 +259,18 @@ static void weight_tests(void)
     column(0.2);
 }
 
-/* Fork supports: for any bending of the beam, the web stays between the guides, and the reaction
- * rotates with the section. Nothing depends on the axes of the scene. A support that held the
- * rotation about a fixed axis would fail all three checks. */
+/* Fork supports: the web stays between the guides, and the reaction moment rotates with the
+ * section. Results are independent of the axes of the scene. */
 
 enum {
     MOVED = 0,
     MOMENT = 3,
     TURN = 6,
     VALUES = 9
-}; /* first indices of the displacement of the middle, and of the moment and the rotation at the
-      first fork */
+}; /* first indices of: displacement at mid-span, moment and rotation at the first fork */
 
-/* Builds a beam with fork supports at both ends, held translations and a force in the middle. The
- * scene is rotated by Q from a beam along x with its web along z. */
+/* Builds a beam on two forks with a force at mid-span. Q rotates the scene from a beam along x with
+ * its web along z. */
 static void bent_beam(const double Q[9], const double force[3], scene *s)
 {
     static const char *const name[VALUES] = {"u0", "u1", "u2", "M0", "M1", "M2", "t0", "t1", "t2"};
@@ -325,8 +319,6 @@ static int solve(const element_type *type, const double Q[9], const double force
 
 static const double straight[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* In a state bent in both planes, the web is perpendicular to the normal of the guides, and their
- * moment is perpendicular to both. */
 static void web_between_guides(const element_type *type, ask_tally *tally)
 {
     const double force[3] = {0, 0.6, -6}, normal[3] = {0, -1, 0}, z[3] = {0, 0, 1};
@@ -415,19 +407,17 @@ static void fork_tests(void)
     refuse("an axis across the member", axis_across);
 }
 
-/* Compliance of a node whose prescribed motion is released. A part of the force and moment that
- * hold the node is a load, and the rest is a reaction. The compliance must depend on their sum
- * only, because both keep their direction. */
+/* Compliance of a node whose prescribed motion is released. The force and moment on the node are
+ * partly loads and partly reactions. The compliance depends on their sum only, because both keep
+ * their directions. */
 
 static const double young = 2e11, side = 0.02, length = 1;
 
 typedef struct released_request {
     double force, moment; /* loads at the tip, in units of EI/l^2 and EI/l */
-    unsigned driven;      /* bits of the driven components of the tip */
+    unsigned driven;
 } released_request;
 
-/* Builds a cantilever with a driven tip, and requests all entries of its compliance with the driven
- * components released. */
 static void make(scene *s, const released_request *what)
 {
     static const double to[6] = {-0.002, 0.06, -0.03, 0.04, 0.05, 0.1}, y[3] = {0, 1, 0.3},
