@@ -1,4 +1,4 @@
-/* Loads on vertices: their directions, arms and stiffness. */
+/* Forces, moments and stiffness of loads on vertices. */
 #include "harness/newton/newton_impl.h"
 
 #include <string.h>
@@ -10,7 +10,7 @@
 #include "elements/section/section.h"
 #include "elements/shared/masses.h"
 
-/* Returns `factor` times the factor of the load's case. A load without a case keeps `factor`. */
+/* Returns `factor` times the factor of the load's case; `factor` for a load without a case. */
 static double combined(const equations *eq, const scene_load *load, double factor)
 {
     return load->load_case == SCENE_NONE
@@ -88,7 +88,6 @@ static applied of_vertex(const model_state *s, int vertex, const scene_load *loa
     return out;
 }
 
-/* Returns the weight m g of a body at its centre of mass. */
 static applied of_weight(const model *m, const model_state *s, const scene_load *load, double scale)
 {
     const scene_body *body = &model_scene(m)->node[load->where].body;
@@ -106,9 +105,9 @@ static double density_of(const model *m, const scene_load *load, const mesh_elem
     return load->kind == SCENE_GRAVITY ? c->density * c->A : 1;
 }
 
-/* Computes the vector, in global axes, from a node of the undeformed element to the point of
- * application of the load. It is zero except for gravity on a section given by matrices, which acts
- * at its centre of mass. */
+/* Computes the vector [m], in global axes, from a node of the undeformed element to the point of
+ * application of the load. It is zero, except for gravity on a section given by matrices: its point
+ * of application is the centre of mass. */
 static void weight_centre(const model *m, const scene_load *load, const mesh_element *el, int node,
                           double centre[3])
 {
@@ -121,8 +120,8 @@ static void weight_centre(const model *m, const scene_load *load, const mesh_ele
     mat3_mul_vec(el->triad[node], at, centre);
 }
 
-/* Length of a part of an element, relative to the element. A shorter part carries no load, because
- * its length is due to rounding. */
+/* Smallest length of a loaded part of an element, relative to the element. A shorter part is due to
+ * rounding and has no load. */
 static const double least_part = 1e-12;
 
 int applied_inside(double x)
@@ -169,8 +168,9 @@ static double share_of(const model *m, int k, double x)
     return part[k];
 }
 
-/* Computes quadrature points x and weights for a load on a part of an element, and returns their
- * number. Quadrature is exact for a linear load times a shape function. */
+/* Computes quadrature points x and their weights for a load on a part of an element. Returns the
+ * number of points. The quadrature is exact for the product of a linear load and a shape
+ * function. */
 static int points_of(const model *m, const scene_load *load, const double part[2], double x[],
                      double weight[])
 {
@@ -238,8 +238,8 @@ void applied_element(const model *m, const model_state *s, const scene_load *loa
     }
 }
 
-/* Returns the distance between the nodes of a tension load. e: unit vector from the first node to
- * the second. */
+/* Returns the distance [m] between the nodes of a tension load. e: unit vector from the first node
+ * to the second. */
 static double line_of(const model *m, const model_state *s, const scene_load *load, double e[3])
 {
     double from[3], to[3];
@@ -280,8 +280,7 @@ void applied_each(const model *m, const model_state *s, const scene_load *load, 
         applied_element(m, s, load, scale, i, take, context);
 }
 
-/* State for which the stiffness of a load is computed, and the function that receives its entries.
- */
+/* A state, and a function that receives the entries of the stiffness of a load in this state. */
 typedef struct entries {
     const model *m;
     const model_state *s;
@@ -314,10 +313,10 @@ static void add_following(const entries *all, const mesh_vertex *body, const dou
 typedef struct load_motion {
     int coordinate;
     int own; /* 1: coordinate of the end; 0: coordinate of its body */
-    /* 1: one of three rotations about fixed axes, whose order does not matter */
+    /* 1: the rotation is one of three about fixed axes, whose order has no effect */
     int chart;
     double axis[3]; /* axis of a rotation */
-    double turn[3]; /* rotation of the load's frame per unit of the coordinate */
+    double turn[3]; /* rotation of the axes of the load per unit of the coordinate */
     double shift[3];
 } load_motion;
 
@@ -350,9 +349,9 @@ static int motions_at_release(const entries *all, const applied *what,
     return count;
 }
 
-/* Returns the part of rotation e that rotates the axis of l: 1 if e precedes l; 0 if it follows l,
- * or if the end rotates independently of its body and only one of the two belongs to the end; 1/2
- * if the two have no order. */
+/* Returns the fraction of rotation e that rotates the axis of l. 1: e precedes l. 0: e follows l,
+ * or the end rotates independently of its body and exactly one of e and l belongs to the end. 1/2:
+ * e and l have no order. */
 static double carries(const mesh_release *r, const load_motion *e, const load_motion *l)
 {
     if (r->turns == 3 && e->own != l->own)
@@ -360,7 +359,6 @@ static double carries(const mesh_release *r, const load_motion *e, const load_mo
     return e->chart && l->chart && e->own == l->own ? 0.5 : e < l;
 }
 
-/* Returns a . (b x c). */
 static double triple(const double a[3], const double b[3], const double c[3])
 {
     double cross[3];
@@ -394,7 +392,7 @@ static void add_stiffness_at_release(const entries *all, const applied *what)
 }
 
 /* Adds the stiffness of a load on a vertex: the derivative of the generalised load with respect to
- * the rotations of the vertex's body. The load is a force F[0..2] at offset rho, and a spatial
+ * rotations of the vertex's body. The load is a force F[0..2] at the offset rho and a spatial
  * moment F[3..5]. */
 static void add_stiffness(void *context, const applied *what)
 {
@@ -435,8 +433,9 @@ static void add_stiffness(void *context, const applied *what)
             mat3_mul_vec(D, b[j], Db);
             vec3_cross(b[j], b[i], cross);
             double value = vec3_dot(b[i], Db);
-            if (body->angles > 0) /* the conservative part is symmetric; the axis about which a
-                                     spatial moment does work depends only on the earlier angles */
+            if (body->angles >
+                0) /* the part with a potential is symmetric; the axis on which the work of a
+                      spatial moment depends is rotated only by earlier angles */
                 value += (i > j ? 1 : -1) * vec3_dot(moment, cross) / 2 +
                          (j < i ? vec3_dot(F + 3, cross) : 0);
             else
@@ -448,7 +447,8 @@ static void add_stiffness(void *context, const applied *what)
             add_following(all, body, F, rho, b, moved, j);
 }
 
-/* Adds the derivative of the forces of a tension load with respect to the direction of its line. */
+/* Adds the derivative of the forces of a tension load due to the rotation of the line between its
+ * nodes. */
 static void add_turning(const entries *all, const scene_load *load, double tension)
 {
     const int node[] = {load->where, load->towards};

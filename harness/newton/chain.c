@@ -46,8 +46,9 @@ void chain_begin(chain *s)
         s->A[i * s->c + i] = 1;
 }
 
-/* Returns 1 if a bound shows that all eigenvalues of 1 + F B are positive. If F is positive, the
- * eigenvalues of F B are real and bounded by the row sums of F B, scaled with the diagonal of F. */
+/* Returns 1 if a bound shows that all eigenvalues of 1 + F B are positive. If F is positive
+ * definite, the eigenvalues of F B are real and bounded by the row sums of F B, scaled with the
+ * diagonal of F. */
 static int small_product(int n, const double F[], const double W[])
 {
     for (int i = 0; i < n; i++) {
@@ -60,8 +61,8 @@ static int small_product(int n, const double F[], const double W[])
     return 1;
 }
 
-/* Returns by how much the number of negative eigenvalues of F^-1, the stiffness of the end of the
- * chain, increases if the stiffness B is added. */
+/* Returns the increase of the number of negative eigenvalues of F^-1 when the stiffness B is added.
+ * F^-1 is the stiffness of the end of the chain. */
 static int more_negative(int n, const double F[], const double B[], const double W[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT];
@@ -73,7 +74,6 @@ static int more_negative(int n, const double F[], const double B[], const double
     return symmetric_negative(n, stiffness) - before;
 }
 
-/* Computes Z = (1 + F B)^-1. */
 static status carry(chain *s, const double B[], double Z[], fault *f)
 {
     const int c = s->c;
@@ -136,7 +136,6 @@ status chain_add(chain *s, const chain_link *link, fault *f)
     pack(y, link->F, k.own);
     TRY(carry(s, link->B, Z, f));
     memcpy(k.Z, Z, (size_t)(c * c) * sizeof *k.Z);
-    /* B and A of the chain */
     dense_mul(c, c, c, link->B, Z, BZ);
     symmetrise(c, BZ);
     pack(c, BZ, k.BZ);
@@ -145,7 +144,6 @@ status chain_add(chain *s, const chain_link *link, fault *f)
         s->B[i] += more[i];
     dense_mul(c, c, c, Z, s->A, more);
     dense_mul(c, c, c, A_q, more, s->A);
-    /* F of the chain */
     dense_mul(c, c, c, Z, s->F, ZF);
     symmetrise(c, ZF);
     pack(c, ZF, k.ZF);
@@ -184,12 +182,11 @@ status chain_stiffness(const chain *s, double K[], fault *f)
     return STATUS_OK;
 }
 
-/* Transfers loads to the ends of a chain, and motions of the ends to its interior. Two sweeps find
- * the forces between the links. If w is the force on the joint before a link, including the force
- * of the link, then x = Z a + Z F w and w - B x = Z^T w - B Z a. The motions then follow link by
- * link, so the motions of neighbours differ exactly by the deformation of a link. Differences of
- * motions that are computed independently would lose as many digits as an assembled stiffness.
- * Sizes are compile-time constants where a sweep is inlined. */
+/* Transfers loads to the ends of a chain, and motions of the ends to its interior. Two sweeps
+ * compute the forces between the links. If w is the force on the joint before a link, including the
+ * force of the link, then x = Z a + Z F w and w - B x = Z^T w - B Z a. The motions then follow link
+ * by link, so the motions of neighbours differ exactly by the deformation of a link. Independently
+ * computed motions would lose as many digits in their differences as an assembled stiffness. */
 
 #define INLINED static inline __attribute__((always_inline))
 
@@ -225,7 +222,7 @@ INLINED void mul_packed(int n, const double S[], const double x[], double out[])
     }
 }
 
-/* Adds the load on the joint before a link to the forces w on this joint. The ends of the chain
+/* Adds the load on the joint before a link to w, the force on this joint. The two ends of the chain
  * have no such load. */
 INLINED void add_load_before(int c, int y, const double r[], int link, double w[])
 {
@@ -258,9 +255,9 @@ INLINED void forward(chain *s, int c, int y, const double r[], const double firs
     }
 }
 
-/* Computes the forces between the links, and stores them in s->a after its first entry.
+/* Computes the forces between the links, and stores them in s->a from its second entry on.
  * last[joint]: force on the last joint. begin[joint]: force of the first joint on the chain. r
- * NULL: there are no other loads, and joints without forces do not move. */
+ * NULL: there are no other loads, and joints do not move without forces. */
 INLINED void backward(chain *s, int c, int y, const double r[], const double last[], double begin[])
 {
     const int in = y - c;
@@ -287,8 +284,8 @@ INLINED void backward(chain *s, int c, int y, const double r[], const double las
         begin[i] = -g[in + i];
 }
 
-/* Computes the motions from the motion of the first joint and the forces, so the deformations of
- * links are accurate to the last digit. Writes x[links x y], which may be r. r NULL: adds to x. */
+/* Computes the motions from the motion of the first joint and the forces, without cancellation in
+ * the deformations of links. Writes x[links x y], which may be r. r NULL: adds to x. */
 INLINED void deform(const chain *s, int c, int y, const double r[], const double first[],
                     double x[])
 {
@@ -313,8 +310,8 @@ INLINED void deform(const chain *s, int c, int y, const double r[], const double
     }
 }
 
-/* Computes the forces g on the last joint that change its displacement from `from`, the
- * displacement without forces, to x. */
+/* Computes the forces g on the last joint that change its displacement from `from` (without forces)
+ * to x. */
 static void force_to(const chain *s, const double x[], const double from[], double g[])
 {
     double stiffness[CHAIN_JOINT * CHAIN_JOINT], moved[CHAIN_JOINT];
@@ -326,7 +323,6 @@ static void force_to(const chain *s, const double x[], const double from[], doub
 
 static const double still[CHAIN_JOINT] = {0};
 
-/* Returns the displacement of the last joint if no force acts on it. */
 static const double *last_of(const chain *s)
 {
     return s->a + (size_t)s->links * (size_t)s->c;
@@ -365,7 +361,7 @@ INLINED void expand(chain *s, int c, int y, const double r[], const double ends[
     close_gap(s, c, y, ends + c, x);
 }
 
-/* Uses compile-time sizes for elements with two nodes, with or without warping. */
+/* compile-time sizes for elements with two nodes, with or without warping */
 void chain_reduce(chain *s, const double r[], double ends[])
 {
     if (s->c == 7 && s->y == 7)

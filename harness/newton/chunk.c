@@ -5,9 +5,9 @@
 #include "elements/math/dense.h"
 #include "elements/math/real.h"
 
-/* Smallest number of elements for which evaluation in one call is faster than evaluation one by one
- * (measured for sheets and collocation). Without AVX2 there is no such number, because four lanes
- * then occupy two vectors. */
+/* Smallest number of elements that one call evaluates faster than separate calls (measured for
+ * sheets and collocation). Without AVX2, four lanes occupy two vectors, and separate calls are
+ * always faster. */
 enum { together_from_avx2 = 2, together_from_plain = CHUNK_MOST + 1 };
 
 int chunk_size(const model *m)
@@ -42,7 +42,7 @@ static const double *inner_of(const model *m, const model_state *s, int element)
     return &s->inner[(size_t)element * (size_t)model_inner(m)];
 }
 
-/* Evaluates strains with the type's function for one element, or copies values from a batch. */
+/* Evaluates strains with the type's function for one element, or copies them from a batch. */
 static void strains_one_by_one(const equations *eq, const linear_memory *memory,
                                const model_state *s, int count, chunk_element element[],
                                double deformed[][ELEMENT_MAX_STRAINS])
@@ -79,7 +79,6 @@ static void stresses_one_by_one(const equations *eq, const linear_memory *memory
     }
 }
 
-/* Evaluates strains with the type's function for many elements. */
 static void strains_together(const model *m, const linear_memory *memory, const model_state *s,
                              int count, chunk_element element[],
                              double deformed[][ELEMENT_MAX_STRAINS])
@@ -128,7 +127,6 @@ static void stresses_together(const model *m, const linear_memory *memory, const
         element[own[k]].outcome = outcome[k];
 }
 
-/* Evaluates the stresses of elements that include loads along them in their equilibrium. */
 static void stresses_under_loads(const equations *eq, const linear_memory *memory,
                                  const model_state *s, double path, int count,
                                  chunk_element element[])
@@ -168,7 +166,6 @@ static void stresses_under_loads(const equations *eq, const linear_memory *memor
     }
 }
 
-/* Computes the equations of several elements in one call. */
 static void equations_together(const model *m, const linear_memory *memory, const model_state *s,
                                int count, chunk_element element[])
 {
@@ -214,7 +211,7 @@ static void mix(const model *m, const linear_memory *memory, const model_state *
         w.sigma[i] += more[i];
 }
 
-/* Adds the damping due to the strain rates of a motion to the linearised equations. */
+/* Adds the damping stresses due to strain rates to the linearised equations of an element. */
 static void damp(const equations *eq, const linear_memory *memory, const model_state *s, int index)
 {
     const model *m = eq->m;

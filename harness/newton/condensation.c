@@ -5,15 +5,14 @@
 
 #include "elements/math/dense.h"
 
-/* Numbers the end coordinates, and the unknown ones among them. Returns the number of end
- * coordinates; s->unknown NULL: out of memory. */
+/* Numbers the end coordinates, and the unknown coordinates among them. Returns the number of end
+ * coordinates. Out of memory: s->unknown is NULL. */
 static int condensation_number(condensation *s, int count, const int released[]);
-/* Builds the patterns of both matrices. */
 static status condensation_patterns(condensation *s, int ends, fault *f);
 
-/* Returns 1 if members can be condensed, and one has at least `from` elements. Conditions: all
- * loads with a stiffness act at the ends of members, no member lies on an elastic foundation, the
- * axes do not rotate, the scene is spatial and the model does not keep all coordinates. */
+/* Returns 1 if members can be condensed, and at least one has `from` or more elements. Conditions:
+ * all loads with a stiffness act at the ends of members, no member lies on an elastic foundation,
+ * the axes do not rotate, the scene is spatial and the model does not keep all coordinates. */
 static int applies(const equations *eq, int from)
 {
     const model *m = eq->m;
@@ -293,8 +292,8 @@ status condensation_factor(condensation *s, fault *f)
     return factor_numeric(s->factor, &s->inside, f);
 }
 
-/* Coordinates of the ends of members, and patterns of the system that remains after members have
- * been condensed. */
+/* Numbers the end coordinates of members, and builds the patterns of the system that remains after
+ * condensation. */
 
 static void note(const mesh_element *el, int number[])
 {

@@ -48,8 +48,8 @@ static void undeformed(const distributed_loads *of, double x, double R[9])
     mat3_mul(el->triad[0], by, R);
 }
 
-/* Computes the load at x times `scale`, given the undeformed triad at x. The load is per length, or
- * per mass for gravity. */
+/* Computes the load at x times `scale`, given the undeformed triad at x. The result is a force or
+ * moment per length; for gravity, it is per mass. */
 static void load_at(const distributed_loads *of, const scene_load *load, double scale, double x,
                     const double before[9], field_load *out)
 {
@@ -79,8 +79,8 @@ static void load_at(const distributed_loads *of, const scene_load *load, double 
 
 enum { MOST = FIELD_MOST_POINTS };
 
-/* Returns 1 if a load has the same force at all points of an element, and no arm. one: value of the
- * load at a point. */
+/* Returns 1 if the load is uniform on the element and has no arm. one: value of the load at a
+ * point. */
 static int same(const distributed_loads *of, const scene_load *load, const field_load *one)
 {
     return !load->varies && !load->follower && vec3_norm(one->arm) == 0 &&
@@ -88,8 +88,8 @@ static int same(const distributed_loads *of, const scene_load *load, const field
             vec3_norm(model_kind_of(of->m, of->element)->curvature) == 0);
 }
 
-/* Computes the values acting[] of one load at points of an element, multiplied by the weights of
- * the points, and the rows[] of the displacement field. Returns the number of points. */
+/* Computes acting[], the values of one load at quadrature points of an element times the weights of
+ * the points. Also computes rows[] of the displacement field. Returns the number of points. */
 static int points_of(const distributed_loads *of, const scene_load *load, double scale,
                      const double part[2], field_rows rows[MOST], field_load acting[MOST])
 {
@@ -243,9 +243,8 @@ int distributed_add_own(const equations *eq, const model_state *s, const node_st
         of.out.inner = &s->inner[(size_t)element * (size_t)model_inner(m)];
     }
     const element_data *unstressed = linear ? data : free_strain_data(eq, element, path);
-    model_type(m)->along(
-        1, &unstressed, x, &of.out,
-        &outcome); /* this call cannot fail, because the state has been evaluated before */
+    model_type(m)->along(1, &unstressed, x, &of.out,
+                         &outcome); /* cannot fail, because the state has been evaluated before */
     for (int k = 0; k < model_strains(m) && !linear; k++)
         D[k] -= s->e[first + (size_t)k];
     distributed_add_taken(m, &of.out, J, linear ? NULL : D, forces, K);
@@ -314,8 +313,8 @@ static void add_rate(const equations *eq, const model_state *s, const node_state
     distributed_add_taken(m, &of.out, J, NULL, forces, NULL);
 }
 
-/* Adds loads to the forces and the matrix of an element with additional unknowns, which loads along
- * it do not move. */
+/* Adds loads to the forces and the matrix of an element with additional unknowns. The additional
+ * unknowns do not move the points of application. */
 static void add_field_wide(const model *m, const displacement_field *field, const node_state x[],
                            int count, const field_rows rows[], const field_load acting[],
                            double forces[], double K[])

@@ -5,14 +5,15 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Computes error[k] for k = 1 ... most: the largest error of a displacement or strain [m] if
- * at[most] were extrapolated from k states. k = 1: the last state unchanged. INFINITY: the
- * extrapolation is not possible. */
+/* Computes error[k] [m] for k = 1 ... most: the largest error of displacements and strains when
+ * at[most] is extrapolated from the k previous states. k = 1: the last state unchanged. INFINITY:
+ * the extrapolation is not possible. */
 static void extrapolate_errors(const equations *, int most, const model_state *const at[],
                                double error[]);
 
-/* Large models store fewer states. sheet_cantilever, spherical_joint and hexapod need the same
- * numbers of iterations with eight states as with twelve. */
+/* With at least MANY_ELEMENTS elements, only OF_MANY states are stored. sheet_cantilever,
+ * spherical_joint and hexapod need the same numbers of iterations with eight states as with
+ * twelve. */
 enum { MANY_ELEMENTS = 1000, OF_MANY = 8 };
 /* The second step is extrapolated linearly if the first step took at most this number of
  * iterations. */
@@ -67,9 +68,9 @@ status predictor_add(const equations *eq, const model_state *s, int iterations, 
     return STATUS_OK;
 }
 
-/* Returns the number of states from which the extrapolation of the last state would have had the
- * smallest error, plus one if the error was still decreasing with the number of states. 0: no
- * extrapolation is better than the last state. */
+/* Returns the number of states for which the extrapolation of the last state has the smallest
+ * error. Adds one if the error decreases up to the largest number. 0: no extrapolation is better
+ * than the last state. */
 static int states_of_least_error(const predictor *t)
 {
     int best = 2;
@@ -96,7 +97,6 @@ void predictor_guess(const equations *eq, const predictor *t, double path, model
  * error of extrapolated prescribed values, relative to the largest of their steps. */
 static const double far = 1.5 * (1 + 1e-9), bent = 0.25;
 
-/* Computes the weights of the states in the interpolation polynomial at `path`. */
 static void lagrange(int count, const model_state *const at[], double path, double weight[])
 {
     for (int i = 0; i < count; i++) {
@@ -107,8 +107,8 @@ static void lagrange(int count, const model_state *const at[], double path, doub
     }
 }
 
-/* Returns 1 if the next value of a prescribed function agrees with the extrapolation of
- * value[count]. */
+/* Returns 1 if value[count], the next value of a prescribed function, agrees with its
+ * extrapolation. */
 static int continues(int count, const double weight[], const double value[])
 {
     const double rounding = 1e-12 * (fabs(value[count]) + fabs(value[count - 1]) + fabs(value[0]));
@@ -152,8 +152,8 @@ static void keep_smooth(const equations *eq, const model_state *const at[], doub
     }
 }
 
-/* Sets the prescribed components of a spatial increment to the values of their drivers, so the
- * frame agrees with the drivers. */
+/* Sets the prescribed components of a spatial increment so that the frame agrees with the
+ * drivers. */
 static void prescribe(const model *m, const mesh_vertex *v, const model_state *last,
                       const model_state *out, double turn[3])
 {
@@ -187,7 +187,7 @@ static void extrapolate_rotation(const model *m, int vertex, int count, const do
     rotation_normalise(&out->q[4 * vertex]);
 }
 
-/* Returns 1 if the vertex has its own orientation, and angles do not describe this orientation. */
+/* Returns 1 if the vertex has an orientation of its own that is not described by angles. */
 static int turns_by_itself(const model *m, int vertex)
 {
     const mesh_release *r = release_of(m, vertex);
@@ -196,8 +196,8 @@ static int turns_by_itself(const model *m, int vertex)
                : model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
 }
 
-/* Computes the weights of extrapolations from `least` to `most` states. Also decides which of them
- * are possible. */
+/* Computes the weights of extrapolations from `least` to `most` states, and determines which
+ * extrapolations are possible. */
 static void weigh(const equations *eq, int least, int most, const model_state *const at[],
                   double path, guesses *g)
 {
@@ -211,7 +211,6 @@ static void weigh(const equations *eq, int least, int most, const model_state *c
     keep_smooth(eq, at, path, g);
 }
 
-/* Adds weight times x[size] to sum[size]. */
 static void add_weighted(double weight, size_t size, const double x[], double sum[])
 {
     for (size_t k = 0; k < size; k++)
@@ -221,8 +220,7 @@ static void add_weighted(double weight, size_t size, const double x[], double su
 enum { PART = 8 };
 
 /* Returns the maximum of `largest` and |sum_i weight[i] x_i - x_count|, where x_i = at[i]->block +
- * from, over `size` numbers. The numbers are processed in small groups, so that the sums stay in
- * registers. */
+ * from, over `size` numbers. Small groups of numbers keep the sums in registers. */
 static inline __attribute__((always_inline)) double largest_of(int count, const double weight[],
                                                                const model_state *const at[],
                                                                ptrdiff_t from, size_t size,

@@ -16,10 +16,9 @@
 
 enum {
     POINTS = 6
-}; /* number of points along a part of an arc; the result is accurate to rounding error for
-      rotations up to 1 rad */
+}; /* number of points along a part of an arc; the error is round-off for rotations up to 1 rad */
 
-/* Elongation, and curvatures [1/m] about the principal axes y and z. */
+/* Elongation, and curvatures [1/m] about the principal axes y and z of the section. */
 enum { ELONGATION, ABOUT_Y, ABOUT_Z, AMOUNTS };
 
 static int are_same(const double a[AMOUNTS], const double b[AMOUNTS])
@@ -27,7 +26,7 @@ static int are_same(const double a[AMOUNTS], const double b[AMOUNTS])
     return a[ELONGATION] == b[ELONGATION] && a[ABOUT_Y] == b[ABOUT_Y] && a[ABOUT_Z] == b[ABOUT_Z];
 }
 
-/* Adds the amounts due to a temperature load, averaged over the element. The load may act on only a
+/* Adds the free strains due to a temperature load, averaged over the element. The load may act on a
  * part of the element. */
 static void add_amounts(const model *m, int element, const scene_load *load, double scale,
                         double out[AMOUNTS])
@@ -63,7 +62,7 @@ static void heat_at(const equations *eq, int element, double path, double out[AM
             add_amounts(eq->m, element, &s->load[i], applied_factor(eq, &s->load[i], path), out);
 }
 
-/* Computes the amounts, including the initial strains of the member. */
+/* Computes the free strains including the initial strains of the member. */
 static void amounts_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const double *own = model_kind_of(eq->m, element)->free;
@@ -190,7 +189,7 @@ void free_strain_subtract(const equations *eq, int element, double path, double 
         e[i] -= own[i] - rest[i];
 }
 
-/* Element data that the type has modified for the most recent amounts. */
+/* Element data that the type has modified for the last free strains. */
 typedef struct run_free {
     size_t size;     /* number of doubles per element: the amounts, followed by the data */
     double *element; /* [elements x size] */
@@ -310,12 +309,12 @@ static double energy_with(const equations *eq, const model_state *s, int element
     model_type(m)->unstressed(model_kind_of(m, element)->data, amounts, of.x, room);
     (void)model_type(m)->stress(room, &s->e[(size_t)element * (size_t)model_strains(m)],
                                 &s->inner[(size_t)element * (size_t)model_inner(m)],
-                                &(stress_output){.energy = &energy}); /* energy for these amounts */
+                                &(stress_output){.energy = &energy});
     return energy;
 }
 
-/* Returns the energy that an element in a state gains when its amounts change from `before` to
- * `after` at constant stresses. The strains of the type are measured from the free strains. */
+/* Returns the energy gained by an element in a state when its free strains change from `before` to
+ * `after` at constant stresses. The type measures its strains from the free strains. */
 static double counted(const equations *eq, const model_state *s, int element,
                       const double before[AMOUNTS], const double after[AMOUNTS])
 {
@@ -349,8 +348,8 @@ static double gained(const equations *eq, const model_state *s, int element,
 
 double free_strain_power(const equations *eq, const model_state *s, double time)
 {
-    const double small = 1e-4; /* strain that is used as the step of a finite difference, which is
-                                  exact for quadratic energies */
+    const double small =
+        1e-4; /* step of a central difference, which is exact for quadratic energies */
     const model *m = eq->m;
     double power = 0;
     for (int i = 0; i < model_elements(m) && model_frees(m); i++) {

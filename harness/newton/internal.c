@@ -8,7 +8,7 @@
 #include "elements/math/scalar.h"
 #include "elements/section/section.h"
 
-/* A vertex, and the force on it from which the lumped loads are subtracted. */
+/* A vertex, and the force from which the lumped loads on the vertex are subtracted. */
 typedef struct share {
     int vertex;
     double *force; /* [6] */
@@ -46,9 +46,9 @@ static void note_taken(const model *m, const double force[], double sign, double
             taken[end][i] += sign * force[NODE_COORDINATES * (end ? model_nodes(m) - 1 : 0) + i];
 }
 
-/* Subtracts the couples of the distributed weight or centrifugal force on a two-node element from
- * ends[]. Distributed inertia has such couples as well (harness/time/deformable.c). taken[]: forces
- * that were subtracted at the ends; overwritten. */
+/* Subtracts the couples of a distributed weight or centrifugal force on a two-node element from
+ * ends[]; inertia has the same couples (harness/time/deformable.c). taken[]: forces that were
+ * subtracted at the ends; overwritten. */
 static void take_couple(const mesh_element *el, const node_state x[], double taken[2][3],
                         double ends[2][7])
 {
@@ -85,7 +85,7 @@ static void ends_of(const equations *eq, const internal_state *s, int i, node_st
     double taken[2][3] = {{0}};
     if (rotating_frame_lumps(eq))
         note_taken(m, force, 1, taken);
-    /* this call cannot fail in an accepted state */
+    /* cannot fail in an accepted state */
     rotating_frame_add(eq, x, i, s->path, force, NULL, NULL);
     if (rotating_frame_lumps(eq))
         note_taken(m, force, -1, taken);
@@ -132,13 +132,12 @@ static double axes_turned(const model *m, int member, double place, const mesh_e
     if (!scene_member_tapers(sm))
         return 0;
     section_taper_at(&s->section[sm->section], &s->section[sm->section_q], place, &spec);
-    /* the result is the same for neighbouring elements */
+    /* neighbouring elements give the same result */
     const int known = section_compute(&spec, &c, NULL) == STATUS_OK;
     return known ? c.axes_angle - model_section(m, model_kind(m, el->kind)->section)->axes_angle
                  : 0;
 }
 
-/* Transforms components to axes that are rotated by an angle about x. */
 static void turn_components(double angle, double v[3])
 {
     const double c = cos(angle), d = sin(angle), y = v[1];
@@ -194,7 +193,8 @@ static void take_ends(const equations *eq, const internal_state *s, int i, span_
 /* Loads along an element. */
 typedef struct internal_between {
     distributed_loads loads;
-    int acts, nodes; /* nodes: number of nodes with inertia forces; 0: the structure is at rest */
+    int acts, nodes; /* acts: 1 if loads act along the element; nodes: number of nodes with inertia
+                        forces, 0: at rest */
     double density[ELEMENT_MAX_NODES][6];
 } internal_between;
 
@@ -415,11 +415,11 @@ status internal_largest(const equations *eq, const internal_state *s, int member
     return STATUS_OK;
 }
 
-/* Stress points of a member, or of a section of a tapered member. */
+/* Stress points of a section, which may vary along a tapered member. */
 typedef struct member_points {
     const model *m;
     int member, tapers;
-    int turned; /* 1: the twist inclines the fibres */
+    int turned; /* 1: stresses include the inclination of the fibres due to twist */
     stress_measure what;
     section local;
     stress_points points;
@@ -452,7 +452,7 @@ static status take_local(member_points *of, double place, fault *f)
 }
 
 /* Transforms the resultants from the principal axes of the element's section to the axes of the
- * points. The twist follows from the local stiffness. */
+ * points. The rate of twist is computed with the local stiffness. */
 static stress_resultants local_resultants(const member_points *of, int element, const double v[])
 {
     const section *c = of->points.section,

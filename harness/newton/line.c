@@ -1,6 +1,6 @@
 /* Loads along an element that computes the motion of its sections itself (element_type.line). A
- * load acts at r + R arm, where r and R are place and axes of the section. Its generalised forces
- * are P^T f + T^T m, where m contains the moment of f about r. */
+ * load acts at r + R arm, where r is the position of the section and R are its axes. Its
+ * generalised forces are P^T f + T^T m, where m contains the moment of f about r. */
 #include "harness/newton/newton_impl.h"
 
 #include <string.h>
@@ -10,7 +10,6 @@
 
 enum { N = ELEMENT_MAX_COORDINATES };
 
-/* Computes A x~, where x~ is the matrix of the cross product with x. */
 static void times_cross(const double A[9], const double x[3], double out[9])
 {
     const double X[9] = {0, -x[2], x[1], x[2], 0, -x[0], -x[1], x[0], 0};

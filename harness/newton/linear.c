@@ -1,5 +1,5 @@
 /* Linear analyses about the undeformed state. Quadratic forms are computed from the strains,
- * because products with assembled matrices lose digits on fine meshes. */
+ * because on fine meshes products with assembled matrices lose accuracy by cancellation. */
 #include "harness/newton/newton_impl.h"
 
 #include <float.h>
@@ -212,8 +212,8 @@ static void linear_terms(const equations *eq, int i, const double x[], double st
     }
 }
 
-/* Strains have the rounding errors of their terms, and S has the rounding errors of its entries.
- * These errors are similar in all elements, so they add up. */
+/* Strains have the rounding errors of their terms, and stresses also those of the entries of S. The
+ * errors of different elements are similar, so they add up. */
 double linear_strain_rounding(const equations *eq, const double x[])
 {
     const model *m = eq->m;
@@ -265,8 +265,7 @@ static double geometric_energy2(const equations *eq, int i, const double sigma[]
     const double inside = dense_quadratic(model_strains(m), G, e);
     if (model_element(m, i)->plain)
         return inside + dense_quadratic(model_own_coordinates(m), H, local);
-    /* Second derivatives of offsets and of sequences of angles act in the coordinates of the model.
-     * */
+    /* second derivatives of offsets and of sequences of angles, in coordinates of the model */
     const mesh_element *el = model_element(m, i);
     double own[MODEL_MAX_COORDINATES];
     for (int k = 0; k < el->columns; k++)
@@ -372,8 +371,8 @@ static status residual_of(analysis_context *c, double path, const double load[],
 typedef struct system_workspace {
     double *load, *r, *weight, *shaken; /* [free + driven] */
     double *sigma;                      /* [elements x strains] */
-    /* largest stress-free strain; a prevented strain causes no displacement with which errors could
-     * be compared */
+    /* largest stress-free strain; it is the reference for errors if all displacements are
+     * prevented */
     double path, strained;
 } system_workspace;
 
@@ -414,9 +413,9 @@ static status correct(analysis_context *c, linear_system *s, system_workspace *w
     return STATUS_OK;
 }
 
-/* Measures the error of x. A correction may be zero by accident, especially for a single element.
- * Therefore x is perturbed in its last digits and corrected, and the distance from the previous x
- * is measured. This work is not counted. */
+/* Estimates the error of x. For a single element, a correction may be zero by coincidence.
+ * Therefore x is perturbed in its last digits and corrected; the result is the distance from the
+ * previous x. This work is not counted. */
 static status shake(analysis_context *c, linear_system *s, system_workspace *w, const double x[],
                     double *change, fault *f)
 {
@@ -450,8 +449,7 @@ static status refine(analysis_context *c, linear_system *s, system_workspace *w,
     return state == REFINEMENT_ENDS ? STATUS_OK : refinement_refuse(&r, "the linear solution", f);
 }
 
-/* Solves for x with iterative refinement. The caller linear_system_solve() frees *w, even after a
- * failure. */
+/* Solves for x with iterative refinement. linear_system_solve() frees *w, also after a failure. */
 static status solve(analysis_context *c, linear_system *s, double path, system_workspace *w,
                     double x[], fault *f)
 {

@@ -1,6 +1,6 @@
 /* Mixed linearisation (N section 4). With J = de/dx and independent e and sigma: de = D(x) - e + J
- * dx, sigma + dsigma = P'(e) + P''(e) de. The equations are condensed element by element, so stiff
- * modes cause no large spurious stresses during the iteration. */
+ * dx, sigma + dsigma = P'(e) + P''(e) de. The equations are condensed per element. During the
+ * iteration, stiff modes therefore cause no spurious stresses. */
 #include "harness/newton/newton_impl.h"
 
 #include <stdlib.h>
@@ -61,8 +61,8 @@ static double incompatibility_of(const model *m, const model_slot *w, double len
     return largest;
 }
 
-/* Adds the force and K (which contains H) of an evaluated element, minus centrifugal forces.
- * present: forces conjugate to the stresses of the state, to which H belongs. */
+/* Adds the force and K of an evaluated element; K contains H. Subtracts centrifugal forces.
+ * present: forces due to the stresses of the state, to which H belongs. */
 static status add_material(const equations *eq, const linear_memory *memory, const model_state *s,
                            const chunk_element *of, int tangent, double path, double present[],
                            element_part *part)
@@ -144,7 +144,7 @@ static void add_driven(const model *m, const mesh_element *el, const double driv
     }
 }
 
-/* Adds the columns of K that belong to the unknown drivers of conditions. */
+/* Adds the columns of K for the unknown drivers of conditions. */
 static void add_columns(const model *m, const mesh_element *el, const double K[],
                         model_linearisation *lin)
 {
@@ -211,7 +211,7 @@ static void fill_piece(void *context, int piece, int slot)
 }
 
 /* Returns the number of elements whose parts are stored in eq->run->part. 0: elements are added one
- * at a time, because memory is short or a single thread is sufficient. */
+ * at a time, because there is too little memory or only one thread. */
 static int window_of(const equations *eq)
 {
     const model *m = eq->m;
@@ -253,8 +253,8 @@ static void add_discrete(const equations *eq, const model_state *s, model_linear
     }
 }
 
-/* Adds the parts of the elements of a piece, which are stored in a slot. Returns 0 if an element
- * could not be evaluated. */
+/* Adds the parts of the elements in a piece, which are stored in a slot. Returns 0 if the
+ * evaluation of an element failed. */
 static int take_piece(void *context, int piece, int slot)
 {
     shared_loop *loop = context;
@@ -292,7 +292,7 @@ static status linearise_elements(const equations *eq, const linear_memory *memor
                         .window = window > 0 ? window : 1,
                         .part = window > 0 ? eq->run->part : &own,
                         .f = f};
-    /* counting the evaluations of inertia requires a single thread */
+    /* evaluations of inertia are counted without synchronisation, so only one thread is used */
     thread_pool *together = window > 0 && !eq->loading.rotates ? eq->run->pool : NULL;
     memset(lin->residual, 0, (size_t)model_all_coordinates(m) * sizeof *lin->residual);
     lin->incompatibility = 0;
@@ -348,7 +348,7 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
             dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, J,
                                     &stress[(size_t)i * (size_t)model_strains(m)], force);
             rotating_frame_add(eq, x, i, s->path, force, NULL,
-                               NULL); /* this call cannot fail in an accepted state */
+                               NULL); /* cannot fail in an accepted state */
             kinematics_offset(m, s, el->vertex[k], rho);
             vec3_cross(rho, force + NODE_COORDINATES * k, moment);
             for (int c = 0; c < 3; c++) {
@@ -364,11 +364,11 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
                                   node, F);
 }
 
-/* Smaller sums of moments at a node, relative to these moments, count as rounding. */
+/* A sum of moments at a node that is smaller, relative to its terms, is a rounding error. */
 static const double least_moment = 1e-12;
 
-/* Returns the reaction moment [N m] on a node that is fixed about one axis only, about this axis;
- * 0: the moment is a rounding error. sigma: as for internal_state. */
+/* Returns the reaction moment [N m] about the only fixed axis of a node; 0: the moment is a
+ * rounding error. sigma: as for internal_state. */
 static double linearise_held_moment(const equations *eq, const model_state *s, const double sigma[],
                                     double path, int node, int axis)
 {

@@ -7,8 +7,8 @@
 #include "elements/element.h"
 #include "elements/math/dense.h"
 
-/* With fewer elements per thread, the work is finished before a second thread has started (measured
- * for spherical_joint and hexapod). */
+/* With fewer elements per thread, additional threads do not save time (measured for spherical_joint
+ * and hexapod). */
 enum { ELEMENTS_OF_A_THREAD = 32 };
 
 status linear_memory_alloc(const model *m, linear_memory *out, fault *f)
@@ -93,8 +93,8 @@ static void take(const link_element *el, double J_p[], double J_y[], double H[])
             H[i * n + j] = el->H[place(el, i) * all + place(el, j)];
 }
 
-/* Computes T[used x joint] for the motion of all nodes with the first node as a rigid body. The
- * warping amplitudes are zero. */
+/* Computes T[used x joint], the motion of all nodes when the element moves as a rigid body with its
+ * first node. Warping amplitudes are zero. */
 static void carry_along(const link_element *el, double T[])
 {
     const int c = el->joint;
@@ -142,14 +142,12 @@ status link_of(const link_element *el, chain_link *out, fault *f)
     take(el, J_p, J_y, H);
     carry_along(el, T);
     TRY(flexibility(el, J_y, H, out, f));
-    /* E, and the forces due to E */
     dense_mul(s, y, c, J_y, T + c * c, E);
     for (int i = 0; i < s * c; i++)
         E[i] += J_p[i];
     dense_mul(s, s, c, el->C, E, CE);
     dense_mul(n, n, c, H, T, HT);
     dense_add_transpose_mul(y, s, c, J_y, CE, HT + c * c);
-    /* A = R + d */
     dense_mul(y, y, c, out->F, HT + c * c, out->A);
     for (int i = 0; i < y * c; i++)
         out->A[i] = -out->A[i];
@@ -186,7 +184,6 @@ static void count_part(linkage *l, int mover)
         l->number[root] = l->count++;
 }
 
-/* Adds sign C^T C to S[a, b]. */
 static void add_block(linkage *l, int a, int b, double sign, const double C[N * N])
 {
     double block[N * N] = {0};
@@ -252,7 +249,7 @@ static int coordinate_row(const linkage *l, int node, int coordinate, double row
         for (int i = 0; i < 3; i++)
             row[j] += scale * axis[i] * C[N * (turns ? 3 + i : i) + j];
     }
-    if (v->led && !turns) { /* without the motion due to the angle about the normal */
+    if (v->led && !turns) { /* excluding the motion due to the angle about the normal */
         double moved[3];
         vec3_cross(v->axis[0], v->arm, moved);
         for (int j = 0; j < N; j++)
@@ -262,7 +259,7 @@ static int coordinate_row(const linkage *l, int node, int coordinate, double row
     return l->number[supports_root(l->part, node)];
 }
 
-/* Adds the constraint that couples a coordinate of a node to a coordinate of another node. */
+/* Adds the constraint between a coordinate of a node and a coordinate of another node. */
 static void add_tie(linkage *l, int node, int coordinate)
 {
     const scene_tie *tie = model_tie(l->m, node, coordinate);
@@ -298,8 +295,8 @@ static void add_holds(linkage *l, int node)
             sum[i];
 }
 
-/* Computes the motion [6: m, rad] of a point of a part in the eigenvector of the smallest
- * eigenvalue. Returns |translation| + |rotation| times the length of the model [m]. */
+/* Computes the motion of a point of a part in the eigenvector of the smallest eigenvalue: [6], in m
+ * and rad. Returns |translation| + |rotation| times the length of the model [m]. */
 static double motion_of(const linkage *l, int part, const double position[3], double motion[N])
 {
     double at[3], G[N * N], of_part[N];
@@ -312,7 +309,7 @@ static double motion_of(const linkage *l, int part, const double position[3], do
     return vec3_norm(motion) + model_length(l->m) * vec3_norm(motion + 3);
 }
 
-/* Finds the node with the largest motion. If all nodes are at rest, finds a member that moves. */
+/* Finds the node with the largest motion. If no node moves, finds a member that moves. */
 static void name_what_moves(const linkage *l, int *node, int *member, double motion[N])
 {
     const model *m = l->m;
@@ -334,7 +331,7 @@ static void name_what_moves(const linkage *l, int *node, int *member, double mot
         const double size =
             part != NONE ? motion_of(l, part, model_vertex(m, i)->position, moved) : 0;
         if (size > most) {
-            most = size * (1 + 1e-9); /* chooses the first of equal values */
+            most = size * (1 + 1e-9); /* the first of equal values is chosen */
             *node = i;
             memcpy(motion, moved, sizeof moved);
         }

@@ -8,12 +8,12 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Largest asymmetry of the stiffness of a moment, relative to the moment, that counts as rounding.
- * */
+/* Relative to the moment: largest asymmetry of its stiffness that is a rounding error. */
 static const double potential = 1e-12;
 
-/* Returns which loads along members are lumped at the ends of elements: weights if mass is lumped,
- * or all loads if a motion must conserve energy (including its initial states). */
+/* Returns bits LUMPS_*. In a motion with lumped mass, weights are lumped at the ends of elements;
+ * with the conserving scheme, all loads are. The same applies to the states from which the motion
+ * starts. */
 static int lumps_of(const model *m, int analysis)
 {
     const scene *s = model_scene(m);
@@ -77,7 +77,7 @@ void loads_driver_rates(const equations *eq, const scene_driver *d, double path,
 typedef struct sum_of_loads {
     const model *m;
     const model_state *s;
-    double *out; /* [free + driven] */
+    double *out;
 } sum_of_loads;
 
 static void add_applied(void *context, const applied *what)
@@ -181,8 +181,7 @@ void loads_add_temperature(const equations *eq, const model_state *s, const scen
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, s, el, x);
         if (!free_strain_by_load(eq, s, i, load, scale, e) ||
-            tangent_of(eq, s, x, i, C) !=
-                STATUS_OK) /* this call cannot fail in an accepted state */
+            tangent_of(eq, s, x, i, C) != STATUS_OK) /* cannot fail in an accepted state */
             continue;
         dense_mul_vec(model_strains(m), model_strains(m), C, e, sigma);
         model_type(m)->strain(model_kind(m, el->kind)->data, x,
@@ -245,8 +244,8 @@ void loads_subtract_stiffness(const equations *eq, const model_state *s, double 
     }
 }
 
-/* Entries of the stiffness of a load at free coordinates. There are few entries, because all of
- * them belong to one body. */
+/* Largest number of stiffness entries of a load at free coordinates; all of them belong to one
+ * body. */
 enum { MOST_ENTRIES = 64 };
 typedef struct entries_of_load {
     int free, count, row[MOST_ENTRIES], column[MOST_ENTRIES];

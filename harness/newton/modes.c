@@ -24,7 +24,7 @@ static const char *component_of(const model *m, int vertex, int c)
     return c >= SCENE_RX && model_vertex(m, vertex)->angles > 0 ? angle[c - SCENE_RX] : plain[c];
 }
 
-/* Labels the coordinates of a vertex. On entry, label contains the position of the vertex. */
+/* Labels the coordinates of a vertex. label: contains the position of the vertex on entry. */
 static void put_vertex(const model *m, int vertex, row_label label, row_label out[])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -84,10 +84,10 @@ void rows_label(const model *m, row_label out[])
         put_element(m, model_element(m, i), out);
 }
 
-/* Determines the family of a mode: axial, along y, along z or twist. The family has the largest sum
- * of squares: of translations along the member, of translations across it in y or z, or of the
- * twist times the radius of gyration. The number of half-waves follows from sign changes of the
- * leading component along the first member. */
+/* Determines the family of a mode: axial, along y, along z or twist. Each family has a sum of
+ * squares: of translations along the member, of translations along its y axis, along its z axis, or
+ * of the twist times the radius of gyration. The largest sum decides. The number of half-waves
+ * follows from sign changes of the leading component along the first member. */
 
 enum { AXIAL, ALONG_Y, ALONG_Z, TWIST, MEASURES };
 
@@ -100,8 +100,8 @@ static void components(const double R[9], double radius, const double u[7], doub
     out[TWIST] = radius * (R[0] * u[3] + R[3] * u[4] + R[6] * u[5]);
 }
 
-/* Computes the measures for modes in which vertices do not move: rotations of the section about z
- * and y times r, and warping times r^2. */
+/* Computes measures for modes without translation of vertices: rotations of the section about z and
+ * y times r, and warping times r^2. */
 static void turns(const double R[9], double radius, const double u[7], double out[MEASURES])
 {
     out[AXIAL] = 0;
@@ -127,7 +127,6 @@ static int count_half_waves(int vertices, const double *value)
     return waves;
 }
 
-/* Components of a mode at the vertices of all members. */
 typedef struct motion {
     int points, first_member; /* number of points of all members, and of the first member */
     double *part;             /* [points x MEASURES] */
@@ -187,7 +186,6 @@ static status motion_alloc(const model *m, const scene *s, const double mode[], 
     return fault_set(f, STATUS_FAULT, "out of memory for a mode");
 }
 
-/* Computes sums of squares over the points. */
 static void squares(int points, const double *part, double sum[MEASURES])
 {
     memset(sum, 0, MEASURES * sizeof *sum);
@@ -204,8 +202,8 @@ static int largest_of(const double sum[MEASURES])
     return leading;
 }
 
-/* If the squares of the translations of vertices are below this fraction of the squares of
- * rotations and warping, the translations are rounding errors. */
+/* If the sum of squares of translations is below this fraction of that of rotations and warping,
+ * the translations are rounding errors. */
 static const double in_place_part = 1e-16;
 
 status modes_identify(const model *m, const scene *s, const double mode[], mode_shape *out,
@@ -231,8 +229,8 @@ status modes_identify(const model *m, const scene *s, const double mode[], mode_
     return STATUS_OK;
 }
 
-/* Computes the sums of squares of the translation of shear centres across members, and of the twist
- * times r. */
+/* Computes the sums of squares of two motions: translation of shear centres across members, and
+ * twist times r. */
 static void bends_and_twists(const model *m, const scene *s, const motion *shape, int stays,
                              double *bends, double *twists)
 {
@@ -254,7 +252,7 @@ static void bends_and_twists(const model *m, const scene *s, const motion *shape
 
 status modes_kind(const model *m, const scene *s, const double mode[], const char **kind, fault *f)
 {
-    const double pure = 1e-4; /* fraction of the sum of squares */
+    const double pure = 1e-4; /* fraction of the sum of squares below which a motion is neglected */
     double moved[MEASURES], turned[MEASURES], all = 0, in_place = 0, bends, twists;
     motion shape;
     TRY(motion_alloc(m, s, mode, &shape, f));
@@ -308,8 +306,8 @@ static status motions_alloc(const model *m, const scene *s, int count, size_t n,
     return STATUS_OK;
 }
 
-/* Computes the inner products [count x count] of the motions along z, and of the complete motions.
- * */
+/* Computes two matrices of inner products [count x count]: of the motions along z, and of the
+ * complete motions. */
 static void products(int count, const motion shape[], double along_z[], double all[])
 {
     memset(along_z, 0, (size_t)(count * count) * sizeof *along_z);
@@ -383,7 +381,7 @@ identity identity_begin(void)
     return (identity){{14695981039346656037ull, 0x9e3779b97f4a7c15ull}};
 }
 
-/* Updates an FNV-1a hash, and a second hash with another multiplier. */
+/* Updates two FNV-1a hashes with different multipliers. */
 void identity_add(identity *out, const void *bytes, size_t size)
 {
     const unsigned char *at = bytes;
@@ -399,8 +397,8 @@ static void add_number(identity *out, long number)
     identity_add(out, &number, sizeof number);
 }
 
-/* Adds a type to the hash, except for its descriptive strings and for functions that are used only
- * during preparation. */
+/* Adds the members of a type to the hash, except descriptive strings and functions that are called
+ * only during preparation. */
 static void add_type(identity *out, const element_type *type)
 {
     element_type t;

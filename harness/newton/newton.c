@@ -1,6 +1,5 @@
 /* One Newton iteration: assembles and factors the equations, solves them and applies the increment.
- * The equations are condensed element by element. For comparison, they can be solved as a dense
- * system. */
+ * The equations are condensed per element, or solved as a dense system (newton=dense). */
 #include "harness/newton/newton_impl.h"
 
 #include <lapacke.h>
@@ -9,8 +8,8 @@
 
 #include "elements/math/dense.h"
 
-/* Releases a symmetric factor for the pattern of the free coordinates. If a compliance may need the
- * factor, it is stored in the context, which saves the ordering and the pattern. Otherwise it is
+/* Releases a symmetric factor for the pattern of the free coordinates. If a compliance may need
+ * it, the context stores it, which saves the ordering and the pattern. Otherwise the factor is
  * freed. */
 static void context_leave_factor(analysis_context *, matrix_factor *);
 
@@ -90,8 +89,8 @@ void newton_free(newton_run *n)
     kinematics_state_free(n->backup);
 }
 
-/* Returns 1 if an unknown driver moves a coordinate that has a condition, by more than the rounding
- * error of its effects on all free coordinates. */
+/* Returns 1 if an unknown driver moves a coordinate with a condition. The motion must exceed the
+ * rounding error of the driver's effects on all free coordinates. */
 static int drives(const newton_run *n, int count, const model_condition condition[],
                   const double column[])
 {
@@ -106,8 +105,8 @@ static int drives(const newton_run *n, int count, const model_condition conditio
     return conditioned > round_off * round_off * all;
 }
 
-/* Computes the increments of unknown drivers from their conditions and columns, then dx of the free
- * coordinates. */
+/* Computes the increments of unknown drivers from their conditions and columns, and then dx of the
+ * free coordinates. */
 static status meet_conditions(newton_run *n, int count, const model_condition condition[], fault *f)
 {
     double A[MODEL_MAX_CONDITIONS * MODEL_MAX_CONDITIONS], b[MODEL_MAX_CONDITIONS];
@@ -235,8 +234,8 @@ static status direction(newton_run *n, double path, step_record *record, fault *
     return STATUS_OK;
 }
 
-/* Returns 1 if the state is the undeformed state without stresses, although members have strains or
- * temperatures. */
+/* Returns 1 if the state is the undeformed state without stresses, but members have initial strains
+ * or temperatures. */
 static int is_unstressed(const newton_run *n)
 {
     const model *m = n->c->model;
@@ -249,8 +248,8 @@ static int is_unstressed(const newton_run *n)
     return 1;
 }
 
-/* Sets the stresses at `path` of the undeformed state, as if all nodes were fixed. A structure that
- * only its prestress makes stiff starts from these stresses. */
+/* Sets the stresses at `path` in the undeformed state, as if all nodes were fixed. If a structure
+ * is stiff only because of prestress, Newton's method starts from these stresses. */
 static status prestress(newton_run *n, double path, fault *f)
 {
     kinematics_state_copy(n->c->model, kinematics_rest(n->c->model), n->state);
@@ -311,7 +310,8 @@ int context_runs(const analysis_context *c, int analysis)
     return c->options->all_analyses || scene_reads(c->scene, analysis);
 }
 
-/* Returns the path parameter of the static state from which a motion starts; 1: none. */
+/* Returns the path parameter of the static state from which a motion starts; 1: the motion starts
+ * from no such state. */
 static double held_path(const analysis_context *c, int analysis)
 {
     const int origin = scene_origin_of(c->scene, analysis);

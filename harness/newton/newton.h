@@ -1,11 +1,5 @@
-/* newton/: equations of a model, Newton's method, tangents, condensation, outcomes.
- *
- * Sections, in this order: equations of a model; advance (a state after a correction); applied
- * loads; convergence; modes; outcomes of analyses; shapes; rows; system matrices;
- * solve_options and solve_result; the context of an analysis; tangent of a node; loads along a
- * path; linearise; convention of moments; extrapolate; history; identity; internal (section
- * resultants, stresses); linear solutions; predictor; newton; quadratic forms; quantity results;
- * refinement; rotating frame; singular; tangent in parts; uncondensed. */
+/* newton/: equations of a model, Newton's method, tangents, condensation, and outcomes of
+ * analyses. */
 #ifndef BEAMWORK_NEWTON_H
 #define BEAMWORK_NEWTON_H
 
@@ -23,10 +17,9 @@
 /* Equations of a model under a loading, and the data of a run that do not belong to a state. The
  * model and the loading do not change during a run. The data are freed after the solution. */
 
-/* Work done so far. */
 typedef struct counters {
     long strain_evaluations, stress_evaluations, inertia_evaluations;
-    long geometric_evaluations; /* evaluations of the stiffness due to a prestress */
+    long geometric_evaluations; /* evaluations of geometric stiffness */
     long iterations, steps, rejected_steps, factorisations, solutions;
     long factor_entries;
     double factor_flops;
@@ -38,12 +31,12 @@ typedef struct counters {
     double condition;
 } counters;
 
-/* Stored derivatives of elements in the undeformed state (undeformed_of in newton_impl.h). */
+/* Stored derivatives of elements in the undeformed state (see undeformed_element). */
 typedef struct run_undeformed {
-    /* [elements] index of the values of an element, or NONE; NULL: there are no values yet */
+    /* [elements] index of the values of an element, or NONE; NULL: no values are stored */
     int *of;
     int count, room; /* number of stored elements, and capacity */
-    int last;        /* element to which the last values belong */
+    int last;        /* element of the last values */
     double *value;   /* [room x (J, C, initial stresses)] */
 } run_undeformed;
 
@@ -61,20 +54,20 @@ typedef struct loading {
     double held_path; /* path parameter of loads and drivers that are not functions of time */
     int unloaded;     /* 1: there are no loads, and all drivers are zero */
     int acting;       /* active loads, numbered as by scene_acting_of */
-    int lumps;        /* LUMPS_* bits */
+    int lumps;
     /* rotating axes; for a path of rotation, the angular velocity is multiplied by the path
      * parameter */
     element_rotating_frame frame;
     int rotates, rotation_follows_path;
 } loading;
 
-/* Damping in a motion adds V e' to the stresses of elements, and C e' to the stresses of dashpots.
- * V is eta S0 (eta: damping of the member, S0: stiffness of the undeformed element) plus the matrix
+/* During a motion, damping adds V e' to the stresses of elements and C e' to those of dashpots. V
+ * is eta S0 (eta: damping of the member, S0: stiffness of the undeformed element) plus the matrix
  * of the formulation (element_type.damping). See harness/time/time.h. */
 typedef struct run_damping {
     int *which;      /* [elements] index of the matrix V of the element; NONE: not damped */
     double *matrix;  /* [matrices x strains^2] V */
-    double *slowest; /* [matrices] [s] longest relaxation time of a strain, V_kk/S0_kk */
+    double *slowest; /* [matrices] [s] largest V_kk/S0_kk, a relaxation time */
     double *none;    /* [model_stresses] zeros */
     double *begin;   /* [model_stresses] strains of the state from which rates are computed */
     double g;        /* e' = known + g (e - from) */
@@ -90,17 +83,17 @@ typedef struct run_state {
     assemble_patterns *patterns; /* patterns of the matrices of the model, created on request */
     counters counters;
     phases phases;
-    thread_pool *pool; /* threads for the loop over elements; NULL: one thread */
-    struct element_part
-        *part; /* equations of a few elements, which are then added in order; NULL: none yet */
-    struct run_ahead *ahead; /* batch of elements in one memory block (newton_impl.h); NULL: no
-                                batch has been evaluated */
+    thread_pool *pool;         /* threads for the loop over elements; NULL: one thread */
+    struct element_part *part; /* equations of a batch of elements, before they are added in order;
+                                  NULL: not allocated */
+    struct run_ahead *ahead;   /* batch of elements in one memory block (newton_impl.h); NULL: no
+                                  batch has been evaluated */
     run_undeformed undeformed;
     /* data for free strains (free_strain.c); NULL: the type does not modify its data */
     struct run_free *free_strain;
     run_damping *damping; /* damping of a motion; NULL: none */
-    /* [loads] factors of the loads with feedback in the evaluated state, set by feedback_take
-     * (harness/time); NULL: there is no motion yet */
+    /* [loads] factors of loads with feedback in the evaluated state, set by feedback_take
+     * (harness/time); NULL: no motion has started */
     double *feedback;
     linear_memory memory; /* memory for callers that linearise one state at a time */
 } run_state;
@@ -124,11 +117,9 @@ status linear_memory_alloc(const model *, linear_memory *, fault *);
 void linear_memory_free(linear_memory *);
 
 /* Starts a run of a model. threads: number of threads for the loop over elements; 0 or 1: one
- * thread. The order of sums does not change, so results do not depend on the number of threads. */
+ * thread. Results do not depend on the number of threads, because sums have a fixed order. */
 status run_state_begin(run_state *, const model *, int threads, fault *);
 void run_state_end(run_state *);
-
-/* Update of a state with the solution of the linearised equations. */
 
 /* Largest stresses of all elements [N]. */
 typedef struct advance_stress {
@@ -136,14 +127,14 @@ typedef struct advance_stress {
 } advance_stress;
 
 /* Adds the increments to the strains, stresses and inner unknowns of every element, then to the
- * frames. Call this function after linearise_state with the same memory and after solving K dx =
- * residual. dx[free + driven]. stress: may be NULL. Returns the largest correction (dimensionless:
- * translations relative to the size of the scene, rotations in rad, warping relative to the element
- * length, inner unknowns as the element defines). */
+ * frames. Call linearise_state with the same memory and solve K dx = residual before. dx[free +
+ * driven]. stress: may be NULL. Returns the largest correction (dimensionless: translations
+ * relative to the size of the scene, rotations in rad, warping relative to the element length,
+ * inner unknowns as the element defines). */
 double advance_state(const equations *, const linear_memory *, model_state *, const double dx[],
                      double path, advance_stress *);
-/* Marks the state as an equilibrium. Later increments start from this state with the last tangent,
- * and differences between D(x) and e in the last linearisation are not removed again. */
+/* Marks the state as an equilibrium. Later increments start from this state with the last tangent.
+ * The remaining differences between D(x) and e in the last linearisation are not removed again. */
 void advance_settle(const model *, const linear_memory *, const model_state *);
 
 typedef struct applied {
@@ -161,17 +152,14 @@ double applied_factor(const equations *, const scene_load *load, double path);
 double applied_rate(const equations *, const scene_load *load, double path);
 /* Calls `take` with each nodal force of the load times `scale`. Loads along members are lumped at
  * the nodes of elements with linear shape functions, or with quadratic shape functions if there is
- * a middle node. A uniform load has the weights 1/2, 1/2, or those of Simpson's rule. */
+ * a middle node. A uniform load has the nodal weights 1/2 and 1/2, or those of Simpson's rule. */
 void applied_each(const model *, const model_state *, const scene_load *, double scale,
                   void (*take)(void *context, const applied *), void *context);
 
-/* Convergence test of Newton's method, from the last corrections of motions and stresses and from
- * their rate of decrease. */
-
 /* Convergence history along a path. All members except `stress` are dimensionless. */
 typedef struct newton_convergence {
-    double criterion; /* requested limit of the correction; 0: the limit set by rounding */
-    double small;     /* a step ends after two successive corrections below this value */
+    double criterion; /* requested limit of the correction; 0: determined by rounding */
+    double small;     /* a step ends after two successive corrections below this limit */
     /* last correction, and previous correction in the same step (INFINITY: none) */
     double correction, before;
     double stress;        /* [N] largest stress on the path so far */
@@ -183,13 +171,13 @@ typedef struct newton_convergence {
 } newton_convergence;
 
 /* Starts the history. differences 1: derivatives are computed by finite differences, whose noise
- * prevents quadratic convergence. The iteration then ends at the first small correction. elements:
- * number of elements. If there are many elements, rounding of positions limits the size of
- * corrections. */
+ * prevents quadratic convergence. In this case, the iteration ends at the first small correction.
+ * elements: number of elements; for many elements, `small` is increased, because positions are
+ * rounded. */
 void newton_convergence_start(double criterion, int differences, int elements,
                               newton_convergence *);
-/* Returns 1 if the last change of the state was so small that the tangent of the last linearisation
- * is still accurate to rounding error. */
+/* Returns 1 if the last change of the state was negligible, so that the last tangent is accurate to
+ * rounding error. */
 int newton_convergence_tangent_stands(const newton_convergence *);
 
 typedef struct condensation condensation;
@@ -202,42 +190,43 @@ typedef struct mode_shape {
 } mode_shape;
 status modes_identify(const model *, const scene *, const double mode[], mode_shape *, fault *);
 int modes_in_family(const scene_mode *,
-                    /* Returns 1 if the mode belongs to the family that the quantity requests. */
+                    /* Returns 1 if the mode has the family that the quantity requests. */
                     const mode_shape *);
 const char *modes_family_name(scene_family);
-/* Sets *kind to flexural, torsional or flexural-torsional. The kind depends on whether shear
- * centres move across their members and whether sections twist. */
+/* Sets *kind to flexural, torsional or flexural-torsional, according to the motion of shear centres
+ * across members and the twist of sections. */
 status modes_kind(const model *, const scene *, const double mode[], const char **kind, fault *);
-/* Separates modes with equal value[count], which may be arbitrary mixtures, into modes with motion
- * along the z axes of members and modes without such motion. The modes are stored one after the
- * other, each with n = free + driven entries. */
+/* Separates modes with equal value[count], which may be arbitrary mixtures, into modes with the
+ * largest and with the smallest motion along the z axes of members. The modes are stored one after
+ * the other, each with n = free + driven entries. */
 status modes_separate(const model *, const scene *, int count, const double value[], size_t n,
                       double *mode, fault *);
 
 /* Results of an analysis, for quantities and for later analyses. */
 
-/* Critical loads of one sign, or frequencies [rad/s], with their modes, in ascending order of
- * magnitude. */
+/* Critical loads of one sign, or circular frequencies [rad/s], with their modes, in ascending order
+ * of magnitude. */
 typedef struct outcome_side {
     int count;
-    double *value, *mode; /* [count] values (NAN: lost in rounding); [count x free] modes */
+    double *value,
+        *mode;     /* [count] values (NAN: no digits, due to rounding); [count x free] modes */
     double *error; /* [count] estimated relative errors due to iteration and rounding; NULL: none */
     /* [count] growth rates of damped modes [1/s] (`error` then refers to growth + i value); NULL:
      * undamped */
     double *growth;
-    status status;           /* NOT_CONVERGED: some values are missing or lost */
+    status status;           /* NOT_CONVERGED: some values are missing or have no digits */
     char reason[FAULT_TEXT]; /* reason for NOT_CONVERGED */
 } outcome_side;
-/* Small motions about a state of a stationary rotation. */
+/* Small motions about a state of steady rotation. */
 typedef struct rotation_modes {
     int count;
-    double *frequency, *growth; /* [count] frequencies [rad/s] and growth rates [1/s] */
+    double *frequency, *growth; /* [count] circular frequencies [rad/s] and growth rates [1/s] */
     /* [count] estimated relative error of lambda = growth + i frequency due to iteration and
      * rounding */
     double *error;
     mode_shape *shape; /* [count] */
     int negative;      /* number of negative eigenvalues of the stiffness */
-    int unproven;      /* number of negative eigenvalues that the modes do not explain */
+    int unproven;      /* number of negative eigenvalues for which no mode was found */
 } rotation_modes;
 void outcome_modes_free(rotation_modes *);
 
@@ -245,24 +234,24 @@ enum { OUTCOME_MEANING = 128 };
 /* Results of buckling and modal analyses. Values found before a failure remain. */
 typedef struct outcome_spectrum {
     outcome_side positive, negative; /* frequencies are in `positive` */
-    /* meaning of the values: with or without the damping of members, or the kind of instability;
-     * "": there is no damping, and loads have a potential */
+    /* meaning of the values, for example whether they include damping of members, or the kind of
+     * instability; "": not needed */
     char meaning[OUTCOME_MEANING];
-    /* [1/s] largest growth rate about a state whose loads have no potential; 0: the state is stable
-     * */
+    /* [1/s] largest growth rate about a state under loads without a potential; 0: the state is
+     * stable */
     double growth;
     const char *growth_meaning; /* meaning of the growth rate; NULL: as in `meaning` */
-    /* [free + driven] displacements due to initial strains alone; modes without loads are computed
-     * about this state; NULL: none */
+    /* [free + driven] displacements due to initial strains only, the base state of modes without
+     * loads; NULL: none */
     double *strained;
 } outcome_spectrum;
 
 /* Stations of a path: results of a static analysis. The three structures below start with this
  * structure. */
 typedef struct outcome_path {
-    int stations, reached; /* number of stations, and number of stations that have been computed */
+    int stations, reached; /* number of stations, and number of computed stations */
     double *value;         /* [stations] path parameter or control coordinate */
-    model_state **state;   /* [stations]; NULL: for a compliance */
+    model_state **state;   /* [stations]; NULL for a compliance */
 } outcome_path;
 
 /* Compliance C and stiffness K of a node at one station. */
@@ -273,7 +262,7 @@ typedef struct station_matrices {
 
 typedef struct outcome_compliance {
     outcome_path path;
-    /* [stations x 36] compliance for the six components of the node at every station; rows of fixed
+    /* [stations x 36] compliance of the six components of a node at each station; rows of fixed
      * components are zero, columns that are not requested are NaN; owned by the result */
     const double *matrix;
     station_matrices *taken; /* [stations] matrices computed during the solution of the path;
@@ -288,18 +277,19 @@ typedef struct outcome_rotation {
 /* State of a motion at one time, with its energies and momenta (balance, see scene_balance). */
 typedef struct outcome_instant {
     double *rate,
-        *acceleration; /* [free + driven] as in harness/time/time_impl.h; all in one memory block */
+        *acceleration; /* [free + driven] as in harness/time/time_impl.h; one memory block */
     double balance[SCENE_BALANCES];
 } outcome_instant;
 
 /* Extremum or crossing of a quantity during a motion, at any time of a step. */
 enum {
-    PASSING_LOST = 2, /* a rotation vector has lost its direction (harness/model/model.h) */
+    PASSING_LOST = 2, /* the rotation vector has no direction (harness/model/model.h) */
     PASSING_UNSOLVED  /* no solution was found at an instant inside a step */
 };
 typedef struct outcome_passing {
-    int known; /* 1: the value is known; 0: there is no value; or PASSING_LOST, PASSING_UNSOLVED */
-    double value; /* value before factor and offset, time [s], or number of crossings per second */
+    int known;    /* 1: the value is known; 0: there is no value; otherwise PASSING_LOST or
+                     PASSING_UNSOLVED */
+    double value; /* value before factor and offset, time [s], or rate of crossings [1/s] */
     double time;  /* [s] time of a maximum or minimum */
     double error; /* estimated error due to interpolation between the ends of steps */
 } outcome_passing;
@@ -307,25 +297,26 @@ typedef struct outcome_passing {
 /* End of an accepted step of a motion. The first record is the initial state. */
 typedef struct outcome_step {
     double time, step; /* [s] end of the step, and step size (0 for the initial state) */
-    /* estimated error of positions due to the step, with the norm of model.h; 0: not requested */
+    /* estimated error of positions in the step, in the norm of model.h; 0: not requested */
     double error;
-    int iterations, rejected; /* rejected: number of longer steps that failed before this step */
+    int iterations,
+        rejected; /* rejected: number of longer steps that were tried first and failed */
     double balance[SCENE_BALANCES];
 } outcome_step;
 
-/* End of a motion, with all data that its continuation needs. */
+/* End of a motion, with all data for its continuation. */
 typedef struct outcome_end {
     int analysis;                        /* index in the scene */
     double time, step;                   /* [s] end time, and size of the next step */
     double path;                         /* path parameter of the state */
     double work, dissipated;             /* [J] work and dissipated energy since t = 0 */
-    double largest, origin;              /* [J] largest energy so far, and energy at t = 0 */
+    double largest, origin;              /* [J] largest energy in the motion, and energy at t = 0 */
     double turned;                       /* [J] sum of the absolute work of all steps */
     double scale, extent, rate, density; /* see time_impl.h */
     double stress, contraction;          /* convergence history of Newton's method */
     int quiet; /* number of steps since the last discontinuity of the loads */
-    /* stations of the scene before `time`, which a run that continues the motion omits: their
-     * number, and the last of them [s] */
+    /* stations of the scene before `time`, which a continuation omits: their number, and the last
+     * of them [s] */
     int omits;
     double omitted;
     size_t states, coordinates, strains, released, between;
@@ -346,8 +337,8 @@ typedef struct outcome_about {
     double time; /* [s] */
     model_state *state;
     double *rate, *acceleration; /* [free + driven] rates and accelerations, in one memory block */
-    /* K includes the derivatives of the inertia and damping forces; C: damping; G: all other forces
-     * that depend on rates */
+    /* K includes the derivatives of inertia and damping forces; C: damping; G: derivative of all
+     * other forces with respect to rates */
     sparse K, M, C, G;
 } outcome_about;
 
@@ -357,37 +348,37 @@ typedef struct outcome_motion {
     int steps;                   /* number of records, including the initial state */
     outcome_step *step;          /* [steps] */
     outcome_passing *passing;    /* [quantities of the scene] */
-    /* [quantities of the scene] 1: the quantity depends on an acceleration of a coordinate without
-     * inertia */
+    /* [quantities of the scene] 1: the quantity depends on an undefined acceleration, that of a
+     * coordinate without inertia */
     unsigned char *undefined;
-    /* [quantities of the scene x stations] values of quantities that are slopes inside steps; NULL:
-     * none */
+    /* [quantities of the scene x stations] values of quantities that are derivatives of polynomials
+     * inside steps; NULL: none */
     double *slope;
-    outcome_path frames;  /* states for pictures, at equal intervals */
+    outcome_path frames;  /* states for animations, at equal intervals */
     int abouts;           /* times at which other analyses need the state, ascending */
-    outcome_about *about; /* [abouts] small motions; entries that were reached have a state */
+    outcome_about *about; /* [abouts] small motions; an entry has a state if its time was reached */
     double origin;        /* [J] energy at t = 0 of the first motion in a chain of motions */
     outcome_end end;
 } outcome_motion;
 
-/* Extremum of a response between two frequencies of the analysis. */
+/* Extremum of a response between two requested frequencies. */
 typedef struct outcome_peak {
-    int known;     /* 1: the extremum lies between frequencies of the analysis */
-    int unbounded; /* 1: the resonance at `hertz` is undamped */
+    int known;     /* 1: the extremum lies between two requested frequencies */
+    int unbounded; /* 1: there is an undamped resonance at `hertz` */
     double hertz, value, bound;
 } outcome_peak;
 
 typedef struct outcome_harmonic {
-    outcome_path path; /* path of frequencies [Hz], without states */
+    outcome_path path; /* requested frequencies [Hz], without states */
     double *response;  /* [quantities of the scene x stations] values before factor and offset */
     double *bound;     /* [quantities of the scene x stations] upper bound of the error due to
                           omitted modes */
-    /* [quantities of the scene] extrema of quantities that request the largest or the smallest
+    /* [quantities of the scene] extremum of each quantity that requests a largest or smallest
      * value */
     outcome_peak *peak;
 } outcome_harmonic;
 
-/* Displacements under each load case and combination that quantities need. */
+/* Displacements under the load cases and combinations for which a quantity is requested. */
 typedef struct outcome_linear {
     /* number of solutions, and [solutions] numbers of their load cases or combinations */
     int solutions, *acting;
@@ -397,10 +388,10 @@ typedef struct outcome_linear {
 
 typedef struct outcome_continuation {
     outcome_path path;
-    int points; /* number of points of the path; the first point is the unloaded state */
+    int points;               /* number of points; the first point is the unloaded state */
     double *factor, *control; /* [points] load factors, and values of the control coordinate [m] */
-    /* 1: the number of critical points between these load factors is unknown, and only events
-     * before them are listed */
+    /* 1: the number of critical points between these load factors is unknown; only earlier events
+     * are listed */
     int undecided;
     int decided_events;
     double undecided_from, undecided_to;
@@ -411,7 +402,7 @@ typedef struct analysis_outcome {
     scene_analysis_kind kind;
     status status;
     char reason[FAULT_TEXT];
-    union { /* written by the analysis and read by the functions below */
+    union { /* set by the analysis, read by the functions below */
         outcome_linear linear;
         outcome_spectrum spectrum;
         outcome_path path; /* static */
@@ -438,15 +429,15 @@ const outcome_motion *outcome_motion_of(const analysis_outcome *);
 /* Returns the small motions about the state at this time of a motion; NULL: the time was not
  * reached. */
 const outcome_about *outcome_about_at(const analysis_outcome *, double time);
-/* Returns the outcome of a motion, which the caller fills in. */
+/* Returns the outcome of a motion. The caller fills it in. */
 outcome_motion *outcome_motion_in(analysis_outcome *);
 const outcome_continuation *outcome_continuation_of(const analysis_outcome *);
-/* Returns a static path, or the path of a stationary rotation, which the caller fills in. */
+/* Returns the outcome of a static path or of a steady rotation. The caller fills it in. */
 outcome_path *outcome_walk(analysis_outcome *);
 int outcome_has_path(const analysis_outcome *);
 int outcome_has_spectrum(const analysis_outcome *);
 void outcome_free(analysis_outcome *);
-/* Moves the values and modes of a side from `from` to the outcome. */
+/* Moves the values and modes of one sign from `from` to the outcome. */
 void outcome_take(eigen_side *from, outcome_side *to);
 /* Allocates the states of the stations. */
 status outcome_stations(outcome_path *, int stations, fault *);
@@ -474,7 +465,7 @@ typedef struct shape_state {
 } shape_state;
 
 typedef struct shapes {
-    int states, members, points, nodes; /* states 0: no shapes were requested */
+    int states, members, points, nodes; /* 0: no shapes were requested */
     int *first;                         /* [members + 1] index of the first point of each member */
     shape_state *state;                 /* [states] */
     centreline_point *point;            /* [states x points] */
@@ -488,16 +479,16 @@ enum { SHAPES_ALL = 1 << 30, SHAPES_MODES = 6, SHAPES_FRAMES = 60, SHAPES_FEW = 
 status shapes_alloc(shapes *, fault *);
 void shapes_free(shapes *);
 const char *shapes_kind_name(shape_kind);
-/* Returns the number of frames of a motion if at most `most` states of a path are stored. The
- * result is `most`, or SHAPES_FRAMES if `most` requests all states or only a few. */
+/* Returns the number of frames of a motion when at most `most` states of a path are stored. This is
+ * `most`, or SHAPES_FRAMES if `most` is very large or very small. */
 int shapes_frames(int most);
 
-/* Degree of freedom of a row of a model's matrices. */
+/* Degree of freedom that a row of a model's matrices represents. */
 
 typedef struct row_label {
-    int node;   /* index in the scene; SCENE_NONE: a node inside a member, or a released end */
-    int member; /* index of the member; SCENE_NONE: the row belongs only to a node */
-    /* position on the member relative to its length; NAN: the row belongs only to a node */
+    int node;   /* index in the scene; SCENE_NONE: node inside a member, or released end */
+    int member; /* index of the member; SCENE_NONE: node that is not inside a member */
+    /* position on the member relative to its length; NAN: `member` is SCENE_NONE */
     double along;
     double position[3]; /* undeformed position [m] */
     /* "ux", ..., "rz"; "angle 1" for a sequence of angles; "turn 1" or "shift 1" for a released
@@ -506,13 +497,10 @@ typedef struct row_label {
     const char *unit; /* unit of the coordinate: "m", "rad", "rad/m" */
 } row_label;
 
-/* Fills out[free]. The label of a coordinate that several nodes share gives the first of these
- * nodes. */
 void rows_label(const model *, row_label out[]);
 
 /* Matrices of small motions about the states of a solution, for other programs: M q'' + (C + G) q'
- * + K q = B u. q contains the free coordinates in the order of the rows, and u contains the changes
- * of the load factors. */
+ * + K q = B u. q: free coordinates in the order of the rows. u: changes of the load factors. */
 
 /* A linear model. Its second-order and state-space forms are stored as triplets. */
 typedef struct linear_model {
@@ -523,8 +511,8 @@ typedef struct linear_model {
     int eliminated; /* number of eliminated coordinates, which have neither mass nor damping */
     /* number of feedback loops, which are closed in `state` and open in `second_order` */
     int loops;
-    double apart; /* largest relative difference from the responses of a harmonic analysis */
-    int farthest; /* quantity with this difference */
+    double apart; /* largest difference from the responses of a harmonic analysis, relative */
+    int farthest; /* quantity with this largest difference */
 } linear_model;
 
 /* A reduced linear model with q = T x, and its deviation from the full model. */
@@ -532,22 +520,23 @@ typedef struct reduced_model {
     linear_model of;
     triplets T;
     int requested; /* number of requested modes */
-    /* number of modes in T, which is larger if `requested` would separate equal frequencies */
+    /* number of modes in T; larger than `requested` if equal frequencies would be separated */
     int taken;
     int modes; /* number of natural frequencies */
     /* [modes] natural frequencies [Hz] of the full and of the reduced model */
     double *whole, *reduced;
     /* [outputs x inputs] largest difference of the transfer functions at the frequencies of a
-     * harmonic analysis: in SI units; relative to the largest value (NAN: the function of the full
-     * model is zero, apart from rounding); and its frequency [Hz]. NULL: no harmonic analysis. */
+     * harmonic analysis. difference: in SI units. apart: relative to the largest value; NAN: the
+     * full model's function is zero up to rounding. at: its frequency [Hz]. NULL: no harmonic
+     * analysis. */
     double *difference, *apart, *at;
 } reduced_model;
 
-/* An input of a linear model: a load with factor 1, a rate of 1 of the reference value of a
+/* An input of a linear model: a load with factor 1, a unit rate of the reference value of a
  * feedback load, a unit force or moment on a node, or a unit acceleration of a driver. */
 typedef struct system_input {
-    /* indices of the load, driver or node, and the component; SCENE_NONE: the input is of another
-     * kind */
+    /* indices of the load, driver or node, and the component; SCENE_NONE: not used by this kind of
+     * input */
     int load, driver, node, component;
     int reference; /* 1: the input is the reference value of the load */
 } system_input;
@@ -561,17 +550,17 @@ typedef struct state_matrices {
     int analysis;        /* index in the scene; SCENE_NONE: the undeformed structure at rest */
     int station;         /* station of the path, from zero; SCENE_NONE: the analysis has no path */
     double path;         /* path parameter of the loads and drivers */
-    int turns;           /* 1: the axes rotate, and G is not empty */
-    triplets K, M, G, C; /* C has entries only if there is damping */
-    /* matrix B of the undeformed structure for the effect of the mass inside elements on
-     * frequencies: q.K q = lambda q.M q + lambda^2 q.B q */
+    int turns;           /* 1: the axes rotate, and G has entries */
+    triplets K, M, G, C; /* C has entries only with damping */
+    /* matrix B of the undeformed structure: the effect of the mass inside elements on frequencies
+     * in q.K q = lambda q.M q + lambda^2 q.B q */
     triplets inside;
     triplets B; /* [rows x loads] generalised force of each load at factor 1 */
-    /* number of modes of a modal analysis, in ascending order of frequency; otherwise 0 */
+    /* number of modes of a modal analysis, in ascending order of frequency; 0 for other analyses */
     int modes;
     double *frequency, *mode; /* [modes] frequencies [rad/s]; [modes x rows] modes */
-    linear_model model;       /* if requested */
-    reduced_model reduced;    /* if requested */
+    linear_model model;       /* set if requested */
+    reduced_model reduced;    /* set if requested */
 } state_matrices;
 
 typedef struct system_matrices {
@@ -579,7 +568,7 @@ typedef struct system_matrices {
     row_label *label; /* [rows] */
     int states, room; /* number of states (0: not requested), and capacity */
     state_matrices *state;
-    int inputs, outputs; /* numbers of inputs and outputs of linear models */
+    int inputs, outputs; /* numbers of inputs and of outputs of linear models */
     system_input *input;
     system_output *output;
 } system_matrices;
@@ -591,33 +580,30 @@ void system_matrices_free(system_matrices *);
 typedef struct solve_options {
     int threads; /* threads for the loop over elements; 0 or 1: one thread */
     newton_form newton;
-    double criterion;   /* limit of the relative size of the last corrections; 0: default */
-    int max_iterations; /* per step; 0: default */
-    /* number of load steps between stations, which replaces the number in the scene; 0: as in the
-     * scene */
+    double criterion;   /* limit of the relative corrections; 0: default */
+    int max_iterations; /* maximum per step; 0: default */
+    /* number of load steps between stations; 0: number in the scene */
     int steps_between;
     int condition; /* 1: estimate the condition of the tangents (on a static path only at its
                       stations) */
     /* smallest number of elements for which a member is condensed to its ends; 0: default */
     int condensed;
-    int phases; /* 1: measure the time of each part of an iteration */
-    /* N > 0: each static path has only N iterations, whose time is measured, and there are no
-     * results */
+    int phases; /* 1: measure the times of the parts of an iteration */
+    /* N > 0: each static path has N measured iterations and no results; 0: off */
     int sample;
-    int shapes; /* largest number of states of a path whose centre lines are stored; 0: no shapes */
-    /* 1: store the matrices of small motions about all states; 2: store state-space forms as well
-     * */
+    int shapes; /* largest number of stored shapes of a path; 0: no shapes */
+    /* 1: store matrices of small motions about all states; 2: also state-space forms */
     int systems;
     /* number of modes and interface nodes of reduced models, in the form "MODES" or
      * "MODES:NODE,NODE"; NULL: none */
     const char *reduce;
-    int whole_steps; /* 1: a time step that fails ends the motion; 0: such a step is halved */
-    int keep_ends;   /* 1: store the ends of motions, so that another run can continue them */
+    int whole_steps; /* 1: a failed time step ends the motion; 0: it is halved */
+    int keep_ends;   /* 1: store the ends of motions, for continuation by another run */
     int restarts;
-    const outcome_end *restart; /* [restarts] ends of motions of another run, from which motions of
-                                   this run continue */
-    int all_analyses;           /* 1: run all analyses, even if no quantity needs them */
-    /* 1: check the stability of static paths within their steps, and where pivots are not
+    const outcome_end *
+        restart; /* [restarts] ends of motions of another run, which motions of this run continue */
+    int all_analyses; /* 1: run all analyses, even if no quantity needs them */
+    /* 1: check the stability of static paths also within steps, and where pivots are not
      * conclusive */
     int checks_flutter;
     int values_only; /* 1: omit results that only curves and matrices need */
@@ -632,10 +618,9 @@ typedef struct quantity_result {
     status status; /* OK: the value is finite */
     double value;  /* value; NAN: there is no value */
     double x;      /* abscissa of the maximum or minimum */
-    /* estimated error relative to the value, or to the largest value of a curve. For critical loads
-     * and frequencies, it is the error due to rounding. For motions, it is the error due to
-     * interpolation between steps. For responses from modes, it is an upper bound of the error due
-     * to omitted modes. It is 0 for other quantities. */
+    /* estimated error relative to the value, or to the largest value of a curve. Critical loads and
+     * frequencies: error due to rounding. Motions: error due to interpolation within steps.
+     * Responses from modes: upper bound of the error due to omitted modes. Other quantities: 0. */
     double rounding;
     /* change from the previously solved mesh, relative to the value (for a curve: to its largest
      * value); NAN: unknown */
@@ -645,30 +630,29 @@ typedef struct quantity_result {
     char meaning[OUTCOME_MEANING]; /* see outcome_spectrum */
 } quantity_result;
 
-/* All values are dimensionless. If convergence is quadratic, each correction is about the square of
- * the previous correction. */
+/* Values of one iteration, all dimensionless. With quadratic convergence, each correction is about
+ * the square of the previous one. */
 typedef struct iteration_record {
-    /* sqrt(r . K^-1 r) of the unbalanced forces r before the iteration, relative to its value in
-     * the first iteration of the step; NAN: newton=dense */
+    /* sqrt(r . K^-1 r) of the unbalanced forces r before the iteration, relative to that of the
+     * first iteration of the step; NAN for newton=dense */
     double residual;
     double correction;      /* size of the correction, as returned by advance_state */
     double incompatibility; /* max |D(x) - e|/l before the iteration */
 } iteration_record;
 
-/* Stability of a state under small disturbances of the free coordinates. Fixed and prescribed
- * coordinates do not change. */
+/* Stability of a state under small disturbances of the free coordinates. */
 typedef enum step_stability {
-    STEP_OPEN, /* the signs of the pivots are not conclusive, because the tangent is not
-                  symmetric or the axes rotate */
-    /* the tangent is not symmetric and there is no mass, and no eigenvalue has crossed zero */
+    STEP_OPEN, /* the signs of the pivots do not decide, because the tangent is unsymmetric or the
+                  axes rotate */
+    /* the tangent is unsymmetric, there is no mass, and no eigenvalue has crossed zero */
     STEP_NO_DIVERGENCE,
     STEP_STABLE,
     STEP_UNSTABLE,
-    /* the tangent is not symmetric or the axes rotate, and a small motion grows; this is shown by
-     * an odd number of negative eigenvalues (det K < 0) or by a mode */
+    /* the tangent is unsymmetric or the axes rotate, and a small motion grows: det K < 0, or a mode
+     * grows */
     STEP_GROWS,
-    /* the axes rotate, and gyroscopic forces stabilise the state; no motion grows if there is no
-     * damping, but damping that rotates with the structure can make a motion grow */
+    /* the axes rotate, and gyroscopic forces stabilise the state; damping that rotates with the
+     * structure can make a motion grow */
     STEP_HELD,
     STEP_STABILITIES
 } step_stability;
@@ -680,13 +664,13 @@ typedef struct step_record {
     step_stability stability;
     double path, increment;
     int iterations, rejected,
-        negative_pivots; /* rejected: number of longer steps that failed before this step */
-    /* 1: the tangent is not symmetric, and its eigenvalues were followed; only then are the next
-     * two members set */
+        negative_pivots; /* rejected: number of longer steps that were tried first and failed */
+    /* 1: the tangent is unsymmetric, and its eigenvalues were followed; `passed` and `judged` are
+     * set only in this case */
     int by_eigenvalues;
     int passed; /* number of eigenvalues that have crossed zero */
-    /* stability according to the frequencies of small motions; STEP_OPEN: not computed or unknown
-     * */
+    /* stability according to the frequencies of small motions; STEP_OPEN: not computed, or
+     * undecided */
     step_stability judged;
     double residual, correction, incompatibility; /* values of the last iteration */
     double remaining; /* predicted size of the next correction; NAN: unknown */
@@ -708,7 +692,7 @@ typedef struct nodal_matrices {
 /* Event on a continued path. */
 typedef enum event_kind {
     EVENT_LIMIT_POINT, /* the load factor has an extremum */
-    /* other branches start at this point, and the analysis remains on the present branch */
+    /* other branches start at this point; the analysis continues on the current branch */
     EVENT_BIFURCATION,
     EVENT_BRANCH_JUMP, /* a step converged to another branch and was rejected */
     EVENT_KINDS
@@ -717,23 +701,21 @@ typedef enum event_kind {
 typedef struct path_event {
     event_kind kind;
     int analysis, negative_before,
-        /* number of negative pivots of the tangent stiffness after the event; -1: the tangent is
-         * not symmetric */
+        /* number of negative pivots of the tangent after the event; -1: the tangent is
+         * unsymmetric */
         negative_after;
-    /* load factor and control value [m] at the point; for a branch jump: at a control value that
-     * both branches have */
+    /* load factor and control value [m] at the point; branch jump: at a control value of both
+     * branches */
     double factor, control;
-    double other_factor; /* load factor on the rejected branch for a branch jump; otherwise NAN */
-    /* critical point: |phi . f|/(|phi| |f|) with null vector phi and load f; branch jump: distance
-     * between the branches */
+    double other_factor; /* branch jump: load factor on the rejected branch; otherwise NAN */
+    /* critical point: |phi . f|/(|phi| |f|), where phi is the null vector and f the load; branch
+     * jump: distance between the branches */
     double measure;
 } path_event;
 
-/* A row of a transient analysis: the initial state, or the end of a step. */
 typedef struct motion_record {
     int analysis; /* index in the scene */
-    /* path parameter of the state from which the motion starts; NAN: the motion does not start from
-     * a path */
+    /* path parameter of the static state from which the motion starts; NAN: none */
     double path;
     outcome_step at;
 } motion_record;
@@ -745,7 +727,7 @@ typedef struct solve_result {
     quantity_result *quantity; /* [quantities of the scene] in the order of the scene */
     int steps;
     step_record *step;
-    int iterations; /* number of iterations of all accepted steps */
+    int iterations; /* number of iterations in accepted steps */
     iteration_record *iteration;
     int matrix_sets;
     nodal_matrices *matrices;
@@ -754,31 +736,27 @@ typedef struct solve_result {
     int motions;
     motion_record *motion; /* [motions] records, grouped by motion */
     int ends;
-    /* [ends] ends of motions that are not continued by another motion of the scene */
+    /* [ends] ends of motions that no other motion of the scene continues */
     outcome_end *end;
-    /* [s] setup: time for the scene, the sections, quadrature, the mesh and the analysis of the
-     * pattern; solve: time for everything else */
+    /* [s] setup: scene, sections, quadrature, mesh and pattern analysis; solve: all other work */
     double seconds_setup, seconds_solve;
-    counters counters;    /* counted work, excluding the work for shapes and
-                             matrices */
+    counters counters;    /* counted work, without that for shapes and matrices */
     double phase[PHASES]; /* [s] times of the parts of seconds_solve, if requested */
     shapes shapes;
     system_matrices systems;
 } solve_result;
 
 const char *result_event_name(event_kind); /* Returns "limit point", ... */
-/* Returns the number of eigenvalues of the tangent that cross zero together at the event. */
 int result_event_multiplicity(const path_event *);
 void result_free(solve_result *);
 
 /* Context of an analysis. */
 
-/* Data that an analysis of a solution leaves for later analyses. */
+/* Data that an analysis stores for later analyses of the same solution. */
 typedef struct context_work {
     double setup; /* [s] time for patterns and symbolic factorisation */
     int singular; /* 1: the last factorisation failed */
-    /* factor for the pattern of the free coordinates that an earlier analysis left for reuse; NULL:
-     * none */
+    /* factor for the pattern of the free coordinates, stored by an earlier analysis; NULL: none */
     matrix_factor *left;
 } context_work;
 
@@ -798,24 +776,24 @@ typedef struct analysis_context {
 
 /* Returns 1 if quantities, other analyses or the options require the analysis. */
 int context_runs(const analysis_context *, int analysis);
-/* Returns the context of an analysis, with its loading. During a motion, loads without a function
- * of time keep their initial value. */
+/* Returns the context of an analysis, with its loading. During a motion, a load without a function
+ * of time keeps its initial value. */
 analysis_context context_of(const analysis_context *, int analysis);
 /* Like context_of, but with only the loads of a load case or a combination. */
 analysis_context context_under(const analysis_context *, int acting);
-/* Like context_of, but without loads and with all drivers at zero. Only the initial strains of
- * members remain. */
+/* Like context_of, but without loads and with all drivers at zero. Initial strains of members
+ * remain. */
 analysis_context context_unloaded(const analysis_context *);
 /* Factors K numerically, and records a failure. */
 status context_factor(analysis_context *, matrix_factor *, const sparse *K, fault *);
 /* Returns REFUSED if the factored matrix is not symmetric. The message says that the result `what`
  * requires symmetry. */
 status context_symmetric(const matrix_factor *, const char *what, fault *f);
-/* Updates the counters with the condition estimate of a matrix that has just been factored, if the
- * options request the condition. */
+/* Updates the largest condition estimate with a matrix that has just been factored, if the options
+ * request the condition. */
 void context_count_condition(const analysis_context *, matrix_factor *, const sparse *K);
-/* Adds to the counters the work of a solution with a factor. fresh 0: the numeric factors are those
- * of an earlier solution. *counted: number of factorisations of this factor that the counters
+/* Adds to the counters the work of a solution with a factor. fresh 0: the values of the factors are
+ * those of an earlier solution. *counted: number of factorisations of this factor that the counters
  * include; updated by the function. */
 void context_count_solution(const analysis_context *, const matrix_factor *, int fresh,
                             long *counted);
@@ -835,24 +813,24 @@ typedef struct border {
     double W[TANGENT_BORDER * TANGENT_BORDER];
 } border;
 
-/* Tangent of a deformed structure for one node. Some prescribed components of the node are
- * released, and their reactions act as loads. */
+/* Tangent of a deformed structure, for the compliance of one node. Some prescribed components of
+ * the node are released; their reactions act as loads. */
 
 typedef struct node_tangent {
     /* condensed members; K is then not assembled, and released coordinates are unknowns; NULL: no
      * member is condensed */
     condensation *condensed;
-    /* matrix on all coordinates if a component is released, otherwise on the free coordinates */
+    /* matrix of all coordinates if a component is released, otherwise of the free coordinates */
     sparse K;
     sparse inside; /* matrix of the free coordinates [free x free] */
     /* geometric part of K on the same pattern, for refined solutions (see
      * stiffness_parts_geometric) */
     sparse geometric;
-    int refined; /* 1: the condition number requires refinement of solutions */
-    /* last estimate of the condition of `inside` (0: none), and the ratio of the largest to the
-     * smallest pivot at that time */
+    int refined; /* 1: solutions are refined because of the condition number */
+    /* last condition estimate of `inside` (0: none), and the ratio of the largest to the smallest
+     * pivot at that estimate */
     double condition, apart;
-    matrix_factor *own;    /* factor that this structure owns; NULL: not needed yet */
+    matrix_factor *own;    /* factor owned by this structure; NULL: none */
     matrix_factor *factor; /* factor of `inside`: `own`, or the factor of the Newton iteration */
     border border;
     int free, all;
@@ -863,8 +841,7 @@ typedef struct node_tangent {
     double T[TANGENT_COMPONENTS * TANGENT_COMPONENTS];
 } node_tangent;
 
-/* Allocates the tangent. members: condensation of an iteration, whose condensed members are reused;
- * NULL: none. */
+/* Allocates the tangent. members: a condensation whose condensed members are used; NULL: none. */
 status tangent_alloc(analysis_context *c, const scene_compliance *a, const condensation *members,
                      node_tangent *t, fault *f);
 void tangent_free(node_tangent *t);
@@ -872,29 +849,27 @@ void tangent_free(node_tangent *t);
  * prescribed motion. */
 status tangent_at(analysis_context *c, const scene_compliance *a, const model_state *s,
                   const double reaction[6], node_tangent *t, fault *f);
-/* Like tangent_at, but takes K and its factors from an iteration that ended at the state. The
- * pattern of K contains all coordinates if a component is released, otherwise the free coordinates.
- * */
+/* Like tangent_at, with K and its factors from an iteration that ended at the state. K must contain
+ * all coordinates if a component is released, otherwise the free coordinates. */
 status tangent_take(analysis_context *c, const scene_compliance *a, const model_state *s,
                     const double reaction[6], const sparse *K, const sparse *inside,
                     matrix_factor *, node_tangent *t, fault *f);
-/* Like tangent_at, but takes the condensed members of an iteration. */
+/* Like tangent_at, with the condensed members of an iteration. */
 status tangent_take_condensed(analysis_context *c, const scene_compliance *a, const model_state *s,
                               const double reaction[6], const condensation *members,
                               node_tangent *t, fault *f);
-/* Reduces the moment on a node that rotates by a sequence of angles to the part that belongs to
- * prescribed angles, which counts as a load. The remaining part is exerted by the guides of fixed
- * angles and by the constraints of dependent angles, and rotates with the node. The moment on other
- * nodes does not change. */
+/* For a node that rotates by a sequence of angles, reduces the moment to the part due to prescribed
+ * angles, which counts as a load. The remaining part is the reaction at fixed and dependent angles;
+ * it rotates with the node. Moments on other nodes are not changed. */
 status tangent_driven_moment(analysis_context *c, const model_state *s, int node, node_tangent *t,
                              double moment[3], fault *f);
-/* Removes the moment about axes of free rotation from the reaction, because no support exerts it.
- * */
+/* Removes the components of the reaction moment about axes of free rotation, which are no
+ * reactions. */
 void tangent_prescribed(const node_tangent *t, double moment[3]);
-/* Finds the components in which the node can move. */
+/* Determines the components in which the node can move. */
 void tangent_movable(const model *m, const node_tangent *t, movable *out);
 /* Computes the compliance C[6 x 6] of the node. The reaction moment has the given convention.
- * Columns outside `wanted` are zero, and so are rows and columns of components that cannot move. */
+ * Columns outside `wanted`, and rows and columns of components that cannot move, are zero. */
 status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
                           unsigned components, double C[36], fault *f);
 
@@ -909,20 +884,20 @@ typedef struct element_part {
 /* Loads and drivers along a path. */
 
 /* Returns the loading of an analysis. In a motion, the path parameter is the time, loads and
- * drivers are functions of time, and a load without such a function acts in full. The axes rotate
- * as in the analysis or in its base analysis. */
+ * drivers are functions of time, and a load without such a function acts in full. The rotation of
+ * the axes is that of the analysis or of its base analysis. */
 loading loading_of(const model *, int analysis);
-/* Returns the value [m or rad] of a driver with a known motion. */
+/* Returns the value [m or rad] of a driver whose motion is given. */
 double loads_driver_value(const equations *, const scene_driver *d, double path);
-/* Computes the value of a driver and its first two time derivatives during a motion. At the end of
- * a piece of its function, they are those of the next piece. A driver without a function of time
+/* Computes the value of a driver and its first two time derivatives during a motion. At a
+ * discontinuity of the function, they are those that follow it. A driver without a function of time
  * keeps its last value. */
 void loads_driver_rates(const equations *, const scene_driver *d, double path, double out[3]);
 /* Adds to out[free + driven] the forces of the load in a state, multiplied by `scale`. */
 void loads_add_one(const equations *, const model_state *, const scene_load *, double scale,
                    double out[]);
-/* Adds to out[free + driven] the forces that a temperature load exerts on nodes that are fixed in
- * the positions of a state, multiplied by `scale`. */
+/* Adds to out[free + driven] the forces due to a temperature load on the nodes of a state, at fixed
+ * positions, multiplied by `scale`. */
 void loads_add_temperature(const equations *, const model_state *, const scene_load *, double scale,
                            double out[]);
 /* Computes the derivative of the loads with respect to the path parameter in a state: out[free +
@@ -931,9 +906,9 @@ void loads_rate(const equations *, const model_state *, double path, double out[
 /* Returns 1 if a load or a known driver is not zero at path parameter 0. */
 int loads_begin(const equations *);
 
-/* Unknown driver: the motion of the prescribed coordinate `unknown` is such that the free
- * coordinate `coordinate` moves by `increment`. No reaction acts on `coordinate`. The solution
- * gives the force on the driver. */
+/* Unknown driver: the prescribed coordinate `unknown` moves so that the free coordinate
+ * `coordinate` moves by `increment`. No reaction acts on `coordinate`; the solution contains the
+ * force on the driver. */
 enum { MODEL_MAX_CONDITIONS = 4 };
 typedef struct model_condition {
     int unknown, coordinate;
@@ -952,11 +927,11 @@ double loads_reaction(const model *, int node, int component, const double eleme
 
 /* Newton's equations of a state. */
 
-/* In equilibrium, internal minus external forces are zero on the free coordinates. The
- * linearisation is mixed: coordinates, strains and stresses are unknowns at the same time (N
- * section 4). Strains and stresses are condensed per element:
- *     K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)],  K = J^T P'' J + sum sigma_i H_i
- * The prescribed part of dx is known; its contribution is moved to the right-hand side here. */
+/* In equilibrium, internal minus external forces are zero on the free coordinates. Coordinates,
+ * strains and stresses are simultaneous unknowns of the linearisation (N section 4). Strains and
+ * stresses are condensed per element:
+ *     K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)],  K = J^T P'' J + sum sigma_i H_i The
+ *     prescribed part of dx is known; its contribution is moved to the right-hand side here. */
 typedef struct model_linearisation {
     double path;
     /* 1: Newton's method for displacements only; e and sigma are first computed from D(x) */
@@ -967,8 +942,7 @@ typedef struct model_linearisation {
     const model_condition *condition;
     double *column; /* [conditions x (free + driven)] columns of K for the unknown drivers */
     sparse *K;      /* matrix on a pattern of assemble_pattern; NULL: not requested */
-    /* [free + driven] right-hand side; the entries of prescribed coordinates are minus their
-     * reactions */
+    /* [free + driven] right-hand side; prescribed coordinates: minus their reactions */
     double *residual;
     double incompatibility; /* output: max |D(x) - e|/l over all elements */
 } model_linearisation;
@@ -1005,8 +979,9 @@ void linearise_add_internal(const equations *, const model_state *, int elements
                             const int element[], double out[]);
 
 enum {
-    CHUNK_MOST = 8,   /* largest number of elements in a batch */
-    CHUNK_WINDOW = 32 /* number of elements in which elements of the same kind are searched for */
+    CHUNK_MOST = 8, /* largest number of elements in a batch */
+    CHUNK_WINDOW =
+        32 /* number of elements among which elements of the same kind are searched for */
 };
 
 /* Returns the number of elements in a batch, or 1 if elements are evaluated one at a time. */
@@ -1016,7 +991,7 @@ int chunk_size(const model *m);
  * before the first call. */
 int chunk_next(const model *m, int first, int end, unsigned char done[], int index[CHUNK_MOST]);
 
-/* Stiffness of a moment m on a node that rotates, by convention. K: the stiffness of the
+/* Conventions for the stiffness of a moment m on a node that rotates. K: the stiffness of the
  * exponential chart R = exp(theta~) R0, in which the generalized moment of theta is constant.
  * Semitangential: K. The moment follows half of the rotation, m + theta x m/2, and has a potential
  * (Argyris et al. 1979). Spatial: K - m~/2 on the rotations. The moment has fixed axes, and the
@@ -1025,21 +1000,21 @@ int chunk_next(const model *m, int first, int end, unsigned char done[], int ind
  * about one axis only, whose moment keeps its direction (coordinates_held_turn). It uses the
  * semitangential convention at all other nodes. */
 
-/* Returns 1 if the convention changes the stiffness given by the tangent. In this case, each column
- * of the compliance depends on all other columns. */
+/* Returns 1 if the convention changes the stiffness given by the tangent. Each column of the
+ * compliance then depends on all other columns. */
 int convention_changes(scene_moments of_tangent, scene_moments convention, const double m[3]);
 
 /* Converts the C[6 x 6] of the tangent to the convention, and computes the inverse K[6 x 6] for the
  * possible motions. C must be complete in the components that can move. If the convention does not
- * change the stiffness, C keeps its full accuracy. m[3]: moment on the node [N m]. Rows and columns
- * of fixed components are zero. SINGULAR: C is singular to working precision. */
+ * change the stiffness, C is not modified. m[3]: moment on the node [N m]. Rows and columns of
+ * fixed components are zero. SINGULAR: C is singular to working precision. */
 status convention_apply(scene_moments of_tangent, scene_moments convention, const movable *motions,
                         const double m[3], double C[36], double K[36], fault *f);
 
 /* Initial guess for the next state of a path. */
 
 /* Extrapolates the state at `path` from the last `count` states, oldest first, with a polynomial (a
- * line through two states, a parabola through three, ...). Returns 0 and leaves `out` unchanged if
+ * line through two states, a parabola through three, ...). Returns 0, without changing `out`, if
  * prescribed motions are nonlinear or the step is too long. */
 enum { MODEL_EXTRAPOLATED = 12 };
 int extrapolate_state(const equations *, int count, const model_state *const at[], double path,
@@ -1055,15 +1030,14 @@ void history_drop_step(solve_result *r, const step_record *step);
 void history_evaluate_steps(solve_result *, const scene *, int analysis, int first);
 /* Sets the stability at a station where pivots are not conclusive, as found from the modes. */
 void history_evaluate_station(solve_result *, int analysis, double path, step_stability);
-/* Returns the stability at the end of the step that ended at this path parameter; STEP_OPEN: there
- * is no such step. */
+/* Returns the stability at the end of the step that ended at this path parameter; STEP_OPEN: none
+ * did. */
 step_stability history_stability_at(const solve_result *, int analysis, double path);
 status history_add_step(solve_result *, const step_record *, fault *);
-/* Adds all steps of a motion to the record. */
 /* path: path parameter of the initial state; NAN: none. */
 status history_add_motion(solve_result *, int analysis, double path, const outcome_motion *,
                           fault *);
-/* Position in the record. history_go_back removes all later entries. */
+/* Position in the record. history_go_back removes later entries. */
 typedef struct history_mark {
     int steps, iterations, ends;
 } history_mark;
@@ -1071,8 +1045,8 @@ history_mark history_here(const solve_result *);
 void history_go_back(solve_result *, const history_mark *);
 status history_add_event(solve_result *, const path_event *, fault *);
 
-/* Identifies models with equal results. For example, formulations that differ only in physics
- * that the scene does not contain give equal results. */
+/* Identity of models. For example, two formulations give equal results if they differ only in
+ * physics that the scene does not contain. */
 
 /* Hash of all data in the order in which they were added. */
 typedef struct identity {
@@ -1088,9 +1062,8 @@ int identity_add_model(identity *, const model *);
 
 /* Stress resultants on the sections of a member. At the ends of an element, they are the nodal
  * forces J^T sigma of the element minus the loads along the element that are lumped at its nodes.
- * They are in equilibrium with the rest of the structure, regardless of the assumptions of the
- * formulation. Between the ends, harness/section_forces/section_forces.h computes them in the same
- * way for all formulations. */
+ * They are in equilibrium with the rest of the structure. Between the ends, section_forces.h
+ * computes them by a method that does not depend on the formulation. */
 
 /* State whose resultants are computed. */
 typedef struct internal_state {
@@ -1110,7 +1083,7 @@ typedef struct internal_inertia {
      * last node of the element */
     void (*ends)(const void *context, int element, double ends[2][7]);
     /* density[nodes][force, moment about the node's frame]: inertia force per initial length, in
-     * global axes, of evenly distributed mass that has the motion of each node */
+     * global axes, if the element's mass is evenly distributed and has the motion of the node */
     void (*along)(const void *context, int element, double density[ELEMENT_MAX_NODES][6]);
     const void *context;
 } internal_inertia;
@@ -1121,8 +1094,8 @@ typedef struct internal_inertia {
  * amplitude). end: 0 from, 1 to. */
 void internal_at_end(const equations *, const internal_state *, int member, int end, double out[7]);
 
-/* A position on a member, from 0 (start node) to 1 (end node) of its initial length. before 1: if a
- * value jumps at the position, the value on the side of the start node is used. */
+/* A position on a member, from 0 (start node) to 1 (end node) of its initial length. before 1: at a
+ * jump, the value on the side of the start node is used. */
 typedef struct internal_place {
     int member;
     double place;
@@ -1131,16 +1104,15 @@ typedef struct internal_place {
 
 /* Computes the resultants at a position on a member, and the other values of section_forces.h:
  * out[SPAN_VALUES]. NOT_CONVERGED: as for span_recover. In a motion, the mass is distributed evenly
- * along an element, and accelerations are interpolated between its nodes. If the acceleration is
- * linear, the forces are in equilibrium with the rest of the structure, so values are continuous
- * between elements. Warping inertia acts at nodes. */
+ * along an element, and accelerations are interpolated between its nodes. If accelerations vary
+ * linearly, values are continuous between elements. Warping inertia acts at nodes. */
 status internal_at(const equations *, const internal_state *, const internal_place *, double out[],
                    fault *);
 
 /* Computes the displacement of the centroid and the rotation vector of the section from the
- * undeformed state to the present state at a position: out[6], in fixed axes, along the line of
- * section_forces.h. NO_VALUE: the rotation exceeds 3 rad. Other statuses are those of internal_at.
- * */
+ * undeformed to the given state at a position: out[6], in fixed axes, along the line of
+ * section_forces.h. NO_VALUE: the rotation exceeds 3 rad. Other statuses are those of
+ * internal_at. */
 status internal_moved(const equations *, const internal_state *, int member, double place,
                       double out[6], fault *);
 
@@ -1166,7 +1138,7 @@ status internal_stress_largest(const equations *, const internal_state *, int me
  * the nodes. */
 void free_strain_subtract(const equations *, int element, double path, double e[]);
 /* Returns the data for the stresses of an element: the data of its kind, or the data that its type
- * has modified. The data are valid until the next call for the element. */
+ * has modified. They are valid until the next call for this element. */
 const element_data *free_strain_data(const equations *, int element, double path);
 /* Return the energy supplied by temperatures that change with time: the power at one time [W], and
  * the energy between two states [J]. */
@@ -1184,8 +1156,7 @@ double linear_initial(const model *);
 status linear_whole_stresses(const equations *, const double x[], double path, double sigma[],
                              fault *);
 status linear_geometric_stiffness(const equations *, const double sigma[], double path, sparse *G,
-                                  /* computes sum sigma H + J^T G(sigma) J, including the effect of
-                                   * offsets */
+                                  /* computes sum sigma H + J^T G(sigma) J, including offsets */
                                   fault *);
 
 /* Linear solutions about the undeformed state. */
@@ -1207,8 +1178,8 @@ typedef struct predictor {
     int count, iterations; /* iterations: number of iterations in the last step */
     int most;              /* largest number of states that an extrapolation uses */
     model_state *at[MODEL_EXTRAPOLATED + 1]; /* NULL: not allocated yet */
-    /* [m] error of an extrapolation of the last state from k states; k = 1: the previous state
-     * unchanged */
+    /* [m] error when the last state is extrapolated from k states; k = 1: error of the previous
+     * state itself */
     double error[MODEL_EXTRAPOLATED + 1];
 } predictor;
 
@@ -1216,8 +1187,8 @@ status predictor_alloc(const model *, predictor *, fault *); /* contains the und
 void predictor_free(predictor *);
 status predictor_add(const equations *, const model_state *, int iterations, predictor *, fault *);
 void predictor_reset(predictor *);
-/* Replaces the last state s by an extrapolation for `path`, or leaves s unchanged if there is none.
- * */
+/* Replaces the last state s by an extrapolation for `path`. If none is possible, s is not
+ * changed. */
 void predictor_guess(const equations *, const predictor *, double path, model_state *s);
 
 /* Newton's method for coordinates, strains and stresses together (N section 4). Every nonlinear
@@ -1261,10 +1232,10 @@ typedef struct newton_correction {
     advance_stress stress;
 } newton_correction;
 
-/* Computes K, its factors and dx = K^-1 residual in the present state for the loads and drivers at
+/* Computes K, its factors and dx = K^-1 residual in the current state for the loads and drivers at
  * `path`. dx includes the increments of the drivers. */
 status newton_direction(newton_run *, double path, step_record *, fault *);
-/* Updates the state by dx. `path` is the new path parameter. */
+/* Updates the state by dx. `path`: new path parameter. */
 void newton_advance(newton_run *, double path, newton_correction *);
 /* Returns NOT_CONVERGED if the initial rise of a curved element exceeds the range of the
  * formulation. */
@@ -1278,11 +1249,11 @@ status newton_accept(const model *, const model_state *from, model_state *, faul
 /* Parts of Newton's method that depend on the analysis. */
 typedef struct newton_use {
     void *of;
-    /* for a path: newton_accept checks the states, and a state far from its first correction does
-     * not count as converged, because it may be another equilibrium; NULL: for a motion */
+    /* run on a path: newton_accept checks its states, and a state far from its first correction is
+     * rejected, because it may be another equilibrium; NULL: a motion */
     newton_run *on;
     int least, most; /* smallest and largest number of iterations */
-    /* Solves the equations of the present state and applies the correction. */
+    /* solves the equations of the current state and applies the correction */
     status (*correct)(void *of, int iteration, newton_correction *, step_record *, fault *);
     void (*prepare)(void *of, int iteration,
                     double correction);  /* called before another iteration; NULL: none */
@@ -1300,9 +1271,8 @@ newton_use newton_in_time(const analysis_context *, void *of,
                                             step_record *, fault *),
                           void (*prepare)(void *of, int iteration, double correction));
 
-/* Runs Newton's method for a nonlinear step, with common limits. Returns OK, or NOT_CONVERGED with
- * the reason. Each correction is added to the counters, to the records and to `newton_convergence`.
- */
+/* Runs Newton's method for one step. Returns OK, or NOT_CONVERGED with the reason. Each correction
+ * is added to the counters, to the records and to `newton_convergence`. */
 status newton_iterate(analysis_context *, const newton_use *, newton_convergence *, step_record *,
                       fault *);
 
@@ -1310,8 +1280,8 @@ status newton_iterate(analysis_context *, const newton_use *, newton_convergence
 status newton_to(newton_run *, double path, step_record *, fault *);
 
 /* Quadratic forms of the undeformed structure and of the stresses of a linear solution. They are
- * computed from the element strains. Therefore they do not lose the digits of soft motions, unlike
- * products with assembled matrices. */
+ * computed from element strains, because products with assembled matrices lose the digits of soft
+ * motions. */
 
 typedef struct quadratic_forms {
     const equations *eq;
@@ -1320,7 +1290,7 @@ typedef struct quadratic_forms {
     double *load_x;
     double *sigma;            /* [elements x strains] stresses due to the loads */
     sparse loads;             /* part of K due to the loads */
-    double *x, *force;        /* [free + driven] x has zeros for the prescribed coordinates */
+    double *x, *force;        /* [free + driven] x is zero for the prescribed coordinates */
     double *stress, *product; /* [elements x strains], [free] */
 } quadratic_forms;
 
@@ -1340,18 +1310,17 @@ double quadratic_forms_geometric_rounding(quadratic_forms *p, const double x[]);
 /* y[free] = K x[free] */
 void quadratic_forms_product(quadratic_forms *p, const double x[], double y[]);
 
-/* A quantity that has been extracted from an outcome. */
+/* Values of quantities, computed from an outcome. */
 
-/* Marks the quantity as having no value. If the analysis has STATUS_OK but the value is missing,
- * the status becomes STATUS_NO_VALUE. Any other status is kept. */
+/* Marks the quantity as having no value. The status becomes STATUS_NO_VALUE if the analysis has
+ * STATUS_OK; otherwise the analysis' status is used. */
 void quantity_no_value(quantity_result *, status, const char *reason);
 /* Returns the value times the factor of the quantity, plus the offset of the quantity. */
 double quantity_scaled(const scene_quantity *, double value);
-/* Returns 1 if a value governs an envelope instead of the value `best`, which has governed so far.
- */
+/* Returns 1 if a value governs an envelope instead of the governing value `best`. */
 int quantity_governs(scene_envelope, double value, double best);
 
-/* Like quantity_scaled, for the abscissa of the curve. */
+/* Like quantity_scaled, for the abscissa of a curve. */
 double quantity_abscissa(const scene_quantity *, double x);
 /* Allocates a curve with the given number of points. Returns 0 if out of memory, and records this
  * in the result. */
@@ -1362,15 +1331,14 @@ int quantity_curve(quantity_result *, int points);
  * Residuals come from element strains. If the factors have a relative error q (about eps times the
  * condition of K), every correction is q times the previous correction, until rounding of the
  * forces limits the corrections (N.J. Higham, Accuracy and Stability of Numerical Algorithms
- * (2002), section 12.1). In this case, x is the solution for loads rounded in their last digit, and
- * the correction is its error. This level depends on the problem, not on the mesh or on K. For
- * example, a bar of length L is pushed along an oblique axis, so the components of the force are
- * rounded. The transverse displacement eps P L^3/(3 EI) is eps (L/r)^2/3 relative to P L/(EA). For
- * square bars with sides from L/10 to L/1e5, 1 to 256 elements, three oblique axes and every
- * formulation, the measured level is at most 2.5 eps (L/side)^2 where this value exceeds the
- * rounding due to the mesh. The geometrically exact element, whose factors are the worst, reaches
- * 170 times this value. The accuracy does not depend on the condition, which ranges from 1 to 2e16;
- * q ranges from 0 to 0.08 (0.8 for the geometrically exact element). */
+ * (2002), section 12.1). Then x is the solution for loads rounded in their last digit, and the size
+ * of the correction is its error. This level depends on the problem, not on the mesh or on K. For
+ * example, the components of a force P along an oblique bar of length L are rounded. The transverse
+ * displacement eps P L^3/(3 EI) is eps (L/r)^2/3 relative to P L/(EA). For square bars with sides
+ * from L/10 to L/1e5, 1 to 256 elements, three oblique axes and every formulation, the measured
+ * level is at most 2.5 eps (L/side)^2 where this value exceeds the rounding due to the mesh. The
+ * geometrically exact element reaches 170 times this value. In these measurements, the condition
+ * ranges from 1 to 2e16. */
 
 typedef enum refinement_state {
     REFINEMENT_GOES_ON,
@@ -1384,9 +1352,9 @@ typedef struct solution_refinement {
     double last;     /* last correction, relative to the solution */
 } solution_refinement;
 
-/* Decides from the relative size of a correction whether the refinement continues. At least two
- * corrections follow the first correction. More corrections follow if their size is at least halved
- * every time and the accuracy is insufficient. */
+/* Returns, from the relative size of a correction, whether refinement continues. It continues for
+ * at least two corrections after the first one. Afterwards it continues as long as each correction
+ * is at most half of the previous one and the accuracy is insufficient. */
 refinement_state refinement_next(solution_refinement *, double correction);
 
 /* A frame that rotates at a constant rate. */
@@ -1406,21 +1374,21 @@ int rotating_frame_inner_matrix(const equations *, sparse *out);
 /* Explains why a stiffness matrix cannot be factored. */
 
 /* If released ends make the undeformed structure a mechanism, describes the motion in f and returns
- * SINGULAR. Otherwise returns `otherwise` and leaves f unchanged. */
+ * SINGULAR. Otherwise returns `otherwise` and does not change f. */
 status singular_mechanism(const analysis_context *c, status otherwise, fault *f);
 
-/* Finds the cause of a failed factorisation: a part without supports, digits lost in rounding
- * because of many elements or very different stiffnesses, or otherwise a critical point. Sets the
- * fault. The work of this search is not counted. */
+/* Finds the cause of a failed factorisation: a part without supports, rounding due to many elements
+ * or very different stiffnesses, or otherwise a critical point. Sets the fault. This work is not
+ * counted. */
 void singular_explain(analysis_context *c, fault *f);
 
 /* The tangent of a state as a sum of two parts. */
 
 /* Products of K of the last linearisation with x, in two parts; x, y: [free + driven]. The stiff
  * part is computed from the element strains, y += sum J^T P'' (J x), because an assembled matrix
- * would lose all digits of soft motions. The other part is a matrix on the pattern of G: sum
- * sigma_i H_i with the second derivatives of offsets and of sequences of angles, minus the
- * stiffness of loads and of rotating axes. */
+ * would lose all digits of soft motions. The soft part is a matrix on the pattern of G: sum sigma_i
+ * H_i with the second derivatives of offsets and of sequences of angles, minus the stiffness of
+ * loads and of rotating axes. */
 void stiffness_parts_material_product(const model *, const linear_memory *, const model_state *,
                                       const double x[], double y[]);
 /* Returns a bound of the rounding error of x^T K x for the stiff part. */
@@ -1429,7 +1397,7 @@ double stiffness_parts_material_rounding(const model *, const linear_memory *, c
 status stiffness_parts_geometric(const equations *, const linear_memory *, const model_state *,
                                  sparse *G, fault *);
 
-/* All unknowns in one system of equations. */
+/* Uncondensed system with all unknowns. */
 
 /* The uncondensed dense system: A[n x n], column-major, and b[n] with n = uncondensed_size +
  * conditions. The unknowns are free coordinates, strains, stresses and unknown drivers, in this

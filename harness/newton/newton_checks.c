@@ -1,7 +1,6 @@
-/* Convergence of Newton's method. The corrections of the motions converge quadratically, and so do
- * those of the stresses. In stiff elements, the relative error of the stresses is orders of
- * magnitude larger than that of the motions. Therefore a test of the motions alone is not
- * sufficient. */
+/* Convergence of Newton's method. Corrections of motions and of stresses both converge
+ * quadratically. In stiff elements, the relative error of stresses is larger by orders of
+ * magnitude, so the motions alone are no sufficient test. */
 #include "harness/newton/newton_impl.h"
 
 #include <stdio.h>
@@ -17,18 +16,17 @@
  * elements. */
 static const double small = 1e-8;
 static const double many_elements =
-    1e4; /* number of elements above which `small` increases in proportion to it */
+    1e4; /* for more elements, `small` is proportional to their number */
 /* Newton's method has also converged after a correction below `newton_convergence_near` if the
  * predicted size of the next correction is negligible. */
 static const double newton_convergence_near = 1e-6, negligible = 1e-15;
-/* Newton's method has also converged after a correction below `rounding`, whose square is
- * negligible even if stresses are 1e10 times as sensitive. */
+/* Newton's method has also converged after a correction below `rounding`. Its square is negligible,
+ * even if stresses are 1e10 times as sensitive. */
 static const double rounding = 1e-12;
 /* Corrections above this limit need not converge quadratically. */
 static const double quadratic = 0.1;
-/* Relative change of stresses below which a tangent is reused. Reuse changes compliances by at most
- * half of this value (measured on the mechanisms of cases/), and usually by less than their
- * scatter. */
+/* Relative change of stresses below which a tangent is reused. For the mechanisms of cases/, reuse
+ * changes compliances by at most half of this value. */
 static const double same_tangent = 3e-11;
 
 void newton_convergence_start(double criterion, int differences, int elements,
@@ -57,8 +55,8 @@ static void newton_convergence_add(double correction, const advance_stress *stre
     a->remaining = a->contraction * correction * correction;
 }
 
-/* Returns 1 if the last correction meets the requested limit or, if none was requested, if a
- * further correction would not change the result. */
+/* Returns 1 if the last correction is below the requested limit. Without a requested limit, returns
+ * 1 if a further correction would not change the result. */
 static int newton_converged(const newton_convergence *a)
 {
     if (a->criterion > 0)
@@ -72,8 +70,8 @@ int newton_convergence_tangent_stands(const newton_convergence *a)
     return a->correction <= same_tangent && a->stress_change <= same_tangent;
 }
 
-/* Computes the changes of stresses and inner unknowns due to the rotation of an element's frame.
- * The element includes loads along it in its equilibrium. */
+/* Computes the changes of stresses and inner unknowns due to the rotation of an element's frame,
+ * for an element that includes loads along it in its equilibrium. */
 static void follow_turn(const model *m, const double along[], const double local[], double sigma[],
                         double inner[])
 {
@@ -181,8 +179,7 @@ void advance_settle(const model *m, const linear_memory *memory, const model_sta
     }
 }
 
-/* Decides if a step has converged, continues or fails, and if the formulation is valid in the final
- * state. */
+/* Checks the twist of the elements in the final state. */
 
 static status check_twist(const model *m, const model_state *s, fault *f)
 {
@@ -231,8 +228,7 @@ static int swings(const model *m, const mesh_element *el, int node)
            (fabs(vec3_dot(r->turn[0], x)) < across && fabs(vec3_dot(r->turn[1], x)) < across);
 }
 
-/* Checks that elements are not too long for their axial force. Bars without bending are not
- * limited. */
+/* Checks that no element is too long for its axial force. Bars without bending are not checked. */
 static status check_tension_limit(const model *m, const model_state *s, fault *f)
 {
     int worst = 0;
@@ -278,8 +274,8 @@ status newton_check_rest(const model *m, fault *f)
         model_type(m)->name, most, floor(count * sqrt(rise / most)) + 1);
 }
 
-/* Returns 1 if the rotation of a spring is near a full revolution, and its moment has a component
- * normal to the rotation axis. The effect of such a component is unbounded there. */
+/* Returns 1 if the rotation of a spring is near a full revolution and its moment has a component
+ * normal to the rotation axis, whose effect is then unbounded. */
 static int across(const mesh_discrete *d, const double turn[3])
 {
     const double near = 1e-3, size = vec3_norm(turn);
@@ -356,9 +352,9 @@ typedef struct correction_sizes {
     int growing;                 /* number of successive growing corrections */
 } correction_sizes;
 
-/* Limits of the size of a correction (rotations in rad, translations relative to the size of the
- * scene). A larger correction ends the step as NOT_CONVERGED. The limit is larger for the first
- * corrections of a step. GROWING successive growing corrections also end the step. */
+/* Limits of a correction (rotations in rad, translations relative to the size of the scene) above
+ * which a step ends as NOT_CONVERGED. too_large_at_first applies to the first corrections of a
+ * step. GROWING successive growing corrections also end the step. */
 static const double too_large = 4, too_large_at_first = 16;
 enum { AT_FIRST = 3, GROWING = 4, MOST_IN_TIME = 20 };
 

@@ -20,38 +20,37 @@ static inline const spring_rates *damping_of_springs(const run_damping *d)
 /* Returns the rotating frame at a path parameter: its centre and its angular velocity. */
 element_rotating_frame loading_frame(const loading *, double path);
 
-/* Forces of a load on the vertices of a mesh in a given state. */
+/* Forces of a load on the vertices of a mesh. */
 
-/* Returns 1 for a uniform load on the whole length of a member that does not specify its lumping.
- * Such a load is distributed to the nodes in the same shares as the mass. */
+/* Returns 1 for a uniform load on the whole length of a member without `lumped`. Its nodal shares
+ * are those of the mass. */
 int applied_with_mass(const scene_load *);
-/* Like applied_each for a load along the member of an element, but only for the part of the load on
- * this element. */
+/* Like applied_each for a load along a member, but only for its part on this element. */
 void applied_element(const model *, const model_state *, const scene_load *, double scale,
                      int element, void (*take)(void *context, const applied *), void *context);
 /* Finds the range [from, to] of an element on which a load along its member acts. For a point load,
- * both limits are its position. A load between two elements belongs to the second element. Returns
- * 0 if the load acts only on other elements. */
+ * both limits are its position. A point load between two elements belongs to the second one.
+ * Returns 0 if the load does not act on this element. */
 int applied_part(const model *, int element, const scene_load *, double part[2]);
 /* Returns 1 if x is inside the element and not at an end. */
 int applied_inside(double x);
 /* Computes the vector of a load along the member at x in [0, 1] of an element, in the components of
  * the scene. */
 void applied_vector(const model *, int element, const scene_load *, double x, double vector[3]);
-/* Computes the axes of the undeformed member, with y as given in the scene. triad: axes on the
- * member whose y and z are the principal axes of the section. */
+/* Computes the axes of the undeformed member, with y as in the scene. triad: axes of the member
+ * whose y and z are the principal axes of the section. */
 void applied_member_axes(const double triad[9], const section *, double axes[9]);
 
-/* Adds `value` to entry (row, column) of a stiffness matrix. Entries may be zero, and an entry
- * may be added several times. */
+/* Adds `value` to entry (row, column) of a stiffness matrix. `value` may be zero, and several calls
+ * may add to one entry. */
 typedef void (*loads_entry)(void *context, int row, int column, double value);
 void applied_stiffness(const model *, const model_state *, const scene_load *, double scale,
                        loads_entry take, void *context);
 
-/* Condenses members to their ends before the tangent is solved, and expands the solution. For
- * members with many elements, the assembled tangent loses accuracy in proportion to the fourth
- * power of the number of elements. Flexibilities of members (chain.c) do not lose accuracy in this
- * way. The remaining system is as small as with one element per member. */
+/* Condenses members to their ends before the tangent is solved, and expands the solution. The error
+ * of an assembled tangent is proportional to the fourth power of the number of elements.
+ * Flexibilities of members (chain.c) avoid this error. The remaining system is as small as with one
+ * element per member. */
 
 /* Minimum number of elements of a condensed member. With fewer elements, the assembled tangent
  * costs less and is sufficiently accurate. */
@@ -68,12 +67,12 @@ status condensation_alloc_like(const condensation *of, int count, const int rele
                                condensation **out, fault *);
 void condensation_free(condensation *);
 
-/* Computes the tangent of the last linearise_state with the same arguments. Members are condensed.
- * */
+/* Computes the tangent, with condensed members, from the last linearise_state with the same
+ * arguments. */
 status condensation_at(condensation *, const model_state *, double path, fault *);
-/* Computes the tangent in the state of `of`, which owns the members. */
+/* Computes the tangent with the members of `of` in its state. `of` remains their owner. */
 void condensation_take(condensation *, const condensation *of, const model_state *);
-/* Returns the matrix on all end coordinates, which the caller may change before it is factored. */
+/* Returns the matrix of all end coordinates. The caller may change it before it is factored. */
 sparse *condensation_ends(condensation *);
 /* Factors the matrix of the unknowns. SINGULAR: as for factor_numeric, or a member is in a critical
  * state. */
@@ -81,7 +80,7 @@ status condensation_factor(condensation *, fault *);
 /* Solves for the unknowns in place, x[free + driven] := K^-1 x. transposed 1: x := K^-T x. */
 void condensation_solve(condensation *, int transposed, double x[]);
 factor_counts condensation_count(const condensation *);
-/* Creates a factor that solves by means of the condensation and owns it. */
+/* Creates a factor that uses the condensation for solutions. The factor owns the condensation. */
 status condensation_as_factor(condensation *, matrix_factor **, fault *);
 
 /* Condenses members with many elements (see condensation_alloc). *out is NULL if there are no such
@@ -90,17 +89,16 @@ status context_condensation(const analysis_context *, int count, const int relea
                             condensation **out, fault *);
 /* Like context_factor, for a tangent with condensed members. */
 status context_factor_condensed(analysis_context *, condensation *, fault *);
-/* Returns a factor that an earlier analysis left for reuse; NULL: none. */
+/* Returns a factor that an earlier analysis stored for reuse; NULL: none. */
 matrix_factor *context_take_factor(analysis_context *);
 
-/* Finds the released coordinates of the node of the analysis, and allocates matrices without
- * values. */
+/* Finds the released coordinates of the node, and allocates the matrices of the border. */
 status border_alloc(const analysis_context *, const scene_compliance *, border *, fault *);
 void border_free(border *);
 
-/* Loads along members between vertices, and loads that act through sections. Nodal forces follow
- * from the work of such loads on the displacements inside elements (elements/field), or the element
- * includes the loads in its equilibrium. */
+/* Loads along members between vertices. Their nodal forces follow from their work on the
+ * displacements inside elements (elements/field), or the element includes them in its
+ * equilibrium. */
 
 /* Loads along one element at a path parameter. */
 typedef struct distributed_loads {
@@ -110,19 +108,19 @@ typedef struct distributed_loads {
     double path;
 } distributed_loads;
 
-/* Returns 1 if the load acts by its work inside elements. Otherwise half of the load is lumped at
- * each end of an element. */
+/* Returns 1 if nodal forces follow from the work of the load inside elements; 0: half of the load
+ * on an element acts at each of its ends. */
 int distributed_spreads(const equations *, const scene_load *);
 
-/* Returns 1 if the element includes the load in its equilibrium (element_type.along). This is
- * supported only for dead forces along the whole line of an element, and not during motions. */
+/* Returns 1 if the element includes the load in its equilibrium (element_type.along). Only dead
+ * forces along the whole line of an element are included, and none during motions. */
 int distributed_takes(const equations *, int element, const scene_load *);
 /* Sum of the loads that an element includes in its equilibrium. */
 typedef struct distributed_taken {
     int acts;
     double force[3 * ELEMENT_ALONG_POINTS], mixed[3 * ELEMENT_MAX_STRAINS],
         H[ELEMENT_ALONG_COORDINATES * ELEMENT_ALONG_COORDINATES];
-    /* output that points to the arrays above; its stresses are added to the stresses of a slot */
+    /* output that points to the arrays above; its stresses are added to those of a slot */
     along_output out;
 } distributed_taken;
 /* Computes *out for the loads at `path`. out->acts is 0 if there are no such loads. */
@@ -139,9 +137,9 @@ void distributed_add_taken(const model *, const along_output *out, const double 
  * `scale`. K does not change in this case. */
 int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
-/* Like distributed_add_one, for all loads at `path`. For loads that the element includes in its
- * equilibrium, it adds only the part that J^T sigma does not contain, or the full forces in a
- * linear solution about `rest`. field 1: excludes these loads. */
+/* Like distributed_add_one, for all loads at `path`. Of loads that the element includes in its
+ * equilibrium, it adds only the part that J^T sigma does not contain; in a linear solution about
+ * `rest`, the full forces. field 1: excludes these loads. */
 int distributed_add(const equations *, const model_state *, const node_state x[], int element,
                     double path, double forces[], double K[]);
 /* Like distributed_add, but only for loads that the element includes in its equilibrium. */
@@ -165,14 +163,12 @@ int distributed_acts(const distributed_loads *);
  * none. */
 int distributed_jumps(const distributed_loads *);
 /* Computes the load per initial length on the section with this frame at x in [0, 1] of the
- * element: loads on its member, and inertia of a rotating frame (with active rotary inertia).
- * context: a distributed_loads. */
+ * element: loads on its member, and inertia in a rotating frame, including rotary inertia unless
+ * omitted. context: a distributed_loads. */
 void distributed_at(void *context, double x, const span_frame *, span_load *out);
 
-/* Functions shared by the files of harness/newton. */
-
 /* Subtracts the centrifugal force from `force` and adds its stiffness to K (may be NULL), in
- * element coordinates. Does nothing if there is no rotating frame. See rotating_frame.c. */
+ * element coordinates. Without a rotating frame, both are unchanged. */
 status rotating_frame_add(const equations *eq, const node_state x[], int element, double path,
                           double force[], double K[], fault *f);
 
@@ -190,13 +186,14 @@ void loads_subtract_stiffness(const equations *eq, const model_state *s, double 
  * symmetric matrix cannot contain it. */
 status loads_have_potential(const equations *eq, const model_state *s, double path, fault *f);
 
-/* Adds the effect of moments that nodes with a fixed axis exert. Elements and loads give
- * derivatives of work in the exponential chart of a node's rotation. At a node that is fixed about
- * one axis h, only the moments about the other two axes i and j are in equilibrium. The derivatives
- * of these moments differ by the reaction moment R: K_ij += R/2, K_ji -= R/2, with h, i, j in
- * cyclic order. */
+/* Adds the effect of reaction moments at nodes that are fixed about one axis only. Elements and
+ * loads give derivatives of work in the exponential chart of a node's rotation. At such a node with
+ * the fixed axis h, only the moments about the other two axes i and j are in equilibrium. The
+ * derivatives of these moments differ by the reaction moment R: K_ij += R/2, K_ji -= R/2, with h,
+ * i, j in cyclic order. */
 void linearise_add_held_moments(const equations *eq, const model_state *s, double path, sparse *K);
-/* Checks that no such reaction moment exists. REFUSED: the moment exists, and has no potential. */
+/* Checks that there is no reaction moment of linearise_add_held_moments. REFUSED: there is one, and
+ * it has no potential. */
 status linearise_held_have_potential(const equations *eq, const double sigma[], double path,
                                      fault *f);
 
@@ -204,7 +201,7 @@ status linearise_held_have_potential(const equations *eq, const double sigma[], 
 void loads_reference(const equations *, double path, double f[]);
 
 /* Computes the increments of the prescribed coordinates (dx[free .. free + driven)) from the state
- * to `path`. Other entries of dx do not change. */
+ * to `path`. Other entries are unchanged. */
 void loads_drive(const equations *, const model_state *, double path, double dx[]);
 
 /* Changes K for a node that rotates by a sequence of angles when the moment M of the prescribed
@@ -213,9 +210,8 @@ void loads_drive(const equations *, const model_state *, double path, double dx[
 void loads_release_moment(const model *, const model_state *, int node, const double M[3],
                           sparse *K);
 
-/* Batches of a few elements that are evaluated together. If the type has lanes
- * (element_type.lanes), a batch contains elements of the same kind. Otherwise it contains a single
- * element. */
+/* Batches of a few elements that are evaluated together. A batch contains elements of the same kind
+ * if the type has lanes (element_type.lanes), otherwise a single element. */
 
 /* Evaluation of one element. */
 typedef struct chunk_element {
@@ -234,15 +230,14 @@ typedef struct chunk_element {
 void chunk_evaluate(const equations *eq, const linear_memory *memory, const model_state *s,
                     double path, int count, chunk_element element[]);
 
-/* Adds an iteration of the present trial step. energy: |r . K^-1 r| of the residual r [J]; NAN:
+/* Adds an iteration of the current trial step. energy [J]: |r . K^-1 r| of the residual r; NAN:
  * unknown. */
 status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
                              double energy, fault *f);
 
 /* Stress-free strains of elements, in addition to the strains of the undeformed state. Their causes
- * are temperatures, which are loads, and initial strains of members. Either the strains of a state
- * are measured from the stress-free strains, or stresses are computed with element data that
- * include them. In both cases, stresses depend on the mechanical strains. */
+ * are temperatures, which are loads, and initial strains of members. Strains of a state are
+ * measured from the stress-free strains, or element data contain the stress-free strains. */
 
 /* Adds the free strain: the elongation, and the curvatures about the principal axes. */
 void free_strain_amounts(const equations *, int element, double path, double strain[3],
@@ -264,48 +259,47 @@ int free_strain_by_load(const equations *, const model_state *, int element, con
 
 status linear_stresses(const equations *, const double x[], double sigma[],
                        fault *); /* computes sigma = S J x, [model_stresses] */
-/* Computes the stresses due to the loads (including temperatures) that increase from path 0 to
- * `path`. x: displacements due to these loads. */
+/* Computes the stresses of the loads (including temperatures) that vary between path 0 and `path`.
+ * x: displacements due to these loads. */
 status linear_growing_stresses(const equations *, const double x[], double path, double sigma[],
                                fault *);
 void linear_forces(const equations *, const double sigma[],
                    double f[]); /* computes f[free + driven] = sum J^T sigma */
-/* Quadratic forms from the element strains. These forms avoid the cancellation in x^T (K x): the
- * error is eps n^2 instead of eps n^4. */
-/* returns x^T K x = sum (J x)^T S (J x) */
+/* Quadratic forms from element strains. They avoid the cancellation in x^T (K x), whose error is
+ * proportional to n^4 for n elements. */
 double linear_strain_energy2(const equations *, const double x[]);
 double linear_strain_rounding(const equations *,
                               const double x[]); /* returns a bound of the rounding error */
 double linear_geometric_energy2(const equations *, const double sigma[], const double x[]);
-/* Returns the size of the rounding error of the geometric form, for the stresses sigma of the
- * displacements load_x[free + driven]. */
+/* Returns the rounding error of the geometric form, for the stresses sigma of the displacements
+ * load_x[free + driven]. */
 double linear_geometric_rounding(const equations *, const double load_x[], const double sigma[],
                                  const double x[]);
 
 /* Returns REFINEMENT_ENDS if the accuracy is sufficient, otherwise REFINEMENT_LOST. correction: the
- * last correction, or another measure of the error. */
+ * last correction or another measure of the error. */
 refinement_state refinement_evaluate(solution_refinement *, double correction);
 /* Returns SINGULAR. The message contains the remaining accuracy of `what` and a remedy. */
 status refinement_refuse(const solution_refinement *, const char *what, fault *);
-/* Returns |change|/|x| in the norm with n weights; 0: there is no change. |x| is taken as at least
- * `least`. */
+/* Returns |change|/|x| in the norm with n weights; 0: there is no change. `least`: lower limit of
+ * |x|. */
 double refinement_part(int n, const double weight[], const double change[], const double x[],
                        double least);
 
-/* Returns 1 if mass is lumped at nodes, as specified by the scene or by a motion that starts from
- * this state. */
+/* Returns 1 if mass is lumped at nodes, because of the scene or of a motion that starts from this
+ * state. */
 int rotating_frame_lumps(const equations *);
 
 /* Computes the stiffness of the loads, for example of moments and of loads on offsets. */
 void rotating_frame_load_stiffness(const equations *, const model_state *, double path,
                                    sparse *out);
 
-/* Evaluates the strains and stresses of all elements before the loop that uses them, if the type
- * evaluates all elements in one call (element_type.strain_many, stress_many, without lanes). For
- * other types, and if memory is short, every element is evaluated in the loop. Elements with lanes
- * are evaluated in small batches (chunk.c). */
+/* Evaluates strains and stresses of all elements before the loop that uses them, if the type
+ * provides strain_many or stress_many without lanes. For other types, or if there is too little
+ * memory, the loop evaluates each element. Elements with lanes are evaluated in small batches
+ * (chunk.c). */
 
-/* Strains and stresses evaluated for all elements in one call. */
+/* Strains and stresses of all elements from one call. */
 typedef struct run_ahead {
     /* `what`: AHEAD_* bits of the valid strain outputs; `stresses` 1: the stresses are valid */
     int what, stresses;
@@ -318,13 +312,13 @@ typedef struct run_ahead {
     double *e, *sigma, *J, *H, *C, *memory;
 } run_ahead;
 
-enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* values of `what` */
+enum { AHEAD_E = 1, AHEAD_J = 2, AHEAD_H = 4 }; /* bits of `what` */
 
-/* Evaluates the strains of all elements at the nodes of s. sigma[elements x strains] is used for H.
- * The values are valid until ahead_end. */
+/* Evaluates the strains of all elements at the nodes of s. sigma[elements x strains]: needed for H.
+ * Values are valid until ahead_end. */
 void ahead_strains(const equations *eq, const model_state *s, int what, const double sigma[]);
-/* Evaluates sigma and C at e[elements x strains] with the histories of s; e NULL: at the strains
- * that were evaluated last. */
+/* Evaluates sigma and C at e[elements x strains] with the histories of s; e NULL: at the strains of
+ * the last evaluation. */
 void ahead_stresses(const equations *eq, const model_state *s, const double e[],
                     const double inner[]);
 void ahead_end(const equations *eq);
@@ -332,8 +326,8 @@ void ahead_end(const equations *eq);
 void ahead_copy_strain(const equations *eq, int i, const strain_output *out);
 status ahead_copy_stress(const equations *eq, int i, const stress_output *out);
 
-/* Return the values of element i at x or e, from the batch or from the functions of the type. They
- * are called in loops between ahead_strains or ahead_stresses and ahead_end. */
+/* Return the values of element i at x or e, from the batch or from the functions of the type. Call
+ * them between ahead_strains or ahead_stresses and ahead_end. */
 static inline void ahead_strain(const equations *eq, int i, const node_state x[],
                                 strain_output *out)
 {
@@ -366,8 +360,8 @@ typedef struct bordered {
     double *x, *load, *rest, *weight; /* [all] work space for refinement */
 } bordered;
 
-/* Allocates and factors the bordered system. SINGULAR: the structure is not supported if the
- * prescribed motion is released. Call bordered_free even after a failure. */
+/* Allocates and factors the bordered system. SINGULAR: the structure is unsupported when the
+ * prescribed motion is released. Call bordered_free also after a failure. */
 status bordered_alloc(node_tangent *t, counters *n, bordered *out, fault *f);
 void bordered_free(bordered *s);
 
@@ -376,11 +370,11 @@ void bordered_free(bordered *s);
  * A link connects joint p to joint q. The vector y contains the coordinates inside the link,
  * followed by those of q. Forces g on the link give y = A x_p + F g_y and g_p = B x_p - A^T g_y,
  * where A is the rigid motion of the link with p, F is its flexibility with p clamped, and B is the
- * stiffness of the rigid motion (prestress, warping). Two joined links form another link (the star
- * product of R. Redheffer, J. Math. Phys. 41, 1962). With F of the links before joint m, and B and
- * A of the next link: x_m = Z (a_m + F (r_m + A^T g_y)), Z = (1 + F B)^-1, F <- F_qq + A_q Z F
- * A_q^T. Flexibilities add without cancellation. Therefore rounding errors grow roughly in
- * proportion to the number of links, and not to its fourth power as for assembled stiffnesses. */
+ * stiffness of the rigid motion (prestress, warping). Two joined links form a link (star product of
+ * R. Redheffer, J. Math. Phys. 41, 1962). With F of the links before joint m, and B and A of the
+ * next link: x_m = Z (a_m + F (r_m + A^T g_y)), Z = (1 + F B)^-1, F <- F_qq + A_q Z F A_q^T.
+ * Flexibilities add without cancellation. Therefore rounding errors grow roughly in proportion to
+ * the number of links. Errors of assembled stiffnesses grow with its fourth power. */
 
 enum { CHAIN_JOINT = NODE_COORDINATES, CHAIN_LINK = (ELEMENT_MAX_NODES - 1) * CHAIN_JOINT };
 
@@ -410,8 +404,8 @@ status chain_stiffness(const chain *, double K[], fault *);
 int chain_negative(const chain *);
 
 /* Reduces loads to the ends. r[links x y]: loads on all coordinates except those of the ends, in
- * the order of the links (the last joint is not read). ends[2 joint]: resulting forces on the ends.
- * */
+ * the order of the links (those of the last joint are not read). ends[2 joint]: resulting forces on
+ * the ends. */
 void chain_reduce(chain *, const double r[], double ends[]);
 /* Computes x[links x y] for these loads and for the motions ends[2 joint] of the ends. The last
  * joint is an end. x may be r. */
@@ -425,15 +419,14 @@ static inline int chain_packed(int n)
     return n * (n + 1) / 2;
 }
 
-/* Stored values: A and F of each link, and Z, B Z and Z F of its junction with the previous links.
- * */
+/* Stored values: A and F of each link; Z, B Z and Z F of its junction with the previous links. */
 struct chain {
     int links, count; /* `links`: number of links in all; `count`: number of links added so far */
     int c, y, inside; /* c, y: number of coordinates of a joint and of a link; inside = y - c */
     int negative;
     double *kept;
-    /* [(links + 1) x c] displacements of the joints without the forces of later links; afterwards
-     * the forces on the joints */
+    /* [(links + 1) x c] displacements of the joints without the forces of later links; chain_expand
+     * overwrites them with forces */
     double *a;
     double F[CHAIN_JOINT * CHAIN_JOINT]; /* flexibility of the links that have been joined so far */
     double A[CHAIN_JOINT * CHAIN_JOINT], B[CHAIN_JOINT * CHAIN_JOINT];
@@ -502,7 +495,7 @@ struct condensation {
 void linear_springs_stiffness(const model *, sparse *K); /* += */
 void linear_springs_stresses(const model *, const double x[], double sigma[]);
 void linear_springs_forces(const model *, const double sigma[], double f[]); /* += */
-/* Adds the forces of springs on the frame of a node to F[6]. */
+/* Adds the forces of springs on a node's frame to F[6]. */
 void linear_springs_node_force(const model *, const double sigma[], int node, double F[6]);
 void linear_springs_geometric_stiffness(const model *, const double sigma[], sparse *G); /* += */
 double linear_springs_energy2(const model *, const double x[]);
@@ -518,19 +511,18 @@ typedef struct link_element {
     const double *r;           /* [nodes x 3] positions of the nodes [m] */
 } link_element;
 
-/* Makes the element a link. The rigid motion R of the element causes strains E = J R. Apart from
- * warping, they are rounding errors. The element then moves by R + d with d = -F (J_y^T C E + (H
- * R)_y), and B = (E + J_y d)^T C (E + J_y d) + (R + d)^T H (R + d). No entries of the size of K are
- * subtracted from each other. SINGULAR: the element, clamped at its first node, is in a critical
- * state. */
+/* Makes the element a link. The rigid motion R of the element causes strains E = J R. Without
+ * warping, these are rounding errors. The element then moves by R + d with d = -F (J_y^T C E + (H
+ * R)_y), and B = (E + J_y d)^T C (E + J_y d) + (R + d)^T H (R + d). Entries of the size of K are
+ * not subtracted. SINGULAR: the element, clamped at its first node, is in a critical state. */
 status link_of(const link_element *, chain_link *, fault *);
 
-/* Finds mechanisms. Members are the rigid parts of a linkage, whose joints are released ends. */
+/* Mechanisms: members are the rigid parts of a linkage, and released ends are its joints. */
 
 /* Returns 1 if released ends make the undeformed structure with its supports a mechanism. Sets
- * *node to the node with the largest motion. If all nodes are at rest, sets *node to -1 and *member
- * to a member that moves. motion: displacement [m] and rotation [rad] with an arbitrary scale.
- * Structures of more than 200 parts are not examined. */
+ * *node to the node with the largest motion. If no node moves, sets *node to -1 and *member to a
+ * moving member. motion: displacement [m] and rotation [rad], with an arbitrary factor. Structures
+ * of more than 200 parts are not examined. */
 int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
 
 /* Small symmetric matrices whose rows may have different units. */
@@ -551,11 +543,9 @@ typedef struct undeformed_element {
 } undeformed_element;
 
 /* Returns the derivatives of an element. In large models, consecutive elements of the same kind
- * share one set of derivatives if their orientations are equal up to rounding of their positions.
- * FAULT: out of memory. */
+ * share derivatives if their orientations are equal up to rounding. FAULT: out of memory. */
 status undeformed_of(const equations *, int element, undeformed_element *, fault *);
-/* Evaluates missing elements together if the formulation supports this. The values are valid until
- * ahead_end. */
+/* Evaluates missing elements together if the formulation can. Values are valid until ahead_end. */
 void undeformed_begin(const equations *);
 
 #endif

@@ -297,8 +297,8 @@ status history_add_step(solve_result *r, const step_record *record, fault *f)
     return memory_append(&r->step, &r->steps, record, sizeof *record, "step records", f);
 }
 
-/* Returns the stability of a state with an unsymmetric tangent. The state is unstable if
- * eigenvalues have crossed zero (if there is mass, an odd number of eigenvalues). Otherwise the
+/* Returns the stability of a state with an unsymmetric tangent. Without mass, the state is
+ * unstable if an eigenvalue has crossed zero; with mass, if an odd number has. Otherwise
  * frequencies decide. */
 static step_stability without_symmetry(const scene *s, const step_record *one)
 {
@@ -323,7 +323,7 @@ void history_evaluate_steps(solve_result *r, const scene *s, int analysis, int f
             one->stability = STEP_STABLE;
         else if (a->kind != SCENE_ROTATION && !scene_rotates(a))
             one->stability =
-                STEP_UNSTABLE; /* in rotating axes, gyroscopic forces may stabilise the state */
+                STEP_UNSTABLE; /* gyroscopic forces may stabilise a state in rotating axes */
         else if (one->negative_pivots % 2 != 0)
             /* an odd number cannot be stabilised: det(s^2 M + s G + K) is negative at s = 0 and
              * positive for large s */

@@ -66,7 +66,8 @@ void quantity_no_value(quantity_result *r, status s, const char *reason)
 
 int quantity_governs(scene_envelope how, double value, double best)
 {
-    const double ties = 1e-9; /* of two values with equal magnitudes, the first governs */
+    const double ties = 1e-9; /* relative difference of magnitudes that count as equal; the first of
+                                 equal values governs */
     return how == SCENE_ENVELOPE_MIN       ? value < best
            : how == SCENE_ENVELOPE_LARGEST ? fabs(value) > (1 + ties) * fabs(best)
                                            : value > best;
@@ -145,7 +146,7 @@ static int invert(int n, double A[], double B[])
     return failed;
 }
 
-/* Subtracts m~/2 of the moment `of`, multiplied by `times`, from the rotational block of K. */
+/* Subtracts `times` m~/2 of the moment `of` from the rotational block of K. */
 static void subtract_half_skew(const movable *v, double times, const double of[3], double K[])
 {
     const double m[3] = {times * of[0], times * of[1], times * of[2]},
@@ -179,8 +180,8 @@ int convention_changes(scene_moments of_tangent, scene_moments convention, const
            (convention != of_tangent && vec3_norm(m) > 0);
 }
 
-/* Returns how many times m~/2 must be subtracted to convert a stiffness from the convention of the
- * tangent; -1: m~/2 must be added. */
+/* Returns the multiple of m~/2 to subtract from a stiffness in the convention of the tangent; -1:
+ * m~/2 is added. */
 static int times_of(scene_moments of_tangent, scene_moments convention)
 {
     return (convention != SCENE_MOMENTS_SEMITANGENTIAL) - (of_tangent == SCENE_MOMENTS_SPATIAL);
@@ -196,7 +197,6 @@ static void congruence(int m, int n, const double T[], const double A[], double 
             to[i * m + j] = dense_dot(n, half + i * n, T + j * n);
 }
 
-/* Computes to = dual C dual^T, which is C for the possible motions. */
 static void gather(const movable *v, const double C[36], double to[])
 {
     const int n = v->count;
@@ -217,7 +217,6 @@ static void scatter(const movable *v, const double from[], double to[36])
             to[N * v->component[i] + v->component[j]] += from[i * n + j];
 }
 
-/* Computes C = span from span^T. */
 static void scatter_compliance(const movable *v, const double from[], double C[36])
 {
     if (v->whole)
@@ -226,7 +225,6 @@ static void scatter_compliance(const movable *v, const double from[], double C[3
         congruence(N, v->count, v->span, from, C);
 }
 
-/* Computes K = dual^T from dual. */
 static void scatter_stiffness(const movable *v, const double from[], double K[36])
 {
     const int n = v->count;

@@ -44,7 +44,6 @@ status quadratic_forms_load(const equations *eq, quadratic_forms *p, double path
                  : linear_growing_stresses(eq, p->load_x, path, p->sigma, f);
 }
 
-/* Returns x[free] with zeros for the prescribed coordinates. */
 static const double *all_of(quadratic_forms *p, const double x[])
 {
     memcpy(p->x, x, (size_t)p->free * sizeof *x);
@@ -73,7 +72,7 @@ double quadratic_forms_geometric_rounding(quadratic_forms *p, const double x[])
     return linear_geometric_rounding(p->eq, p->load_x, p->sigma, all_of(p, x));
 }
 
-/* No evaluation can fail, because the undeformed elements were evaluated when K was assembled. */
+/* the undeformed elements have been evaluated for K, so no evaluation can fail */
 void quadratic_forms_product(quadratic_forms *p, const double x[], double y[])
 {
     linear_stresses(p->eq, all_of(p, x), p->stress, NULL);
@@ -81,7 +80,8 @@ void quadratic_forms_product(quadratic_forms *p, const double x[], double y[])
     memcpy(y, p->force, (size_t)p->free * sizeof *y);
 }
 
-/* Above this condition number no digit is reliable, and a failure is attributed to rounding. */
+/* Above this condition number, no digit of a solution is reliable, and a failure is attributed to
+ * rounding. */
 static const double no_digits = 1e15;
 
 /* Describes a rigid motion that the supports allow. */
@@ -121,9 +121,9 @@ status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
                                                   : "parts joined by constraints");
 }
 
-/* Returns the ratio of the largest to the smallest stiffness of the coordinates of K. Displacements
- * are in units of the structure's length, because a rotation of the structure involves all
- * coordinates. 1: out of memory. */
+/* Returns the ratio of the largest to the smallest stiffness of coordinates of K. Displacements are
+ * scaled with the length of the structure, because a rigid rotation moves all coordinates. 1: out
+ * of memory. */
 static double spread(const model *m, const sparse *K)
 {
     const model_size size = model_sizes(m);
@@ -153,7 +153,8 @@ static int has_no_number(const sparse *K)
 }
 
 /* Returns the condition number of the stiffness of an undeformed model; INFINITY: the stiffness
- * cannot be factored. *lost: LOST if no accuracy is left, NO_NUMBER if entries are NaN or Inf. */
+ * cannot be factored. *lost: LOST, all digits are lost to rounding; NO_NUMBER, entries are NaN or
+ * Inf. */
 static double condition_at_rest(const analysis_context *c, const equations *eq, int *lost)
 {
     const counters work = eq->run->counters;
@@ -181,7 +182,7 @@ static double condition_at_rest(const analysis_context *c, const equations *eq, 
 }
 
 /* Returns the condition number of the same scene with one element per member. *elements: number of
- * these elements. *lost: 1 if accuracy is lost even with these elements. */
+ * these elements. *lost: 1 if all digits are lost even on this mesh. */
 static double condition_when_coarse(const analysis_context *c, int *elements, int *lost)
 {
     model *coarse = NULL;
@@ -199,8 +200,8 @@ static double condition_when_coarse(const analysis_context *c, int *elements, in
     return condition;
 }
 
-/* Explains a loss of accuracy. Either the mesh is the cause, because the condition number grows
- * with the fourth power of the number of elements, or the loss does not depend on the mesh. */
+/* Reports the cause of a loss of accuracy: the number of elements, to whose fourth power the
+ * condition number is proportional, or differences of stiffness that do not depend on the mesh. */
 static void explain_loss(const analysis_context *c, fault *f)
 {
     const int elements = model_sizes(c->model).elements;

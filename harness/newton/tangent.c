@@ -23,15 +23,13 @@ static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int 
  * */
 static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
 
-/* Condition number above which solutions are refined, because rounding would leave fewer than eight
- * digits. */
+/* Above this condition number, a solution has fewer than eight digits without refinement. */
 static const double harmless_condition = 1e8;
 /* A condition number is not estimated again if it differed from harmless_condition by at least the
  * factor `clear`, and the ratio of the largest to the smallest pivot has changed by less than the
  * factor `alike`. */
 static const double clear = 30, alike = 2;
 
-/* Copies the block of the free coordinates from the whole matrix. */
 static void copy_inside(node_tangent *t)
 {
     if (t->inside.value != t->K.value)
@@ -89,7 +87,6 @@ void tangent_free(node_tangent *t)
     free(t->residual);
 }
 
-/* Factors the free block. */
 static status factor_inside(analysis_context *c, node_tangent *t, fault *f)
 {
     counters *n = &c->run->counters;
@@ -112,7 +109,7 @@ static status factor_inside(analysis_context *c, node_tangent *t, fault *f)
     return outcome;
 }
 
-/* Returns 1 if the condition number requires refinement. */
+/* Returns 1 if solutions must be refined because of the condition number. */
 static int needs_refinement(node_tangent *t)
 {
     const double apart = factor_count(t->factor).condition;
@@ -218,7 +215,7 @@ static status refine(const equations *eq, node_tangent *t, const bordered *s, co
     return STATUS_OK;
 }
 
-/* Computes the columns of C due to unit loads on the requested components that can move. The caller
+/* Computes the columns of C for unit loads on the requested components that can move.
  * tangent_compliance() frees the memory. */
 static status respond_all(const equations *eq, node_tangent *t, bordered *s, unsigned wanted,
                           unsigned components, double C[36], fault *f)
@@ -254,7 +251,6 @@ status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
     return outcome;
 }
 
-/* Copies the columns of T for the requested coordinates: [6 x n]. Returns n. */
 static int columns_of(const node_tangent *t, int (*wanted)(const node_tangent *, int), double out[])
 {
     int n = 0;
@@ -274,8 +270,8 @@ static int is_free(const node_tangent *t, int k)
     return t->index[k] < t->free;
 }
 
-/* Computes the moment whose work per unit rate of each angle is g_k. The moment has no component at
- * right angles to all axes b. */
+/* Computes the moment whose work per unit rate of angle k is g_k. Its component normal to all axes
+ * b is zero. */
 static void moment_of(int angles, double b[3][3], const double g[3], double moment[3])
 {
     double A[9], factor[3] = {g[0], g[1], g[2]};
@@ -285,7 +281,7 @@ static void moment_of(int angles, double b[3][3], const double g[3], double mome
         for (int j = 0; j < angles; j++)
             A[i * angles + j] = vec3_dot(b[i], b[j]);
     if (dense_lu_regular(angles, A, pivot) != 0)
-        return; /* two axes are parallel, so the tangent is singular as well */
+        return; /* two axes are parallel, and the tangent is singular */
     dense_lu_solve(angles, 1, A, pivot, factor);
     for (int k = 0; k < angles; k++)
         for (int i = 0; i < 3; i++)
@@ -464,8 +460,7 @@ static void residual_of(const equations *eq, const node_tangent *t, const border
 
 static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f)
 {
-    /* x is the first solution; with condensed members, a second solution would not be more accurate
-     * */
+    /* x is the first solution; with condensed members, one more solution suffices */
     solution_refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
     refinement_state state = REFINEMENT_GOES_ON;
     metric_of(eq->m, s->weight);
@@ -483,9 +478,9 @@ enum { LEAST = 2, MOST = 30 };
 
 /* Relative sizes of a correction. If a correction is below sure_digits, no further correction is
  * made. enough_digits is a thousandth of the tolerance of quantities (SCENE_TOLERANCE), because
- * quantities derived from the solution may lose further digits. With the error level of newton.h,
- * 2.5 eps (L/side)^2, bars exceed sure_digits for L/side > 1300, and enough_digits for L/side >
- * 42000. In a run of verify, no correction exceeded 2e-12. */
+ * quantities derived from the solution may lose further digits. With the error level 2.5 eps
+ * (L/side)^2 (see newton.h), bars exceed sure_digits for L/side > 1300 and enough_digits for L/side
+ * > 42000. */
 static const double sure_digits = 1e-9, enough_digits = 1e-6;
 
 refinement_state refinement_evaluate(solution_refinement *r, double correction)
@@ -507,7 +502,7 @@ refinement_state refinement_next(solution_refinement *r, double correction)
 
 status refinement_refuse(const solution_refinement *r, const char *what, fault *f)
 {
-    const int digits = r->last < 1 ? (int)-log10(r->last) : 0; /* NAN gives no digits */
+    const int digits = r->last < 1 ? (int)-log10(r->last) : 0; /* NAN: no digits */
     return fault_set(f, STATUS_SINGULAR,
                      "%s is lost in round-off (significant digits: %d; relative corrections stay "
                      "at %.1e); use fewer elements or a less slender structure",

@@ -1,4 +1,4 @@
-/* Solutions for all coordinates, computed from the solutions for the ends of members. */
+/* Expansion of a solution from the ends of members to all coordinates. */
 #include "harness/newton/newton_impl.h"
 
 #include <float.h>
@@ -68,7 +68,7 @@ void condensation_solve(condensation *s, int transposed, double x[])
 {
     const int free_count = model_unknowns(s->m);
     const size_t driven = (size_t)model_driven(s->m) * sizeof *x;
-    memcpy(s->driven, x + free_count, driven); /* known values do not change */
+    memcpy(s->driven, x + free_count, driven); /* prescribed values do not change */
     reduce(s, x);
     for (int i = 0; i < s->unknowns; i++)
         s->small[i] = x[s->unknown[i]];
@@ -117,8 +117,8 @@ factor_counts condensation_count(const condensation *s)
     return counts;
 }
 
-/* Products with the tangent of the last linearisation. They are computed as sums of a stiff and a
- * soft part, so that residuals are accurate. */
+/* Products with the tangent of the last linearisation, as sums of a stiff and a soft part. The
+ * split makes residuals accurate. */
 
 void stiffness_parts_material_product(const model *m, const linear_memory *memory,
                                       const model_state *s, const double x[], double y[])
@@ -138,8 +138,8 @@ void stiffness_parts_material_product(const model *m, const linear_memory *memor
     discrete_material_product(m, s, x, y);
 }
 
-/* Strains have the rounding errors of their terms, and P'' has the rounding errors of its entries.
- * These errors are similar in all elements, so they add up. */
+/* Strains have the rounding errors of their terms, and stresses also those of the entries of P''.
+ * The errors of different elements are similar, so they add up. */
 double stiffness_parts_material_rounding(const model *m, const linear_memory *memory,
                                          const model_state *s, const double x[])
 {

@@ -8,7 +8,7 @@
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 
-/* Above this number of elements, memory is more important than the last digits of each J. */
+/* With more elements, less memory is used, at the cost of the last digits of J. */
 enum { LARGE = 1000, FIRST_ROOM = 16 };
 
 static size_t size_of(const model *m)
@@ -21,7 +21,7 @@ static status begin(const equations *eq, fault *f)
     const model *m = eq->m;
     run_undeformed *u = &eq->run->undeformed;
     if (u->of != NULL)
-        return STATUS_OK; /* an earlier call has allocated the memory */
+        return STATUS_OK; /* allocated by an earlier call */
     u->room = model_elements(m) < LARGE ? model_elements(m) : FIRST_ROOM;
     u->of = malloc(((size_t)model_elements(m) + 1) * sizeof *u->of);
     u->value = malloc((size_t)u->room * size_of(m) * sizeof *u->value + 1);
@@ -37,8 +37,8 @@ static status begin(const equations *eq, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if element i has the same derivatives as the last stored element. The triads may differ
- * by rounding, because they follow from chords between rounded positions. */
+/* Returns 1 if element i has the same derivatives as the last stored element. Triads may differ by
+ * the rounding of the positions from which they are computed. */
 static int alike(const equations *eq, int i)
 {
     const model *m = eq->m;
@@ -61,8 +61,8 @@ static int is_strained(const model *m, int i)
     return vec3_norm(model_kind_of(m, i)->strain) + vec3_norm(model_kind_of(m, i)->free) > 0;
 }
 
-/* Computes C at zero strain, and the initial stresses. Their effect on the stiffness is included in
- * geometric stiffnesses. */
+/* Computes C at zero strain, and the initial stresses. Geometric stiffnesses contain the effect of
+ * these stresses. */
 static status evaluate_strained(const model *m, int i, const double e[], const double inner[],
                                 double C[], double initial[])
 {
@@ -81,8 +81,8 @@ static status evaluate_strained(const model *m, int i, const double e[], const d
     return STATUS_OK;
 }
 
-/* Checks C of a type whose forces need not derive from an energy, because matrices of the
- * undeformed structure are symmetric. Removes the asymmetry of rounding errors. */
+/* Checks that C is symmetric, also for types whose forces need not derive from an energy. Removes
+ * asymmetry due to rounding. */
 static status make_symmetric(const model *m, double C[], fault *f)
 {
     const int n = model_strains(m);
@@ -122,7 +122,7 @@ static status evaluate(const equations *eq, int i, double J[], double C[], doubl
         &(stress_output){.C = C, .history = model_history_of(m, kinematics_rest(m), i)});
 }
 
-/* Makes room for one more element. */
+/* Allocates memory for one more element. */
 static status grow(const equations *eq, fault *f)
 {
     run_undeformed *u = &eq->run->undeformed;
@@ -326,7 +326,6 @@ double linear_springs_geometric_energy2(const model *m, const double sigma[], co
     return sum;
 }
 
-/* Returns the size of an array [bytes], rounded up so that the next array is aligned. */
 static size_t bytes(size_t count, size_t size)
 {
     const size_t unit = _Alignof(max_align_t);
@@ -340,7 +339,6 @@ static void *part(char **from, size_t count, size_t size)
     return here;
 }
 
-/* Allocates all arrays in one block. Returns 0 if out of memory. */
 static int allocate(const equations *eq)
 {
     const model *m = eq->m;

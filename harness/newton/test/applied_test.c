@@ -1,5 +1,5 @@
-/* Loads along members and at offsets must have the correct total force and moment, in the axes of a
- * member with any section. An offset acts as a rigid arm. */
+/* Loads along members and at offsets: total force and moment, in the axes of a member with any
+ * section. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,6 @@
 enum { MOST = 120 };
 static const double along[3] = {0.6, 0.8, 0}, across[3] = {-0.8, 0.6, 0};
 
-/* Adds an angle section with unequal legs. Its principal axes are oblique to the legs. */
 static int add_angle(scene *s)
 {
     static const double point[3][2] = {{0, 0}, {0.1, 0}, {0, 0.05}}, thickness[2] = {0.01, 0.01};
@@ -117,8 +116,8 @@ static void along_a_member(const char *name)
     }
 }
 
-/* Checks a load that varies from v to w along a part of a member: q = (v + w)/2 + s (w - v) at x =
- * c + h s, where s is from -1/2 to 1/2. */
+/* A load that varies linearly from v to w along a part of a member: q = (v + w)/2 + s (w - v) at x
+ * = c + h s, where s is from -1/2 to 1/2. */
 static void along_a_part(const char *name, int lumped)
 {
     static const double v[3] = {1, -2, 3}, w[3] = {-0.5, 1, 2}, range[2] = {0.15, 0.72};
@@ -139,8 +138,6 @@ static void along_a_part(const char *name, int lumped)
     }
 }
 
-/* Computes the reaction force and moment of a bent cantilever under a load at an offset from its
- * tip. */
 static void cantilever(const element_type *type, int attached, int follower, double out[6])
 {
     static const double P[3] = {0.2, -0.3, 0.4}, edge[3] = {0.1, 0.2, -0.3};
@@ -201,13 +198,11 @@ static void applied_tests(void)
         offset_is_an_arm(registry_formulations[i]);
 }
 
-/* Elements evaluated in lanes must give the same results as elements evaluated one at a time. The
- * members have two sections in turn. An element that cannot be evaluated must be named. */
+/* Elements evaluated in lanes must give the results of elements evaluated one at a time. The
+ * members have two sections in turn. If an evaluation fails, the message must name the element. */
 
 enum { ELEMENTS = 7, MEMBERS = 3, QUANTITIES = 6 };
 
-/* Builds three members in a line, bent by a force at the end. The first and the last have the same
- * section. */
 static void set_up(scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -263,12 +258,12 @@ static void same_answers(const element_type *type)
 }
 
 static const element_type *inner;
-static int requested; /* calls for several elements; none on processors without AVX2, which evaluate
-                     one element at a time */
+static int requested; /* calls for several elements; zero without AVX2, when elements are evaluated
+                         one at a time */
 static const double failing =
     0.4 + 0.2 * 3 / ELEMENTS; /* start of the fourth element of the last member [m] */
 
-/* Makes the evaluation of the element at a certain position fail. */
+/* Evaluation that fails for the element at a certain position. */
 static void fail(int count, const node_state x[], int nodes, status outcome[])
 {
     for (int k = 0; k < count; k++)
@@ -337,8 +332,8 @@ static void chunk_tests(void)
     gsl_test(found == 0, "a formulation with equations in lanes");
 }
 
-/* A beam starts from a rigid arm of a held body. The reactions of the body must be the force at the
- * tip and the moment of this force about the body. */
+/* A beam starts from a rigid arm of a fixed body. The reactions of the body balance the tip
+ * force. */
 static void foot_of_an_arm(const element_type *type)
 {
     const double y[3] = {0, 1, 0}, end = 1, P[3] = {0.01, -0.02, 0.03};
@@ -354,7 +349,7 @@ static void foot_of_an_arm(const element_type *type)
     scene_hold_all(&s, foot);
     scene_add_member(&s, arm, tip, scene_add_section(&s, &spec), y);
     scene_add_load(&s, SCENE_FORCE, tip, P[0], P[1], P[2]);
-    scene_add_load(&s, SCENE_FORCE, foot, 5, 6, 7); /* the load acts directly on the support */
+    scene_add_load(&s, SCENE_FORCE, foot, 5, 6, 7);
     scene_add_static(&s, 1, &end, 1);
     for (int k = 0; k < 9; k++) {
         char name[8];

@@ -16,9 +16,9 @@
 
 enum { LINKS = 5, STRAINS = 18, MOST = CHAIN_JOINT * (2 * LINKS + 1) };
 
-/* Elements with random matrices. If `indefinite` is 1, their H have negative eigenvalues. */
 typedef struct chain_row {
-    int nodes, joint, joints, all; /* coordinates per joint, joints, and all = joints x joint */
+    int nodes, joint, joints,
+        all; /* coordinates per joint, number of joints, and all = joints x joint */
     double J[LINKS][STRAINS * ELEMENT_MAX_COORDINATES], C[LINKS][STRAINS * STRAINS],
         H[LINKS][ELEMENT_MAX_COORDINATES * ELEMENT_MAX_COORDINATES], r[LINKS][9];
 } chain_row;
@@ -41,7 +41,6 @@ static void fill(int nodes, int joint, double indefinite, uint64_t *seed, chain_
     }
 }
 
-/* Assembles K[all x all]. */
 static void assemble(const chain_row *of, double K[])
 {
     const int n = NODE_COORDINATES * of->nodes, c = of->joint;
@@ -94,8 +93,8 @@ static double largest(int n, const double a[], const double b[])
     return most;
 }
 
-/* Compares the numbers of negative eigenvalues of the inner coordinates that the dense matrix and
- * the chain have. Returns the number. The coordinates of the ends come first and last. */
+/* Checks that the dense matrix of the inner coordinates and the chain have equal numbers of
+ * negative eigenvalues. Returns this number. The coordinates of the ends come first and last. */
 static int held_inside(const chain_row *of, const double K[], const chain *s)
 {
     const int inside = of->all - 2 * of->joint;
@@ -109,8 +108,6 @@ static int held_inside(const chain_row *of, const double K[], const chain *s)
     return negative;
 }
 
-/* Solves for loads on all coordinates, once with the dense matrix and once with the condensed ends.
- * Both ends are on springs. */
 static void solutions(const chain_row *of, double K[], chain *s, uint64_t *seed)
 {
     const int c = of->joint, n = of->all;
@@ -132,8 +129,9 @@ static void solutions(const chain_row *of, double K[], chain *s, uint64_t *seed)
     chain_expand(s, b + c, ends, b + c);
     memcpy(b, ends, (size_t)c * sizeof *b);
     const double error = largest(n, b, x) / largest(n, x, NULL),
-                 most = of->H[0][0] == 0 ? 1e-10 : 1e-4; /* if H is not zero, the matrix may be
-                                                            almost singular, and digits are lost */
+                 most = of->H[0][0] == 0
+                            ? 1e-10
+                            : 1e-4; /* if H is not zero, the matrix may be almost singular */
     gsl_test(!(error < most), "%d nodes, %d coordinates: solution by way of the ends, off by %.1e",
              of->nodes, c, error);
 }
@@ -167,8 +165,8 @@ static void random_rows(void)
     gsl_test(negative < 20, "%d negative eigenvalues were there to be counted", negative);
 }
 
-/* A link of a clamped beam with unit length and unit stiffnesses. The strains of the link are the
- * motion of the second joint relative to the first. */
+/* A link of a clamped beam with length 1 and stiffnesses 1. The strains of the link are the motion
+ * of the second joint relative to the first. */
 static void uniform_link(double l, double J[], double C[], double H[], double r[])
 {
     const int n = 2 * NODE_COORDINATES;
@@ -224,13 +222,12 @@ static void chain_tests(void)
     long_chain();
 }
 
-/* The initial guess for the next state of a path must be exact for polynomial paths of a degree
- * that the number of stored states allows. It must not extrapolate too far. */
+/* The extrapolation of a state is exact for polynomial paths up to the degree that the number of
+ * stored states permits. It must not be used for too long steps. */
 
 enum { MOST_DEGREE = MODEL_EXTRAPOLATED };
 
-/* Fills a state of a path that is a polynomial of the given degree in its parameter. Every vertex
- * rotates about a different axis. */
+/* Fills a state on a polynomial path. Every vertex rotates about a different axis. */
 static void extrapolate_fill(const model *m, int degree, double path, model_state *s)
 {
     uint64_t seed = 42;
@@ -253,8 +250,7 @@ static void extrapolate_fill(const model *m, int degree, double path, model_stat
     }
 }
 
-/* Returns the largest difference of strains and stresses, and of displacements and rotations of
- * vertices with coordinates. */
+/* Returns the largest difference of the strains, stresses, displacements and rotations. */
 static double apart(const model *m, const model_state *a, const model_state *b)
 {
     double worst = 0;
@@ -271,8 +267,8 @@ static double apart(const model *m, const model_state *a, const model_state *b)
     return worst;
 }
 
-/* Returns the error of the guess for the parameter `to`, after states at the parameters
- * path[count]. The path is a polynomial of the given degree and reverses at `kink`. */
+/* Returns the error of the state predicted for the parameter `to` from the states at path[count].
+ * The polynomial path reverses at `kink`. */
 static double error_of_guess(const model *m, int degree, double kink, int count,
                              const double path[], double to)
 {
@@ -317,7 +313,7 @@ static void smooth_paths(const model *m)
         }
 }
 
-/* Extrapolation is allowed for steps of up to one and a half times the last step. */
+/* Steps up to 1.5 times the last step are extrapolated. */
 static void long_steps(const model *m)
 {
     static const double path[] = {0.1, 0.2, 0.3, 0.4, 0.5};
@@ -327,8 +323,7 @@ static void long_steps(const model *m)
     gsl_test(!(beyond > 1e-3), "a much longer one starts where the last ended (%.1e)", beyond);
 }
 
-/* From two states after a kink, the path must be extrapolated linearly, whatever precedes the
- * kink. */
+/* From two states after a slope discontinuity, the extrapolation is linear. */
 static void slope_jumps(const model *m)
 {
     static const double path[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};

@@ -1,6 +1,6 @@
-/* Loads along an element that computes the motion of its sections itself: their stiffness must be
- * the derivative of their forces, and dead forces on an undeformed slender element must be those of
- * the displacement field that is common to all types, which is the same cubic. */
+/* Loads on an element that computes the motion of its sections (element_type.line): the stiffness
+ * is the derivative of the forces. For dead forces on an undeformed slender element, the forces are
+ * those of the displacement field that is common to all types. */
 #include <gsl/gsl_test.h>
 #include <stdlib.h>
 #include <string.h>
@@ -13,8 +13,6 @@
 enum { N = 14, END = 7 };
 static const double L = 2;
 
-/* Adds the second derivatives of f . (c n), where n rotates with the node whose rotations start at
- * `at`. */
 static void add_second(int at, double c, const double n[3], const double f[3], double H[])
 {
     for (int i = 0; i < 3; i++)
@@ -23,7 +21,7 @@ static void add_second(int at, double c, const double n[3], const double f[3], d
                 c * ((n[i] * f[j] + f[i] * n[j]) / 2 - (i == j) * vec3_dot(n, f));
 }
 
-/* A cubic through both nodes with their slopes. The axes are those of the nearer node. */
+/* A cubic through both nodes with their slopes. Section axes are those of the nearer node. */
 static void section_at(const node_state x[], line_output *out)
 {
     const double s = out->at, q = s * s * (3 - 2 * s), slope = L * s * (1 - s),
@@ -117,7 +115,7 @@ static void forces_of(const loaded *of, const node_state x[], double F[N], doubl
     distributed_add_one(&of->eq, kinematics_rest(of->m), x, 0, &of->s.load[0], 1, F, K);
 }
 
-/* Compares K with finite differences of sixth order in the exponential chart. */
+/* Compares K with sixth-order finite differences in the exponential chart. */
 static void derivative(const scene_load *load, const char *name)
 {
     static const double weight[] = {0.75, -0.15, 1 / 60.0};

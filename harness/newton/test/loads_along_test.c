@@ -1,4 +1,4 @@
-/* Loads along a member and centrifugal forces must have the correct resultants at the vertices. */
+/* Nodal forces of loads along a member and of centrifugal forces. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -10,7 +10,7 @@ enum { MOST = 40 };
 enum { LINE, SPIN };
 
 /* Computes the forces of one component on the vertices of a member of length 2 along x, due to a
- * load along it or to a frame that rotates about z. The vertices at both ends come first. */
+ * load along it or to a frame that rotates about z. The two end vertices come first. */
 static void forces_along(int what, const char *name, double path, int follows, int nodes,
                          double out[])
 {
@@ -49,9 +49,8 @@ static void forces_along(int what, const char *name, double path, int follows, i
     scene_free(&s);
 }
 
-/* The nodal forces must have the resultant and the first moment of the load along a member. The
- * second moment is that of the trapezoidal rule, or, with three nodes, the exact one of Simpson's
- * rule. */
+/* Nodal forces have the resultant and the first moment of the load along the member. The second
+ * moment is that of the trapezoidal rule; with three nodes, it is exact (Simpson's rule). */
 static void along_a_member(const char *name, int nodes)
 {
     double F[MOST], sum[3] = {0};
@@ -67,8 +66,8 @@ static void along_a_member(const char *name, int nodes)
     gsl_test_rel(sum[2], nodes == 2 ? 3 * 4 : 3 * 8 / 3.0, 1e-14, "%s: its second moment", name);
 }
 
-/* Centrifugal forces are proportional to the square of the angular velocity. This is proportional
- * to the path parameter if `follows` is 1. */
+/* Centrifugal forces are proportional to the square of the angular velocity. If `follows` is 1, the
+ * angular velocity is proportional to the path parameter. */
 static void turning_faster(void)
 {
     static const char name[] = "geometrically_exact:nodes=2";

@@ -1,5 +1,5 @@
-/* Loads on nodes of a rigid body in a rotated state must agree with the derivatives of their work,
- * and with their factors along the path. */
+/* Loads on nodes of a rotated rigid body agree with the derivatives of their work, and follow their
+ * factors along the path. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -12,8 +12,6 @@
 #include "harness/newton/test/turned_body.h"
 #include "harness/tools/kit/scenes.h"
 
-/* Returns the derivative of the work with respect to coordinate k, by finite differences of fourth
- * order. */
 static double slope(const turned_body *s, int k)
 {
     return (8 * (turned_body_work_at(s, k, turned_body_step, -1, 0) -
@@ -62,8 +60,8 @@ static void follow_stations(scene_load *load, const double path[3], const double
     memcpy(load->factor, value, 3 * sizeof *value);
 }
 
-/* The factors of the load are 0, 2, 1 at path 0, 1, 3. Their rate at a station is that of the next
- * interval, and it is zero outside the stations. */
+/* The load factor is 0, 2, 1 at path 0, 1, 3. Its rate at a station is that of the next interval;
+ * outside the stations it is zero. */
 static void rates(void)
 {
     static const double path[] = {0, 1, 3}, value[] = {0, 2, 1};
@@ -92,7 +90,6 @@ static void rates(void)
     turned_body_release(&s);
 }
 
-/* Factors of loads are linear between stations and constant outside. */
 static void factors(void)
 {
     static const double path[] = {0.5, 1, 3}, value[] = {0.25, 2, 1};
@@ -119,8 +116,6 @@ static void factors(void)
     turned_body_release(&s);
 }
 
-/* Two loads have different factors: the load along x is proportional to the path parameter, and the
- * factor of the load along y is given at stations. */
 static void reference(void)
 {
     static const double path[] = {0.5, 1, 3}, value[] = {0.25, 2, 1};
@@ -167,8 +162,7 @@ static void loads_tests(void)
     reference();
 }
 
-/* A dead force has a potential, so its contribution to K is minus the second derivative of its
- * work. */
+/* A dead force has a potential, so its part of K is minus the second derivative of its work. */
 static void stiffness(int body)
 {
     turned_body s;
@@ -203,9 +197,9 @@ static void stiffness(int body)
     turned_body_release(&s);
 }
 
-/* If coordinates are angles, the contribution to K must be minus the derivative of the generalised
- * loads, also for moments and follower loads, which have no potential. `at` [m] is the offset from
- * the node. */
+/* If coordinates are angles, the load's part of K is minus the derivative of the generalised load.
+ * This also applies to moments and follower loads, which have no potential. at[3]: offset from the
+ * node [m]. */
 static void stiffness_of_angles(int body, scene_load_kind kind, int follower, const double at[3])
 {
     turned_body s;

@@ -1,6 +1,5 @@
-/* Released ends in a rotated state: the tangent must be the derivative of the forces, for any
- * releases, positions of the node and loads on the member, and Newton's method must converge
- * accordingly. */
+/* Released ends in a rotated state: the tangent is the derivative of the forces, for any release,
+ * node position and load on the member. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <signal.h>
@@ -40,8 +39,6 @@ static void soft_spring(scene *s, int node, double k)
     scene_add_spring(s, SCENE_NONE, node, K);
 }
 
-/* Builds a clamped member to a body, and a member from the body to a node on a spring. Loads of
- * every kind act on the second member. */
 static void bent(int place, const char *const set[2], scene *s)
 {
     static const double sequence[3][3] = {{0, 0, 1}, {0.6, 0.8, 0}, {1, 0, 0}};
@@ -135,8 +132,8 @@ static void linearised(release_subject *t, const model_state *s, double path)
             t->A[t->K.row[k] * t->n + j] = t->K.value[k];
 }
 
-/* Finds equilibrium under a fraction of the load. Returns 1 if the corrections decrease as with an
- * exact tangent. */
+/* Solves for equilibrium under a fraction of the load. Returns 1 if the corrections decrease as
+ * with an exact tangent. */
 static int solve(release_subject *t, double path, const char *what)
 {
     int pivot[MOST];
@@ -165,7 +162,7 @@ static void residual_at(release_subject *t, int k, double h, double out[])
     kinematics_state_copy(t->m, t->s, t->moved);
     dx[k] = h;
     linearise_state(&t->eq, &t->run.memory, t->moved, &lin,
-                    &f); /* prepares the memory that advance_state uses */
+                    &f); /* prepares the memory of advance_state */
     advance_state(&t->eq, &t->run.memory, t->moved, dx, 1, NULL);
     linearise_make_compatible(&t->eq, t->moved, &f);
     linearise_state(&t->eq, &t->run.memory, t->moved, &lin, &f);
@@ -231,13 +228,12 @@ static void release_tests(void)
                 check(formulation_name[i], place, sets[k]);
 }
 
-/* The size of a correction includes every coordinate: translations relative to the size of the
- * scene, rotations in radians, warping amplitudes times that size. If a support is missing, the
- * rigid motion that is reported must be one that the supports allow. */
+/* The size of a correction includes translations relative to the size of the scene, rotations in
+ * rad, and warping amplitudes times that size. For a missing support, the reported rigid motion is
+ * one that the supports allow. */
 
 static const double length = 2;
 
-/* Makes a member along x with warping. The components first to last of its far end are fixed. */
 static int warping_member(const element_type *type, int first, int last, scene *s, model **m)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -255,7 +251,6 @@ static int warping_member(const element_type *type, int first, int last, scene *
     return made == STATUS_OK;
 }
 
-/* Returns the size of a correction that changes only one coordinate. */
 static double size_of(model *m, int coordinate, double step)
 {
     const model_size size = model_sizes(m);
@@ -309,7 +304,7 @@ static void corrections(const element_type *type)
     scene_free(&s);
 }
 
-/* With the translations of the far end fixed, the remaining motion is a rotation about that end. */
+/* The translations of the far end are fixed, so the free motion is a rotation about that end. */
 static void loose_about_the_far_end(const element_type *type)
 {
     scene s;
@@ -337,15 +332,13 @@ static void advance_tests(void)
     loose_about_the_far_end(registry_formulations[0]);
 }
 
-/* Condensed members must give the same results as the assembled tangent, for every case and for
- * released ends, with formulations of each family. Results must exist even where an assembled
- * tangent has no digits left. */
+/* Condensed members give the same results as the assembled tangent. They also give results with so
+ * many elements that the assembled tangent is inaccurate. */
 
 static const char *const formulations[] = {"beamw", "sheet_third", "geometrically_exact",
                                            "collocation"};
 enum { FORMULATIONS = sizeof formulations / sizeof formulations[0], NEVER = 1000000 };
 
-/* Shortens a motion to a fifth, solved with the same steps as the whole motion. */
 static void shorten(const case_type *type, double parameter[])
 {
     const int time = parameter_index(type->parameters, "time");
@@ -363,8 +356,7 @@ static status test_condensation_solve(const case_type *type, const char *of, int
     return cell_run(&request, out, &f);
 }
 
-/* Returns the largest magnitude of the quantities with this unit, to which differences are
- * relative. */
+/* Returns the largest magnitude of the quantities with this unit, the reference of differences. */
 static double scale_of(const cell_result *r, const char *unit)
 {
     double largest = 0;
@@ -416,8 +408,6 @@ static void cases(void)
     gsl_test(compared < 500, "%d values of cases were compared", compared);
 }
 
-/* Builds two leaves joined by a hinge. The second leaf starts from a body, and its tip can slide.
- */
 static status hinged(const double value[], scene *s, fault *f)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -457,8 +447,8 @@ static void released(void)
     gsl_test(compared < 12, "%d values with released ends were compared", compared);
 }
 
-/* With 4000 elements, the assembled tangent has a condition number of 1e16. Newton's method must
- * nevertheless converge as with few elements. */
+/* With 4000 elements, the condition number of the assembled tangent is 1e16. With condensed
+ * members, Newton's method converges as with few elements. */
 static void many(const case_type *type)
 {
     cell_result few, more;
@@ -488,8 +478,8 @@ static void condensation_tests(void)
     gsl_test(!found, "c_cantilever is there");
 }
 
-/* An analysis must return all eigenvalues that were found, and the reason if some are missing.
- * Results of one kind of analysis cannot be read as those of another kind. */
+/* An outcome contains all eigenvalues that were found, and the reason if some are missing. Its
+ * results cannot be read as those of another kind of analysis. */
 
 static void handed_over(status outcome, int rounding, const char *reason, const char *said)
 {

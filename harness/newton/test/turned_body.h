@@ -1,5 +1,5 @@
-/* A beam that ends at a rigid body, in a state that is rotated about a general axis. A load acts at
- * a distance from the node of the body. Its work is computed for comparison. */
+/* A beam with a rigid body at its end, in a state rotated about a general axis. A load acts at an
+ * offset from the node of the body. */
 #ifndef BEAMWORK_TEST_TURNED_BODY_H
 #define BEAMWORK_TEST_TURNED_BODY_H
 
@@ -22,7 +22,7 @@ enum { FREE_TURNS, THREE_ANGLES, TWO_ANGLES, FORK, BODIES };
 static const char *const turned_body_name[] = {"free turns", "three angles", "two angles",
                                                "a fork"};
 
-/* Builds a beam from a clamp to a body, with a load at a distance from the node of the body. */
+/* Builds a beam from a clamp to a body, with a load at an offset from the node of the body. */
 static inline void beam_and_body(int body, scene_load_kind kind, scene *s)
 {
     const double x[3] = {1, 0, 0}, z[3] = {0, 0, 1}, end = 1;
@@ -46,7 +46,7 @@ typedef struct turned_body {
     scene scene;
     model *m;
     model_state *turned, *moved;
-    int n; /* free coordinates */
+    int n;
 } turned_body;
 
 static inline void turned_body_move(const turned_body *s, const model_state *from,
@@ -65,7 +65,6 @@ static inline void turned_body_move(const turned_body *s, const model_state *fro
     run_state_end(&run);
 }
 
-/* Sets a state far from the undeformed state, rotated about a general axis. */
 static inline void turned_body_prepare(int body, scene_load_kind kind, turned_body *s)
 {
     fault f = {""};
@@ -110,7 +109,7 @@ static inline void turned_body_loads(const turned_body *s, double out[])
         out[k] -= without[k];
 }
 
-/* Computes the displacement and rotation of the loaded node from the rotated state. */
+/* Computes the displacement and rotation of the loaded node relative to the rotated state. */
 static inline void turned_body_motion(const turned_body *s, const double dx[], double d[3],
                                       double turn[3])
 {
