@@ -1,5 +1,5 @@
-/* Verb bench: measures the error as a function of run time for every formulation and mesh of the
- * cases. The times are measured in rounds on one processor. */
+/* Verb bench: measures error and run time for every formulation and mesh of the cases. The times
+ * are measured in rounds on one processor. */
 #include <stdio.h>
 #include <unistd.h>
 
@@ -11,7 +11,6 @@ static int is_named(const bench_options *r)
     return r->of.line->arguments > 0 || r->of.scene != NULL;
 }
 
-/* Measures the times. The caller answer() frees *b, even after a failure. */
 static status measure(bench_options *r, bench *b, fault *f)
 {
     const bench_request requested = {.cases = r->of.line->argument,
@@ -58,8 +57,8 @@ static int answer(const command_line *l, void *request)
     return message_exit(outcome, &f);
 }
 
-/* Restarts the program with single-threaded libraries. arguments: the command line after the name
- * of the program. */
+/* Restarts the program with single-threaded libraries. arguments: the words of the command line
+ * after the name of the program. */
 static void before(char **arguments)
 {
     rounds_single_thread(arguments - 1);

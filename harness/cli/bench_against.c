@@ -1,5 +1,5 @@
-/* bench --against: times two cells alternately. The second cell uses another formulation (at equal
- * errors or on given meshes) or another build of the program. */
+/* bench --against: times two cells that run alternately. The second cell has another formulation
+ * (at equal errors or on given meshes) or another build of the program. */
 #include "harness/cli/cli_impl.h"
 
 #include <math.h>
@@ -14,16 +14,17 @@
 
 enum { LEVELS = 8, LINE = 1000, NAMED = 2 * FORMULATION_KEY };
 
-/* Formulations A and B on all meshes of the case, and the requested errors. */
+/* Formulations A and B on all meshes of the case, and the requested error targets. */
 typedef struct error_comparison {
     sweep s; /* sweep with two series, A and B */
     truths t;
-    int levels, requested; /* number of levels; requested: number of levels given by --error */
+    int levels, requested; /* levels: number of error targets; requested: number of targets given by
+                              --error */
     double level[LEVELS];
     char note[DEFAULTS_NOTE];
 } error_comparison;
 
-/* A pair of meshes on which both formulations are within an error, and their times. */
+/* Meshes on which both formulations are within an error target, and the times on these meshes. */
 typedef struct mesh_pair {
     equal_error at;
     int measured;
@@ -31,7 +32,7 @@ typedef struct mesh_pair {
     against_times times;
 } mesh_pair;
 
-/* Measures a pair, unless a previous level led to the same meshes. */
+/* Measures a pair of meshes, unless a previous target led to the same pair. */
 static status measure(const error_comparison *d, const bench_options *r, const mesh_pair *former,
                       int formers, mesh_pair *m, fault *f)
 {
@@ -93,7 +94,7 @@ static void show_equal_error(const error_comparison *d, double level, const mesh
     paragraph_write(stdout, at, 4, line);
 }
 
-/* Lists the deviations that more elements do not reduce. */
+/* Lists the errors that more elements do not reduce. */
 static void show_defects(const error_comparison *d)
 {
     for (int i = 0; i < 2; i++)
@@ -169,8 +170,8 @@ static void show_json(const error_comparison *d, const mesh_pair m[])
     json_decref(root);
 }
 
-/* Chooses the requested levels, or the levels of reach_level that both formulations meet, and
- * returns their number. */
+/* Chooses the requested error targets or, if none was requested, those of reach_level that both
+ * formulations meet. Returns their number. */
 static int choose_levels(error_comparison *d, mesh_pair m[LEVELS])
 {
     for (int i = 0; i < REACH_LEVELS && d->requested == 0; i++) {
@@ -217,8 +218,8 @@ static status compare(error_comparison *d, const bench_options *r, fault *f)
     return STATUS_OK;
 }
 
-/* Checks the models. REFUSED: one of the formulations solves another model, so its errors are not
- * due to its elements. */
+/* REFUSED: one of the formulations solves another model, so its errors are not due to its
+ * elements. */
 static status check_models(const sweep *s, fault *f)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -231,8 +232,7 @@ static status check_models(const sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Runs the comparison at equal errors. The caller against_error() frees *d, even after a failure.
- * */
+/* The caller against_error() frees *d, even after a failure. */
 static status compare_at_errors(error_comparison *d, bench_options *r, const case_type *type,
                                 fault *f)
 {
@@ -255,10 +255,10 @@ static status compare_at_errors(error_comparison *d, bench_options *r, const cas
 
 /* Compares two formulations at equal errors. For each error target, finds the smallest number of
  * elements of each formulation with which all requested quantities meet the target (study/study.h).
- * Then times these two cells alternately. The targets are those of --error, or those of reach_level
- * that both meet. The quantities are those of -k, or all quantities with a reference value or an
- * agreement for both. REFUSED: one formulation does not run, there is no reference value, or no
- * target is met. */
+ * The two cells with these numbers are then timed alternately.
+ * The targets are those of --error, or those of reach_level that both formulations meet. The
+ * quantities are those of -k, or all for which both have a reference value or an agreement.
+ * REFUSED: one formulation does not run, there is no reference value, or no target is met. */
 static status against_error(bench_options *r, const case_type *type, fault *f)
 {
     error_comparison d = {.levels = 0};
@@ -292,8 +292,8 @@ static sweep_point point_of(const bench_options *r, const case_type *type, const
     return p;
 }
 
-/* Compares this program with another build on the same mesh. Both are run as separate processes, so
- * they start in the same way. The caller against_meshes() frees the scene. */
+/* Compares this program with another build on the same mesh. Both run as separate processes, so
+ * that they start in the same way. The caller against_meshes() frees the scene. */
 static status against_program(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     compared_run a, b;
@@ -325,7 +325,6 @@ static status compare_formulations(const bench_options *r, const case_type *type
     return STATUS_OK;
 }
 
-/* Compares two formulations or two programs on given meshes. */
 static status against_meshes(bench_options *r, const case_type *type, int is_program, fault *f)
 {
     scene s = {0};

@@ -9,8 +9,8 @@
 #include "harness/model/model.h"
 #include "harness/study/study.h"
 
-/* Stores a value of --truths: a table (.csv), of which there may be several, or the file of packed
- * reference values, which may be given once. */
+/* Stores a value of --truths: a table (.csv), or the file of packed reference values. The latter
+ * may be given only once. */
 static status read_either(const verb_option *o, void *member, const char *value, fault *f)
 {
     static const verb_option table = {"truths", .traits = OPTION_REPEATS | OPTION_INPUT};
@@ -82,7 +82,7 @@ status user_tables_deviations(const text_list *tables, const case_type *const ru
     return STATUS_OK;
 }
 
-/* Prints all errors, in one line each, or as JSON if this is the output format. */
+/* Prints all errors, one in each line, or as JSON if this is the output format. */
 static void report_mistakes(const command_line *l, const mistakes *m, status outcome,
                             const fault *f)
 {
@@ -157,7 +157,7 @@ const case_type *case_input_scene(case_options *r)
         message_fail(STATUS_REFUSED, "a case and --scene were given; give only one of them");
         return NULL;
     }
-    /* parameters set on the command line replace the defaults */
+    /* parameters set on the command line replace the default values */
     const int code = read_by(r->set.count > 0 ? scene_file_read_form : scene_file_read, r->line,
                              r->scene_path, &r->scene);
     if (code == EXIT_AS_EXPECTED)
@@ -195,7 +195,6 @@ static const case_type *named_case(const case_options *r)
     return type;
 }
 
-/* Treats the file as the value of --scene. */
 static void take_example(case_options *r, const char *path)
 {
     command_line *l = r->line;
@@ -256,7 +255,7 @@ static status add_truths(const case_options *r, const truths_options *of, truths
                             : r->line->arguments == 1 ? case_find(r->name, f)
                                                       : NULL;
     if (r->scene != NULL)
-        truths_read_rules(packed, t, NULL); /* the packed file is optional for a scene */
+        truths_read_rules(packed, t, NULL); /* a scene does not require the packed file */
     if (r->scene != NULL)
         TRY(scene_truths_add(r->scene, r->parameter, t, f));
     else

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns 1 if this process runs the cells of the series. */
 static int cells_runs(const sweep *s, int index)
 {
     const series *one = &s->series[index];
@@ -12,7 +11,6 @@ static int cells_runs(const sweep *s, int index)
            s->point[one->point].status == STATUS_OK;
 }
 
-/* Returns the estimated cost [s] of the cells of a series. */
 static double cells_expense(const sweep *s, int index)
 {
     double all = 0;
@@ -36,8 +34,7 @@ static void add_quantity(digest *to, const quantity_result *q)
     add_numbers(to, q->curve.value, q->curve.points);
 }
 
-/* Adds the results of a cell to the digest: values, their statuses and the counted work, but no
- * times. */
+/* Adds the results of a cell to the digest: values, statuses and counted work, but no times. */
 static void add_cell(digest *to, const cell_result *cell)
 {
     const solve_result *r = &cell->solve;
@@ -57,7 +54,7 @@ static void add_cell(digest *to, const cell_result *cell)
     add_numbers(to, work, sizeof work / sizeof work[0]);
 }
 
-/* Writes an array, which may be NULL, and whether it exists. */
+/* Writes whether the array exists (array is not NULL) and, if so, its contents. */
 static int put_array(FILE *to, const void *array, size_t size)
 {
     const int there = array != NULL;
@@ -139,14 +136,14 @@ void cells_keep(sweep *s, const char keep[])
     s->partial = s->unfinished > 0;
 }
 
-/* The estimated cost of a batch on the reference machine is at most the share batch_share of all
- * work, within the limits batch_least and batch_most [s]. */
+/* The estimated cost of a batch on the reference machine is at most batch_share times all work, but
+ * this bound is not below batch_least or above batch_most [s]. */
 static const double batch_most = 0.5, batch_least = 0.02, batch_share = 1.0 / 32;
 
 /* The sweep, divided into batches. An item is a series that is run. */
 typedef struct cut {
     const sweep_request *request;
-    truths *t; /* reference values, whose uncertainty decides whether scatter is measured */
+    truths *t; /* reference values, on which it depends whether scatter is measured */
     sweep *s;
     int items;
     int *begin;   /* [items + 1] first series of each item, followed by the number of series */
@@ -162,8 +159,8 @@ static void add_item(cut *c, int index, double cost)
     c->each[c->items++] = cost;
 }
 
-/* Computes the series of a batch: from_to[0] to from_to[1] - 1. They may include series that are
- * not run. */
+/* Sets from_to to the range of series of a batch, from_to[0] to from_to[1] - 1. It may include
+ * series that are not run. */
 static void series_of(const cut *c, int batch, int from_to[2])
 {
     from_to[0] = c->begin[c->first[batch]];
@@ -223,7 +220,7 @@ static void sum_costs(int batches, const int first[], const double each[], doubl
     }
 }
 
-/* Divides the items into batches. Sets the first item of each batch (batches_cut) and the cost of
+/* Divides the items into batches: sets the first item of each batch (batches_cut) and the cost of
  * each batch. Returns the number of batches. */
 static int cut_items(int items, const double each[], int first[], double cost[])
 {
@@ -263,8 +260,8 @@ static status leave_out(const cut *c, const spread_end *end, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the shard or reads the batches. The caller verification_work_run() frees the workspace,
- * even after a failure. */
+/* Computes the shard or reads the batches. The caller verification_work_run() frees *c, even after
+ * a failure. */
 static status spread(cut *c, const shard_options *r, identity_texts *texts, spread_end *out,
                      fault *f)
 {

@@ -12,17 +12,17 @@
 #include "harness/formulations/formulations.h"
 #include "harness/study/study.h"
 
-/* Verbs, their options, and command lines. A verb has an array of options, groups of options that
- * other verbs share, and a request struct. Each group is declared with its topic (case_input,
+/* Verbs, their options, and command lines. A verb has its own options, groups of options that it
+ * shares with other verbs, and a request struct. Each group is declared with its topic (case_input,
  * named, spread). */
 
-/* Largest number of arguments of a verb or of values of a repeated option, and largest number of
- * options in total. */
+/* Largest number of arguments of a verb, which is also that of values of a repeated option; and
+ * largest number of options on a command line. */
 enum { COMMAND_MOST_WORDS = 64, COMMAND_MOST_GIVEN = 512 };
 
 typedef struct verb_option verb_option;
-/* Stores the value in the member. REFUSED: the message says why the value is invalid, and which
- * values are expected. */
+/* Stores the value in the member. REFUSED: the message states why the value is invalid, and which
+ * values are allowed. */
 typedef status option_reader(const verb_option *, void *member, const char *value, fault *f);
 
 enum {
@@ -31,23 +31,24 @@ enum {
     OPTION_OUTPUT = 4,  /* an output file */
     OPTION_HDF5 = 8,    /* the output file is never a stream */
     OPTION_FOLDER = 16, /* the output is a new folder */
-    OPTION_ASIDE = 32,  /* does not affect results, but only their presentation or the process that
-                           computes them */
+    OPTION_ASIDE =
+        32, /* does not affect results, only their presentation or the process that computes them */
     OPTION_VERDICT = 64 /* affects verdicts but not cells */
 };
 
 /* An option and the member that it sets: int for a switch (1) or a number, text_list for an option
- * that may be repeated, const char * for other options. */
+ * that may be repeated, const char * for other options. A reader may store another type. */
 struct verb_option {
     const char *name;
-    char letter;                 /* 0: no letter */
-    const char *argument, *help; /* argument NULL: a switch; "[N]": the argument is optional */
+    char letter; /* 0: no letter */
+    const char *argument,
+        *help;     /* argument NULL: the option is a switch; "[N]": the argument is optional */
     size_t member; /* offset of the member in the group or in the request of the verb */
     unsigned traits;
     /* range of an integer, or number of values; most 0: there is no range, and COMMAND_MOST_WORDS
      * values are allowed */
     long least, most;
-    /* reader of the value; NULL: the default reader, which is described above */
+    /* reader of the value; NULL: the default reader described above */
     option_reader *read;
 };
 
@@ -64,11 +65,11 @@ typedef struct given_option {
 
 /* A command line. The options are in the order in which they were given. */
 typedef struct command_line {
-    /* the verb; all verbs (NULL-terminated), for messages about options of other verbs */
+    /* the verb; and all verbs (NULL-terminated), for messages about options of other verbs */
     const verb *verb, *const *verbs;
     const char *argument[COMMAND_MOST_WORDS];
     int arguments;
-    /* includes one entry for the --scene of an example */
+    /* one more entry for the option --scene of an example */
     given_option given[COMMAND_MOST_GIVEN + 1];
     int givens;
 } command_line;
@@ -95,27 +96,28 @@ struct verb {
     const char *name;
     const char *arguments; /* for example "OLD [NEW]" (at most two) or "CASE..." (any number) */
     const char *summary;   /* one line */
-    const char *about, *examples; /* examples: one per line */
-    const verb_group *shared;     /* ends with group NULL */
-    const verb_option *own;       /* options, which end with name NULL; NULL: none */
+    const char *about, *examples;
+    const verb_group *shared; /* ends with group NULL */
+    const verb_option *own;   /* options, which end with name NULL; NULL: none */
     size_t request;
     int place; /* position in the help: a heading, and a number below the heading */
     int (*answer)(const command_line *,
                   void *request); /* runs the verb and returns the exit status; NULL: a heading */
     void (*before)(char **arguments); /* called before options are read; NULL: none */
     const experiment_type
-        *experiment; /* experiment whose records are written to the results file; NULL: none */
+        *experiment; /* experiment whose records the verb writes to a results file; NULL: none */
 };
 
-/* Returns option number i of a verb, in the order of its help; NULL after the last option. *at:
+/* Returns option number i of a verb, in the order of the help; NULL after the last option. *at:
  * offset of the group in the request; may be NULL. */
 const verb_option *verb_option_at(const verb *, int i, size_t *at);
-/* Returns the name of an option in version 0.2; NULL if it has not changed. */
+/* Returns the name of an option in version 0.2; NULL: the name has not changed. */
 const char *verb_former_name(const verb_option *);
-/* Finds the option in a word: "--name=VALUE" with its full name, a former name or a unique
- * abbreviation; "-xyVALUE" with the first letter that takes a value, otherwise with the last
- * letter. *value: the value in the word, or NULL. *begun: number of options that match. Returns
- * NULL if this number is not 1. After an unknown letter, *value points to this letter. */
+/* Finds the option in a word. In "--name=VALUE", the name is a full name, a former name or a unique
+ * abbreviation. In "-xyVALUE", the option is that of the first letter that takes a value or, if
+ * there is none, of the last letter. *value: the value in the word, or NULL. *begun: number of
+ * options that match. Returns NULL if this number is not 1. After an unknown letter, *value points
+ * to this letter. */
 const verb_option *verb_word(const verb *, const char *word, const char **value, int *begun);
 /* Returns 1 if the letter selects the option in this or an earlier version. */
 int verb_is_letter(const verb_option *, char letter);
@@ -126,14 +128,14 @@ extern const verb_option verb_help[];
 int verb_optional(const verb_option *);
 /* Finds a verb by name; NULL: none. */
 const verb *verb_find(const verb *const *verbs, const char *name);
-/* Returns the largest number of arguments for a description such as "OLD [NEW]". */
+/* Returns the largest number of arguments according to a description such as "OLD [NEW]". */
 int verb_most_arguments(const char *arguments);
 
-/* Returns the last value given for the option, or "" for a switch; NULL: the option was not given.
- * */
+/* Returns the last value given for the option, "" if it has no value; NULL: the option was not
+ * given. */
 const char *given_value(const command_line *, const char *name);
-/* Returns the next given option with one of the traits, starting with *i, and increases *i; NULL:
- * none. */
+/* Returns the next given option with one of the traits, from index *i on, and sets *i to the index
+ * after it; NULL: there is none. */
 const given_option *given_next(const command_line *, unsigned traits, int *i);
 
 /* Values of an option that may be repeated. */
@@ -142,12 +144,12 @@ typedef struct text_list {
     const char *text[COMMAND_MOST_WORDS];
 } text_list;
 
-/* Stores a value. value NULL: the option is a switch, or its optional value was omitted. The
- * largest number is stored for an omitted value. */
+/* Stores a value. value NULL: the option is a switch, or its optional value was omitted; in the
+ * latter case, the largest allowed number is stored. */
 status option_take(const verb_option *, void *member, const char *value, fault *f);
 option_reader option_error; /* type double: one relative error, "1%" or "0.01" */
-/* Reads relative errors between 0 and 1, such as "1%,0.1%" or "0.01", into level[most], and their
- * number into *count. */
+/* Reads relative errors between 0 and 1, such as "1%,0.1%" or "0.01", into level[most]. *count:
+ * their number. */
 status errors_parse(const char *text, int most, double level[], int *count, fault *f);
 
 extern const option_group options_output;  /* member const char *: -o FILE, text */
@@ -178,7 +180,7 @@ typedef struct solver_options {
 } solver_options;
 extern const option_group options_solver;
 
-/* Case of a run (built-in case or scene file), its parameters, and its reference values. */
+/* Case of a run (built-in case or scene file), its parameters, and reference values. */
 
 typedef struct truths_options {
     const char *packed; /* file of --truths FILE; NULL: not given */
@@ -187,15 +189,15 @@ typedef struct truths_options {
 extern const option_group options_truths;      /* --truths FILE */
 extern const option_group options_user_truths; /* also accepts FILE.csv */
 
-/* Returns the path of the packed reference values, from --truths or by default
+/* Returns the path of the packed reference values: that of --truths, or the default
  * (harness/study/study.h). */
 const char *user_tables_packed(const truths_options *);
 /* Adds the reference values of --truths FILE.csv. only: the case to which values are added; NULL:
- * all cases. run: cases of the run, NULL-terminated. REFUSED: reports the first error as
+ * all cases. run: cases of the run, NULL-terminated. REFUSED: the message gives the first error as
  * file:line:column, and the number of errors. */
 status user_tables_truths(const truths_options *, const case_type *const run[],
                           const case_type *only, truths *t, fault *f);
-/* Adds the rules of tables. If a table is given, verdicts on new formulations affect the exit
+/* Adds the rules of tables. If there is a table, verdicts on new formulations affect the exit
  * status. */
 status user_tables_deviations(const text_list *tables, const case_type *const run[], truths *t,
                               fault *f);
@@ -212,23 +214,23 @@ typedef struct case_options {
 extern const option_group options_case;  /* --scene, --set */
 extern const option_group options_scene; /* --scene alone */
 
-/* Treats the name as --scene with a file if it is a scene file (*.yaml). Unless the name is that of
- * a built-in case, treats it as --scene if it is an example (cases/examples/NAME.yaml). */
+/* If the name is a scene file (*.yaml), uses it as the value of --scene. If it is that of an
+ * example (cases/examples/NAME.yaml) and not of a built-in case, uses the file of the example. */
 void case_input_example(case_options *);
-/* Returns the case of the request with its parameters; NULL: an error message has been printed. */
+/* Returns the case of the request, with its parameters; NULL: an error message has been printed. */
 const case_type *case_input_find(case_options *);
-/* Returns the case of --scene FILE; NULL: messages about all its errors have been printed. */
+/* Returns the case of --scene FILE; NULL: all errors of the file have been printed. */
 const case_type *case_input_scene(case_options *);
-/* Reads a scene file. Returns EXIT_AS_EXPECTED, or another exit status after printing error
- * messages. */
+/* Reads a scene file. Returns EXIT_AS_EXPECTED or, after printing error messages, another exit
+ * status. */
 int case_input_read(const command_line *, const char *path, scene_file **out);
-/* Reads the reference values of the run: the stored values or, for a scene file, the values in the
- * file for the parameters of the request. */
+/* Reads the reference values of the run: the stored values or, for a scene file, those in the file
+ * at the parameters of the request. */
 status case_input_truths(const case_options *, const truths_options *, truths *t, fault *f);
-/* Prints one line on stderr if the numbers of a scene file suggest other units. Does nothing if
+/* Prints a line on stderr if the numbers of a scene file suggest other units. Does nothing if
  * `file` is NULL. */
 void case_input_report_units(const scene_file *, const double parameter[]);
-/* Prints one line on stderr that names the default analysis if the scene file has none. */
+/* If the scene file has no analysis, prints a line on stderr that names the default analysis. */
 void case_input_report_analysis(const case_options *, const scene *s);
 
 enum { SCENES_MOST = 64 };
@@ -248,16 +250,14 @@ typedef struct scenes {
                           1]; /* types of the files, and of built-in cases if these are requested */
 } scenes;
 
-/* Reads everything that --scene names: files, and every *.yaml in a folder in the order of names.
- * Two cases with the same name are an error. Returns EXIT_AS_EXPECTED, or another exit status after
- * printing error messages. */
+/* Reads all files that --scene gives: single files, and every *.yaml of a folder in the order of
+ * names. Two cases with the same name are an error. Returns EXIT_AS_EXPECTED or, after printing
+ * error messages, another exit status. */
 int scenes_read(const command_line *, const scenes_options *, scenes *out);
 void scenes_free(scenes *);
-/* Reads the built-in reference values if built-in cases are requested, the list of known
- * deviations, the reference values of each file, and user tables. */
+/* Reads the reference values of each file, the list of known deviations, user tables and, if
+ * built-in cases are requested, the built-in reference values. */
 status scenes_truths(const scenes *, const scenes_options *, truths *t, fault *f);
-
-/* Reads and runs the command line of a verb, and defines exit statuses. */
 
 enum {
     EXIT_AS_EXPECTED = 0,
@@ -268,8 +268,8 @@ enum {
     EXIT_INTERRUPTED = 5 /* interrupted, or parts are missing */
 };
 
-/* Parses a command line. request: verb->request bytes. After an error, prints messages and ends the
- * program with EXIT_REFUSED. */
+/* Parses a command line. request: memory of verb->request bytes. After an error, prints messages
+ * and ends the program with EXIT_REFUSED. */
 void command_parse(const verb *, const verb *const *verbs, int count, char **arguments,
                    command_line *line, void *request);
 /* Parses the command line, runs the verb and returns the exit status. arguments[0]: the verb. */
@@ -279,20 +279,16 @@ int command_run(const verb *, const verb *const *verbs, int count, char **argume
  * examples. */
 void help_write(FILE *to, const verb *v);
 
-/* Checks the files of a command line before the work starts. */
-
-/* Checks that every output can be written, and that all outputs and inputs are different files.
- * whole_file: the output of -o is HDF5. truths_path NULL: no reference values are read. */
+/* Checks, before the work starts, that every output can be written and that all outputs and inputs
+ * are different files. whole_file: the output of -o is HDF5. truths_path NULL: no reference values
+ * are read. */
 status files_check(const command_line *, int whole_file, const char *truths_path, fault *f);
 /* Like files_check. stored: the output of -o is a results file, which may contain results of other
  * experiments. */
 status files_check_results(const command_line *, int stored, const char *truths_path, fault *f);
-/* Called for a file, for every *.yaml in a folder in the order of names, and for files in
- * exec:COMMAND. */
+/* Visits a file, every *.yaml of a folder in the order of names, or the files in exec:COMMAND. */
 typedef status file_visit(const void *context, const char *path, fault *f);
 status files_named(const char *input, file_visit *visit, const void *context, fault *f);
-
-/* Error messages of the program, and its exit status. */
 
 /* Completes the output at the end of the program. Returns the exit status, or EXIT_FAULT if
  * standard output cannot be written. */
@@ -301,27 +297,26 @@ int message_finish(int code);
 int message_fail(status s, const char *text);
 /* Prints one line on stderr and ends the program with EXIT_REFUSED. */
 _Noreturn void message_refuse(const char *text);
-/* Returns EXIT_AS_EXPECTED if the status is OK. Otherwise prints the error and returns its exit
- * status. */
+/* Returns EXIT_AS_EXPECTED if the status is OK. Otherwise prints the error and returns the exit
+ * status for it. */
 int message_exit(status s, const fault *f);
 
-/* Handles abnormal termination: signals, crashes, libraries that call exit(). */
-/* Protects against a formulation that is loaded into this process. If the formulation crashes or
- * exceeds `seconds` (0: no limit), the program ends with one line that names it. Does nothing for
- * built-in formulations. */
+/* Abnormal ends: signals, crashes, and libraries that call exit(). */
+/* Protects against errors of a formulation that was loaded into this process. If it crashes or
+ * exceeds `seconds` (0: no limit), the program ends with one line that contains its name. Does
+ * nothing for built-in formulations. */
 void formulation_start_guard(const formulation *chosen, int seconds);
-/* Prepares for abnormal ends. Call this function once, before any file is opened. Closed standard
- * streams are opened on /dev/null without write permission, so no other file takes their place.
- * After signals that end the program (SIGTERM, SIGHUP, SIGINT) and after crashes, unfinished output
- * files are deleted first. A crash, or a call of exit() by a library or an element, is reported in
- * one line. */
+/* Prepares for abnormal ends. Call once, before any file is opened. Closed standard streams are
+ * opened on /dev/null without write permission, so that no other file gets their descriptors. After
+ * a crash or a signal that ends the program (SIGTERM, SIGHUP, SIGINT), incomplete output files are
+ * deleted. A crash, or a call of exit() by a library or an element, is reported in one line. */
 void ending_begin(void);
 
 /* Runs `beamwork VERB ...`, `beamwork help [VERB]`, --help and --version. Returns the exit status.
  * arguments[0]: name of the program. */
 int verb_table_run(int count, char **arguments);
 
-/* Word that is completed: `before` does not change, and `begun` is completed. */
+/* A word to be completed: `before` remains, and `begun` is completed. */
 typedef struct offer {
     FILE *to;
     const char *before;
@@ -329,17 +324,17 @@ typedef struct offer {
     const char *begun;
 } offer;
 
-/* Prints "WORD<tab>SUMMARY" if the text starts with `begun`, where WORD is `before` followed by the
- * text. Completion continues after a WORD that ends with '=' or ':'. The shell completes ":files"
- * and ":folders". */
+/* If the text starts with `begun`, prints "WORD<tab>SUMMARY", where WORD is `before` followed by
+ * the text. After a WORD that ends with '=' or ':', completion continues. For ":files" and
+ * ":folders", the shell completes file names. */
 void offer_text(const offer *o, const char *text, const char *summary);
 
-/* Writes the completions. words: words after the verb up to the cursor. The last word, which may be
- * empty, is completed. */
+/* Writes the completions. word[count]: words after the verb up to the cursor; the last word, which
+ * may be empty, is completed. */
 void completion_write(FILE *to, const verb *v, int count, char *const *word);
 
-/* Formulations of a command line: those named by -f and those loaded by --element. The --element
- * may follow the -f that names its formulation. */
+/* Formulations of a command line: those that -f names and those that --element loads. An --element
+ * may come after the -f that names its formulation. */
 
 enum { COMMAND_MAX_FORMULATIONS = 64 };
 
@@ -352,18 +347,16 @@ typedef struct chosen_formulations {
 } chosen_formulations;
 extern const option_group options_formulations; /* -f, --element */
 extern const option_group options_element;      /* --element alone */
-extern const option_group
-    options_time_limit; /* this group must follow one of the two groups above, in the same member */
+extern const option_group options_time_limit; /* this group must follow one of the two groups above,
+                                                 with the same member */
 
-/* Returns 1 if every formulation was requested by name. Returns 0 if all were requested, or none.
- * */
+/* Returns 1 if all formulations were requested by name. Returns 0 after -f all, or without -f. */
 int named_alone(const chosen_formulations *);
-/* Adds a formulation, or "all". After an error, ends the program. */
+/* Adds a formulation, or all formulations for "all". After an error, ends the program. */
 void named_add(chosen_formulations *, const char *text);
 
 enum { DEFAULTS_NOTE = 2 * FAULT_TEXT + 200 };
 
-/* Request for a cell in which -f and -n may be missing. */
 typedef struct defaults {
     solution_request wanted;
     chosen_formulations *chosen;
@@ -371,12 +364,12 @@ typedef struct defaults {
     const truths_options *truths;
 } defaults;
 
-/* Chooses a missing -f and -n for a cell of the case with its parameters. note: one line for each
- * choice with its reason; "" if both were given. why: may be NULL; otherwise call
- * solution_choice_free, even after a failure. REFUSED: no formulation supports everything that the
- * case requires, or --error is not a valid number. */
+/* Chooses a missing -f or -n, or both, for a cell of the case with its parameters. note: one line
+ * for each choice, with the reason; "" if both were given. why: may be NULL; otherwise call
+ * solution_choice_free, even after a failure. REFUSED: no formulation supports all features that
+ * the case requires, or --error is not a valid number. */
 status defaults_fill(const defaults *, char note[DEFAULTS_NOTE], solution_choice *why, fault *f);
-/* Like defaults_fill, but chooses only a missing -f. */
+/* Like defaults_fill, but chooses only a missing formulation. */
 status defaults_formulation(const defaults *, char note[DEFAULTS_NOTE], fault *f);
 /* Returns the request with the first given formulation and the first given mesh. */
 solution_request defaults_request(const defaults *);

@@ -11,21 +11,20 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Cells in the form of bytes of a batch. A part of these bytes must be equal if the cells are
+/* Cells as the bytes of a batch. The part that enters the digest must be equal if the cells are
  * computed again. */
 
-/* Writes the cells of a series. Also writes the scatter of its finest mesh and its times, if they
- * were measured. The reproducible part is added to the digest. */
+/* Writes the cells of a series and, if they were measured, the scatter on the finest mesh and the
+ * times. The reproducible part is added to the digest. */
 status cells_write(FILE *to, const sweep *s, int series, digest *content, fault *f);
 status cells_read(FILE *from, sweep *s, int series, fault *f);
 /* Resets the series to its planned state, without results. */
 void cells_free_results(series *one);
-/* Removes the series for which keep[seriess] is not 1. The cells of these series count as
- * unfinished. */
+/* Removes the series for which keep[seriess] is not 1; their cells count as unfinished. */
 void cells_keep(sweep *s, const char keep[]);
 
-/* bench --against: times two cells alternately. The second cell uses another formulation or another
- * build of the program. */
+/* bench --against: times two cells that run alternately. The second cell has another formulation or
+ * another build of the program. */
 
 typedef struct bench_options {
     case_options of;
@@ -35,8 +34,8 @@ typedef struct bench_options {
     solver_options solver;
     const char *select, *output, *format, *error, *against;
     int jobs;
-    int dense; /* 1: the dense reference is timed as well */
-    /* slowdown: percentage of its time that is added to every run of the other cell */
+    int dense; /* 1: the published algorithm is also timed */
+    /* slowdown: delay that is added to every run of the other cell, in percent of its time */
     int slowdown;
 } bench_options;
 
@@ -51,35 +50,34 @@ typedef struct compared_run {
     const char *program;                        /* NULL: in this process */
     const char *argument[CONTESTANT_ARGUMENTS]; /* arguments of the program, NULL-terminated */
     char elements[16];                          /* text for the argument of -n */
-    int repeats;                                /* number of solutions in a lap */
-    double slowdown; /* fraction of the time of a lap that is added to the lap */
+    int repeats;                                /* number of solutions in each lap */
+    double slowdown; /* delay that is added to a lap, as a fraction of its time */
     int counts;
     const schema_field
-        *counted[SCHEMA_MOST_FIELDS]; /* fields for the size and the work of a cell */
+        *counted[SCHEMA_MOST_FIELDS]; /* fields of a cell that describe its size and work */
     double count[SCHEMA_MOST_FIELDS];
 } compared_run;
 
 /* Returns the request for the default choice of -f or -n. */
 defaults compared_run_defaults(bench_options *r, const case_type *type);
-/* Prepares a cell of the scene, and keeps a pointer to the scene. */
+/* Prepares a cell of the scene in this process. The result contains a pointer to the scene. */
 void compared_run_here(compared_run *, const bench_options *r, const scene *s,
                        const formulation *chosen, int elements);
 /* Prepares the cell of the request for another program. The structure contains pointers to its
- * members and must not be copied. */
+ * members, so it must not be copied. */
 void compared_run_elsewhere(compared_run *, const bench_options *r, const char *program);
 /* Runs both cells alternately on one processor for a few seconds, and compares their counts of
  * work. */
 status compared_run_measure(compared_run *a, compared_run *b, against_times *out, fault *f);
-/* compared_run_show prints both times, the faster cell, and the difference of work.
+/* compared_run_show prints both times, which cell is faster, and the difference of work.
  * compared_run_json returns these data as JSON, which the caller owns. */
 void compared_run_show(const compared_run *a, const compared_run *b, const against_times *v);
 json_t *compared_run_json(const compared_run *a, const compared_run *b, const against_times *v);
 /* Prints a line for each cell whose times are not ranked, with the reason. */
 void compared_run_unranked(const compared_run *a, const compared_run *b);
 
-/* Pages of the manual, generated from the tables of the program. */
+/* Pages of the manual, which are generated from tables of the program. */
 
-/* A line of the help of the program. */
 typedef struct manual_row {
     const char *name, *text;
 } manual_row;
@@ -89,7 +87,7 @@ typedef struct manual_program {
     const char *summary, *question; /* one line each */
     const verb *const *verbs;       /* all verbs, NULL-terminated */
     const manual_row *examples, *statuses;
-    const char *of_compare; /* exit statuses of `compare`, which are the same as for diff */
+    const char *of_compare; /* exit statuses of `compare`, which are those of diff */
 } manual_program;
 
 /* A table of a results file. */
@@ -98,10 +96,11 @@ typedef struct results_record {
     const record_type *type;
 } results_record;
 
-/* Returns table number i, including tables of verbs. Its type is NULL after the last table. */
+/* Returns table number i, including tables of verbs. After the last table, the type of the result
+ * is NULL. */
 results_record results_record_at(const verb *const *verbs, int i);
 extern const char *const results_about[]; /* paragraphs, NULL-terminated */
-/* Type ("text *", "int", ...), displayed unit, and meaning with the possible words. */
+/* Type ("text *", "int", ...), displayed unit, and meaning of a field. */
 typedef struct results_field {
     const char *kind, *unit;
     char text[1000];
@@ -118,19 +117,19 @@ void manual_write_scene(FILE *to);
 void manual_write_results(FILE *to, const verb *const *verbs);
 
 /* Pages in mdoc(7). The text is escaped, so that no formatter interprets it. */
-/* Writes running text in lines. The words are not changed, so that hyphens, quotation marks and '^'
+/* Writes running text in lines. The words do not change, so that hyphens, quotation marks and '^'
  * can be copied. */
 void roff_text(FILE *to, const char *text);
-/* Reference to other pages: names with their sections, such as "beamwork 1 beamwork-scene 5". */
+/* References to other pages: names, each with its section, such as "beamwork 1 beamwork-scene
+ * 5". */
 typedef struct roff_reference {
     const char *name;
     int section;
 } roff_reference;
 void roff_see(FILE *to, const roff_reference list[], int count);
 
-/* Work of a verb that is computed as a shard, or whose results are read from batches. */
+/* Work of a verb: it is computed as a shard, or its results are read from batches. */
 
-/* Outcome of the work. */
 typedef struct spread_end {
     int ended; /* 1: there are no results to evaluate */
     int code;  /* exit status, if `ended` is 1 */
@@ -149,10 +148,10 @@ typedef struct shard_options {
 } shard_options;
 extern const option_group options_shards; /* all options except jobs and quiet */
 
-/* Returns 1 if --into, --shard or --from was given. REFUSED: the combination of options is invalid.
- * */
+/* Sets *requested to 1 if --into, --shard or --from was given. REFUSED: the combination of options
+ * is invalid. */
 status shards_requested(const shard_options *, int *requested, fault *f);
-/* Computes the shard and reports its outcome, or reads the batches. */
+/* Computes the shard and reports the outcome, or reads the batches. */
 status spread_work(const shard_options *, const shard_work *w, spread_end *out, fault *f);
 void spread_free(spread_end *);
 
@@ -164,18 +163,18 @@ typedef struct identity_texts {
 } identity_texts;
 
 /* Collects the version, commit and digest of the program, the command line as text, and a digest of
- * every file on which results depend. The caller then adds the plan of the work to this digest.
- * FAULT: a file cannot be read. */
+ * every file that affects results. The caller adds the plan of the work to this digest. FAULT: a
+ * file cannot be read. */
 status identity_make(const command_line *, identity_texts *out, digest *plan, fault *f);
 /* Adds the points, formulations and meshes of a sweep to the digest. */
 void identity_add_sweep(digest *plan, const sweep *s);
-/* Sets the identity of a work. The texts must outlive the work, and nothing may be added to the
- * plan afterwards. */
+/* Sets the identity of a work. The texts must outlive the work. Nothing may be added to the plan
+ * afterwards. */
 void identity_set(identity_texts *texts, const digest *plan, shard_work *w);
 void identity_free(identity_texts *);
 
 /* Computes a shard of a planned sweep, or reads the cells of --from. With --partial, missing cells
- * are removed and counted as unfinished. A batch contains consecutive series, and the cells that
+ * are removed and count as unfinished. A batch contains consecutive series, with the cells that
  * measure their scatter. */
 status verification_work_run(const shard_options *, const sweep_request *, truths *, sweep *,
                              spread_end *, fault *);

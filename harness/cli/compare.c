@@ -43,7 +43,7 @@ static void print_sums(const comparison *c)
     putchar('\n');
 }
 
-/* Prints a line for each group of series that exist in only one run and do not count as changes. */
+/* Prints a line for each group of series that are in only one run and do not count as changes. */
 static void print_left(const command_line *l, const stored_results *run[2], const comparison *c)
 {
     const char *const path[] = {l->argument[0], l->argument[1]};
@@ -95,8 +95,8 @@ static int compare(const command_line *l, const compare_request *r, const stored
     return trouble(f);
 }
 
-/* Checks that a sweep is compared with another sweep. A single sweep is rejected, because it has no
- * short table. */
+/* Checks that a sweep is compared with another sweep. A single sweep is rejected, because there is
+ * no short table of a sweep. */
 static status check_sweeps(const command_line *l, const stored_results *before,
                            const stored_results *after, fault *f)
 {
@@ -114,7 +114,6 @@ static status check_sweeps(const command_line *l, const stored_results *before,
                      before->swept ? l->argument[1] : l->argument[0]);
 }
 
-/* Reads the runs to be compared or written. cli_compare frees them. */
 static status read_runs(const command_line *l, const compare_request *r, comparison_limits *limits,
                         stored_results *before, stored_results *after, fault *f)
 {
@@ -133,8 +132,8 @@ static status read_runs(const command_line *l, const compare_request *r, compari
     return l->argument[1] == NULL ? write_table(r->output, before, f) : STATUS_OK;
 }
 
-/* Prints the hash of each run in one line. Returns DIFFERS if two runs have different hashes, and
- * TROUBLE after a failure. */
+/* Prints one line for each run, with the hash of the run. Returns DIFFERS if two runs have
+ * different hashes, and TROUBLE after a failure. */
 static int print_hashes(const command_line *l, const compare_request *r)
 {
     results_hash h[2] = {{.values = 0}};

@@ -16,7 +16,7 @@
 enum { MOST_REPEATS = 10000, NAME = 40 };
 static const double budget_seconds = 3, lap_seconds = 0.002;
 
-/* Selects the dimensionless numbers in the record of a cell, which describe its size and work. */
+/* Selects the dimensionless numbers in the record of a cell: they describe its size and work. */
 static void set_counted(compared_run *c)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -50,7 +50,7 @@ static status lap_here(compared_run *c, double *seconds, fault *f)
             return outcome;
     }
     const double end = start + (1 + c->slowdown) * (clock_processor_seconds() - start);
-    do /* runs for the additional time */
+    do /* runs during the additional time */
         *seconds = clock_processor_seconds() - start;
     while (start + *seconds < end);
     return STATUS_OK;
@@ -108,12 +108,12 @@ static status lap(void *what, double *seconds, fault *f)
     return c->program != NULL ? lap_elsewhere(c, seconds, f) : lap_here(c, seconds, f);
 }
 
-/* Chooses the number of repetitions so that a lap is long enough for the clock. */
+/* Chooses the number of solutions in a lap, so that a lap is long enough for the clock. */
 static status set_repeats(compared_run *a, compared_run *b, fault *f)
 {
     double first = 0, second = 0;
     a->repeats = b->repeats = 1;
-    for (int i = 0; i < 2; i++) { /* the first lap serves as warm-up */
+    for (int i = 0; i < 2; i++) { /* the first lap is a warm-up */
         TRY(lap(a, &first, f));
         TRY(lap(b, &second, f));
     }
@@ -178,7 +178,8 @@ status compared_run_measure(compared_run *a, compared_run *b, against_times *out
     return against_run(lap, a, b, budget_seconds, out, f);
 }
 
-/* Prints the name of a cell and the time of one solution. A long name has a separate line. */
+/* Prints the name of a cell and the time of one solution. A long name is printed on a separate
+ * line. */
 static void show_one(char letter, const compared_run *c, double seconds)
 {
     int at = printf("%c  ", letter);
@@ -210,7 +211,7 @@ static void show_work(const compared_run *a, const compared_run *b)
     paragraph_end(&words, at, 2);
 }
 
-/* Returns the reason why the two cells are not ranked, or "" if they are. */
+/* Returns why the two cells are not ranked; "": they are ranked. */
 static const char *unranked(const compared_run *a, const compared_run *b)
 {
     const char *why = reach_unranked(a->request.formulation);
@@ -232,7 +233,8 @@ void compared_run_unranked(const compared_run *a, const compared_run *b)
     }
 }
 
-/* Describes the physics of the scene that a formulation run in this process omits; "": none. */
+/* For a formulation that runs in this process, describes the physics of the scene that it omits;
+ * "": none. */
 static void lacking(const compared_run *c, char words[OMIT_WORDS])
 {
     words[0] = '\0';

@@ -1,5 +1,5 @@
-/* Completion of a command line for shells: fixed words, names that the program knows, and values
- * that depend on the words before the cursor. */
+/* Completion of a command line for shells: fixed words, names in the program, and values that
+ * depend on the words before the cursor. */
 #include "harness/cli/cli.h"
 
 #include <string.h>
@@ -16,7 +16,6 @@ void offer_text(const offer *o, const char *text, const char *summary)
         fprintf(o->to, "%.*s%s\t%s\n", o->length, o->before, text, summary);
 }
 
-/* Offers each part of "a|b|c". */
 static void offer_choices(const offer *o, const char *choices)
 {
     char word[64];
@@ -28,8 +27,8 @@ static void offer_choices(const offer *o, const char *choices)
     }
 }
 
-/* Returns an offer that starts after the last character of the word that is one of `characters`. If
- * the word contains none of them, returns the offer unchanged. */
+/* Returns an offer whose word starts after the last of these characters. If the word contains none
+ * of them, returns the offer unchanged. */
 static offer offer_behind(const offer *o, const char *characters)
 {
     offer behind = *o;
@@ -52,7 +51,7 @@ static void names_formulations(const offer *o)
         offer_text(o, formulations_at(i)->name, formulations_at(i)->summary);
 }
 
-/* Offers "NAME=" for a parameter or, after "NAME=", its choices. */
+/* Offers "NAME=" for a parameter or, after "NAME=", the choices of the parameter. */
 static void offer_assignment(const offer *o, const parameter_type *p)
 {
     char name[100];
@@ -66,8 +65,7 @@ static void offer_assignment(const offer *o, const parameter_type *p)
     }
 }
 
-/* Returns 1 if the text before the cursor, such as "name:mass=lumped,", already contains the
- * option. */
+/* Returns 1 if the text before the cursor, such as "name:mass=lumped,", contains the option. */
 static int is_given(const char *before, int length, const char *name)
 {
     const size_t size = strlen(name);
@@ -113,7 +111,7 @@ static void names_numbers(const offer *o, const case_type *type)
             offer_assignment(o, p);
 }
 
-/* Offers the next word of a term that starts with the words that have been typed. */
+/* If the term starts with the typed words, offers its next word. */
 static void offer_term(const offer *o, const char *typed, const char *term, const char *summary)
 {
     const size_t length = strlen(typed);
@@ -135,7 +133,7 @@ static void offer_terms(const offer *o, const char *typed, const glossary *g)
 }
 
 /* Offers the terms of `beamwork explain`. typed: words before the cursor, joined; they may be the
- * start of a term that consists of several words. */
+ * start of a term with several words. */
 static void names_words(const offer *o, const char *typed)
 {
     const truths_options usual = {.packed = NULL};
@@ -157,7 +155,6 @@ static void names_words(const offer *o, const char *typed)
 
 enum { TYPED = 400 };
 
-/* Information from the words before the cursor. */
 typedef struct completion_reading {
     const verb *verb;
     const verb_option *open; /* option whose value is at the cursor; NULL: none */
@@ -207,7 +204,7 @@ static void read_word(completion_reading *r, const char *word)
     }
 }
 
-/* Offers terms. A term of several words may be given in several arguments or in one. */
+/* Offers terms. The words of a term may be one argument or several. */
 static void offer_words(const offer *o, const completion_reading *r)
 {
     const offer word = offer_behind(o, " ");
@@ -217,8 +214,8 @@ static void offer_words(const offer *o, const completion_reading *r)
     names_words(&word, typed);
 }
 
-/* Offers part of a description. Words in upper case are kinds of arguments. Other words are offered
- * unchanged, and "exec:COMMAND" only up to the colon. */
+/* Offers a part of a description. Words in upper case are kinds of arguments; other words are
+ * offered as they are. Of "exec:COMMAND", only "exec:" is offered. */
 static void offer_part(const offer *o, const completion_reading *r, const char *part)
 {
     char word[40];
@@ -261,7 +258,7 @@ static void offer_selection(const offer *o)
     offer_choices(&word, "and|or|not");
 }
 
-/* Offers the parameters of the case or scene file that the command line names. */
+/* Offers the parameters of the case or scene file on the command line. */
 static void offer_parameters(const offer *o, const completion_reading *r,
                              void names(const offer *, const case_type *))
 {

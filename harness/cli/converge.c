@@ -11,7 +11,7 @@ typedef struct converge_request {
     mesh_list meshes;
     truths_options truths;
     const char *select, *output, *format;
-    double error; /* 0: no error was given */
+    double error;
     int jobs, verbose;
 } converge_request;
 
@@ -45,7 +45,6 @@ static status converge(converge_request *r, const case_type *type, convergence *
     return experiment_run(&experiment_converge, &requested, &to, c, f);
 }
 
-/* Returns 1 if at least one cell has a solution. */
 static int has_solution(const sweep *s)
 {
     int found = 0;

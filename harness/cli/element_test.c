@@ -11,7 +11,7 @@ typedef struct element_test_request {
     int jobs, verbose, quiet;
 } element_test_request;
 
-/* Returns the first argument that is a file or a command and not a name; NULL: none. */
+/* Returns the first argument that is a file or a command, not a name; NULL: none. */
 static const char *file_among(const command_line *l)
 {
     for (int i = 0; i < l->arguments; i++) {
@@ -23,7 +23,7 @@ static const char *file_among(const command_line *l)
     return NULL;
 }
 
-/* Selects the named formulations. If none is named, selects those that were loaded. */
+/* Selects the named formulations or, if none is named, the loaded ones. */
 static void choose(const command_line *l, element_test_request *r)
 {
     for (int i = 0; i < l->arguments; i++)
@@ -40,9 +40,8 @@ static status add_file(const void *context, const char *path, fault *f)
                : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
 }
 
-/* Computes the hash of the element file of a formulation. For a built-in formulation, this is
- * the hash of the program. For a command, it is the hash of the files in the command, in their
- * order. */
+/* Computes the hash of a formulation: of the element file; for a command, of the files in the
+ * command, in their order; for a built-in formulation, of the program. */
 static void hash_of(const element_type *t, char out[DIGEST_TEXT])
 {
     const char *from = formulations_element(t);
@@ -63,7 +62,7 @@ static status read_format(const verb_option *o, void *member, const char *value,
     return fault_set(f, STATUS_REFUSED, "--format: give text, json, csv, markdown or latex");
 }
 
-/* Runs the tests. The caller answer() frees *c, even after a failure. */
+/* The caller answer() frees *c, even after a failure. */
 static status run(const command_line *l, const element_test_request *r, certificates *c, fault *f)
 {
     const certificate_request what = {.chosen = r->chosen.formulation,

@@ -77,7 +77,8 @@ static int explain_case(const char *word)
     return 0;
 }
 
-/* Prints the inputs of a scene that each kind of analysis uses. Returns 0 for any other word. */
+/* For the word "inputs": prints which inputs of a scene each kind of analysis uses. Returns 0 for
+ * any other word. */
 static int explain_inputs(const char *word)
 {
     if (!glossary_same("inputs", word))
@@ -137,7 +138,7 @@ static int explain_rule(const dictionary *d, const char *word)
 }
 
 /* Explains a quantity of a case. Returns 1 if the case has the quantity. found: number of previous
- * cases that have the quantity; after QUANTITY_PLACES cases, nothing is printed. */
+ * cases with the quantity. After QUANTITY_PLACES cases, nothing is printed. */
 static int explain_quantity_of(const case_type *type, const char *word, int found)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -208,8 +209,8 @@ static void add_names(const dictionary *d, name_list *l)
         add_name(l, d->deviations.rule[k].name);
 }
 
-/* Returns a name that differs from `word` in at most two letters (one letter for short words);
- * NULL: none. */
+/* Returns the most similar name: for words of at least six letters, up to two letters may differ;
+ * for words of four or five letters, one letter. NULL: none. */
 static const char *misspelt(const name_list *l, const char *word)
 {
     char a[GLOSSARY_WORD], b[GLOSSARY_WORD];
@@ -227,8 +228,8 @@ static const char *misspelt(const name_list *l, const char *word)
     return nearest;
 }
 
-/* Returns 1 if `text` contains `word` as a whole word, with or without a final s. Ignores the case
- * of `text`. word: lowercase letters. */
+/* Returns 1 if `text` contains `word` as a whole word, with or without a final s. Upper and lower
+ * case in `text` count as equal. word: lowercase letters. */
 static int contains(const char *text, const char *word)
 {
     char all[2048];
@@ -323,7 +324,7 @@ static int explain_word(const dictionary *d, const char *word)
     return found > 0 ? EXIT_AS_EXPECTED : refuse_word(d, word);
 }
 
-/* Joins all arguments, so that a term needs no quotation marks. */
+/* Joins all arguments, so that a term with blanks needs no quotation marks. */
 static int explain_words(const command_line *l, const dictionary *d)
 {
     char word[LONGEST] = "";

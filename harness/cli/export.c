@@ -17,8 +17,8 @@ typedef struct export_request {
 
 enum { DEFAULT_ELEMENTS = 20 };
 
-/* Writes the name of the scene in a deck, in the form that import reads: the case or the full path
- * of the scene file, and the parameters that differ from their defaults. */
+/* Writes the name of the scene in the form that `import` reads: the case or the full path of the
+ * scene file, with the parameters that differ from their defaults. */
 static void name_of(const export_request *r, const case_type *type, char *text, size_t size)
 {
     char parameters[PARAMETERS_TEXT], path[PATH_MAX];

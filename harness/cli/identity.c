@@ -16,7 +16,7 @@ static void name_build(char *out, size_t size)
              e.commit);
 }
 
-/* Joins all words with blanks. A text that is too long ends with its digest. */
+/* Joins all words with blanks. A text that is too long is cut and ends with its digest. */
 static void name_request(const json_t *words, char out[IDENTITY_TEXT])
 {
     enum { KEPT = IDENTITY_TEXT - 2 * DIGEST_TEXT };
@@ -38,7 +38,7 @@ static void name_request(const json_t *words, char out[IDENTITY_TEXT])
         snprintf(out + KEPT, IDENTITY_TEXT - KEPT, " ... %s", hash);
 }
 
-/* Forms in which file names are written: as given, as absolute paths, or without the folder. */
+/* Form in which file names are written: as given, as absolute path, or without the folder. */
 typedef enum path_form { PATHS_GIVEN, PATHS_ABSOLUTE, PATHS_LEAVES } path_form;
 
 static void add_path(json_t *to, const char *path, path_form form)
@@ -53,7 +53,7 @@ static void add_path(json_t *to, const char *path, path_form form)
 }
 
 /* Adds an option and its value. The path of an input file is written in the given form; the command
- * of "exec:COMMAND" is not changed. */
+ * of "exec:COMMAND" does not change. */
 static void add_given(json_t *to, const given_option *g, path_form form)
 {
     char text[160];
@@ -67,8 +67,8 @@ static void add_given(json_t *to, const given_option *g, path_form form)
         add_path(to, value, file ? form : PATHS_GIVEN);
 }
 
-/* Lists everything on which results depend, in the fixed order of the verb's options. Excludes the
- * destinations and formats of results, and the number of processes. */
+/* Lists the arguments and options that affect results, in the fixed order of the options of the
+ * verb. Excludes the destinations and formats of results, and the number of processes. */
 static json_t *words_of(const command_line *l, path_form form)
 {
     json_t *to = json_array();
@@ -93,7 +93,7 @@ static status add_file(const void *context, const char *path, fault *f)
 }
 
 /* Adds the contents of the input files to the digest. Built-in reference values are included only
- * for built-in cases. */
+ * if the run has built-in cases. */
 static status add_files(digest *plan, const command_line *l, fault *f)
 {
     const truths_options usual = {.packed = NULL};

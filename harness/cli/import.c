@@ -14,8 +14,8 @@ static int as_json(const import_request *r)
     return strcmp(r->format, "json") == 0;
 }
 
-/* Prints all errors of a file, in one line each, or as JSON if this is the output format. JSON is
- * printed for every file, even if there are no errors. */
+/* Prints all errors of a file, one in each line, or as JSON if this is the output format. JSON is
+ * printed for every file, even without errors. */
 static status print_mistakes(const import_request *r, const mistakes *m, fault *f)
 {
     if (as_json(r))
@@ -27,7 +27,7 @@ static status print_mistakes(const import_request *r, const mistakes *m, fault *
     return STATUS_OK;
 }
 
-/* Reads all files as one series, with the map of --map. */
+/* Reads all files as one series, with the map given by --map. */
 static status read_mapped(const command_line *l, const import_request *r, import_set *set, fault *f)
 {
     mistakes m = {.file = r->map};

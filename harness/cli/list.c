@@ -1,5 +1,5 @@
-/* Verb list: lists cases and formulations. For a formulation, lists its supported features,
- * limitations and known deviations. */
+/* Verb list: lists cases and formulations. For a formulation, lists supported features, limitations
+ * and known deviations. */
 #include <float.h>
 #include <stdio.h>
 #include <string.h>
@@ -17,7 +17,7 @@ enum { COLUMN = 26, LINE = 4000 };
 
 static const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX;
 
-/* Prints a text whose continuation lines are indented by two more columns. */
+/* Prints a text with continuation lines indented by two more columns. */
 static void hang(int indent, const char *text)
 {
     const int word = (int)strcspn(text, " ");
@@ -98,7 +98,7 @@ static void show_options(const element_type *t)
         list_formulation_option(o);
 }
 
-/* Prints the cases to which the rule applies, and the verdicts that result from the rule. */
+/* Prints the cases to which the rule applies, and the verdicts that it explains. */
 static void show_verdicts(const rule *r)
 {
     char line[LINE];
@@ -126,8 +126,8 @@ static void show_rules(const formulation *chosen, const rule *rules, int count)
         printf("known deviations: none\n");
 }
 
-/* Prints the names of all entries with the explanation of entry `first`, in one paragraph. Prints
- * nothing if a previous entry has this explanation. */
+/* Prints the names of all entries that have the explanation of entry `first`, in one paragraph.
+ * Prints nothing if a previous entry has this explanation. */
 static void show_alike(const runs_on all[], int count, int first, const char *head)
 {
     char line[LINE];
@@ -283,7 +283,6 @@ static int list_case(const case_type *type)
     return message_exit(outcome, &f);
 }
 
-/* Reads the list of known deviations if it exists. */
 static void read_deviations(const list_request *r, truths *deviations)
 {
     memset(deviations, 0, sizeof *deviations);

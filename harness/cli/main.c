@@ -8,15 +8,14 @@
 
 #include "harness/cli/cli.h"
 
-/* The function is not inlined, so that its stack is used only after the stack size has been
- * checked. */
+/* not inlined, so that its stack is used only after the stack size has been checked */
 static __attribute__((noinline)) int run(int count, char **arguments)
 {
     return verb_table_run(count, arguments);
 }
 
-/* Raises the stack limit as far as allowed, because a stack overflow would end the program without
- * a message. Returns 1 if the limit is large enough. */
+/* If the stack limit is below 1 MB, raises it to 8 MB or as far as allowed, because a stack
+ * overflow would end the program without a message. Returns 0 if the limit remains below 1 MB. */
 static int stack_suffices(void)
 {
     enum { LEAST = 1 << 20, USUAL = 1 << 23 }; /* [bytes] */
@@ -45,10 +44,11 @@ int main(int count, char **arguments)
         refuse_stack();
     ending_begin();
     gsl_set_error_handler_off();
-    /* beamwork closes all HDF5 objects. The exit handler of HDF5 crashes or prints many lines if
-     * memory is exhausted. */
+    /* HDF5 must not clean up at exit: beamwork closes all HDF5 objects, and the exit handler of
+     * HDF5 crashes or prints many lines if memory is exhausted. */
     H5dont_atexit();
-    /* Exceeding the file size limit then becomes a write error, which is reported in one line. */
+    /* A file that exceeds the file size limit then causes a write error, which is reported in one
+     * line. */
     signal(SIGXFSZ, SIG_IGN);
     return message_finish(run(count, arguments));
 }

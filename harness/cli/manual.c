@@ -11,8 +11,8 @@
 
 enum { WIDTH = 78 };
 
-/* Writes text literally, and escapes characters that formatters would change. Returns the number of
- * characters written. */
+/* Writes text literally, with escapes for characters that formatters would change. Returns the
+ * number of characters written. */
 static int write_escaped(FILE *to, const char *text, size_t length)
 {
     static const char *const shown[256] = {
@@ -27,8 +27,8 @@ static int write_escaped(FILE *to, const char *text, size_t length)
     return written;
 }
 
-/* Writes a word. A word that starts with a period is preceded by "\&", which prevents its
- * interpretation as a request. */
+/* Writes a word. If it starts with a period, "\&" precedes it, so that it is not interpreted as a
+ * request. */
 static int write_word(FILE *to, const char *word, size_t length)
 {
     const int guard = length > 0 && word[0] == '.';
@@ -79,8 +79,6 @@ static void write_date(FILE *to, const char *released)
     fprintf(to, ".Dd %s\n", text);
 }
 
-/* Writes the header of a page, from ".Dd" to ".Nd". name: for example "beamwork-solve"; about: one
- * line. */
 static void roff_page(FILE *to, const char *name, int chapter, const char *about)
 {
     const environment e = environment_now(1);
@@ -206,7 +204,6 @@ static int takes(const verb *v, const char *name)
     return o != NULL;
 }
 
-/* Writes the references to related pages. */
 static void write_references(FILE *to, const verb *v)
 {
     roff_reference list[4] = {{"beamwork", 1}};
@@ -255,7 +252,7 @@ static void close_to(keys *k, int depth)
         fprintf(k->to, ".El\n");
 }
 
-/* Writes a key. Each depth has a list. The list of subordinate keys is part of the item of their
+/* Writes a key. Each depth has its own list. A list of subordinate keys is part of the item of the
  * superior key. */
 static void write_key(void *context, int depth, const char *name, const char *form,
                       const char *text)

@@ -14,7 +14,8 @@
 int message_finish(int code)
 {
     const int reported =
-        code == EXIT_REFUSED || code == EXIT_FAULT; /* these statuses have already been explained */
+        code == EXIT_REFUSED ||
+        code == EXIT_FAULT; /* messages about these statuses have already been printed */
     if ((fflush(stdout) == 0 && !ferror(stdout)) || reported)
         return code;
     return message_fail(STATUS_FAULT, "standard output cannot be written");
@@ -49,7 +50,7 @@ void message_refuse(const char *text)
     exit(message_fail(STATUS_REFUSED, text));
 }
 
-/* process to which the handlers apply; child processes end without these handlers */
+/* process to which the handlers apply; child processes end without them */
 static pid_t program;
 
 static void write_error(const char *text)
@@ -59,7 +60,7 @@ static void write_error(const char *text)
     }
 }
 
-/* Ends the process by the given signal, so that the parent process learns its reason. */
+/* Ends the process by the given signal, which the parent process then sees as the reason. */
 static void end_by(int number)
 {
     signal(number, SIG_DFL);
@@ -98,8 +99,8 @@ static void ended(int code, void *unused)
     _exit(EXIT_FAULT);
 }
 
-/* Replaces only the default handler. A sanitizer, or a parent process that ignores the signal, may
- * have set another handler. */
+/* Replaces only the default handler. A sanitizer may have set another handler, or a parent process
+ * may have set the signal to be ignored. */
 static void handle_signal(int number, void (*handler)(int))
 {
     struct sigaction action, before;
@@ -135,7 +136,6 @@ void ending_begin(void)
     on_exit(ended, NULL);
 }
 
-/* Signals and their messages, which are prepared in advance. */
 static struct {
     int signal;
     const char *what;
@@ -159,7 +159,7 @@ static void report(int which)
     _exit(EXIT_DIFFERS);
 }
 
-/* Lets signal handlers use a separate stack, so that a stack overflow is handled as well. */
+/* Makes signal handlers use a separate stack, so that a stack overflow is also handled. */
 static void stand_on_another_stack(void)
 {
     static char stack[1 << 16];
@@ -239,8 +239,8 @@ static int others_take(const verb *const *verbs, const char *word)
     return 0;
 }
 
-/* Returns REFUSED: the verb has no such option, although another verb may have it. begun: number of
- * options that match the abbreviation. */
+/* Returns REFUSED: the verb has no such option; another verb may have it. begun: number of options
+ * that match the abbreviation. */
 static status refuse_word(const verb *v, const verb *const *verbs, const char *text, int begun,
                           fault *f)
 {
@@ -296,8 +296,8 @@ static status check_word(const verb *v, const verb *const *verbs, const char *wo
                : STATUS_OK;
 }
 
-/* Checks all options before any of them is used. Unknown options and missing values are reported in
- * one line, with the most similar name. */
+/* Checks all options before any of them is used. Unknown options and missing values are reported
+ * in one line, the former with the most similar name. */
 static status check_options(const verb *v, const verb *const *verbs, int count,
                             char *const argument[], fault *f)
 {
@@ -310,7 +310,7 @@ static status check_options(const verb *v, const verb *const *verbs, int count,
     return STATUS_OK;
 }
 
-/* Prints the usage in the same way as argp, but reports an output that cannot be written. */
+/* Prints the usage as argp does, but reports an output that cannot be written. */
 static void show_usage(const struct argp_state *state)
 {
     argp_state_help(state, stdout, ARGP_HELP_USAGE & ~(unsigned)ARGP_HELP_EXIT_ERR);
@@ -324,8 +324,8 @@ static void add_argument(command_line *l, const char *text)
     l->argument[l->arguments++] = text;
 }
 
-/* Adds an option. An option with a single value may be given only once. Lists (-f, -n, --set) and
- * switches may be repeated. */
+/* Adds an option. Lists (-f, -n, --set) and switches may be repeated; other options may be given
+ * only once. */
 static void add_given(command_line *l, const verb_option *o, const char *value)
 {
     char text[160];
@@ -368,7 +368,7 @@ static error_t take(int key, char *value, struct argp_state *state)
                 "beamwork: -%c has been renamed to --%s; the letter will be removed in the next "
                 "version\n",
                 key, o->name);
-    if (o == NULL || o == verb_help) { /* includes the letter -? */
+    if (o == NULL || o == verb_help) {
         help_write(stdout, v);
         exit(message_finish(EXIT_AS_EXPECTED));
     } else if (o == verb_help + 1)
@@ -378,8 +378,8 @@ static error_t take(int key, char *value, struct argp_state *state)
     return 0;
 }
 
-/* Adds the rows of an option for argp, starting with row n. Letters and former names are aliases of
- * the option. Returns the number of rows so far. */
+/* Adds the rows of an option for argp, from row n on. Letters and former names are aliases of the
+ * option. Returns the number of rows so far. */
 static int add_row(struct argp_option row[], int n, const verb_option *o, int index)
 {
     const char *was = verb_former_name(o);

@@ -15,8 +15,7 @@ typedef struct motion_options {
     const char *expected; /* table of expected verdicts, which replaces a case */
 } motion_options;
 
-/* Fills the request. REFUSED without text: messages about a missing case have already been printed.
- * */
+/* Fills the request. REFUSED without text: the messages have already been printed. */
 static status ask(motion_options *r, motion_request *out, fault *f)
 {
     out->type = case_input_find(&r->of);
@@ -56,7 +55,6 @@ static status run(motion_options *r, motions *m, fault *f)
     return experiment_do(&experiment_motion, &requested, &to, m, f);
 }
 
-/* Returns 1 if at least one motion has reached its end time. */
 static int has_any(const integrators *p)
 {
     int found = 0;

@@ -11,8 +11,8 @@
 #include "harness/numerics/numerics.h"
 #include "harness/records/records.h"
 
-/* Letters of version 0.1. The next version will not accept them. If a letter is used, a note gives
- * the new name. */
+/* Letters of version 0.1, which the next version will not accept. If one is used, a note gives the
+ * new name. */
 static const struct {
     char letter;
     const char *name;
@@ -34,7 +34,7 @@ static const struct {
               {'u', "integrator"}, {'a', "step"},           {'3', "conservation-only"},
               {'1', "expected"}};
 
-/* Names of version 0.2. The next version will not accept them. If a name is used, a note gives the
+/* Names of version 0.2, which the next version will not accept. If one is used, a note gives the
  * new name. */
 static const struct {
     const char *was, *name;
@@ -49,8 +49,8 @@ const verb_option verb_help[] = {
     {"usage", 0, NULL, "a short list of the options", .traits = OPTION_ASIDE},
     {0}};
 
-/* Returns option i of an array. If i is too large, reduces i by the number of options and returns
- * NULL. */
+/* Returns option *i of an array. If *i is too large, subtracts the number of options from it and
+ * returns NULL. */
 static const verb_option *among(const verb_option *list, int *i)
 {
     for (; list != NULL && list->name != NULL; list++)
@@ -407,7 +407,7 @@ static status check_pair(const named_place *a, const named_place *b, fault *f)
 
 static status find_scenes(const char *folder, glob_t *found, fault *f)
 {
-    /* escapes the name of the folder, whose characters are not wildcards */
+    /* characters of the folder name are escaped, so that they are not wildcards */
     char *pattern = malloc(2 * strlen(folder) + sizeof "/*.yaml"), *at = pattern;
     if (pattern == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for scene files");
@@ -462,7 +462,7 @@ status files_named(const char *input, file_visit *visit, const void *context, fa
                : visit(context, input, f);
 }
 
-/* For verbs that read files: checks that no argument is an output. */
+/* For verbs that read the files in their arguments: checks that no argument is an output. */
 static status check_arguments(const named_place *out, const command_line *l, fault *f)
 {
     const int read =

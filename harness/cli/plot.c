@@ -1,4 +1,4 @@
-/* Verb plot: solves, and draws quantities as curves with reports/graph.py. */
+/* Verb plot: solves a scene, and draws its quantities as curves with reports/graph.py. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,7 +23,7 @@ typedef struct plot_request {
 enum { INSTANTS = 300, STATES = 20, COULD_NOT = 4 }; /* COULD_NOT: as in reports/graph.py */
 
 static const char python[] = "/usr/bin/python3";
-/* Starts the plotting program isolated from the environment, in the same way as beamwork-report. */
+/* Starts the plotting program isolated from the environment, as beamwork-report does. */
 static const char begin_program[] =
     "import runpy, sys; sys.path.insert(0, sys.argv.pop(1)); "
     "runpy.run_module('reports.graph', run_name='__main__', alter_sys=True)";
@@ -37,8 +37,8 @@ static int takes_stations(const scene *s, int analysis)
     return 0;
 }
 
-/* Replaces the stations of a path by the ends of equal parts from begin to end. first: 0: begin is
- * also a station; 1: it is not. */
+/* Replaces the stations of a path by the ends of `parts` equal parts from begin to end. first 0:
+ * begin is also a station. */
 static status divide(scene_path *path, double begin, double end, int parts, int first, fault *f)
 {
     double *more = realloc(path->value, ((size_t)parts + 1) * sizeof *more);
@@ -51,8 +51,8 @@ static status divide(scene_path *path, double begin, double end, int parts, int 
     return STATUS_OK;
 }
 
-/* Adds stations. Motions are read at many stations, which do not change their steps. A static path
- * with one station gets more stations. */
+/* Adds stations. Motions get many stations, which do not change their steps. A static path with one
+ * station gets more stations. */
 static status read_densely(scene *s, int analysis, fault *f)
 {
     scene_analysis *a = &s->analysis[analysis];
@@ -67,7 +67,7 @@ static status read_densely(scene *s, int analysis, fault *f)
                   path->value[path->stations - 1], INSTANTS, later, f);
 }
 
-/* Adds the phase of an amplitude, as in a Bode diagram, unless the scene already has the phase. */
+/* Unless the scene has the phase of an amplitude, adds it, as for a Bode diagram. */
 static status add_phase(scene *s, int quantity, fault *f)
 {
     const scene_quantity *q = &s->quantity[quantity];
@@ -100,7 +100,6 @@ static int can_be_drawn(const scene *s, const scene_quantity *q)
            (scene_path_of(a) != NULL || (a->kind == SCENE_COMPLIANCE && a->follows != SCENE_NONE));
 }
 
-/* Makes the quantity a curve. Returns 0 if this is impossible. */
 static int make_curve(scene *s, scene_quantity *q)
 {
     fault no;
@@ -123,7 +122,7 @@ static int make_curve(scene *s, scene_quantity *q)
     return 0;
 }
 
-/* Removes envelopes of other quantities, because these quantities become curves. */
+/* Removes envelopes of other quantities, because the other quantities become curves. */
 static void drop_envelopes(scene *s)
 {
     int kept = 0;
@@ -135,7 +134,6 @@ static void drop_envelopes(scene *s)
     s->quantities = kept;
 }
 
-/* Keeps the quantities that can be drawn and makes them curves. */
 static status make_curves(scene *s, fault *f)
 {
     int kept = 0;
@@ -160,8 +158,8 @@ static status make_curves(scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Solves with one formulation and appends the solution. The caller draw_from() frees *s and `why`.
- * */
+/* Solves with one formulation and appends the solution. The caller draw_from() frees *s and
+ * *why. */
 static status solve_one(const plot_request *r, const case_type *type, int index, sweep *s,
                         solution_choice *why, FILE *to, fault *f)
 {
@@ -182,7 +180,7 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
                               .meshes = &meshes,
                               .truths = &usual};
     TRY(defaults_fill(&missing, note, why, f));
-    solution_choice_free(why); /* it describes the choice for values, not for curves */
+    solution_choice_free(why); /* the choice was made for values, not for curves */
     const solution_request what = defaults_request(&missing);
     TRY(solution_plan(&what, s, f));
     TRY(make_curves(&s->point[0].scene, f));
@@ -226,7 +224,7 @@ static status solve_all(const plot_request *r, const case_type *type, FILE *to, 
                            "a temporary file cannot be written; check whether the disk is full");
 }
 
-/* Replaces the child process by the plotting program. from, to: descriptors of its input and
+/* Replaces the child process by the plotting program. from, to: descriptors for its input and
  * output. */
 static void become(int from, int to, const char *folder, const char *form)
 {
@@ -235,7 +233,7 @@ static void become(int from, int to, const char *folder, const char *form)
     _exit(127);
 }
 
-/* Draws the solutions in the file. The plotting program prints its messages. */
+/* Draws the solutions in the file. The plotting program prints its own messages. */
 static status draw(FILE *solutions, const char *folder, const char *form, FILE *picture, fault *f)
 {
     int how = -1;

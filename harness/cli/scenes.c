@@ -16,7 +16,7 @@ static status add_path(const void *context, const char *path, fault *f)
     return STATUS_OK;
 }
 
-/* Checks that the name of a case is unique, because names identify cases in the results. */
+/* Checks that no other case has the same name, because names identify cases in the results. */
 static status check_name(const case_type *one, const case_type *const *others, const char *path,
                          fault *f)
 {

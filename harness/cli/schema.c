@@ -32,8 +32,8 @@ const char *const results_about[] = {
     "columns.",
     NULL};
 
-/* Returns entry i of a NULL-terminated list. If i is beyond the end, reduces i by the length and
- * returns NULL. */
+/* Returns entry *i of a NULL-terminated list. If *i is beyond the end, subtracts the length from it
+ * and returns NULL. */
 static const record_type *take(const record_type *const *list, int *i)
 {
     for (; *list != NULL; list++)
@@ -42,8 +42,8 @@ static const record_type *take(const record_type *const *list, int *i)
     return NULL;
 }
 
-/* Returns table *i of the experiments of all verbs. If there is none, reduces *i by the number of
- * these tables and returns a table with type NULL. */
+/* Returns table *i of the experiments of all verbs. If there is none, subtracts the number of these
+ * tables from *i and returns a table with type NULL. */
 static results_record of_experiment(const verb *const *verbs, int *i)
 {
     results_record r = {"", NULL};

@@ -29,7 +29,7 @@ static status load(const char *element, fault *f)
     return formulations_add(type, element, f);
 }
 
-/* Sets the time limit for the first answer of a process. Then loads the elements and adds the named
+/* Sets the time limit for the first answer of a process, then loads the elements and adds the named
  * formulations. */
 static status end(void *group, command_line *l, fault *f)
 {
@@ -83,7 +83,6 @@ solution_request defaults_request(const defaults *d)
     return out;
 }
 
-/* Appends a line to the note. */
 static void add_note(char note[DEFAULTS_NOTE], const char *choice, const char *why,
                      const char *option)
 {
@@ -92,8 +91,7 @@ static void add_note(char note[DEFAULTS_NOTE], const char *choice, const char *w
              option);
 }
 
-/* Copies the choice of formulation and mesh into the request, and appends the reasons to the
- * note. */
+/* Copies the chosen formulation and mesh into the request, and appends the reasons to the note. */
 static void take(const defaults *d, const solution_request *chosen, const solution_choice *why,
                  char note[DEFAULTS_NOTE])
 {

@@ -19,15 +19,15 @@ typedef struct solve_request {
     double error; /* 0: no error was given */
     int steps;
     int shapes;           /* number of states of a path whose shapes are stored; 0: none */
-    const char *follow;   /* NAME=A..B/N: modes are followed over this parameter */
+    const char *follow;   /* NAME=A..B/N: parameter over which modes are followed; NULL: none */
     const char *matrices; /* folder for the matrices of all states */
     int state_space;      /* 1: linear models are written as well */
     const char *reduce;   /* also writes reduced models */
-    /* files: output for the final states of motions, and state from which motions continue */
+    /* files: output for the final states of motions; state from which motions continue */
     const char *ends, *restart;
 } solve_request;
 
-/* The data of a solution, from the request to the result. */
+/* Data of a solution, from the request to the result. */
 typedef struct solve_work {
     solution_request what;
     solution_choice why;
@@ -45,7 +45,6 @@ static void work_free(solve_work *w)
     solution_choice_free(&w->why);
 }
 
-/* Returns the request for the choice of -f and -n. */
 static defaults defaults_of(solve_request *r, const case_type *type)
 {
     return (defaults){.wanted = {.type = type,
@@ -63,8 +62,7 @@ static defaults defaults_of(solve_request *r, const case_type *type)
                       .truths = &r->truths};
 }
 
-/* Writes the results. note: explanation of the default choices, which is printed before text
- * output. */
+/* Writes the results. note: reasons for the default choices, which precede text output. */
 static status write_to(FILE *to, const solve_request *r, const char *note, const sweep *s,
                        const truths *t, fault *f)
 {
@@ -94,7 +92,7 @@ static status write_out(const solve_request *r, const char *note, const sweep *s
     return output_finish(&file, write_to(file.stream, r, note, s, t, f), f);
 }
 
-/* Reports the error of the state-space form of a harmonic analysis, which omits the mass inside
+/* Reports the error of the state-space form of a harmonic analysis: it omits the mass inside
  * elements. */
 static void report_close_frequencies(const scene *s, const state_matrices *m)
 {
@@ -159,7 +157,7 @@ static void report_reduced(const scene *s, const system_matrices *all, const sta
 }
 
 /* Reports that only the state-space forms of harmonic analyses include feedback. In other matrices,
- * the loads with feedback are inputs. */
+ * loads with feedback are inputs. */
 static void report_loops(const scene *s, const system_matrices *of)
 {
     int closed = 0;
@@ -174,7 +172,7 @@ static void report_loops(const scene *s, const system_matrices *of)
                     closed ? " except those in state_space of harmonic analyses" : "");
 }
 
-/* Writes the matrices of all states, if they were requested. */
+/* Writes the matrices of all states, if requested. */
 static status write_matrices(const solve_request *r, const sweep *s, fault *f)
 {
     const cell_result *cell = &s->series[0].cell[0];
@@ -192,7 +190,7 @@ static status write_matrices(const solve_request *r, const sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Reads the value NAME=A..B/N of --follow. Both ends must be within the limits of the parameter. */
+/* Reads the value NAME=A..B/N of --follow. Both ends must be allowed values of the parameter. */
 static status range_of(const solve_request *r, const case_type *type, follow_request *out, fault *f)
 {
     const char *ends = strchr(r->follow, '='), *dots = ends != NULL ? strstr(ends, "..") : NULL,
@@ -266,8 +264,8 @@ static status follow_modes(solve_request *r, const case_type *type, fault *f)
     return written;
 }
 
-/* Reads the state from which a motion continues. Its formulation and its number of elements are
- * used if -f and -n are not given. */
+/* Reads the state from which a motion continues. The default of -f and -n is its formulation and
+ * its number of elements. */
 static status take_restart(solve_request *r, restart *from, fault *f)
 {
     TRY(restart_read(r->restart, from, f));
@@ -288,7 +286,7 @@ static status prepare_ends(const solve_request *r, restart *from, solution_reque
     return r->restart != NULL ? restart_begin(from, what, s, f) : STATUS_OK;
 }
 
-/* Prepares the solution. The caller answer() frees *w, even after a failure. */
+/* The caller answer() frees *w, even after a failure. */
 static status prepare(solve_request *r, const case_type *type, solve_work *w, fault *f)
 {
     if (r->error > 0 && (r->meshes.count > 0 || r->restart != NULL))
@@ -304,7 +302,7 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
     const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
     if (known != STATUS_OK && r->truths.packed == NULL && r->of.scene == NULL)
         fprintf(stderr, "beamwork: no reference values are used: %s\n",
-                f->text); /* a solution does not need them */
+                f->text); /* a solution does not require them */
     else
         TRY(known);
     if (r->restart != NULL)
@@ -336,9 +334,8 @@ static status write_all(const solve_request *r, const solve_work *w, fault *f)
     return write_matrices(r, &w->s, f);
 }
 
-/* Reports the first quantity without a value, and returns the exit status. Other quantities are
- * still computed. If the mesh has no such mode or the path has no such point, the missing value
- * counts as a result. */
+/* Reports the first quantity without a value, and returns the exit status. If the mesh has no such
+ * mode or the path no such point, the missing value counts as a result. */
 static int report_missing(status solved, const cell_result *cell, const fault *f)
 {
     const int refused = cell_values(cell) > 0 && solved == STATUS_REFUSED;
@@ -351,7 +348,7 @@ static int report_missing(status solved, const cell_result *cell, const fault *f
     return refused ? message_fail(STATUS_NO_VALUE, f->text) : message_exit(solved, f);
 }
 
-/* Warns of a linear displacement that is larger than the structure. */
+/* Warns if a linear displacement is larger than the structure. */
 static void report_large(const scene *s, const solve_result *r)
 {
     const double size = change_size(s);
@@ -370,7 +367,6 @@ static void report_large(const scene *s, const solve_result *r)
     }
 }
 
-/* Solves, writes the results, and returns the exit status. */
 static int solve_and_write(const solve_request *r, solve_work *w)
 {
     fault f = {""}, unwritten = {""};

@@ -11,7 +11,7 @@ typedef struct stress_request {
     int jobs;
 } stress_request;
 
-/* Runs the cases. The caller answer() frees *s, even after a failure. */
+/* The caller answer() frees *s, even after a failure. */
 static status run(const command_line *l, const stress_request *r, extreme_sweep *s, fault *f)
 {
     const extreme_request request = {.truths = user_tables_packed(&r->truths),

@@ -15,14 +15,13 @@ typedef struct sweep_options {
     shard_options shards;
     const char *select, *output, *format;
     double error;       /* 0: no error was given */
-    text_list vary;     /* varied parameters in the form NAME=A..B/N, or another range */
+    text_list vary;     /* varied parameters: NAME=A..B/N, or another form */
     const char *design; /* design of the points; NULL: a grid */
     int points, seed;   /* number of points and seed, for designs other than a grid */
     int derive;         /* 1: reference values that are not stored are computed */
     int verbose;
 } sweep_options;
 
-/* A sweep, and the data that are used while it runs. */
 typedef struct sweeping {
     range_sweep_request requested;
     range_sweep sweep;
@@ -52,7 +51,6 @@ static status read_design(const sweep_options *r, ranges_request *q, fault *f)
     return STATUS_OK;
 }
 
-/* Checks that no varied parameter is also set. */
 static status check_set(const sweep_options *r, const parameter_ranges *s, fault *f)
 {
     for (int i = 0; i < r->of.set.count; i++)
@@ -75,7 +73,7 @@ static status identify(const sweep_options *r, sweeping *s, fault *f)
     return STATUS_OK;
 }
 
-/* Reads the batches that --from names. */
+/* Reads the batches in the folders of --from. */
 static status take_given(void *context, const shard_work *w, fault *f)
 {
     sweeping *s = context;
@@ -139,8 +137,7 @@ static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f
     return experiment_run(&experiment_sweep, &s->requested, &to, &s->sweep, f);
 }
 
-/* Reports missing batches, which are computed if the command is repeated. Returns the exit
- * status. */
+/* Reports missing batches; repeating the command computes them. Returns the exit status. */
 static int report(const sweep_options *r, const sweeping *s)
 {
     if (s->spread)
@@ -263,7 +260,7 @@ status shards_requested(const shard_options *r, int *requested, fault *f)
                      folder);
 }
 
-/* Reports the outcome of the shard in one line, and returns the exit status. */
+/* Reports the outcome of the shard in one line. Returns the exit status. */
 static int report_shard(const shard_options *r, const shard_request *q, const shard_outcome *o)
 {
     const int left = o->mine - o->before - o->done;
@@ -296,7 +293,7 @@ static status compute(const shard_options *r, const shard_work *w, spread_end *o
     return output_flush(f);
 }
 
-/* Lists the types of processors that computed the batches, each with a host. */
+/* Lists the types of processors that computed the batches, each with one host. */
 static void name_processors(const batch_store *s, spread_end *out)
 {
     size_t at = 0;

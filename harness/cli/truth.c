@@ -17,7 +17,7 @@ typedef struct truth_request {
     const char *format;
 } truth_request;
 
-/* A reference value. Words without a meaning for this value are empty. */
+/* A reference value. Words that do not apply are empty. */
 typedef struct shown_value {
     const char *quantity, *formulation, *unit, *kind, *model, *theory, *source, *convention;
     int elements; /* elements of the formulation; 0: any number */
@@ -26,8 +26,8 @@ typedef struct shown_value {
 
 enum { NAME = 28, INDENT = 6 };
 
-/* Writes the value with the smallest number of digits whose error is within a thousandth of the
- * uncertainty. */
+/* Writes the value with the smallest number of digits for which the rounding error is within a
+ * thousandth of the uncertainty. */
 static void digits_of(double value, double uncertainty, char text[32])
 {
     for (int digits = 1; digits <= 17; digits++) {
@@ -37,7 +37,6 @@ static void digits_of(double value, double uncertainty, char text[32])
     }
 }
 
-/* Prints two lines: the value, and its source. */
 static void print_value(const shown_value *v)
 {
     char title[SCENE_NAME + FORMULATION_KEY + 16], digits[32], valid_for[2 * SCENE_NAME];
@@ -54,7 +53,6 @@ static void print_value(const shown_value *v)
                      v->convention);
 }
 
-/* Prints the value or, if there is a list, appends it to the list. */
 static void show(json_t *list, const shown_value *v)
 {
     if (list == NULL) {
@@ -98,8 +96,8 @@ static shown_value derived_as(const derived_value *v)
                          .uncertainty = v->uncertainty};
 }
 
-/* Shows the stored rows of this point. Returns the number of rows of the same model that do not
- * belong to one formulation. */
+/* Shows the stored rows for this point. Returns the number of rows of the same model that are not
+ * for a single formulation. */
 static int show_stored(json_t *list, const truths *t, const case_type *type,
                        const double parameter[])
 {
@@ -147,7 +145,8 @@ static status show_derived(json_t *list, const case_type *type, const double par
     return outcome;
 }
 
-/* Prints all parameters of the scene. A line without parameters would apply to any values. */
+/* Prints all parameters of the scene, because a line without parameters would apply to any
+ * values. */
 static void print_point(const case_type *type, const double parameter[])
 {
     const parameter_type *p;
@@ -166,7 +165,7 @@ static void print_point(const case_type *type, const double parameter[])
     printf("%s", parameter_at(type->parameters, 0) != NULL ? "}" : "");
 }
 
-/* Prints a derived value as a line for `truths` of the scene file. */
+/* Prints a derived value as a line for the key `truths` of the scene file. */
 static void print_line(const derived_value *v, const case_type *type, const double parameter[])
 {
     printf("  - {quantity: %s, value: %.17g, uncertainty: %.1e, kind: exact, source: \"%s\"",
@@ -207,8 +206,6 @@ static status show_scene_of(json_t *list, const case_type *type, const double pa
     return STATUS_OK;
 }
 
-/* Shows the reference values of a scene file. They are computed for a network of members and
- * bodies. */
 static status show_scene(json_t *list, const case_type *type, const double parameter[], fault *f)
 {
     FILE *text = tmpfile();
@@ -226,8 +223,8 @@ static status show_scene(json_t *list, const case_type *type, const double param
         why.text);
 }
 
-/* Shows the stored values. For a scene, also shows derived values. For a case, shows derived values
- * only if no stored value of the same model exists. */
+/* Shows the stored values. For a scene file, also shows derived values. For a built-in case, shows
+ * them only if there is no stored value of the same model. */
 static status show_all(const truth_request *r, const case_type *type, const truths *t, json_t *list,
                        fault *f)
 {

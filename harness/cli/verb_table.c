@@ -16,11 +16,10 @@ static const verb compute = {.name = "compute", .place = VERB_COMPUTE};
 static const verb evaluate = {.name = "evaluate and compare", .place = VERB_EVALUATE};
 static const verb exchange = {.name = "exchange", .place = VERB_EXCHANGE};
 #define VERB_OF(name) &verb_##name,
-/* verbs.h contains the identifiers of all verbs in cli/, in any order. */
+/* verbs.h contains the identifiers of all verbs in cli/, in any order */
 static const verb *verbs[] = {&look, &compute, &evaluate, &exchange, VERB_TYPES(VERB_OF) NULL};
 enum { COUNT = sizeof verbs / sizeof verbs[0] - 1 };
 
-/* Sorts the verbs in the order of the help. */
 static void arrange(void)
 {
     for (int i = 1; i < COUNT; i++)
@@ -111,7 +110,7 @@ static int help(void)
     return EXIT_AS_EXPECTED;
 }
 
-/* Handles `beamwork help VERB`. The function `write` writes the help or a manual page. */
+/* Handles `beamwork help VERB`. write: writes the help or a manual page. */
 static int help_of(const char *name, void write(FILE *, const verb *))
 {
     const verb *v = verb_find(verbs, name);
@@ -171,7 +170,6 @@ static void complete_verb(const char *begun, int others)
     }
 }
 
-/* Prints the completions of the last word for shells. */
 static int complete(int count, char **words)
 {
     const verb *v = verb_find(verbs, words[0]);

@@ -11,13 +11,13 @@ typedef struct verify_request {
     report_options reports;
     shard_options shards;
     const char *select, *output;
-    text_list imported;     /* stored imports, which are results of other programs for comparison */
+    text_list imported;     /* stored results of other programs, for comparison */
     int imported_must_pass; /* 1: verdicts on these programs affect the exit status */
     int exit_zero;          /* 1: verdicts do not affect the exit status */
-    double tolerance;       /* replaces the tolerances of the cases */
-    const char *former; /* results of a previous run; the results of this run must not be worse */
-    int refine;         /* number of refinements of the finest mesh */
-    int shapes;         /* number of states of a path whose shapes are stored; 0: none */
+    double tolerance;       /* relative tolerance that replaces those of the cases */
+    const char *former;     /* results of a previous run, with which this run is compared */
+    int refine;             /* number of additional meshes, each with twice as many elements */
+    int shapes;             /* number of states of a path whose shapes are stored; 0: none */
     /* verbose 1: every limit is printed; shards.quiet 1: only unexpected results are printed */
     int verbose;
 } verify_request;
@@ -49,7 +49,7 @@ static int report(const verify_request *r, const sweep *s, const evaluation *j, 
     return r->exit_zero ? EXIT_AS_EXPECTED : code;
 }
 
-/* Warns about scene files whose numbers suggest other units. */
+/* Prints a line for each scene file whose numbers suggest other units. */
 static void report_units(const scenes *own, const sweep *s)
 {
     for (int k = 0; k < own->count; k++)
@@ -62,8 +62,8 @@ static void report_units(const scenes *own, const sweep *s)
         }
 }
 
-/* Runs the sweep in this process, or as batches of shards, which are evaluated when all of them
- * exist. */
+/* Runs the sweep in this process, or as batches of shards. The latter are evaluated when all of
+ * them exist. */
 static status compute(const verify_request *r, const scenes *own, verification_request *requested,
                       verification *v, spread_end *end, fault *f)
 {

@@ -52,7 +52,6 @@ class Asked(ProgramTest):
         return self.record("solve", "--scene", path, "-f", "collocation", "-n", "4", *options)
 
     def only(self, names):
-        """Returns a scene with only these analyses."""
         lines = ANALYSES.splitlines(keepends=True)
         return HEAD + "".join(lines[:1] + [x for x in lines[1:]
                                            if x.split(":")[0].strip() in names])
@@ -165,7 +164,7 @@ quantities:
 
 
 class Selected(ProgramTest):
-    """A verdict does not depend on which other quantities are selected."""
+    """A verdict must not depend on which other quantities are selected."""
     ONES = "c_column and length=4 and (sheet_second or beamw)", "unsymmetric_column/default", \
         "angle_column/default", "deep_beam/default", "shear_column/default", "sheet_wagner/default"
 
@@ -190,8 +189,8 @@ class Selected(ProgramTest):
             self.assertGreater(others, 0 if "column" in some else -1, some)
 
     def test_alike_in_converge(self):
-        """The load of a mode does not depend on shear and Wagner moments, but the frequencies of the scene do. Therefore
-        the formulation is a different model, with and without a selection."""
+        """The buckling load does not depend on shear and Wagner moments, but the frequencies of the scene do. The
+        formulation must therefore be another model, with and without a selection."""
         where = ("converge", "c_column", "--set", "length=4", "--set", "height=0.9", "--set", "width=0.3", "-f",
                  "sheet_second", "-n", "2,4,8,16")
         for more in ((), ("-k", "=buckling_load")):
@@ -222,7 +221,7 @@ class Had(ProgramTest):
         self.assertEqual(found.returncode, 0, found)
 
     def test_values_that_are_asked_for(self):
-        """A tapered open section is rejected. A prismatic member is not a taper."""
+        """A tapered open section must be rejected. Without a taper, the section must be accepted."""
         words = ("solve", "--scene", self.scene(BAR), "-f", "collocation", "-n", "2")
         self.refused(2, "own.yaml", *words)
         done = run(*words, "--set", "depth=0.2")
@@ -231,8 +230,8 @@ class Had(ProgramTest):
         self.refused(2, "did you mean 'depth'", *words, "--set", "deptj=0.2")
 
     def test_matrices_of_damping(self):
-        """C contains dashpots and the damping of members, which is proportional to K at rest. C is absent if nothing is
-        damped."""
+        """C contains dashpots and the damping of members, which is proportional to K at rest. There must be no C if
+        nothing is damped."""
         def entries(folder, letter):
             lines = (self.folder/folder/"undeformed"/f"{letter}.mtx").read_text(encoding="utf-8").splitlines()
             rows = [line.split() for line in lines if not line.startswith("%")][1:]
@@ -272,8 +271,8 @@ class Solve(ProgramTest):
             self.assertLess(min(abs(t["error"]) for t in truths), 1e-3)
 
     def test_cost(self):
-        """The chosen formulation must cost at most twice as much as the cheapest formulation for 0.1 % according to
-        converge, which runs all formulations."""
+        """The chosen formulation must cost at most twice as much as the formulation that achieves 0.1 % at the lowest
+        cost according to converge, which runs all formulations."""
         for case in ("elastica", "bend_45", "angle_column", "cross_flexure", "deep_beam", "lateral_buckling",
                      "carried_rod", "geradin_cardona", "loaded_cantilever", "weighted_column"):
             chosen = self.record("solve", case)["formulation"]

@@ -11,8 +11,8 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Makes a sweep of two solved meshes of a path with a curve, with the noise and times of a
- * measurement. */
+/* Makes a sweep with a path and a curve, solved on two meshes, with scatter and times as if
+ * measured. */
 static void make(sweep *s)
 {
     static const int mesh[] = {1, 2};
@@ -161,8 +161,8 @@ static void roff_tests(void)
                "78 columns");
 }
 
-/* Every word that the program prints as a result must be explained in the glossary. The words come
- * from the tables of the program. */
+/* Every word that the program prints as a result must be explained in the glossary. The words are
+ * those of the tables of the program. */
 
 static glossary words;
 
@@ -186,7 +186,7 @@ static void words_tests(void)
              "the glossary is read %s", f.text);
     for (int i = 0; i < VERDICT_KINDS; i++)
         explained("verdict", verdict_name((verdict_kind)i));
-    for (int i = 1; i < LIMIT_KINDS; i++) /* without the first kind, "none" */
+    for (int i = 1; i < LIMIT_KINDS; i++) /* without the first kind, which is "none" */
         explained("kind of limit", limit_kind_name((limit_kind)i));
     for (int i = 0; i <= STATUS_NO_VALUE; i++)
         explained("status", status_name((status)i));

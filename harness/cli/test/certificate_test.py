@@ -70,7 +70,7 @@ class Certificates(Tested):
         self.refused(2, "twice", "element-test", "beamw", "beamw")
 
 
-ROWS = re.compile(r"^    (.*) \\\\$", re.M)  # rows of LaTeX tables
+ROWS = re.compile(r"^    (.*) \\\\$", re.M)
 
 
 class Tables(Tested):
@@ -101,7 +101,7 @@ class Tables(Tested):
             self.assertIn(found["json"]["commit"], found[form])
 
     def test_hash_of_a_command(self):
-        """The hash is that of the named files, or of the program for a built-in formulation."""
+        """The hash must be that of the named files; for a built-in formulation, that of the program."""
         script = self.folder / "timoshenko.py"
         script.write_bytes((EXAMPLES / "timoshenko.py").read_bytes())
         path = environment(PYTHONPATH=str(EXAMPLES))

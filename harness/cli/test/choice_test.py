@@ -1,5 +1,5 @@
-"""The mesh and the formulation that solve chooses must meet the requested error at about the cost of the cheapest
-formulation. Values are shown with the digits that are certain."""
+"""The mesh and the formulation that solve chooses must meet the requested error, at about the lowest cost of all
+formulations. Values must be shown only with digits that are certain."""
 import json
 import random
 import re
@@ -9,9 +9,9 @@ from harness.tools.kit.program import ROOT, ProgramTest
 
 ASKED = 1e-3
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
-# cases that, according to converge, reach 0.1 % with no formulation
+# cases in which no formulation achieves 0.1 % according to converge
 UNANSWERED = set()
-# cases for which converge takes fifteen seconds, so its cost is not compared
+# cases for which converge takes fifteen seconds, so the costs are not compared
 LONG = {"hexapod_motion"}
 
 
@@ -58,17 +58,17 @@ class Choice(ProgramTest):
         return self.record("converge", *scene, "--error", "0.1%")
 
     def is_cheap(self, name, chosen, answers):
-        """Checks that the choice costs at most twice as much as the cheapest formulation according to converge. If the
-        chosen mesh is not among those of converge, the cost of the previous mesh is estimated as half of its cost.
-        Returns True if converge has any answer."""
+        """Checks that the choice costs at most twice as much as the formulation with the lowest cost according to
+        converge. If converge did not rank the chosen formulation, half of the cost of the chosen mesh is used, as an
+        estimate for the previous mesh. Returns True if converge has ranked any formulation."""
         cost = {a["formulation"]: a["cost"] for a in answers["answers"] if a["rank"]}
         own = cost.get(chosen["formulation"], chosen["cell"]["cost"]/2)
         self.assertLessEqual(own, 2*min(cost.values(), default=own), f"{name}: {chosen['formulation']}, {cost}")
         return bool(cost)
 
     def is_right(self, name, chosen):
-        """Checks that values differ from exact and independent reference values of the same model by less than the
-        requested error."""
+        """Values must differ from exact and independent reference values of the same model by less than the requested
+        error."""
         for q in chosen["quantities"]:
             self.assertEqual(q["status"], "ok", (name, q["quantity"]))
             for t in q["truths"]:
@@ -88,7 +88,7 @@ class Choice(ProgramTest):
         self.assertEqual(unanswered, UNANSWERED)
 
     def test_thirty_scenes(self):
-        """Four times as many elements must change no value by more than the requested error."""
+        """Four times as many elements must not change any value by more than the requested error."""
         chance = random.Random(17)
         path = self.folder / "scene.yaml"
         for i in range(30):
@@ -120,8 +120,8 @@ class Choice(ProgramTest):
         self.refused(2, "--error", "solve", "deep_beam", "-n", "4", "--error", "1%")
 
     def test_slow_convergence(self):
-        """Lateral-torsional buckling with shear converges with an order below one. The error is then larger than the
-        change between the last two meshes, which the estimate must take into account."""
+        """For lateral-torsional buckling with shear, the order of convergence is below one. The error is then larger
+        than the change between the last two meshes, for which the estimate must allow."""
         path = self.folder / "beam.yaml"
         path.write_text("""beamwork: 1
 units: mm, N, MPa
@@ -132,7 +132,7 @@ loads: {ma: {moment: [0, 1e6, 0], on: a}, mb: {moment: [0, -1e6, 0], on: b}}
 analyses: {buck: {buckling: {}}}
 quantities: {Mcr: {critical_factor: {analysis: buck}, unit: 1}}
 """, encoding="utf-8")
-        exact = 20.354  # value of geometrically_exact, order 4, 32 elements
+        exact = 20.354  # value of geometrically_exact of order 4 with 32 elements
         found = self.record("solve", "--scene", path, "-f", "collocation", "--error", "0.0115%")
         self.assertLess(abs(found["quantities"][0]["value"]/exact - 1), 1.15e-4, found["elements"])
 

@@ -59,8 +59,8 @@ quantities:
 class ConstraintsInTime(ConstraintsCase):
 
     def test_one_node_in_two_in_time(self):
-        """Two nodes joined by constraints in all components must move as one node: with dashpots, if driven, and with
-        and without mass."""
+        """Two nodes joined by constraints in all components must move as one node: with dashpots, with prescribed
+        components, and with and without mass."""
         mass = ", mass: 0.5, inertia: [0.01, 0.02, 0.015, 0, 0, 0]"
         beside = ", mass: 0.5, centre: [0.02, 0.01, 0.03], inertia: [0.01, 0.02, 0.015, 0, 0, 0]"
         for how, until, moves in (("alpha, step: 0.002", 0.1, beside), ("alpha, step: 0.002, mass: consistent", 0.1, ""),
@@ -78,8 +78,9 @@ class ConstraintsInTime(ConstraintsCase):
                 self.assertLess(abs(b["D"]), 1e-11 * abs(b["E"]), how)
 
     def test_half(self):
-        """Two halves of a symmetric structure have equal displacements in the plane of symmetry. One half is displaced
-        and in rotated axes. They must move in the same way as the whole structure, starting from a static state."""
+        """Constraints make the displacements of the two halves of a symmetric structure equal in the plane of symmetry.
+        One half is displaced and has rotated axes. Both must move as the whole structure does, starting from a
+        static state."""
         for how in ("alpha, step: 0.001", "radau, step: 0.002", "conserving, step: 0.001", "explicit, step: 1e-5, mass: lumped"):
             found = []
             for half in (0, 1):
@@ -111,8 +112,8 @@ quantities:
                 self.assertLess(abs(found[1][name] - value), 1e-8 * abs(value) + 1e-10, f"{how}: {name}")
 
     def test_gear_in_time(self):
-        """The response to a torque step is T/k (1 - cos omega t), for both orders of the components in the constraint,
-        with and without inertia beyond the gear."""
+        """The response to a torque step must be T/k (1 - cos omega t), for both orders of the components in the
+        constraint, with and without inertia beyond the gear."""
         k1, time, torque = 80e9 * math.pi * 0.01**4 / 2, 0.05, 500
         text = GEAR[:GEAR.index("analyses")].replace("loads: {t: {moment: [0, 0, TORQUE], on: b}, u: {moment: [0, 0, -5], on: d}}",
                                                     "loads: {t: {moment: [0, 0, 500], on: b, time: 1}}")
@@ -151,7 +152,7 @@ quantities:
 
     def test_flight(self):
         """Two free bars with equal or proportional translations and rotations must conserve momentum and energy to
-        round-off."""
+        within rounding."""
         for ratio in (1, -2):
             for how in ("radau, tolerance: 1e-8", "conserving, step: 0.002"):
                 found = self.values(FLIGHT.replace("HOW", how).replace("RATIO", str(ratio)).replace("START", "{velocity: [0, 1, 0]}"))

@@ -5,7 +5,7 @@ from harness.cli.test.constraints import ALL, GEAR, HEAD, MASS, ConstraintsCase
 from harness.tools.kit.program import ROOT, run
 
 EXAMPLE = ROOT / "cases" / "examples" / "geared_shafts.yaml"
-# @ is a placeholder for a node or key at the end of m, and # at the start of n.
+# placeholders: @ for a node or key at the end of m, # for one at the start of n
 FRAME = HEAD + """motions: {push: {unit: m, path: [0, 1], value: [0, 0.02]}}
 nodes:
   a: {at: [0, 0, 0], hold: [ux, uy, uz, rx, ry]}
@@ -134,8 +134,8 @@ class Constraints(ConstraintsCase):
                              [line for line in b if not line.startswith("%")])
 
     def test_harmonic_reaction(self):
-        """A motion is prescribed for a component that other components follow by constraints. Its reaction must be
-        rejected, because it would be the sum for all components."""
+        """A motion prescribes a component to which constraints couple other components. A quantity for its reaction
+        must be rejected, because it would be the sum for all these components."""
         path = self.folder / "followed.yaml"
         path.write_text(HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0]}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], drive: {uy: go}}, c: {at: [2, 0, 0]}}
@@ -151,7 +151,7 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
             self.assertIn("drives more components than the one", done.stdout + done.stderr)
 
     def test_units(self):
-        """In mm and N, the scene must give the same results."""
+        """The same scene in mm and N must give the same results."""
         text = GEAR.replace("AXES ", "").replace("WHO", "d").replace("OTHER", "b").replace("RATIO", "-2")
         one = self.values(text.replace("TORQUE", "40"))
         mm = (text.replace("beamwork: 1", "beamwork: 1\nunits: mm, N, MPa").replace("diameter: 0.02, thickness: 0.01", "diameter: 20, thickness: 10")
@@ -168,15 +168,14 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
         self.same(one, two.replace("CONSTRAINTS", "constraints: {one: {equal: [e, b], components: [ux, uy, rz]}}"), 1e-7)
 
     def test_sliders(self):
-        """Two sliders on slopes are joined by a member. Equal displacements along the slopes make the member act as a
-        rigid link."""
+        """Equal displacements along the slopes must make the member between two sliders act as a rigid link."""
         one = SLIDERS.replace("SLIDES", "part_of: p").replace("CONSTRAINTS", "")
         two = SLIDERS.replace("SLIDES", "axes: {x: [0.8, 0.6, 0], z: [0, 0, 1]}, hold: [uy, uz, rx, ry, rz]")
         self.same(one, two.replace("CONSTRAINTS", "constraints: {s: {equal: [p, q], components: ux}}"))
 
     def test_gear(self):
-        """A gear has the stiffness k1 + i^2 k2 and the inertia I1 + i^2 I2, even at large rotations, for both orders of
-        the components in the constraint, and in rotated axes."""
+        """A gear must have the stiffness k1 + i^2 k2 and the inertia I1 + i^2 I2, even for large rotations, for both
+        orders of the components in the constraint, and in rotated axes."""
         k1 = 80e9 * math.pi * 0.01**4 / 2
         k2 = k1 / 2
         stiff, inertia = k1 + 4 * k2, 0.3 + 4 * 0.05
@@ -208,8 +207,8 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
             self.assertLess(abs(turned[name] / plain[name] - 1), 1e-8, name)
 
     def test_lever(self):
-        """If two displacements have a ratio, the stiffness of the spring at the second is multiplied by the square of
-        the ratio. If one displacement is driven, the other follows."""
+        """If the displacement of c is a multiple of that of b, the stiffness of the spring at c must act at b
+        multiplied by the square of this ratio. If one displacement is prescribed, the other must follow."""
         text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0.02]}}
 nodes:
   a: {at: [0, 0, 0], hold: all}
@@ -244,8 +243,8 @@ plane: PLANE
         self.assertAlmostEqual(found["rc"], -0.06 * 700 - 20, delta=1e-9)
 
     def test_plane(self):
-        """In a plane scene, rotations at the ends of two beams have the ratio -3. The moment is (3 E I/2 + 9 x 4 E I)
-        times the first rotation."""
+        """In a plane scene, the rotations at the ends of two beams have the ratio -3. The moment must be (3 E I/2 + 9 x
+        4 E I) times the first rotation."""
         found = self.values(HEAD + """
 nodes:
   a: {at: [0, 0, 0], hold: [ux, uy]}
@@ -303,8 +302,8 @@ quantities:
             self.assertLess(abs(found[1][name] / value - 1), 1e-7, name)
 
     def test_loop(self):
-        """The ends of a member have equal displacements. If heated, the member has the force -E A alpha T. If loaded
-        transversely, it acts as clamped."""
+        """The ends of a member have equal displacements. If the member is heated, the force must be -E A alpha T. Under
+        a transverse load, it must act as clamped."""
         text = HEAD.replace("density: 2000", "density: 2000, expansion: 1e-5") + """
 nodes: {a: {at: [0, 0, 0], hold: [uz, rx, ry]}, b: {at: [1, 0, 0], hold: [uz, rx, ry]}, m: {at: [0.5, 0, 0], hold: [ux, uz]}}
 members:

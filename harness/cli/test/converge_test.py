@@ -118,7 +118,7 @@ class Forms(unittest.TestCase):
         self.assertFalse(converge("text").endswith("\n\n"))
 
     def test_without_a_truth_families_agree(self):
-        """For a different stroke there are no stored reference values, so the verdicts follow from the agreement of
+        """For another stroke there are no stored reference values, so the verdicts must follow from the agreement of
         formulations."""
         new = ("converge", "--scene", str(LEAF), "--set", "stroke=0.009")
         done = run(*new, "-f", "all", "--format", "json")
@@ -153,7 +153,6 @@ BESIDE_LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
 
 def cells(line):
-    """Returns the columns of a line of a table."""
     return [line[at:at + COLUMN].strip() for at in range(HEAD, len(line), COLUMN)]
 
 
@@ -183,7 +182,7 @@ class Beside(ProgramTest):
         return text, json.loads(self.answered("converge", *words, "--format", "json").stdout)
 
     def agree(self, *words):
-        """Checks that the errors and values in the tables are exactly those in JSON."""
+        """The errors and values in the tables must be exactly those in JSON."""
         text, record = self.both(*words)
         found, seen = tables(text), 0
         for one in record["series"]:

@@ -6,10 +6,10 @@ import subprocess
 from harness.tools.kit.program import ROOT, ProgramTest, broken, environment, run
 
 EXAMPLES = ROOT / "elements" / "examples"
-CRASHES = environment(ASAN_OPTIONS="handle_segv=0:handle_abort=0")  # an abort is reported as a crash
-ENTRY = "    if (out->e == NULL)"  # the beginning of the strain function of the example
+CRASHES = environment(ASAN_OPTIONS="handle_segv=0:handle_abort=0")
+ENTRY = "    if (out->e == NULL)"
 
-# Faults: pairs of a text in the example and its replacement, and words of the sentence that must report the fault.
+# faults: a text in the example, its replacement, and words of the sentence that must report the fault
 FAULTS = {
     "energy": (
         ("e[i] * e[i] / 2;", "e[i] * e[i];"),
@@ -120,7 +120,6 @@ FAULTS = {
         "stress: strains of a few hundredths of the length end with status 'singular'"),
 }
 
-# Faults in the example that returns forces and stiffness.
 FORCE_FAULTS = {
     "sign": (
         ("F[i] = n * r[i];", "F[i] = -n * r[i];"),
@@ -146,7 +145,7 @@ FORCE_FAULTS = {
         "of the undeformed element is", "not zero"),
 }
 
-# Typical errors of element authors. Each error is consistent in itself and only shows in structures.
+# Typical errors of authors of elements. Each error is consistent in itself and appears only in structures.
 CLASSIC = {
     "swapped bending": (
         ("c->young * c->Iy, c->young * c->Iz}", "c->young * c->Iz, c->young * c->Iy}"),
@@ -183,7 +182,7 @@ const element_type beamwork_element"""
 class Tested(ProgramTest):
 
     def compiled(self, name, *changes):
-        """Returns the path of a shared object of an example with parts of its text replaced."""
+        """Returns the path of a shared object of an example in which texts have been replaced."""
         text = (EXAMPLES / name).read_text(encoding="utf-8")
         text = text.replace("const element_type beamwork_element", FOURTH)
         for before, after in changes:
@@ -205,7 +204,7 @@ class Tested(ProgramTest):
         return one
 
     def broken(self, made, limit):
-        """Returns the sentences about violated requirements. Checks the exit status."""
+        """Checks the exit status, and returns the sentences about violated requirements."""
         return broken(self.certificate(made, 1, limit))
 
     def told(self, name, faults):
@@ -292,7 +291,7 @@ class Measured(Tested):
                       run("element-test", "--element", made).stdout)
 
     def test_shear_locking(self):
-        """If shear is integrated with too many points, the element locks. This must be reported."""
+        """Shear that is integrated with too many points must be reported as locking."""
         found = self.measured(("c->young * c->Iz / l3}",
                                "c->young * c->Iz / l3 + c->shear_modulus * c->A / (12 * l)}"),
                               code=1)
@@ -307,7 +306,7 @@ class Measured(Tested):
         self.assertLess(abs(found["constant shear along z, short beam"]["error"][0]), 1e-9)
 
     def test_one_element(self):
-        """Without the correction for uniform curvature, one element is too stiff in bending. This must be reported."""
+        """Without the correction for uniform curvature, one element is too stiff in bending, which must be reported."""
         found = self.measured((" + l * l * l / (12 * c->young * c->Iz)",
                                " + 1e-3 * l * l * l / (12 * c->young * c->Iz)"))
         self.assertAlmostEqual(found["tip force along y"]["error"][0], -0.25, delta=1e-3)

@@ -1,4 +1,4 @@
-"""Every example of a formulation must be short, compile with the commands of an external author, and pass ten cases."""
+"""Every example of a formulation must be short, compile with the commands of an external author, and pass its cases."""
 import re
 import shutil
 import subprocess
@@ -11,7 +11,7 @@ STATICS_AND_FREQUENCIES = ("tapered_cantilever", "deep_beam", "tip_body", "sprun
                            "loaded_cantilever", "elastica", "snap_through", "right_angle_frame")
 
 
-# A short cantilever of 1 m: E Iz = 5e5 N m2, G A k = 1e7 N.
+# A short cantilever with a length of 1 m: E Iz = 5e5 N m2, G A k = 1e7 N.
 SHORT = """
 beamwork: 1
 sections:
@@ -32,7 +32,7 @@ quantities:
 
 
 class Judged:
-    """Checks for each example that its limits are correct and that it has at most the number of lines in the README."""
+    """For each example: its limits must be correct, and it must have at most the number of lines in the README."""
 
     cases, ending, most = (), "c", 200
 
@@ -68,12 +68,12 @@ class Judged:
         return getattr(self, "loaded", self.example)
 
     def values(self, made, name, *arguments):
-        """Returns the values computed by `solve` with this element."""
+        """Returns the values that `solve` computes with this element."""
         record = self.record("solve", *arguments, "--element", made, "-f", name)
         return [q["value"] for q in record["quantities"] if q["value"] is not None]
 
     def same_values(self, other, name, case):
-        """Checks that the values agree with those of another element, which shares no code with the example."""
+        """The values must agree with those of another element, which shares no code with the example."""
         own, theirs = (self.values(*of, case, "-n", "4")
                        for of in ((self.object, self.name()), (other, name)))
         self.assertGreater(len(own), 2)
@@ -97,8 +97,8 @@ class Corotational(Judged, PluginTest):
     cases = (*STATICS_AND_FREQUENCIES, "weighted_column", "lateral_buckling")
 
     def test_converges_as_the_others(self):
-        """With an unsymmetric tangent, or a chord with little axial strain, the element must take about as few
-        iterations as the other elements."""
+        """With an unsymmetric tangent, or a chord with little axial strain, the number of iterations must exceed that
+        of another element by at most one."""
         for axial in ("1e4", "1e12"):
             iterations = {
                 name: self.record("solve", "elastica", "--element", self.object, "-f", name, "-n",
@@ -120,7 +120,7 @@ class Legendre(Judged, PluginTest):
     cases = Timoshenko.cases
 
     def test_converges_exponentially(self):
-        """Each additional node reduces the error of one element, as published for BeamDyn."""
+        """Each additional node must reduce the error of one element, as published for BeamDyn."""
         errors = []
         for order in range(2, 7):
             (tip, *_) = self.values(self.object, f"legendre:order={order}", "elastica", "-n", "1", "-k", "w_over_L")
@@ -146,7 +146,7 @@ class Cubic(Judged, PluginTest):
 
 @unittest.skipUnless(shutil.which("gfortran"), "needs gfortran")
 class Uel(Judged, PluginTest):
-    """A user element in Fortran models the same beam as corotational.c."""
+    """A user element in Fortran for the same beam as corotational.c."""
 
     example = "uel"
     cases = ("elastica", "sprung_beam", "lateral_buckling", "loaded_cantilever",
@@ -169,7 +169,7 @@ class Uel(Judged, PluginTest):
 
 @unittest.skipUnless(shutil.which("g++"), "needs g++")
 class Frame(Judged, PluginTest):
-    """An element in C++ with exact derivatives models the same beam as corotational.c."""
+    """An element in C++ with exact derivatives for the same beam as corotational.c."""
 
     example, ending, most = "frame", "cpp", 240
     cases = Corotational.cases
@@ -198,13 +198,14 @@ class Frame(Judged, PluginTest):
             self.same_values(other, "corotational", case)
 
     def test_closed_form(self):
-        """One element gives the deflection of Timoshenko's cantilever: F L^3/(3 E I) + F L/(G A k)."""
+        """One element must give the deflection of a Timoshenko cantilever: F L^3/(3 E I) + F L/(G A k)."""
         self.short_cantilever()
 
 
 @unittest.skipUnless(shutil.which("g++"), "needs g++")
 class OpenSeesLike(Judged, PluginTest):
-    """Elements with the functions of OpenSees and of Kratos, whose committed state is a history, run through an adapter."""
+    """Elements with the functions of OpenSees and of Kratos, run through an adapter. Their committed state is a
+    history."""
 
     example, ending, most = "opensees_like", "cpp", 360
     cases = ("tapered_cantilever", "deep_beam", "tip_body", "sprung_beam", "elastica", "snap_through", "roll_up",
@@ -240,8 +241,8 @@ class OpenSeesLike(Judged, PluginTest):
             self.assertAlmostEqual(few / more, 1, delta=1e-9)
 
     def bent(self, steps):
-        """Returns the displacement of a cantilever that a moment bends by 5 rad, about an inclined axis, with eight
-        elements."""
+        """Returns the displacements of a cantilever with eight elements that a moment about an inclined axis bends by 5
+        rad."""
         text = SHORT.replace("force: [0, 100, 0]", "moment: [0, 2e6, 1.5e6]")
         text = text.replace("linear: {}", f"static: {{stations: [1], steps: {steps}}}")
         path = self.folder / "bent.yaml"
@@ -249,13 +250,13 @@ class OpenSeesLike(Judged, PluginTest):
         return self.values(self.object, self.example, "--scene", path, "-n", "8")
 
     def test_closed_form(self):
-        """One element gives the deflection of Timoshenko's cantilever: F L^3/(3 E I) + F L/(G A k)."""
+        """One element must give the deflection of a Timoshenko cantilever: F L^3/(3 E I) + F L/(G A k)."""
         self.short_cantilever()
 
 
 @unittest.skipUnless(shutil.which("gfortran"), "needs gfortran")
 class Fortran(Judged, PluginTest):
-    """An element in Fortran models the same beam as timoshenko.c."""
+    """An element in Fortran for the same beam as timoshenko.c."""
 
     example, ending, most = "timoshenko", "f90", 250
     loaded, cases = "timoshenko_f90", Timoshenko.cases
@@ -308,7 +309,7 @@ class Planted(PluginTest):
                     "if its nodes are exchanged")
 
     def test_axes_exchanged(self):
-        """An element with exchanged axes is consistent but models a different beam, which verify must detect."""
+        """An element with exchanged axes is consistent but models another beam, which verify must detect."""
         made = self.altered("ancf.c", ("ky = dot(section_y", "ky = dot(section_z"),
                             ("kz = dot(section_z", "kz = dot(section_y"))
         record = self.folder / "v.json"

@@ -1,5 +1,5 @@
-"""Verdicts on requested formulations affect the exit status. Wrong elements must be reported in every form of output
-that states the outcome of a run."""
+"""Verdicts on requested formulations must affect the exit status. Wrong elements must be reported in every form of
+output that states the outcome of a run."""
 import json
 import pathlib
 import subprocess
@@ -18,7 +18,7 @@ EXAMPLE = ROOT / "elements" / "examples" / "timoshenko.c"
 NAME = "timoshenko"
 RUN = ("-k", "elastica/default or tapered_cantilever/default")
 NOWHERE = ("-k", "hexapod/default")
-# A user-defined mass matrix, 10 % too large, that replaces the mass of the displacement field.
+# A user-defined mass matrix that is 10 % too large and replaces the mass of the displacement field.
 MASS = (("static int strains(const double options[])", """
 static status inertia(const element_data *d, const node_state x[], const element_rotating_frame *frame,
                       inertia_output *out)
@@ -44,8 +44,9 @@ FAULTS = {
     "stub": ("energy += d->stiffness[i] * e[i] * e[i] / 2;", "energy += 0;", "fail"),
     "coarse": ("cos(sqrt(square) / 2)", "cos(sqrt(square) / 2.1)", "pass"),  # correct limits, but larger errors
 }
-# Loads along the element that the element itself applies: half of the force at each node, and clamping moments. The
-# forces refer to the axes of the element at rest or, beyond linear analyses, to the axes of the scene.
+# Loads along the element that the element itself applies: half of the force at each node, and clamping moments. In
+# linear analyses, the forces are in the axes of the element at rest; in other analyses, they are in the axes of the
+# scene.
 OWN_LOADS = (("static int strains(const double options[])", """
 static void along(int count, const element_data *const data[], const node_state x[], along_output out[],
                   status outcome[])
@@ -79,8 +80,8 @@ static void along(int count, const element_data *const data[], const node_state 
 }
 
 static int strains(const double options[])"""), (".stress = stress,", ".stress = stress, .along = along,"))
-# Faults in the element that applies its own loads, with the expected outcome and the number of wrong verdicts. Limits
-# alone do not reveal wrong moments.
+# Faults in the element that applies its own loads, with the expected outcome and the number of wrong verdicts. Wrong
+# moments cannot be detected from limits alone.
 PLANTS = {
     "right": ((), "pass", 0),
     "stiffness": ((("c->young * c->Iz / l3", "1.1 * c->young * c->Iz / l3"),), "fail", 2),
@@ -90,8 +91,8 @@ PLANTS = {
     "stub": ((("    (void)inner;\n", "    (void)inner;\n    return STATUS_OK;\n"),), "fail", 2),
     "refuses": ((("    (void)f;\n", "    strcpy(f->text, \"not yet\");\n    return STATUS_REFUSED;\n"),), "fail", 2),
 }
-# A force, a moment and a load along the beam have the deflection F l^3/(3EI) + M l^2/(2EI) + q l^4/(8EI) with EI = 1 and
-# l = 1. The frequency is 1.8751^2/(2pi) sqrt(EI/(rho A l^4)).
+# With a force, a moment and a load along the beam, the deflection is F l^3/(3EI) + M l^2/(2EI) + q l^4/(8EI), with EI =
+# 1 and l = 1. The frequency is 1.8751^2/(2pi) sqrt(EI/(rho A l^4)).
 LOADED = """beamwork: 1
 sections: {s: {rectangle: {width: 1, thickness: 0.01}, young: 12e6, shear_modulus: 5e6, density: 100}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0]}}
@@ -119,7 +120,7 @@ print(found.passed, found.outcome)
 
 
 def changed(text, *changes):
-    """Replaces each text once. Empty texts are skipped."""
+    """Replaces each text, which must occur once. Empty texts are ignored."""
     for before, after in changes:
         assert not before or text.count(before) == 1, before
         text = text.replace(before, after) if before else text
@@ -186,7 +187,7 @@ class Gate(ProgramTest):
 
     def test_seven_doors(self):
         """A wrong stiffness, a wrong mass, a load with the wrong sign, and a stub must be reported in the exit status,
-        the last line, JUnit, Markdown and JSON files, the report and Python."""
+        the last line, the JUnit, Markdown and JSON files, the report and Python."""
         scene = self.folder / "loaded.yaml"
         scene.write_text(LOADED, encoding="utf-8")
         for name, (_, outcome, wrong) in PLANTS.items():
@@ -200,8 +201,8 @@ class Gate(ProgramTest):
                 self.check_python(self.loaded[name], None, f"{outcome == 'pass'} {outcome}", scene=str(scene))
 
     def test_not_worse_than(self):
-        """Results within the tolerances that are worse than before must be detected. The former results are a file with
-        one mesh, or the short table."""
+        """Results within the tolerances that are worse than before must be detected. The previous results are a file
+        with one mesh, or the short table."""
         _, files = self.verified("right")
         old, table = self.folder / "old.h5", self.folder / "old.csv"
         files["h5"].rename(old)
@@ -266,7 +267,7 @@ class Gate(ProgramTest):
         self.assertRegex(page, r"Outcome\.</strong> <span" + (">PASS:" if outcome == "pass" else r' class="wrong">FAIL:'))
 
     def check_python(self, name, what, said, **options):
-        if sanitized():  # Python cannot load such a library
+        if sanitized():  # Python cannot load a library with sanitizers
             return
         done = subprocess.run([sys.executable, "-c", PYTHON, self.element.get(name, name),
                                json.dumps({"select": what, **options})], text=True,

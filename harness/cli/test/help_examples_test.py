@@ -1,4 +1,4 @@
-"""Runs every command among the examples of the help texts and the manual unchanged."""
+"""Runs every command among the examples of the help texts and of the manual."""
 import re
 import shlex
 import shutil
@@ -22,18 +22,17 @@ quantity, unit, elements, unknowns, seconds, x, value, uncertainty
 w_over_L, 1, 8, 48, 0.1, , 0.3017, 1e-4
 """
 SMALL = " -k '=elastica and =default and =beamw'"
-# Replacements in expensive examples with the reason: part of the command, and its replacement.
+# Replacements in examples that take long: part of the command, and its replacement.
 REDUCED = {
-    "verify --shard 1/4 --into parts": ("parts", "parts" + SMALL),  # a quarter of all verdicts requires 20 s
-    "verify -o build/results.h5": ("results.h5", "results.h5" + SMALL),  # all verdicts require a minute
-    "--design sobol --points 200": ("200", "4"),  # every formulation at 200 points requires 20 s
-    "--vary length=2..12/10 -k buckling_load --compute-references": ("2..12/10", "2..12/1"),  # a program derives each value in a second
+    "verify --shard 1/4 --into parts": ("parts", "parts" + SMALL),  # a quarter of all verdicts takes 20 s
+    "verify -o build/results.h5": ("results.h5", "results.h5" + SMALL),  # all verdicts take a minute
+    "--design sobol --points 200": ("200", "4"),  # every formulation at 200 points takes 20 s
+    "--vary length=2..12/10 -k buckling_load --compute-references": ("2..12/10", "2..12/1"),  # a program takes a second for each value
     "--error 1%,0.1%": ("1%,0.1%", "1%"),  # each level is measured for three seconds
 }
 
 
 def commands(text):
-    """Returns the commands among the indented lines. An explanation follows after two spaces."""
     return [line.split("   ")[0].strip() for line in text.splitlines() if re.match(r"  beamwork [a-z]", line)]
 
 
@@ -53,7 +52,7 @@ def reduced(command):
 
 
 class Examples(ProgramTest):
-    """The examples run on small versions of the files that they mention."""
+    """The examples run on small versions of the files that they name."""
 
     @classmethod
     def setUpClass(cls):
@@ -77,7 +76,7 @@ class Examples(ProgramTest):
             subprocess.run([PROGRAM, *shlex.split(made)], cwd=cls.place, check=True, stdout=subprocess.DEVNULL)
 
     def run_all(self, found):
-        """Runs the commands in order in a copy of the files."""
+        """Runs the commands in order in a copy of the folder."""
         here = self.place.with_name(f"here {len(list(self.place.parent.iterdir()))}")
         shutil.copytree(self.place, here, symlinks=True)
         if any("--into parts" in command for command in found):

@@ -1,4 +1,4 @@
-"""Self-description of the program: help, manual pages, and printed commands."""
+"""Help, manual pages, and commands that the program prints."""
 import re
 import shlex
 import shutil
@@ -10,7 +10,7 @@ from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, environment, r
 
 
 WIDEST = 100
-# argp of the C library does not free a byte at exit
+# argp of the C library does not free one byte at exit
 ENV = environment(ASAN_OPTIONS="detect_leaks=0")
 
 
@@ -108,22 +108,20 @@ class Explain(ProgramTest):
         self.refused(4, "missing.h5", "explain", "pass", "--truths", "missing.h5")
 
 
-# argp of the C library does not free a byte at exit
+# argp of the C library does not free one byte at exit
 MANUAL_ENV = environment(ASAN_OPTIONS="detect_leaks=0")
 FILES = ("beamwork.1", "beamwork-scene.5", "beamwork-results.5")
-# option in -h or in a manual page: letter, name, argument, description
+# option in the help or in a manual page: letter, name, argument, description
 SHOWN = re.compile(r"^  (?:-(\w), |    )--([\w-]+)(\S*)(\s.*\n(?: {30}.*\n)*)", re.MULTILINE)
 TOLD = re.compile(r"^\.It (?:Fl (\w) , )?Fl -([\w-]+)(?: Ns (?:Oo )?= Ns Ar \"(.+?)\")?(?: Oc)?\n"
                   r"((?:(?!\.It|\.El).*\n)+)", re.MULTILINE)
 
 
 def bare(argument):
-    """Returns the name N of an argument "=N" or "[=N]"."""
     return argument[2:-1] if argument.startswith("[") else argument.removeprefix("=")
 
 
 def plain(page):
-    """Removes the roff escapes of a manual page."""
     for escaped, shown in (("\\&", ""), ("\\-", "-"), ("\\(aq", "'"), ("\\(dq", '"'),
                            ("\\(ha", "^"), ("\\(ti", "~"), ("\\(ga", "`"), ("\\e", "\\")):
         page = page.replace(escaped, shown)
@@ -131,7 +129,7 @@ def plain(page):
 
 
 def hand_page(name):
-    """Returns the manual page that page.sh makes, with a fixed version and date."""
+    """Returns the manual page that page.sh writes, with a fixed version and date."""
     return run(name, "0.1.0", "2026-11-21",
                program=ROOT / "harness" / "library" / "packaging" / "page.sh").stdout
 
@@ -221,7 +219,7 @@ BENDING = "c->young * c->I"
 
 
 def commands(text):
-    """Returns the lines that begin with the name of the program, with continuation lines joined."""
+    """Returns the commands that begin with the name of the program; continuation lines are joined."""
     return re.findall(r"(?:^ *|: )(beamwork (?!\w+: )[^;\n]+)", re.sub(r" \\\n *", " ", text), re.MULTILINE)
 
 

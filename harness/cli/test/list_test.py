@@ -9,7 +9,6 @@ WIDEST = 100
 
 
 def names_of(text, heading):
-    """Returns the names in the lines below a heading."""
     below = text.partition(heading)[2].partition("\n")[2]
     return [line.split()[0] for line in re.split(r"\n(?! )", below)[0].splitlines()
             if re.match("  [^ ]", line)]

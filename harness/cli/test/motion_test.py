@@ -40,8 +40,8 @@ class OwnMotion(PluginTest):
                            name, "-n", 4, *element)
 
     def compare(self, name, element, integrators=("alpha", "conserving", "radau")):
-        """Checks that motions agree with those of collocation with the same number of elements, and that conserving
-        steps conserve energy."""
+        """Motions must agree with those of collocation with the same number of elements. The integrator conserving must
+        conserve energy."""
         for integrator in integrators:
             ours = self.flight(integrator, "collocation")
             own = self.flight(integrator, name, "--element", element)
@@ -95,7 +95,7 @@ quantities:
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
 
-# A corner of two leaf springs, set in motion in various ways.
+# A corner of two leaf springs that is set in motion in various ways.
 CORNER = """beamwork: 1
 sections:
   s: {{rectangle: {{width: {width}, thickness: {t}}}, young: 70e9, shear_modulus: 27e9, density: 2700}}
@@ -114,7 +114,6 @@ quantities:
   w: {{displacement: {{analysis: mo, node: c, component: uy, take: curve}}}}
 """
 
-# A leaf spring at rest under a load.
 REST = """beamwork: 1
 sections:
   s: {{rectangle: {{width: 0.02, thickness: 0.002}}, young: 70e9, shear_modulus: 27e9, density: 2700}}
@@ -132,7 +131,7 @@ quantities:
   u: {{displacement: {{analysis: mo, node: b, component: uy, take: curve}}}}
 """
 
-# A hub driven about three nested axes.
+# A hub with prescribed rotations about three nested axes.
 ANGLES = """beamwork: 1
 sections:
   tube: {tube: {diameter: 20e-3, thickness: 1e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}
@@ -156,7 +155,7 @@ quantities:
 
 
 def corner(seed, how):
-    """Returns a random scene of the corner with its size, mass, excitation, amplitude (1e-7 to 1e-2 of the size) and
+    """Returns a random scene of the corner, with its size, mass, excitation, amplitude (1e-7 to 1e-2 of the size) and
     duration."""
     chance = random.Random(seed)
     L = 10**chance.uniform(-1.3, 0.5)
@@ -215,8 +214,8 @@ class MotionError(ProgramTest):
                         self.assertLess(abs(one - other), 1e-3*largest)
 
     def test_at_rest(self):
-        """A structure bent by a constant load stays at rest in few steps with any integrator, because the residual of its
-        equilibrium is not resolved as a motion."""
+        """A structure bent by a constant load must remain at rest with few steps of any integrator. The residual of the
+        equilibrium must not cause a motion."""
         for how in ("", "integrator: alpha, ", "integrator: conserving, "):
             for force in (0, 1, 1e-9):
                 text = REST.format(how=how, force=force)
@@ -226,7 +225,8 @@ class MotionError(ProgramTest):
                     self.assertLess(self.steps, 40)
 
     def test_conserving_by_driven_angles(self):
-        """Conserving steps are of order 2 if angles are driven, and the work of the drives equals the change of energy."""
+        """If angles are prescribed, conserving steps must have order 2, and the work of the prescribed motions must
+        equal the change of energy."""
         right, _ = self.curves(ANGLES.replace("HOW", "integrator: radau, tolerance: 1e-7"), "-n", 2)
         errors = []
         for step in (4e-3, 2e-3):
@@ -262,7 +262,7 @@ class MassTest(SceneCase):
         return [(n, tuple(w for one in ASKED.get(n, ()) for w in ("--set", one))) for n in having]
 
     def lumped_differs(self, case, point):
-        """Checks that the results are bitwise those of the same scene with `mass: lumped`, and are marked as lumped."""
+        """The results must be bit-for-bit those of the same scene with `mass: lumped`, and be marked as lumped."""
         usual, lumped = (self.record("solve", case, *WHERE, *point, *mass) for mass in ((), LUMPED))
         self.assertEqual(usual["parameters"]["mass"], "usual")
         self.assertEqual(lumped["parameters"]["mass"], "lumped")
@@ -285,7 +285,7 @@ class MassTest(SceneCase):
                 self.assertIn("\nmass: lumped\n", self.answered("scene", case, *point, *LUMPED).stdout)
 
     def test_reference_values_hold(self):
-        """With half of the mass of an element at each node, the meshes converge to the same limit, with order 2."""
+        """With half of the mass of an element at each node, the limit must be the same, and the order must be 2."""
         found = self.record("solve", "deep_beam", "-f", "collocation", "-n", 64, *LUMPED)
         errors = [q["error"] for q in found["quantities"] if q["quantity"].startswith("frequency")]
         self.assertTrue(errors and all(e is not None and 1e-6 < abs(e) < 1e-3 for e in errors), errors)

@@ -15,9 +15,10 @@ from harness.tools.kit.program import ProgramTest, ROOT, TRUTHS, environment, ru
 from reference.pack import seal
 
 
-# Contradictory or empty arguments, and too few resources, must lead to one line and the documented exit status.
-LISTS = ("formulation", "element", "elements", "set")  # options that may be given several times
-# argp of the C library does not free a byte at exit
+# After contradictory or empty arguments, or with too few resources, the program must print one line and end with the
+# documented exit status.
+LISTS = ("formulation", "element", "elements", "set")  # options that may be repeated
+# argp of the C library does not free one byte at exit
 HELP = environment(ASAN_OPTIONS="detect_leaks=0")
 
 
@@ -75,11 +76,10 @@ class Tables(ProgramTest):
     """Checks the arrays of options in the sources of the verbs."""
 
     CLI = ROOT / "harness" / "cli"
-    ANSWERS = {"bench": ("bench", "bench_against", "compared_run")}  # source files that use the options; otherwise the file of the verb
-    ELSEWHERE = {("scene", "format")}  # used in the errors that case_input reports
+    ANSWERS = {"bench": ("bench", "bench_against", "compared_run")}  # source files that use the options; for other verbs, the file of the verb
+    ELSEWHERE = {("scene", "format")}  # used for errors, by case_input
 
     def shown(self, verb):
-        """Returns the letter and the name of each option in the help of a verb."""
         return re.findall(r"^  (?:-(\w), |    )--([a-z-]+)", run(verb, "-h", env=HELP).stdout,
                           re.MULTILINE)
 
@@ -122,7 +122,7 @@ class Tables(ProgramTest):
         self.refused(2, "solve has no --beside", "solve", "elastica", "--beside", "x.h5")
 
     def test_each_is_used(self):
-        """Each verb must use each of its options. 'merge' passes them on."""
+        """Each verb must use each of its options. The verb merge passes them on."""
         everything = "".join(path.read_text(encoding="utf-8") for path in self.CLI.glob("*.c"))
         for verb in EVERY_VERB:
             name = verb.replace("-", "_")
@@ -133,7 +133,7 @@ class Tables(ProgramTest):
             self.assertTrue(members or verb == "merge", verb)
             for member in {own or shared for own, shared in members if verb != "merge"}:
                 head, _, tail = member.partition(".")
-                if tail and f"&r->{head}" in answers:  # a whole group of options, which other functions read
+                if tail and f"&r->{head}" in answers:  # a group of options that another function reads
                     self.assertRegex(everything, rf"->{tail}\b", (verb, member))
                 elif (verb, member) not in self.ELSEWHERE:
                     self.assertRegex(answers, rf"->{re.escape(member)}\b", (verb, member))
@@ -147,7 +147,7 @@ class Tables(ProgramTest):
 
 
 class Machine(ProgramTest):
-    """Tests of a disk, a file size limit or a stack that is too small."""
+    """Tests with a disk, a file size limit or a stack that is too small."""
 
     @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")
     def test_full_disk(self):
@@ -165,7 +165,7 @@ class Machine(ProgramTest):
                              arguments)
 
     def test_small_files(self):
-        """A file size limit (ulimit -f) must be reported, with and without a parent that ignores the signal."""
+        """A file size limit (ulimit -f) must be reported, with and without a parent process that ignores the signal."""
         def limit():
             signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
             resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
@@ -180,7 +180,7 @@ class Machine(ProgramTest):
         self.assertEqual(os.listdir(self.folder), ["list"])
 
     def with_stack(self, size, hard, path, **more):
-        """Runs verify with this stack size [kB], as soft or hard limit, and with only these environment variables."""
+        """Runs verify with this stack size [kB] as soft or hard limit, and with only these environment variables."""
         def limit():
             resource.setrlimit(resource.RLIMIT_STACK,
                                (size * 1024, size * 1024 if hard else 2 ** 23))
@@ -200,15 +200,15 @@ class Machine(ProgramTest):
                 self.with_stack(size, hard, os.environ["PATH"], BEAMWORK_TRUTHS=TRUTHS)
 
     def test_least_stack(self):
-        """With the smallest stack that the loader supports, the message must appear for any address layout. Writing the
-        message through stdio would need a buffer on the stack and crash in three of four runs."""
+        """With the smallest stack that the loader supports, the message must appear for any address layout. If the
+        message were written through stdio, its buffer on the stack would cause a crash in three of four runs."""
         self.needs_no_sanitizers()
         for size in 8 * (16, 17, 18):
             self.with_stack(size, True, "/usr/bin:/bin")
 
 
 class OtherPythons(ProgramTest):
-    """Reference values must be derived also in a virtual environment, or with a different Python."""
+    """Reference values must be computed even in a virtual environment, or with another Python."""
 
     def derived(self, **changes):
         done = self.answered("truth", "elastica", "--set", "load=2.5", env=environment(**changes))
@@ -247,13 +247,12 @@ EXAMPLES = ROOT / "cases" / "examples"
 
 
 def solve(case, *assignments):
-    """Returns the arguments that solve a case on a small mesh."""
     sets = [word for assignment in assignments for word in ("--set", assignment)]
     return ("solve", case, "-f", "beamw", "-n", "2", *sets)
 
 
 def untimed(text):
-    """Returns the output of verify without its run time."""
+    """Returns the output of verify without the run time."""
     return re.sub(r"scatter, in [\d.]+ s", "scatter", text)
 
 
@@ -280,7 +279,7 @@ class Refusals(ProgramTest):
         self.assertIn("give newton=mixed", done.stdout + done.stderr)
 
     def test_byte_order_marks(self):
-        """Byte order marks, which some editors write, are accepted at the start of any text file."""
+        """Byte order marks, which some editors write, must be accepted at the start of any text file."""
         results, table = self.folder / "r.h5", self.folder / "r.csv"
         self.answered("verify", "-k", "=elastica", "-f", "beamw", "-o", results)
         self.answered("compare", results, "-o", table)
@@ -329,7 +328,8 @@ class Refusals(ProgramTest):
                      silent=False)
 
     def test_misspelt_selection(self):
-        """A word that matches nothing must be rejected, with or without brackets, because it would silently omit cells."""
+        """A word that matches nothing must be rejected, with or without brackets, because otherwise cells would be
+        omitted without a message."""
         for verb in ("verify", "stress"):
             self.refused(2, "did you mean 'elastica'?", verb, "-k", "elastca")
             self.refused(2, "'sheet_thrid'", verb, "-k", "(elastica or sheet_thrid)")
@@ -377,8 +377,8 @@ class Answers(ProgramTest):
                      silent=False, env=environment(BEAMWORK_REFERENCE="/nowhere"))
 
     def test_truth_has_the_digits_of_its_uncertainty(self):
-        """The value must have no digits of rounding noise. A thickness without a stored value must have a derived
-        value, or a remedy if no program can derive it."""
+        """The value must not have digits that are rounding errors. For a thickness without a stored value, there must
+        be a derived value, or a remedy if no program can compute it."""
         text = self.answered("truth", "spherical_joint").stdout
         self.assertNotRegex(text, r"\d\.\d*(9{6}|0{6}\d)")
         self.assertRegex(text, r"support_stiffness_max +\S+ \+- .* exact +same, haringx\n")
@@ -390,8 +390,7 @@ class Answers(ProgramTest):
         self.assertIn("give `truths` in the scene", done.stderr)
 
     def derived(self, scene, *words):
-        """Returns {quantity: (value, uncertainty)} and the lines that are printed for the truths file, which contain
-        them."""
+        """Returns {quantity: (value, uncertainty)} and the printed lines for the truths file that contain them."""
         done = self.answered("truth", "--scene", scene, *words)
         lines = done.stdout.partition("truths:\n")[2]
         found = re.findall(r"quantity: (\w+), value: (\S+), uncertainty: (\S+), kind: exact", lines)

@@ -20,8 +20,8 @@ from harness.tools.kit.program import (PROGRAM, ProgramTest, ROOT, TRUTHS, envir
 from reference.pack import seal
 
 
-# Destinations of output: through links, into pipes and devices, never onto an input or another output, checked before
-# any work.
+# Destinations of output: links, pipes and devices. An input or another output must never be overwritten. The
+# destinations must be checked before any work.
 def shape(text):
     """Returns a text without its numbers, because times differ between runs."""
     return re.sub(r"[0-9][0-9.e+-]*", "#", text)
@@ -114,7 +114,7 @@ class Places(Folder):
                 fifo.unlink()
 
     def test_standard_output(self):
-        """/dev/stdout may be a pipe, or a file whose present contents are kept."""
+        """/dev/stdout may be a pipe, or a file whose existing contents must remain."""
         work = ("converge", *WORK["converge"], "--format", "csv")
         piped = run(*work, "-o", "/dev/stdout").stdout
         plain = run(*work).stdout
@@ -174,7 +174,6 @@ class Twice(Folder):
 
     @staticmethod
     def why_not(name):
-        """Returns the reason for rejecting text output onto an HDF5 input: its name, or the target of that name."""
         return "not HDF5" if str(name).endswith(".h5") else "which is an input"
 
     def test_compared_file(self):
@@ -241,7 +240,7 @@ def on_terminal(*arguments, **changes):
         try:
             while more := os.read(parent, 65536):
                 written += more
-        except OSError:  # the other end of the pipe is closed
+        except OSError:  # the other end of the terminal is closed
             pass
     os.close(parent)
     return written.decode(), process.returncode
@@ -327,7 +326,6 @@ omit: [trapeze, wagner_moments, wagner_torque]
 class Screen(ProgramTest):
 
     def columns(self, text):
-        """Checks that no line is wider than the screen."""
         for line in text.splitlines():
             self.assertLessEqual(len(line), 100, line)
 
@@ -417,7 +415,7 @@ class Screen(ProgramTest):
                       ("stress", "-k", "decay_free"), ("stress", "-k", "twist_wagner")):
             text = self.answered(*words).stdout
             self.assertGreater(len(text.splitlines()), 3)
-            # a row of a value stays in one line; notes may follow its error
+            # a row of a value is not wrapped; notes may follow the error
             self.columns(re.sub(r"(?m)( % against \w+), .*$", r"\1", text))
 
     def test_errors_in_percent(self):

@@ -1,6 +1,6 @@
 """Scenes as a new user writes them, without options for physics, compared with closed forms: torsional buckling,
-unsymmetric sections, the effect of tension and rotation on torsion, and rotary inertia. Messages on omitted physics
-and the shear theory."""
+unsymmetric sections, the effect of tension and rotation on torsion, and rotary inertia. Also tests messages on
+omitted physics and on the shear theory."""
 import math
 import unittest
 
@@ -42,7 +42,7 @@ members:
 
 
 def walls(points, lines, thickness):
-    """Returns points and walls as in a scene, with letters as names."""
+    """Returns points and walls in the syntax of a scene, with letters as names."""
     names = dict(zip("abcdefgh", points))
     return (f"points: {{{', '.join(f'{n}: [{y}, {z}]' for n, (y, z) in names.items())}}}, walls: ["
             + ", ".join(f"{{from: {one}, to: {two}, thickness: {thickness}}}"
@@ -50,9 +50,9 @@ def walls(points, lines, thickness):
 
 
 def flexural_torsional(A, I_across, I_along, It, away, length):
-    """Returns the lowest critical load [N] of a fork-ended column whose section is symmetric about one axis and does not
-    warp. I_across is the second moment of area for the bending that couples with the twist, because the shear centre
-    is at a distance from the centroid."""
+    """Returns the lowest critical load [N] of a fork-ended column whose section is symmetric about one axis and does
+    not warp. I_across is the second moment of area for the bending that couples with the twist. They couple because
+    the shear centre is not at the centroid."""
     euler, weak = (math.pi ** 2 * E * I / length ** 2 for I in (I_across, I_along))
     r2 = (I_across + I_along) / A + away ** 2
     twist, beta = G * It / r2, 1 - away ** 2 / r2
@@ -74,7 +74,8 @@ class PhysicsTest(SceneCase):
         self.assertLess(abs(value / exact - 1), part, (value, exact))
 
     def test_cruciform_twists(self):
-        """A column of four legs of 100 x 4 mm twists at G It A/Ip, 1/27 of the flexural buckling load."""
+        """A column with four legs of 100 x 4 mm must twist at the load G It A/Ip, which is 1/27 of the flexural
+        buckling load."""
         section = "constants: {A: 1.6e-3, Iy: 8e-6/3, Iz: 8e-6/3, It: 2.56e-8/3}"
         found = self.column(section, 1.0, material="young: 208e9, shear_modulus: 80e9")
         self.near(found["up"], 204800, 1e-9)
@@ -84,8 +85,8 @@ class PhysicsTest(SceneCase):
                   204800, 1e-6)
 
     def test_channel_as_the_case(self):
-        """The expected values are those of the built-in column with this section or, without the physics that
-        Timoshenko and Gere neglect, the values of Timoshenko and Gere."""
+        """The values must be those of the built-in column with this section or, without the physics that Timoshenko and
+        Gere neglect, their values."""
         section = "channel: {depth: 98e-3, flange: 49e-3, flange_thickness: 2e-3, web_thickness: 2e-3}"
         sizes = ("length=2", "height=0.098", "width=0.049", "flange_thickness=2e-3",
                  "web_thickness=2e-3", "young=210e9", "shear_modulus=81e9", "density=7850")
@@ -101,7 +102,7 @@ class PhysicsTest(SceneCase):
         self.near(self.column(section, more="omit: [shear]\n")["up"], 43535, 1e-3)
 
     def test_kinds(self):
-        """Symmetry determines the kind of a buckling mode: sections without symmetry about y or z bend and twist."""
+        """The symmetry of the section determines the kind of the buckling mode."""
         for section, kind in (("rectangle: {width: 0.02, thickness: 0.03}", "flexural"),
                               ("tube: {diameter: 0.04, thickness: 2e-3}", "flexural, double"),
                               ("constants: {A: 1.6e-3, Iy: 3e-6, Iz: 4e-6, It: 8e-9, Iw: 1e-12}", "torsional"),
@@ -132,7 +133,7 @@ class PhysicsTest(SceneCase):
             self.near(self.column(tee, length)["up"], exact, 1e-2)
 
     def test_unequal_flanges_under_a_moment(self):
-        """Critical moments of the two signs differ because of int z (y^2 + z^2) dA."""
+        """The critical moments of both signs differ because of int z (y^2 + z^2) dA."""
         text = walls([(-0.1, -0.15), (0, -0.15), (0.1, -0.15), (-0.05, 0.15), (0, 0.15),
                       (0.05, 0.15)], ("ab", "bc", "be", "de", "ef"), 0.012).replace(
                           "{from: b, to: e, thickness: 0.012}", "{from: b, to: e, thickness: 0.008}")
@@ -144,7 +145,8 @@ class PhysicsTest(SceneCase):
         self.assertGreater(abs(without["up"] / 177150 - 1), 0.05)
 
     def test_twisted_leaf(self):
-        """A leaf that is free to shorten has M = G It w' + E/2 w'^3 (int r^4 - Ip^2/A) and shortens by w'^2 L Ip/2A."""
+        """A leaf that is free to shorten must have M = G It w' + E/2 w'^3 (int r^4 - Ip^2/A), and shorten by w'^2 L
+        Ip/2A."""
         text = BAR.format(
             width=50e-3, thickness=0.5e-3, length=0.1, material=MATERIAL,
             rest="motions:\n  twist: {unit: rad, path: [0, 1], value: [0, 0.2]}\nanalyses:\n"
@@ -160,9 +162,9 @@ class PhysicsTest(SceneCase):
         self.assertLess(abs(plain["ux"]), 1e-15)
 
     def test_twisted_walls(self):
-        """Walls that are free to shorten, bend and warp have M = G It w' + 4 E c w'^3 with 8 c = int q^2 dA, where q is
-        r^2 without its components along 1, y and z. The sections have eccentric shear centres, branches and unequal
-        flanges."""
+        """Walls that are free to shorten, bend and warp must have M = G It w' + 4 E c w'^3 with 8 c = int q^2 dA, where
+        q is r^2 without its components along 1, y and z. The sections have eccentric shear centres, branches and
+        unequal flanges."""
         import numpy as np
         t, rate = 1e-3, 0.1
         for points, lines in (
@@ -195,7 +197,7 @@ class PhysicsTest(SceneCase):
             self.assertGreater(plain / rate, 1.02, points)
 
     def test_torsion_under_tension(self):
-        """Tension adds N Ip/A to G It, in a small twist and in the torsional frequency."""
+        """In a small twist and in the torsional frequency, tension must add N Ip/A to G It."""
         b, t, length, torque = 60e-3, 2e-3, 0.5, 1e-4
         A, Ip = b * t, b * t * (b * b + t * t) / 12
         It = b * t ** 3 / 3 * (1 - 192 / math.pi ** 5 * t / b * math.tanh(math.pi * b / 2 / t) *
@@ -215,8 +217,8 @@ class PhysicsTest(SceneCase):
 
     def test_strip_that_rotates(self):
         """A strip whose width is in the plane of rotation has the torque (G It + N Ip/A) w' with N = rho A W^2 (L^2 -
-        x^2)/2, and the propeller moment W^2 rho (I1 - I2) w. The solution is in odd powers w = x, x^3, ... about the
-        hub."""
+        x^2)/2, and the propeller moment W^2 rho (I1 - I2) w. The solution is a series in odd powers w = x, x^3, ...
+        of the distance from the hub."""
         b, t, length, speed = 40e-3, 1e-3, 0.4, 300.0
         I1, I2, terms = t * b ** 3 / 12, b * t ** 3 / 12, 5
         Ip, It = I1 + I2, b * t ** 3 / 3 * (1 - 0.63025 * t / b)
@@ -225,7 +227,7 @@ class PhysicsTest(SceneCase):
         for i in range(terms):
             for j in range(terms):
                 p, q = 2 * i + 1, 2 * j + 1
-                s = p + q - 1  # int w_p' w_q' = p q/s, with (1 - x^2) minus p q/(s + 2)
+                s = p + q - 1  # int w_p' w_q' dx = p q/s and int x^2 w_p' w_q' dx = p q/(s + 2), with x from 0 to 1
                 K[i, j] = G * It / length ** 2 * p * q / s + RHO * Ip * speed ** 2 / 2 * p * q * (
                     1 / s - 1 / (s + 2)) + RHO * (I1 - I2) * speed ** 2 / (p + q + 1)
                 M[i, j] = RHO * Ip / (p + q + 1)
@@ -237,7 +239,7 @@ class PhysicsTest(SceneCase):
         self.near(self.solved(text, "-n", 32)["f"], exact, 3e-3)
 
     def test_rotary_inertia(self):
-        """Timoshenko's pinned bar is checked in its third mode, with and without rotary inertia."""
+        """The third mode of Timoshenko's pinned bar, with and without rotary inertia."""
         text = BAR.format(width=50e-3, thickness=30e-3, length=1, material=MATERIAL,
                           rest="analyses:\n  v: {modal: {wanted: 8}}\nquantities:\n"
                           "  f: {frequency: {analysis: v, which: 2, family: bending_y}, unit: Hz}")

@@ -1,4 +1,4 @@
-"""Different models: scenes held in a plane, physics that a formulation does not support, and formulations that are not
+"""Other models: scenes held in a plane, physics that a formulation does not support, and formulations that are not
 accepted yet."""
 import csv
 import io
@@ -16,7 +16,7 @@ from harness.tools.kit.program import ProgramTest, ROOT
 EXAMPLES = ROOT / "cases" / "examples"
 E, G, RHO = 210e9, 81e9, 7850
 LENGTH, HEIGHT, THICK = 1, 0.1, 0.002
-# the strip is high in its plane and thin perpendicular to the plane
+# the strip is high in its plane and thin perpendicular to it
 STRIP = """beamwork: 1
 name: strip
 sections: {s: {rectangle: {width: 0.002, thickness: 0.1}, young: 210e9, shear_modulus: 81e9,
@@ -80,7 +80,7 @@ class Plane(ProgramTest):
         return record, {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_closed_forms(self):
-        """A strip that bends only in the plane has Euler's load and the frequencies of a clamped beam."""
+        """A strip that bends only in the plane must have Euler's load and the frequencies of a clamped beam."""
         area, stiff = HEIGHT * THICK, E * THICK * HEIGHT**3 / 12
         soft = E * HEIGHT * THICK**3 / 12
         _, space = self.solved(STRIP)
@@ -95,14 +95,14 @@ class Plane(ProgramTest):
                 self.assertLess(abs(found[name] / exact - 1), 0.02, (plane, name))
 
     def test_the_same_as_in_space(self):
-        """The states that are stable in the plane are also stable in space."""
+        """The states of this scene are stable in space, so the plane scene must give the same values."""
         text = self.answered("scene", "elastica").stdout
         whole, space = self.solved(text)
         half, plane = self.solved(text + "plane: xy\n")
         self.assertEqual((whole["cell"]["free"], half["cell"]["free"]), (96, 48))
         for name, value in space.items():
             self.assertLess(abs(plane[name] / value - 1), 1e-9, name)
-        for n in (1, 3, 64):  # in space, members of many elements are condensed
+        for n in (1, 3, 64):  # in space, members with many elements are condensed
             for formulation in ("beamw", "collocation"):
                 _, space = self.solved(text, formulation=formulation, n=n)
                 _, plane = self.solved(text + "plane: xy\n", formulation=formulation, n=n)
@@ -216,8 +216,8 @@ class Plane(ProgramTest):
         self.refused(2, "confined to a plane", "export", "--scene", path, "--to", "calculix")
 
 
-# A formulation that does not support all physics of a scene is evaluated as usual if this does not affect the requested
-# quantities. Otherwise it is a different model, which is shown but does not affect the exit status, rankings or
+# A formulation that does not support all physics of a scene must be evaluated as usual if this has no effect on the
+# requested quantities. Otherwise it is another model, which is shown but has no effect on the exit status, rankings or
 # agreements.
 LEAF = """beamwork: 1
 sections: {s: {rectangle: {width: 0.1, thickness: %s}, young: 210e9, shear_modulus: 81e9}}
@@ -249,7 +249,7 @@ class OtherModel(ProgramTest):
         return {s["formulation"]: s for s in record["series"]}, record
 
     def test_a_thin_leaf(self):
-        """Shear has no effect on a thin leaf, so formulations with and without shear are one model."""
+        """Shear has no effect on a thin leaf, so formulations with and without shear must be the same model."""
         for load in ("0.1", "0"):
             leaf = self.scene("0.0005", load, "1e-4")
             one = self.series(*leaf)[0]["beamw_vlasov"]
@@ -262,12 +262,13 @@ class OtherModel(ProgramTest):
             self.assertEqual(text.count("without shear, which changes no value"), 1)
 
     def test_no_load_at_all(self):
-        """Every value is zero without loads, so missing physics has no effect."""
+        """Without loads, every value is zero, so missing physics has no effect."""
         one = self.series(*self.scene("0.05", "0", "0"))[0]["beamw_vlasov"]
         self.assertEqual((one["other_model"], one["model_change"]), (False, 0))
 
     def test_a_deep_beam(self):
-        """Shear is 1e-1 of the deflection, so the formulation is shown, but excluded from rankings and agreements."""
+        """Shear contributes a tenth of the deflection. The formulation must be shown, but excluded from rankings and
+        agreements."""
         deep = self.scene("0.1", "1", "0")
         series, record = self.series(*deep)
         one = series["beamw_vlasov"]
@@ -371,7 +372,6 @@ NAME = "sheet_second"
 
 
 def without(path, beginning):
-    """Removes the lines that begin with this text from a file."""
     lines = path.read_text(encoding="utf-8").splitlines(keepends=True)
     kept = [line for line in lines if not line.startswith(beginning)]
     assert len(kept) < len(lines), path
@@ -379,7 +379,8 @@ def without(path, beginning):
 
 
 class NotAccepted(ProgramTest):
-    """Tests with reference values without the findings of a formulation that has some, accepted or not."""
+    """Reference values without the known deviations of a formulation, which is accepted in one file and new in the
+    other."""
 
     @classmethod
     def setUpClass(cls):

@@ -1,4 +1,4 @@
-"""External formulations, compiled in the way an external author would compile them, for the tests of `--element`."""
+"""External formulations for the tests of `--element`, compiled as an external author would compile them."""
 import os
 import subprocess
 
@@ -19,13 +19,12 @@ def compile_shared(source, made, *options):
 class PluginTest(ProgramTest):
 
     def compiled(self, text, name="mine.so"):
-        """Returns the path of a shared object compiled from this text."""
         source = self.folder / f"{name}.c"
         source.write_text(text, encoding="utf-8")
         return compile_shared(source, self.folder / name)
 
     def altered(self, example, *changes):
-        """Returns an example with parts of its text replaced. Each part must occur."""
+        """Returns an example in which texts have been replaced. Each text must occur in the example."""
         text = (EXAMPLES / example).read_text(encoding="utf-8")
         for before, after in changes:
             self.assertIn(before, text)

@@ -49,7 +49,7 @@ KINDS = {"v": "rate: {analysis: swing, node: tip, component: uz",
 
 
 def windows(when, **more):
-    """Returns the scene with every statistic of several quantities, and with more statistics of x."""
+    """Returns the scene with every statistic of several quantities, and with more quantities of displacement ux."""
     lines = [f"  {kind}_{take}: {{{words}, take: {take}}}, {when}}}" for kind, words in KINDS.items() for take in TAKES]
     lines += [f"  {name}: {{displacement: {{analysis: swing, node: tip, component: ux, {words}}}}}"
               for name, words in more.items()]
@@ -71,7 +71,7 @@ class RestartTest(SceneCase):
         return {name: row["value"] for name, row in self.rows(path, *options).items()}
 
     def in_two(self, stop=1, **changes):
-        """Returns the quantities of a single run, and those of two runs of which the second continues the first."""
+        """Returns the quantities of a single run, and those of two runs, of which the second continues the first."""
         path, sets = self.scene(SWING), [f"--set={k}={v}" for k, v in changes.items()]
         ends = self.folder / "ends.h5"
         one = self.values(path, *MESH, *sets)
@@ -88,8 +88,8 @@ class RestartTest(SceneCase):
                 self.assertGreater(abs(float(one["z"])), 1e-3)
 
     def test_to_round_off(self):
-        """The results agree only to round-off if the second run chooses new pivots, or if the end of the first run
-        shortens a step."""
+        """If the second run chooses new pivots, or the end of the first run shortens a step, the results agree only to
+        within rounding or the tolerance of the steps."""
         for changes, most in (({"how": "radau"}, 1e-9), ({"how": "radau", "damp": 1e-3}, 1e-9),
                               ({"how": "radau", "tol": 1e-8}, 1e-4), ({"how": "alpha", "step": 0.01}, 1e-9)):
             with self.subTest(**changes):
@@ -104,7 +104,8 @@ class RestartTest(SceneCase):
         self.assertEqual(self.values(path, "--restart", ends[1]), self.values(path, *MESH))
 
     def test_windows(self):
-        """A run has no values that depend on the part before its start; from its start on, all values are the same."""
+        """A run must have no values that depend on times before its start. All other values must be those of a single
+        run."""
         path, ends = self.scene(windows("when: {from: from}")), self.folder / "ends.h5"
         self.values(path, *MESH, "--set", "end=1", "--save-state", ends)
         for begin in (0, 0.5, 1, 1.25):

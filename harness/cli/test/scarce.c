@@ -1,6 +1,7 @@
-/* A library for LD_PRELOAD that makes the k-th allocation after the start of main fail, with k =
- * $SCARCE_AT, in the process that was started, but not in its children. If $SCARCE_ONLY is set,
- * only calls of this function are counted. $SCARCE_COUNT is the file that receives their number. */
+/* A library for LD_PRELOAD. In the process that was started, but not in its children, the
+ * allocation number k = $SCARCE_AT after the start of main fails. If $SCARCE_ONLY is set, only
+ * calls of this function are counted. $SCARCE_COUNT is the file to which their number is
+ * written. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>

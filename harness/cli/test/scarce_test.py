@@ -1,5 +1,5 @@
-"""If memory runs out anywhere, including libraries and libc, every run must end within a time limit, with one line, and
-leave a complete file or none."""
+"""If an allocation fails anywhere, including libraries and libc, every run must end within a time limit, with one line,
+and leave a complete file or none."""
 import re
 import shutil
 import subprocess
@@ -29,7 +29,7 @@ WORK = {
 }
 LIMIT = 60  # [s]
 TRIES = 12
-# HDF5 1.10 crashes, calls exit() or prints its own errors if memory runs out while it starts.
+# if memory runs out while HDF5 1.10 starts, it crashes, calls exit() or prints its own errors
 CRASHED = "beamwork: the program crashed; "
 TIMES = re.compile(r"[0-9.e+-]+ m?s\b|\"(seconds\w*|time|load\w*)\": [^,\n]*")
 
@@ -75,7 +75,7 @@ class Scarce(ProgramTest):
                 with self.subTest(verb=verb, call=k):
                     code, out, errors, files = self.attempt(words, SCARCE_AT=str(k))
                     self.assertFalse([name for name in files if ".part-" in name], files)
-                    if code == right[0]:  # without memory for line breaks, lines are long
+                    if code == right[0]:  # if there is no memory for line breaks, lines are long
                         self.assertEqual(("".join(out.split()), files), ("".join(right[1].split()), right[3]))
                         continue
                     last = errors.strip().splitlines()[-1]
@@ -83,7 +83,8 @@ class Scarce(ProgramTest):
                     self.assertTrue(code in (2, 4, 5) or last.startswith(CRASHED), (code, errors))
 
     def test_results_of_workers(self):
-        """The parent has no memory for the results of a worker. It must not wait for this worker, which is still running."""
+        """The parent has no memory for the results of a worker. It must not wait for this worker, which is still
+        running."""
         code, _, errors, files = self.attempt(WORK["verify"], SCARCE_AT="1", SCARCE_ONLY="fmemopen")
         self.assertEqual((code, errors, files), (4, "beamwork: out of memory for results\n", ["tiny.yaml"]))
 

@@ -14,8 +14,8 @@ from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, TRUTHS, enviro
 
 HERE = ROOT / "harness" / "cli"
 PACKAGE = pathlib.Path("/usr/share/bash-completion/bash_completion")
-PATIENCE = 60  # seconds to wait for a shell that does not answer
-# Text typed before the tab, and the resulting arguments.
+PATIENCE = 60  # [s] longest time to wait for the answer of a shell
+# text typed before the tab, and the resulting arguments
 LINES = {
     "so": ["solve"],
     "solve elas": ["solve", "elastica"],
@@ -35,7 +35,7 @@ LINES = {
     "explain bimom": ["explain", "bimoment"],
     "explain Poiss": ["explain", "Poisson's"],
 }
-# The command prints its arguments in a form that never occurs in the output of the shell.
+# The command prints its arguments in a form that does not occur in other output of the shell.
 SHOW = ("beamwork() { if [ \"$1\" = help ]; then command beamwork \"$@\"; else "
         "printf '<<'; printf '%s|' \"$@\"; printf '>>\\n'; fi; }")
 
@@ -55,7 +55,6 @@ class Terminal:
         os.write(self.master, text.encode())
 
     def answer(self, end):
-        """Returns all output up to `end`."""
         text = ""
         while end not in text:
             if not select.select([self.master], [], [], PATIENCE)[0]:
@@ -112,7 +111,7 @@ class Shell(unittest.TestCase):
                     "unsetopt prompt_cr prompt_sp"), "zsh", "-f", "-i")
 
 
-# argp of the C library does not free a byte at exit
+# argp of the C library does not free one byte at exit
 ENV = environment(ASAN_OPTIONS="detect_leaks=0")
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
@@ -120,7 +119,7 @@ LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 class Completion(ProgramTest):
 
     def lines(self, *words):
-        """Returns the completions for the line 'beamwork WORD...' with the cursor at the end of the last word."""
+        """Returns the completions of the line 'beamwork WORD...' with the cursor at the end of the last word."""
         return self.answered("help", "--complete", *words, env=ENV).stdout.splitlines()
 
     def offered(self, *words):

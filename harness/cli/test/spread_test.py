@@ -1,4 +1,4 @@
-"""Shards of verbs are computed, killed, damaged and merged. The result must be that of a single run."""
+"""Shards of verbs that are computed, killed, damaged and merged must give the result of a single run."""
 import os
 import pathlib
 import random
@@ -32,7 +32,6 @@ analyses:
 
 
 def without_times(text):
-    """Returns the lines without times."""
     return [line for line in text.splitlines() if " in " not in line or " cells" not in line]
 
 
@@ -43,12 +42,10 @@ class SpreadTest(ProgramTest):
         return self.answered("compare", "--hash", file).stdout.split()[:2]
 
     def shard(self, which, *arguments, into="parts", code=0, **options):
-        """Computes one shard of a verb."""
         return self.answered(*arguments, "--shard", which, "--into", self.folder / into, code=code,
                              **options)
 
     def names(self, into="parts"):
-        """Returns the contents of the folder."""
         return sorted(path.name for path in (self.folder / into).iterdir())
 
 
@@ -74,7 +71,7 @@ class Verify(SpreadTest):
                              self.folder / "merged.h5", *options, code=code)
 
     def is_as_alone(self, *options, folders=("parts",)):
-        """Checks that the merged output is that of a single run."""
+        """The merged output must be that of a single run."""
         done = self.merged(*options, folders=folders)
         self.assertEqual(self.hash_of(self.folder / "merged.h5"),
                          self.hash_of(self.home / "alone.h5"))
@@ -182,8 +179,8 @@ class Verify(SpreadTest):
 class Killed(SpreadTest):
 
     def test_killed(self):
-        """Kills the process or its group twenty times. After the remaining cells are computed, the hash must be the
-        same."""
+        """Kills the process or its process group twenty times. After the remaining cells have been computed, the hash
+        must be that of a single run."""
         alone = self.folder / "alone.h5"
         self.answered("verify", "-k", CASES, "-o", alone)
         parts = self.folder / "parts"

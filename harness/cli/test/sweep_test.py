@@ -1,4 +1,4 @@
-"""Sweeps: varied parameters, computed values, and how they are run."""
+"""Sweeps: varied parameters, computed values, and processes."""
 import csv
 import fcntl
 import io
@@ -22,14 +22,13 @@ COLUMN = ("shear_column", "--vary", "length=0.5..2/3", "--vary", "side=0.01..0.0
 
 
 def sealed(path):
-    """Returns True if the last line states the length of the rest of the file."""
+    """Returns True if the last line gives the length of the rest of the file."""
     data = path.read_bytes()
     word, size, _ = data[-40:].split()
     return word == b"beamwork-seal" and int(size, 16) == len(data) - 40
 
 
 def solved(*words, quantity):
-    """Returns the value of a separate solution."""
     done = run("solve", *words, "--format", "json")
     rows = json.loads(done.stdout)["quantities"]
     return next(r["value"] for r in rows if r["quantity"] == quantity)
@@ -158,8 +157,8 @@ class References(ProgramTest):
         self.assertIn("the limit of the same meshes", screen)
 
     def test_limits_that_disagree_are_no_reference(self):
-        """Two formulations, of which one has no shear along one axis, have different limits. These must not be used as a
-        reference value."""
+        """Two formulations, one of which has no shear along one axis, have different limits. These must not be used as
+        a reference value."""
         kind, _, error, screen = self.kinds(
             "--scene", LEAF, "--vary", "thickness=0.8e-3,1e-3", "-f", "sheet_second", "-f",
             "sheet_third", "-n", "8,16,32,64,128", "-k", "k_pushed", "--error", "0.1%")

@@ -1,4 +1,4 @@
-"""The verbs, and a small task for each."""
+"""the verbs, and a small task for each"""
 VERBS = ("list", "solve", "converge", "bench", "stress", "verify", "truth", "compare")
 EVERY_VERB = ("list", "explain", "solve", "plot", "converge", "sweep", "truth", "scene", "verify",
               "bench", "stress", "motion", "element-test", "merge", "compare", "export", "import", "schema")
@@ -10,10 +10,10 @@ WORK = {
     "stress": ("-k", "decay_free and collocation"),
     "sweep": ("warping_torsion", "--vary", "kL=1,2", "-f", "beamw", "-n", "2"),
 }
-# Options that name output files, for text and for HDF5.
+# options for output files, either for text or for HDF5
 TEXT = {"verify": ("--json", "--junit", "--markdown"), "solve": ("-o",), "converge": ("-o",),
         "stress": ("-o", "--json"), "bench": (), "sweep": ()}
 WHOLE = {"verify": ("-o",), "bench": ("-o",), "solve": ("--shapes=1", "-o"), "converge": (),
          "stress": (), "sweep": ("-o",)}
-# Options that accept both forms, selected by the name of the file.
+# options that accept both forms, depending on the name of the file
 BOTH = {("converge", "-o"), ("stress", "-o")}
