@@ -29,7 +29,7 @@ enum {
     OPTION_REPEATS = 1, /* the option may be repeated; each path may be given once */
     OPTION_INPUT = 2,   /* the value is an input file, or exec:COMMAND */
     OPTION_OUTPUT = 4,  /* an output file */
-    OPTION_HDF5 = 8,    /* the output file is never a stream */
+    OPTION_HDF5 = 8,    /* the output is HDF5, so it cannot be a stream */
     OPTION_FOLDER = 16, /* the output is a new folder */
     OPTION_ASIDE =
         32, /* does not affect results, only their presentation or the process that computes them */
@@ -204,7 +204,7 @@ status user_tables_deviations(const text_list *tables, const case_type *const ru
 
 typedef struct case_options {
     const char *name;                      /* name of the case; NULL: none */
-    const char *scene_path;                /* file of --scene, which replaces a name */
+    const char *scene_path;                /* file of --scene, which is used instead of a name */
     text_list set;                         /* NAME=VALUE */
     double parameter[CASE_MAX_PARAMETERS]; /* ... set by case_input_find */
     scene_file *scene;                     /* contents of scene_path */

@@ -420,7 +420,7 @@ typedef struct design {
     design_mark *mark;
 } design;
 
-/* Outcome of a formulation at an extreme. Outcomes other than accurate ones can be expected. */
+/* Outcome of a formulation at an extreme. */
 
 enum { OUTCOME_NEIGHBOURS = 2 };
 
@@ -548,7 +548,7 @@ typedef struct integrators_run {
                                          iterations: number per step */
     long steps, rejected;
     double energy, momentum; /* largest relative errors of the energy balance and of the momenta */
-    /* largest and last value of E/E0, where E is the energy and E0 the initial energy */
+    /* largest and last value of E/E0, where E0 is the energy E after the loads have ended */
     double largest, last;
     double stopped; /* [s] time at which the motion ended early */
     integrators_class motion_class;

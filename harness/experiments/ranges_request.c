@@ -5,7 +5,7 @@
 
 enum { TEXT = 64, LONG_TEXT = 128 };
 
-/* Rows of the tables of axes and of worst points. */
+/* Rows of two tables: the axes, and the worst points. */
 typedef struct axis_row {
     char name[TEXT], unit[16], kind[8], scale[8];
     int count;

@@ -235,8 +235,8 @@ static void end(candidate_run *r)
     cell_result_free(&r->cell[1]);
 }
 
-/* Returns the number of elements of the next mesh. After the meshes of the scene, it is doubled
- * each time. */
+/* Returns the number of elements of the next mesh: the meshes of the scene, then meshes with twice
+ * the elements of the previous one. */
 static int next_mesh(const scene *s, const candidate_run *r)
 {
     return r->tried < s->meshes ? s->mesh[r->tried] : 2 * r->elements;

@@ -952,7 +952,7 @@ status default_choice_elements(const cell_request *, const formulation *chosen, 
 
 /* Chooses formulation and mesh together. Candidates are the formulations that rank equal with the
  * first in default_choice_formulation: at most five, and at most two per family. In each step, the
- * mesh with the lowest counted work is solved next. The first candidate that converges is chosen.
+ * mesh with the lowest counted work is solved. The first candidate that converges is chosen.
  * request: the cell without formulation and elements. */
 status default_choice_both(const cell_request *, const rule_subject *where, const rule *rules,
                            int count, double requested, default_choice *out, fault *f);
@@ -1021,7 +1021,7 @@ progress progress_begin(FILE *to, const char *things, int count, double now);
 /* Returns 1 if the next output is due. */
 int progress_is_due(const progress *, double now);
 /* Prints "cells 12 of 40, 25 %, about 3 min left: WHAT". share: completed fraction of the work, 0
- * to 1. If it is large enough, the remaining time is estimated from it. */
+ * to 1. If `share` is large enough, the remaining time is estimated from it. */
 void progress_show(progress *, double now, int done, double share, const char *what);
 /* Clears the line. */
 void progress_end(progress *);

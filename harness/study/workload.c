@@ -11,7 +11,7 @@
 static scene_edit noise_words(const formulation *, int repetition);
 /* Sets series.noise to twice the larger of the differences between the repetitions and the value on
  * the finest mesh, relative to the value or to near_zero. If the formulation uses finite
- * differences with a larger error, the noise is this error. NAN: a value or a repetition is
+ * differences with a larger error, the value is this error. NAN: a value or a repetition is
  * missing. Returns -1 if out of memory. */
 static int noise_take(const sweep_point *, const cell_result again[NOISE_REPETITIONS], series *);
 

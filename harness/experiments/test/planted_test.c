@@ -111,7 +111,7 @@ static status soft_about_z(const element_data *d, const double e[], const double
     return outcome;
 }
 
-/* A formulation that does not declare that it is exact becomes too soft. The message must give the
+/* A formulation that is not declared exact is made too soft. The message must give the
  * error. */
 static void not_exact(void)
 {

@@ -151,8 +151,8 @@ static void disagreements_of_families(void)
     finish(&b);
 }
 
-/* The limit with the smallest uncertainty is the centre. A formulation whose distance from the
- * centre exceeds its uncertainty must be reported. */
+/* If limits agree with equally many families, the one with the smallest uncertainty is the centre.
+ * A formulation whose distance from the centre exceeds its uncertainty must be reported. */
 static void known_best(void)
 {
     families_bench b;
