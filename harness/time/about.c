@@ -1,5 +1,4 @@
-/* States during a motion, and the matrices of small motions about these states, for other
- * analyses. */
+/* States of a motion for other analyses, and the matrices of small motions about these states. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -8,8 +7,8 @@
 
 #include "cases/scene/scene.h"
 
-/* A time that is closer than this to the end of a step, relative to the step size, counts as the
- * end of the step. */
+/* Relative to the step size: distance to the end of a step below which a time counts as this
+ * end. */
 static const double same_instant = 1e-9;
 
 static int by_time(const void *a, const void *b)
@@ -18,8 +17,8 @@ static int by_time(const void *a, const void *b)
     return (x->time > y->time) - (x->time < y->time);
 }
 
-/* Returns the time at which an analysis needs the state; NAN: the analysis does not need a state of
- * this motion. */
+/* Returns the time at which an analysis needs the state [s]; NAN: it needs no state of this
+ * motion. */
 static double instant_of(const abouts *a, int analysis)
 {
     const scene *s = a->c->scene;
@@ -66,8 +65,8 @@ static double next_of(const abouts *a)
     return a->next < a->out->abouts ? a->out->about[a->next].time : INFINITY;
 }
 
-/* Stores the state a->at and its small motions. Conserving steps give mean accelerations, so
- * consistent accelerations are computed first, which changes a->at. */
+/* Stores the state a->at and its small motions. Accelerations of conserving steps are mean values,
+ * so consistent accelerations are computed and stored in a->at first. */
 static status take(abouts *a, fault *f)
 {
     const model *m = a->c->model;

@@ -11,20 +11,20 @@ typedef struct alpha {
     motion_stage stage;
     outer_work *work;
     massive massive;
-    size_t strains; /* model_stresses if a member or a spring is damped, otherwise 0 */
+    size_t strains; /* model_stresses if there is damping of members or springs, otherwise 0 */
     double *mean;   /* [strains] mean strain rates of the step */
     double mass, force, gamma, beta; /* alpha_m, alpha_f */
     double *a0, *v0, *inc, *weight;  /* [free + driven] */
 } alpha;
 
-/* Returns a1 of the scheme (time_impl.h), for a at the start of the step and for the true
- * accelerations at the start (`before`) and at the end (`now`). */
+/* Returns a1 of the scheme (time_impl.h). a: its value at the start of the step; before, now: true
+ * accelerations at the start and at the end. */
 static double averaged(const alpha *s, double a, double before, double now)
 {
     return ((1 - s->force) * now + s->force * before - s->mass * a) / (1 - s->mass);
 }
 
-/* Sets the relation between rates and increment, and an initial guess of the increment that assumes
+/* Sets the relation between rates and increment, and the initial increment of the iteration for
  * constant acceleration. */
 static void relate(alpha *s, const motion_state *from, double h, stage_rates *r)
 {
@@ -54,7 +54,7 @@ static status error_of(alpha *s, const motion_state *from, const motion_state *t
 }
 
 /* Sets the relation between strain rates and strains of damped members, which has the same form as
- * for positions. Computes the part of the strain rates that does not depend on the increment. */
+ * for positions. Computes the constant part of the strain rates. */
 static void relate_strains(alpha *s, const motion_state *from, double h, motion_state *to)
 {
     const double g = s->gamma / (s->beta * h), kept = 1 - s->gamma / s->beta,
@@ -82,9 +82,9 @@ static double circulated(const model *m, const model_state *from, const model_st
     return sum;
 }
 
-/* Sets the strain rates at the end of a step, and adds the dissipated energy. This energy follows
- * from the mean rates, because rates at the ends of steps oscillate about their mean if there is no
- * inertia. */
+/* Sets the strain rates at the end of a step, and adds the dissipated energy. The energy is
+ * computed from mean rates. Without inertia, rates at the ends of steps oscillate about this
+ * mean. */
 static void damp(alpha *s, const motion_state *from, double h, motion_state *to)
 {
     const double g = s->gamma / (s->beta * h), part = 1 / (s->beta * h * h);

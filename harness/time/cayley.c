@@ -41,7 +41,6 @@ void cayley_tangent(const double c[3], double T[9])
         T[i] = part * (T[i] / 2 + (i % 4 == 0));
 }
 
-/* Computes the rotation matrix of a rotation vector. */
 static void turn_by(const double t[3], double R[9])
 {
     double q[4];
@@ -138,7 +137,6 @@ void cayley_between(const cayley_step *s, double at, cayley_point *p)
     }
 }
 
-/* Computes rows[3 x columns] <- factor A rows. */
 static void turn_rows(const double A[9], double factor, int columns, double rows[])
 {
     for (int k = 0; k < columns; k++) {
@@ -171,7 +169,6 @@ void cayley_forces(const cayley_step *s, int columns, double f[])
 
 enum { N = NODE_COORDINATES };
 
-/* Adds factor a b^T to A. */
 static void add_product(double factor, const double a[3], const double b[3], double A[9])
 {
     for (int i = 0; i < 3; i++)
@@ -185,7 +182,7 @@ static void add_identity(double factor, double A[9])
         A[4 * i] += factor;
 }
 
-/* Adds to A the derivative of b c (c.v) with respect to c, multiplied by `factor`. */
+/* Adds to A `factor` times the derivative of b c (c.v) with respect to c. */
 static void add_square(const cayley_step *s, const cayley_slopes *d, double factor,
                        const double v[3], double A[9])
 {
@@ -260,8 +257,8 @@ void cayley_slopes_of(const cayley_step *s, cayley_slopes *d)
         node_slopes(s, j, d);
 }
 
-/* Derivatives of r(s) and R(s) of a node: of R with respect to c_j, and of both with respect to the
- * mean c. */
+/* Derivatives of r(s) and R(s) of a node. R is differentiated with respect to c_j, and both with
+ * respect to the mean c. */
 typedef struct node_columns {
     double by_phi[9], r_common[9], phi_common[9];
 } node_columns;
@@ -273,8 +270,8 @@ static void columns_of(const cayley_step *s, const cayley_slopes *d, const cayle
     double back[3], Jl[9], first[3], swept[9], carried[9], apart[9], turned[9], more[9];
     for (int i = 0; i < 3; i++)
         back[i] = -at * y[3 + i];
-    rotation_rates_jacobian(back,
-                            Jl); /* derivative for increments after the rotation, in global axes */
+    rotation_rates_jacobian(
+        back, Jl); /* derivative with respect to an increment after the rotation, in global axes */
     for (int i = 0; i < 9; i++)
         Jl[i] *= at;
     mat3_mul(Jl, d->own[j], out->by_phi);
@@ -291,7 +288,6 @@ static void columns_of(const cayley_step *s, const cayley_slopes *d, const cayle
     mat3_mul(apart, d->spin, out->r_common);
 }
 
-/* Adds factor a B to `out`. */
 static void add_row(double factor, const double a[3], const double B[9], double out[3])
 {
     for (int i = 0; i < 3; i++)
@@ -329,7 +325,6 @@ void cayley_slopes_columns(const cayley_step *s, const cayley_slopes *d, const c
     }
 }
 
-/* Adds A multiplied by `factor` to K[n x n] at (row, column). */
 static void add_block(int n, int row, int column, double factor, const double A[9], double K[])
 {
     for (int i = 0; i < 3; i++)

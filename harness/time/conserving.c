@@ -10,10 +10,8 @@
 #include "elements/math/scalar.h"
 #include "elements/math/vec3.h"
 
-/* Functions of conserving.c. */
-/* Finds rotations without inertia. REFUSED: no rotation has inertia. */
+/* Finds the rotations without inertia. REFUSED: no rotation has inertia. */
 static status conserving_massless(conserving *, fault *);
-/* Sets the rates at the end of a step. */
 static void conserving_rates(conserving *, const motion_state *from, double h, motion_state *to);
 
 enum { LEAST_ITERATIONS = 3 };
@@ -65,7 +63,6 @@ static double size_of(const conserving *s)
     return largest;
 }
 
-/* Work space for the iteration of a step. */
 typedef struct solution {
     conserving *s;
     const motion_state *from;
@@ -161,9 +158,9 @@ static void release(motion_scheme *base)
     free(s);
 }
 
-/* Checks the rotations. REFUSED: the rotation of a node has two angles, both free. A mass would
- * have an angular velocity normal to both axes at the end of a step, and the rates of the angles
- * would not contain its energy. */
+/* Checks the rotations. REFUSED: the rotation of a node has exactly two free angles. At the end of
+ * a step, a mass would have an angular velocity normal to both axes, whose energy the rates of the
+ * angles do not contain. */
 static status check(const model *m, fault *f)
 {
     for (int i = 0; i < model_scene(m)->nodes; i++) {
@@ -207,9 +204,9 @@ static status refuse_constraint(const model *m, int node, const char *why, fault
                      scene_called(model_scene(m), SCENE_NODES, node).text);
 }
 
-/* Checks the constraints. REFUSED: the rates at the ends of a step would violate a constraint. The
- * Cayley vectors of rotations with a given ratio do not have this ratio, and masses at a distance
- * from their nodes have independent velocities. */
+/* Checks the constraints. REFUSED: the rates at the end of a step would violate a constraint.
+ * Cayley vectors of rotations with a given ratio do not have this ratio, and eccentric masses have
+ * independent velocities. */
 static status check_constraints(const model *m, const frame_masses *masses, fault *f)
 {
     if (model_mesh_of(m)->joined == NULL)
@@ -306,7 +303,7 @@ status conserving_alloc(const scheme_request *request, motion_scheme **out, faul
     return allocate(s, f);
 }
 
-/* Rates at the end of a step, for coordinates with and without inertia. */
+/* Computes the rates at the end of a step, for coordinates with and without inertia. */
 
 enum { BALL = 3 };
 
@@ -320,7 +317,7 @@ static int null_space(const double J[9], double N[9])
     memset(N, 0, 9 * sizeof *N);
     memcpy(A, J, sizeof A);
     LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', 3, A, 3,
-                  value); /* eigenvalues are in ascending order; the call fails only for NaN */
+                  value); /* eigenvalues are in ascending order; fails only for NaN */
     for (int k = 0; k < 3; k++) {
         if (value[k] > nothing * value[2])
             continue;
@@ -349,7 +346,7 @@ static status conserving_massless(conserving *s, fault *f)
                            "alpha or radau, or give the sections rotary inertia");
 }
 
-/* Computes the rates of a sequence of angles for which the angular velocity is closest to w. */
+/* Computes the rates of a sequence of angles whose angular velocity is closest to w. */
 static void angle_rates(const model *m, int vertex, motion_state *to, const double w[3])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -376,9 +373,9 @@ static void angle_rates(const model *m, int vertex, motion_state *to, const doub
     }
 }
 
-/* Replaces rates of motions without inertia by the mean rates of the step, because they would
- * otherwise change sign in every step. N[9]: projection onto the rotations without inertia; NULL:
- * no rotation has inertia. */
+/* Replaces the rates of motions without inertia by the mean rates of the step; otherwise they would
+ * change sign in every step. N[9]: projection onto the rotations without inertia; NULL: there are
+ * none. */
 static void without_inertia(const frame_mass *one, const double N[9], frame_mass_step *p)
 {
     double mean[3], back[3];
@@ -394,8 +391,8 @@ static void without_inertia(const frame_mass *one, const double N[9], frame_mass
         p->W1[i] += back[i];
 }
 
-/* Finds the released coordinates of an end that move its mass: three shifts, then three rotations.
- * heavy 1: the coordinate moves the mass. */
+/* Finds the coordinates of a released end that move its mass, in the order three shifts, three
+ * rotations. heavy 1: the coordinate moves the mass. */
 static void heavy_ones(const model *m, const frame_mass *one, const frame_mass_step *p,
                        const model_state *s, int heavy[6])
 {
@@ -415,9 +412,8 @@ static void heavy_ones(const model *m, const frame_mass *one, const frame_mass_s
 }
 
 /* Computes the velocities of the masses at released ends, and the rates of the released
- * coordinates. The velocities are integrated separately, so these masses conserve energy and
- * momenta like the masses of nodes. The velocities differ from the rates by terms of second order
- * in the step size. */
+ * coordinates. The velocities are separate unknowns, so that energy and momenta of these masses are
+ * conserved. They differ from the rates by terms of second order in the step size. */
 static void conserving_released_rates(const conserving *s, const motion_state *from, double h,
                                       motion_state *to)
 {
@@ -446,8 +442,7 @@ static void conserving_released_rates(const conserving *s, const motion_state *f
     to->ends_known = 1;
 }
 
-/* Returns 1 if a vertex follows the rotations of another vertex, or if other vertices follow its
- * rotations. */
+/* Returns 1 if a constraint couples the rotations of this vertex to those of another vertex. */
 static int turns_with(const model *m, int vertex)
 {
     int with = 0;
@@ -493,8 +488,8 @@ static void massless_together(const conserving *s, int vertex, double N[9])
 }
 
 /* Sets the rates of translations in constraints. Without mass at the nodes that a translation
- * moves, the rate is the mean rate of the step. In-plane translations of a diaphragm are excluded:
- * they follow from its centre of mass. */
+ * moves, the rate is the mean rate of the step. In-plane translations of a diaphragm are excluded;
+ * they are computed from its centre of mass. */
 static void rates_together(const conserving *s, const motion_state *from, double h,
                            motion_state *to)
 {
@@ -513,8 +508,8 @@ static void rates_together(const conserving *s, const motion_state *from, double
         }
 }
 
-/* Sets the rates after a step. The rates of a frame follow from the motion of its centre of mass
- * if it has mass, otherwise from the motion of the frame. */
+/* Sets the rates after a step, for a frame with mass from the motion of its centre of mass,
+ * otherwise from the motion of the frame. */
 static void conserving_rates(conserving *s, const motion_state *from, double h, motion_state *to)
 {
     const model *m = s->of.c->model;

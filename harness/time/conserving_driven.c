@@ -36,7 +36,7 @@ static double energy_of(const frame_mass *one, const double J[9], const double v
     return sum;
 }
 
-/* Adds the momenta of a mass, multiplied by `factor`, to out[free + driven], in the coordinates of
+/* Adds `factor` times the momenta of a mass to out[free + driven], in the coordinates of
  * forms_rates. */
 static void add_momenta(const model *m, const model_state *s, const frame_mass *one,
                         const centre_rates *of, double factor, double out[])
@@ -64,7 +64,6 @@ static int is_driven(const model *m, int vertex)
     return 0;
 }
 
-/* Computes out = M v for the masses of all nodes. */
 static void momenta_of(const conserving *s, const model_state *now, const double v[], double out[])
 {
     const model *m = s->of.c->model;
@@ -79,7 +78,6 @@ static void momenta_of(const conserving *s, const model_state *now, const double
     }
 }
 
-/* Computes the diagonal of M. unit[free + driven]: work space. */
 static void diagonal_of(const conserving *s, const model_state *now, double unit[], double out[])
 {
     const model *m = s->of.c->model;
@@ -100,7 +98,7 @@ static void diagonal_of(const conserving *s, const model_state *now, double unit
     }
 }
 
-/* Subtracts from out[free + driven] the change of the momenta by the prescribed rates in `to`.
+/* Subtracts from out[free + driven] the change of momenta due to the prescribed rates in `to`.
  * Returns the number of masses with prescribed coordinates. */
 static int subtract_change(const conserving *s, const motion_state *from, double h,
                            const motion_state *to, double out[])
@@ -134,12 +132,12 @@ static double square_of(const conserving *s, const double x[], const double diag
     return sum;
 }
 
-/* The method of conjugate gradients solves for the change of the free rates, because few of them
- * are coupled. */
+/* The change of the free rates is computed by conjugate gradients, because few rates are
+ * coupled. */
 void conserving_free_rates(conserving *s, const motion_state *from, double h, motion_state *to)
 {
     const double rounding = 1e-30, /* square of a relative rounding error */
-        nothing = 1e-10;           /* motions with less inertia have none */
+        nothing = 1e-10;           /* smaller inertia, relative to the largest, counts as none */
     const int most = 60;
     double *r = s->residual, *d = s->column, *Md = s->row, *diagonal = s->dx;
     memset(r, 0, (size_t)s->all * sizeof *r);

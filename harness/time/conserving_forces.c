@@ -1,5 +1,5 @@
-/* Forces A^T sigma_m of elements and springs, and their tangent. Geometric terms, which have a
- * stress as a factor, use s + k W d. This excludes the spurious stresses due to the gaps. */
+/* Forces A^T sigma_m of elements and springs, and their tangent. The geometric terms use the
+ * stresses s + k W d, without the spurious stresses due to the gaps. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -28,7 +28,7 @@ static void middle_of(const conserving *s, deformable_values *v)
         v->middle[k] += 1 / s->h * Wd[k];
 }
 
-/* Computes the gaps and sigma_m, which includes the contribution of the gaps unless they are
+/* Computes the gaps and sigma_m. sigma_m contains the contribution of the gaps unless they are
  * rounding errors. Returns the incompatibility: the largest gap of the strains, divided by the
  * reference length. */
 static double gaps_of(const conserving *s, const double J[], deformable_values *v, double sigma[])
@@ -56,9 +56,8 @@ static double gaps_of(const conserving *s, const double J[], deformable_values *
     return largest;
 }
 
-/* Adds to out[n x n] the geometric stiffness at point g, multiplied by the derivative of x(s). H is
- * in the exponential chart. The derivative of a moment m with respect to spatial increments is less
- * by m~/2. */
+/* Adds to out[n x n] the geometric stiffness at point g times the derivative of x(s). H is in the
+ * exponential chart; for spatial increments, the derivative of a moment m is smaller by m~/2. */
 static void add_curved_strains(const cayley_slopes *by, int g, deformable_values *v, double out[])
 {
     const deformable *of = &v->of;
@@ -76,8 +75,8 @@ static void add_curved_strains(const cayley_slopes *by, int g, deformable_values
     cayley_slopes_columns(&v->step, by, &v->point[g], 1.0 / DEFORMABLE_POINTS, n, v->H[g], out);
 }
 
-/* Computes the derivatives k_e and k_d of k with respect to the strains and d. Adds k_e . gap_e
- * + k_d . gap_d to s->missing, and sets the column and the row. */
+/* Computes the derivatives k_e and k_d of k with respect to the strains and d. Adds k_e . gap_e +
+ * k_d . gap_d to s->missing. Sets the column and the row of the update. */
 static void add_scalar(conserving *s, const double J[], deformable_values *v)
 {
     const deformable *of = &v->of;
@@ -100,8 +99,8 @@ static void add_scalar(conserving *s, const double J[], deformable_values *v)
     dense_add_transpose_mul(n, strains, 1, of->J, k_e, v->row);
 }
 
-/* Transforms the equations to the coordinates that move the nodes of the element. F[7 nodes]:
- * forces due to `middle`. */
+/* Transforms the equations to the coordinates that move the nodes. F[7 nodes]: forces due to
+ * `middle`. */
 static void to_coordinates(const conserving *s, const motion_state *from, const model_state *now,
                            const double F[], deformable_values *v)
 {
@@ -193,8 +192,8 @@ void conserving_forces(conserving *s, const motion_state *from, model_state *now
     }
 }
 
-/* Loads at the middle of a step. Directions and arms that rotate are the means of their values at
- * both ends of the step. */
+/* Loads at the middle of a step. Directions and arms that rotate are means of their values at both
+ * ends. */
 
 typedef struct loaded {
     conserving *s;
@@ -291,7 +290,7 @@ void conserving_loads(conserving *s, const motion_state *from, const model_state
                      take, &of);
 }
 
-/* Updates the strains at the end of the step and inside the step with Newton's corrections. */
+/* Newton's corrections of the strains at the end of the step and inside the step. */
 
 /* Computes the corrections of dr, c and da of the nodes of an element: local[7 nodes]. */
 static void own_increments(const conserving *s, const motion_state *from, const model_state *now,
@@ -345,8 +344,7 @@ double conserving_update(conserving *s, const motion_state *from, model_state *n
     return largest;
 }
 
-/* Work of external loads in a step: the forces during the step times the increments of the
- * coordinates. */
+/* Work of external forces in a step: forces times increments of the coordinates. */
 
 /* Returns the work [J] of a force on dr and c of the coordinates, where c is 2 tan(d angle/2) for
  * angles. */
@@ -394,7 +392,7 @@ status conserving_work(conserving *s, const motion_state *from, motion_state *to
                        fault *f)
 {
     const size_t bytes = (size_t)s->all * sizeof *s->residual;
-    const int behind = 3; /* an iteration in which conserving_stresses uses k */
+    const int behind = 3; /* number of iterations after which conserving_stresses uses k */
     double ignored = 0;
     memset(s->residual, 0, bytes);
     conserving_loads(s, from, to->state, h, s->residual);
@@ -419,8 +417,8 @@ status conserving_work(conserving *s, const motion_state *from, motion_state *to
 
 /* Computes the strain rates r1 and their derivatives s1 at the end of a step from r0 and s0 at its
  * start and from the mean rate m: r1 = (3 m - r0)/2 + h s0/4, s1 = (m - r0)/h + s0/2. The result is
- * of second order, even if there is no inertia. An initial error disappears after two steps. With
- * r1 = 2 m - r0, this error would persist. */
+ * of second order, even if there is no inertia. An initial error vanishes after two steps; with r1
+ * = 2 m - r0 it would remain. */
 void conserving_damped(const conserving *s, const motion_state *from, double h, motion_state *to)
 {
     const model *m = s->of.c->model;

@@ -16,7 +16,6 @@ static const double *inner_of(const model *m, const model_state *s, int i)
     return model_inner(m) > 0 ? s->inner + (size_t)i * (size_t)model_inner(m) : none;
 }
 
-/* Evaluates the stresses of elements of the same kind at the strains e. */
 static status middle_stress_of(const equations *eq, int count, const int index[],
                                const double *const e[], const model_state *s, stress_output out[],
                                fault *f)
@@ -88,7 +87,7 @@ status conserving_begin(conserving *s, const motion_state *from, fault *f)
     return STATUS_OK;
 }
 
-/* Numerator (lacking) and denominator (square) of k, and the sum of e . W e (size). */
+/* Numerator (lacking) and denominator (square) of k, and the sum of e . W e (size) */
 typedef struct scalar_parts {
     double lacking, square, size;
 } scalar_parts;
@@ -182,11 +181,12 @@ status conserving_stresses(conserving *s, const motion_state *from, model_state 
 }
 
 /* Centres of mass move by dr_c = h (v_c + v_c1)/2 and rotate by R_n^T c = h (W + W1)/2. Forces act
- * at the mean positions of the centres. If a frame can only rotate, the tensor about the frame is
- * constant in its axes. */
+ * at the mean positions of the centres. If a frame can only rotate, its tensor about the frame's
+ * origin is constant in its axes. */
 
-/* Returns the number of fixed translations of a frame that also has free translations, otherwise 0.
- * The corresponding translations of the centre of mass follow from the rotation of the frame. */
+/* Returns the number of fixed translations of a frame that has free translations too; otherwise 0.
+ * In these directions, the translation of the centre of mass follows from the rotation of the
+ * frame. */
 static int held_of(const model *m, int frame, int held[3])
 {
     int count = 0;
@@ -280,7 +280,7 @@ static void tangent_of(const frame_mass *one, const frame_mass_step *p, double h
         force[9], more[9], heavy[9];
     cayley_tangent(p->c, T);
     cayley_skew(p->after, A);
-    mat3_mul(A, T, swept); /* minus d(centre)/dc */
+    mat3_mul(A, T, swept); /* -d(centre)/dc */
     mat3_mul(p->R1, p->J, RJ);
     for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
@@ -330,7 +330,7 @@ void conserving_inertia(conserving *s, const motion_state *from, const model_sta
     }
 }
 
-/* Initial guess of a step, in the form of increments of coordinates. */
+/* Initial increments of the iteration of a step. */
 
 static int turns_freely(const model *m, int vertex)
 {
@@ -379,7 +379,7 @@ void conserving_increment(const conserving *s, const model_state *from, double i
     }
 }
 
-/* Computes c = h w. For a prescribed rotation, c follows from the prescribed increment. */
+/* Computes c = h w; a prescribed rotation has its prescribed increment. */
 static void predict_turn(conserving *s, const frame_rates *r, const int at[3], double h,
                          double c[3])
 {
@@ -402,7 +402,7 @@ void conserving_predict(conserving *s, const motion_state *from, double h)
     for (int c = 0; c < s->free; c++)
         s->step[c] = h * from->v[c];
     drive_at(&s->of.c->eq, from->state, from->time + h, s->step, NULL, NULL);
-    memcpy(s->dx, s->step, (size_t)s->all * sizeof *s->dx); /* a driver may move several nodes */
+    memcpy(s->dx, s->step, (size_t)s->all * sizeof *s->dx);
     for (int i = model_first_release(m); i < model_vertices(m); i++) {
         const int *at = model_vertex(m, i)->coordinate + SCENE_RX;
         double R[9], own[3], c[3];

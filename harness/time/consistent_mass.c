@@ -16,7 +16,6 @@ typedef struct moving_element {
     double rate[MOST], acceleration[MOST];
 } moving_element;
 
-/* Gathers the data of the nodes. The acceleration includes damping times the rates. */
 static void gather(const model *m, const mesh_element *el, const model_state *s, const double v[],
                    const double a[], double damping, moving_element *out)
 {
@@ -93,7 +92,7 @@ static void add_through(int columns, int at, const double B[], const double Q[9]
                 A[columns * i + at + 3 + j] += B[columns * i + at + k] * Q[3 * k + j];
 }
 
-/* Like add_through, for rates that rotate with the node: dw = d x w, with rotations d. */
+/* Like add_through, for rates in axes of the node: a rotation d changes them by dw = d x w. */
 static void add_turning(int columns, int at, const double B[], const double w[3], double A[])
 {
     for (int i = 0; i < columns; i++) {
@@ -117,8 +116,8 @@ static void cross_all(const double x[3], const double A[9], double out[9])
 }
 
 /* Transforms the rates of a node at rho from the body that moves it: v = v_b + w x rho, a = a_b +
- * w' x rho + w x (w x rho). Adds the terms with w, and the terms with rotations d of the body that
- * are not in the Jacobian of the rates. */
+ * w' x rho + w x (w x rho). Adds two kinds of terms: those with w, and those with rotations d of
+ * the body that the Jacobian of the rates does not contain. */
 static void carry(int n, int at, const moving_element *e, const double rho[3], const double M[],
                   double C[], double K[])
 {
@@ -141,7 +140,7 @@ static void carry(int n, int at, const moving_element *e, const double rho[3], c
     add_through(n, at, M, by_w, C);
 }
 
-/* Transforms all data of an element from its nodes to the bodies that move them. */
+/* Transforms the data of an element from its nodes to the bodies that move them. */
 static void to_bodies(const model *m, const mesh_element *el, const model_state *s,
                       const moving_element *e, double F[], consistent_mass_parts *p)
 {
@@ -197,7 +196,7 @@ void consistent_mass_element(const model *m, int element, const model_state *s, 
                                .taken = F,
                                .C = out->velocity,
                                .K = out->place});
-    for (int i = 0; i < all; i++) /* the part due to the rates is the same as for the velocity */
+    for (int i = 0; i < all; i++)
         e.acceleration[i] -= damping * e.rate[i];
     for (int i = 0; i < all * all && damping != 0; i++)
         out->velocity[i] += damping * out->acceleration[i];
@@ -225,7 +224,7 @@ static void swing_column(const model *m, const consistent_mass_parts *p, int nod
 }
 
 /* Computes T[7 nodes x columns], the derivative of the motion of the nodes with respect to the
- * coordinates of the element. moves NULL: with respect to spatial increments. */
+ * coordinates of the element; moves NULL: with respect to spatial increments. */
 static void wide_motion(const model *m, const consistent_mass_parts *p,
                         const consistent_mass_motion moves[],
                         double T[MOST * MODEL_MAX_COORDINATES])
@@ -426,9 +425,9 @@ static void move_node(node_state *x, int coordinate, double h)
         x->a += h;
 }
 
-/* Computes D[n x n], the change of the forces at fixed rates in fixed axes minus the change that
- * the element computes. The change is computed in the exponential chart by finite differences of
- * sixth order. */
+/* Computes D[n x n], the derivative of the forces at fixed rates in fixed axes, minus the
+ * derivative that the element computes. It uses finite differences of sixth order in the
+ * exponential chart. */
 static void omitted(const model *m, int element, moving_element *e, double D[])
 {
     static const double weight[] = {0.75, -0.15, 1 / 60.0};

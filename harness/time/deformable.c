@@ -131,7 +131,7 @@ static void strains_together(const model *m, int point, int count, deformable_va
     model_type(m)->strain_many(count, data, x, out);
 }
 
-/* Multiplies the columns of rotations of J by T_c: J <- J T_c. */
+/* J <- J T_c in the columns of rotations */
 static void behind_turns(const deformable *of, const cayley_step *step)
 {
     for (int j = 0; j < step->nodes; j++) {
@@ -173,8 +173,8 @@ static void add_at(const double rho[3], const double F[6], double out[6])
         out[i] += F[i] + (i < 3 ? 0 : moment[i - 3]);
 }
 
-/* Adds to F[6] the inertia forces of elements with consistent mass at the nodes that the body
- * `node` moves, with moments about `place`. */
+/* Adds to F[6] the inertia forces of elements with consistent mass on the body `node`, with moments
+ * about `place`. */
 static void add_spread(const model *m, const model_state *s,
                        const inertia_resultants_motion *motion, int node, const double place[3],
                        double F[6])
@@ -220,7 +220,7 @@ status inertia_resultants_node(const model *m, const model_state *s,
     return STATUS_OK;
 }
 
-/* Computes the inertia force on node k of an element, including warping. *share: part of the
+/* Computes the inertia force on node k of an element, including warping. *share: fraction of the
  * element's mass that is lumped at the node. */
 static void force_of(const model *m, const model_state *s, const inertia_resultants_motion *motion,
                      int element, int k, double F[7], frame_mass *share)
@@ -255,8 +255,8 @@ void inertia_resultants_along(const model *m, const model_state *s,
 }
 
 /* Corrects the forces at the ends of an element whose mass is lumped at its nodes. The effect of
- * translations is then exact, and so are resultants except inside an element. F: for each node, the
- * force on the mass of the whole element if it has the motion of the node. */
+ * translations is then exact, and resultants are exact at nodes. F: for each node, the force on the
+ * whole mass of the element when it moves with the node. */
 static void add_couple(const model *m, const model_state *s, int element, double F[2][7],
                        double ends[2][7])
 {

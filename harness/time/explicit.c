@@ -11,8 +11,8 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* Computes dydt at time t [s] for y, with the order of arguments of GSL. The state at this time
- * remains in `at`. */
+/* Computes dydt at time t [s] for y; the signature is GSL's. The state at this time is stored in
+ * `at`. */
 static int explicit_rates(double t, const double y[], double dydt[], void *context);
 /* Checks the masses. REFUSED: a coordinate of the undeformed model has no inertia. */
 static status explicit_check(const model *, const frame_masses *, fault *);
@@ -53,7 +53,8 @@ static status step(motion_scheme *base, const motion_state *from, double h, moti
     s->at = to;
     s->end = discontinuities_before(m, record->path);
     s->outcome = STATUS_OK;
-    if (s->of.c->run->damping != NULL) /* dashpots depend on the rates of the coordinates */
+    if (s->of.c->run->damping !=
+        NULL) /* the forces of dashpots depend on the rates of the coordinates */
         damping_follow(&s->of.c->eq, 0, s->of.c->run->damping->none, NULL);
     kinematics_state_copy(m, from->state, to->state);
     kinematics_commit(m, to->state);
@@ -141,7 +142,7 @@ static int block(const model *m, const frame_masses *masses, int index, const mo
     return count;
 }
 
-/* Like explicit_accelerate, for bodies that constraints join. */
+/* Like explicit_accelerate, for bodies connected by constraints. */
 static status accelerate_joined(const model *m, const frame_masses *masses, int body,
                                 const model_state *s, const double residual[], body_mass *g,
                                 double a[], fault *f)
@@ -196,7 +197,7 @@ static status accelerate_together(const model *m, const frame_masses *masses, co
     return outcome;
 }
 
-/* Computes a[free] = M^-1 residual. The residual includes the effect of the prescribed
+/* Computes a[free] = M^-1 residual. The residual contains the forces due to prescribed
  * accelerations in a. SINGULAR: two axes of a sequence of angles coincide. */
 static status explicit_accelerate(const model *m, const frame_masses *masses, const model_state *s,
                                   const double v[], const double residual[], double a[], fault *f)
@@ -271,8 +272,7 @@ static status check_vertex(const model *m, int index, const int heavy[], fault *
     return STATUS_OK;
 }
 
-/* Marks the free coordinates that have inertia independently of the previous coordinates of their
- * frame. */
+/* Marks the free coordinates that have inertia, given the previous coordinates of their frame. */
 static void mark(const model *m, const frame_masses *masses, const double rest[], int heavy[])
 {
     for (int k = 0; k < masses->masses; k++) {
@@ -281,8 +281,8 @@ static void mark(const model *m, const frame_masses *masses, const double rest[]
         const int n = block(m, masses, k, kinematics_rest(m), rest, of, M);
         for (int i = 0; i < n; i++) {
             double some[36];
-            /* mass matrix of the first i + 1 coordinates; if it is singular, coordinate i does not
-             * increase the rank and has no inertia */
+            /* mass matrix of the first i + 1 coordinates; if it is singular, coordinate i adds no
+             * inertia */
             for (int r = 0; r <= i; r++)
                 memcpy(&some[(i + 1) * r], &M[n * r], (size_t)(i + 1) * sizeof *some);
             heavy[of[i]] = is_heavy(i + 1, some);
@@ -292,7 +292,7 @@ static void mark(const model *m, const frame_masses *masses, const double rest[]
         heavy[model_warp(m, w)] = masses->warping[model_warp(m, w)] > 0;
 }
 
-/* Like explicit_check, for bodies that constraints join. Their masses are combined. */
+/* Like explicit_check, for bodies connected by constraints; their masses are added. */
 static status check_joined(const model *m, const frame_masses *masses, fault *f)
 {
     const double rounding = 1e-13;
@@ -348,8 +348,8 @@ static status explicit_check(const model *m, const frame_masses *masses, fault *
     return outcome;
 }
 
-/* Computes inc' = X v, where X is rotation_rates_inverse for rotations in the axes of the frame,
- * and 1 otherwise. */
+/* Computes inc' = X v. For rotations in the axes of a frame, X is rotation_rates_inverse; otherwise
+ * X = 1. */
 static void turn_rates(const explicit_scheme *s, const double inc[], const double v[],
                        double rate[])
 {
@@ -372,8 +372,8 @@ static void turn_rates(const explicit_scheme *s, const double inc[], const doubl
     }
 }
 
-/* Solves for the inner unknowns of an element at given strains with Newton's method. The function
- * `update` of the element computes the corrections. */
+/* Solves for the inner unknowns of an element at given strains by Newton's method. The element's
+ * function `update` computes the corrections. */
 static status consistent_rates(const explicit_scheme *s, int i, double time, fault *f)
 {
     enum { MOST = 30 };
@@ -492,9 +492,8 @@ void work_free(outer_work *w)
     free(w->element);
 }
 
-/* Returns the sum of force times `along` over all coordinates. Moments are in global axes.
- * Therefore rotations that `along` gives in the axes of a frame are first transformed to global
- * axes. */
+/* Returns the sum of force times `along` over all coordinates. Moments are in global axes, so
+ * rotations in the axes of a frame are transformed to global axes first. */
 static double product(const outer_work *w, const model_state *s, const double along[])
 {
     const model *m = w->m;
@@ -516,8 +515,8 @@ static double product(const outer_work *w, const model_state *s, const double al
     return sum;
 }
 
-/* Computes the external forces on prescribed coordinates, including loads. They are the sum of
- * internal forces, forces of dashpots and inertia forces. */
+/* Computes the external forces on prescribed coordinates (loads and reactions) as the sum of
+ * internal, dashpot and inertia forces. */
 static void hold(outer_work *w, const model_state *s, const double v[], const double a[])
 {
     const model *m = w->m;

@@ -57,7 +57,7 @@ static void take(extremum *one, double value, double time, double error)
         *one->out = (outcome_passing){1, value, time, error};
 }
 
-/* Computes the value at a time inside the step that starts at `from` with a probe step. *known 0:
+/* Computes the value at a time inside the step that starts at `from`, by a probe step. *known 0:
  * the probe step did not converge. */
 static status beside(extrema *s, const scene_quantity *q, const motion_state *from, double time,
                      double *value, int *known, fault *f)
@@ -70,7 +70,7 @@ static status beside(extrema *s, const scene_quantity *q, const motion_state *fr
     return outcome == STATUS_FAULT ? fault_set(f, outcome, "%s", why.text) : STATUS_OK;
 }
 
-/* Returns the value of the cubic through the values at the last ends of steps, at a given time
+/* Returns the value at a time of the cubic through the values at the last four ends of steps
  * (Neville's algorithm). */
 static double cubic(const extrema *s, const extremum *one, double time)
 {
@@ -86,8 +86,7 @@ static double cubic(const extrema *s, const extremum *one, double time)
 }
 
 /* Returns the time between a and b at which the cubic is largest (sign 1) or smallest (sign -1),
- * found by golden-section search. If a cubic has two maxima in one step, the steps do not resolve
- * the motion. */
+ * found by golden-section search. A step with two maxima would not resolve the motion. */
 static double top_of(const extrema *s, const extremum *one, double a, double b)
 {
     const double golden = (sqrt(5) - 1) / 2;
@@ -101,7 +100,7 @@ static double top_of(const extrema *s, const extremum *one, double a, double b)
     return (a + b) / 2;
 }
 
-/* Searches for an extremum between the ends i and i + 1. */
+/* Searches for an extremum between the ends i and i + 1 of steps. */
 static status look_between(extrema *s, extremum *one, int i, fault *f)
 {
     const double a = fmax(s->last[i].time, one->from), b = fmin(s->last[i + 1].time, one->until);
@@ -121,7 +120,7 @@ static status look_between(extrema *s, extremum *one, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Adds the values at the start and at the end of the window if they are inside the last step. */
+/* Uses the values at the start and at the end of the window if they are inside the last step. */
 static status look_at_edges(extrema *s, extremum *one, fault *f)
 {
     const motion_state *from = &s->last[EXTREMA_ENDS - 2], *to = &s->last[EXTREMA_ENDS - 1];

@@ -32,7 +32,7 @@ static void turn_row(const model *m, const model_state *s, int node, int k, doub
     double t[3], inverse[9];
     for (int i = 0; i < 3; i++)
         t[i] = kinematics_component(m, s, node, SCENE_RX + i);
-    /* maps rates in the axes of the node; the transposed matrix maps rates in fixed axes */
+    /* maps rates in the axes of the node; its transpose maps rates in fixed axes */
     rotation_rates_inverse(t, inverse);
     for (int i = 0; i < 3; i++)
         row[i] = inverse[3 * i + k];
@@ -57,7 +57,7 @@ static double component_at(const model *m, const model_state *s, int node, int c
     return node == SCENE_NONE ? 0 : kinematics_component(m, s, node, component);
 }
 
-/* Computes the reference value of the controller (out[0]) and its rate (out[1]). */
+/* Computes the reference value of the controller and its rate: out[0], out[1]. */
 static void reference_of(const scene_load *load, double time, double out[3])
 {
     out[0] = out[1] = 0;
@@ -74,7 +74,7 @@ static double error_of(const model *m, const model_state *s, const scene_load *l
            (component_at(m, s, b->node, b->component) - component_at(m, s, b->from, b->component));
 }
 
-/* Returns the factor of the load before it is limited. */
+/* Returns the factor of the load before limits are applied. */
 static double feedback_of(const model *m, const model_state *s, const scene_load *load, int index,
                           const double v[], double time)
 {
@@ -137,7 +137,7 @@ static int measure(const model *m, const model_state *s, int node, int component
     return n;
 }
 
-/* Generalised forces of a load with a factor of 1 on the coordinates of its nodes. */
+/* Generalised forces of a load with the factor 1. */
 typedef struct feedback_push {
     const model *m;
     const model_state *s;

@@ -16,8 +16,8 @@ static void add_point(double mass, const double r[3], double tensor[9])
             tensor[3 * i + j] += mass * ((i == j ? square : 0) - r[i] * r[j]);
 }
 
-/* Changes the tensor of a mass as if the mass moved by r. moment: first moment of the mass before
- * the move. */
+/* Changes the tensor as if the mass moved by r. moment: first moment of the mass before the
+ * move. */
 static void shift(double mass, const double moment[3], const double r[3], double tensor[9])
 {
     add_point(mass, r, tensor);
@@ -112,7 +112,7 @@ static void add_body(const model *m, const mesh_discrete *d, frame_mass of[])
     take(m, d->el.vertex[0], b->mass, moment, tensor, of);
 }
 
-/* Keeps the frames that have mass or moments of inertia, and computes the total mass. */
+/* Copies the frames that have mass or moments of inertia, and computes the total mass. */
 static void keep_heavy(const model *m, frame_mass of[], frame_masses *out)
 {
     for (int i = 0; i < model_vertices(m); i++) {
@@ -161,8 +161,8 @@ status frame_masses_alloc_bodies(const model *m, frame_masses *out, fault *f)
     return alloc(m, 1, out, f);
 }
 
-/* Adds the mass of a node to the master of its diaphragm. In translation along the normal, however,
- * the mass remains at the node. */
+/* Adds the mass of a node to the master of its diaphragm. For translations along the normal, the
+ * mass remains at the node. */
 static void lead(const model *m, const frame_mass *one, frame_mass of[])
 {
     const mesh_vertex *v = model_vertex(m, one->frame);
@@ -206,10 +206,11 @@ void frame_masses_free(frame_masses *c)
 }
 
 /* Treats frames with both fixed and free translations. The fixed component of the velocity of the
- * centre follows from the rotation: it is w x s at both ends of the step. Its mean differs from the
- * mean velocity of the step by h (v_c + v_c1)/2 - dr_c = h/4 c x g, g = (R_n + R_1)/2 (W1
- * - W) x s. The moment g x m (v_c1 - v_c)/4 of the fixed components compensates for the work of
- * this difference, so the kinetic energy gained equals the work done. */
+ * centre follows from the rotation: it is w x s at both ends of the step. The mean of its end
+ * values differs from the mean velocity of the step by h (v_c + v_c1)/2 - dr_c = h/4 c x g, g =
+ * (R_n + R_1)/2 (W1
+ * - W) x s. The moment g x m (v_c1 - v_c)/4 of the fixed components compensates the work of this
+ *   difference, so the gain of kinetic energy equals the work. */
 
 /* Replaces the components along fixed translations in to[3 x n] by those of `from`. */
 static void hold_rows(const frame_mass_step *p, int n, const double from[], double to[])
@@ -329,10 +330,9 @@ double account_size(const account *a)
     return fmax(a->largest, a->turned);
 }
 
-/* Returns 1 if the request explains a loss of energy: fixed steps, or generalized-alpha with more
- * damping than rho_inf = 0.9. If 3 alpha_f - alpha_m <= 1, as for all parameters that `rho` gives,
- * alpha_f - alpha_m = (1 - rho)/(1 + rho), where rho is the spectral radius at infinite frequency.
- */
+/* Returns 1 if the requested scheme may lose energy: fixed steps, or generalized-alpha with more
+ * damping than rho_inf = 0.9. If 3 alpha_f - alpha_m <= 1, as for all values of `rho`, alpha_f -
+ * alpha_m = (1 - rho)/(1 + rho), where rho is the spectral radius at infinite frequency. */
 static int account_loses(const scene_motion *how)
 {
     const double usual = 0.9, most = (1 - usual) / (1 + usual) * (1 + 1e-9);

@@ -133,8 +133,8 @@ static void turns(const double step[], place_chain *by, frame_motion *p)
     }
 }
 
-/* Computes the direction (before + after)/2 - c x (after - before)/4 of a slide and its derivative.
- * `before` and `after` are the directions of its axis at the start and at the end of the step. The
+/* Computes the direction of a slide, (before + after)/2 - c x (after - before)/4, and its
+ * derivative. before, after: direction of its axis at the start and at the end of the step. The
  * shift changes by c x its mean plus the direction times the change of the coordinate. */
 static void direction(const double before[3], const double after[3], const place_chain *by,
                       int columns, double along[3], double change[])
@@ -183,7 +183,7 @@ static void slides(const double step[], place_chain *by, frame_motion *p)
 }
 
 /* Adds forces at a lever to three columns of `work`, starting with `column`. Columns of A: rotation
- * of the lever per unit of each coordinate. moments 1: also adds moments. */
+ * of the lever per unit of a coordinate. moments 1: also adds moments. */
 static void work_on(const double lever[3], const double A[9], int moments, int column, int columns,
                     frame_motion *p)
 {
@@ -208,8 +208,8 @@ static void add_curved(const double A[9], const double B[], int row, int columns
 
 static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* Computes the columns of `work` and the rows of `curved` of single released rotations. Their force
- * is x . (M + sigma x F); moment: M + sigma x F. */
+/* Computes the columns of `work` and the rows of `curved` of single released rotations. Their
+ * generalised force is x . moment with moment = M + sigma x F. */
 static void turning_rows(const place_chain *by, const double moment[3], const double dmoment[],
                          frame_motion *p)
 {
@@ -256,7 +256,6 @@ static void swing(const place_chain *by, int at, frame_motion *p)
     p->curved[SCENE_RX * n + SCENE_RX] += vec3_dot(by->F, inward) / 2;
 }
 
-/* Computes `work`, `moved` and `curved` from the complete chain. */
 static void finish(const place_chain *by, frame_motion *p)
 {
     const int n = p->columns, ball = by->release != NULL && by->release->turns == BALL;
@@ -383,7 +382,7 @@ void frame_motion_matrix(const frame_motion *p, int n, int at, int own, double K
             K[index_of(i, at, own) * n + index_of(k, at, own)] += p->curved[i * p->columns + k];
 }
 
-/* Lists the indices of the columns among the global coordinates. Returns their number. */
+/* Lists the global indices of the columns. Returns their number. */
 static int index_place(const model *m, int vertex, int index[FRAME_MOTION_MOST])
 {
     const mesh_vertex *v = model_vertex(m, vertex);

@@ -32,7 +32,7 @@ static void apply_vertex(const model *m, const model_state *from, int index, con
     rotation_normalise(&to->q[4 * index]);
 }
 
-/* Rotates a ball joint to R_n exp(inc), as for frames. */
+/* Rotates a ball joint to R_n exp(inc), like a frame. */
 static void turn_ball(const model *m, const model_state *from, int index, const double inc[],
                       model_state *to)
 {
@@ -123,8 +123,8 @@ status drive_check(const model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Computes a rotation that is given by a vector t(time): W = Jr t', W' = Jr t'' + d(Jr t')/dt t'.
- * */
+/* Computes the rates of a rotation given by its vector t(time): W = Jr t', W' = Jr t'' + d(Jr
+ * t')/dt t'. */
 static void drive_vector(const equations *eq, const model_state *from, int index, double time,
                          double inc[], double v[], double a[])
 {
@@ -188,7 +188,7 @@ void drive_at(const equations *eq, const model_state *from, double time, double 
             drive_vector(eq, from, i, time, inc, v, a);
 }
 
-/* For smaller angles, the coefficients are computed by series, which are then accurate to rounding
+/* Below this angle [rad], the coefficients are computed by series that are accurate to rounding
  * error. */
 static const double small = 0.05;
 

@@ -93,9 +93,9 @@ static void skew(const double v[3], double A[9])
     memcpy(A, all, sizeof all);
 }
 
-/* Computes the derivatives [6 x 6] of the force and moment on a frame with respect to spatial
- * increments of its position and rotation (exponential chart, at fixed rates in its axes), with
- * respect to its velocity, and with respect to its acceleration. `place` includes the effect of
+/* Computes three derivatives [6 x 6] of the force and moment on a frame: with respect to its
+ * position and rotation, to its velocity and to its acceleration. The first uses spatial increments
+ * in the exponential chart, at fixed rates in the frame's axes. `place` includes the effect of
  * rotating axes on velocity and acceleration. */
 static void parts_of(const frame_mass *one, const frame_rates *r, const double F[6],
                      inertia_parts *out)
@@ -194,8 +194,8 @@ void inertia_finish(const model *m, const frame_masses *all, int index, const in
     kinematics_turn_matrix(model_vertex(m, all->mass[index].frame), 6, 0, K);
 }
 
-/* Like inertia_add_tangent, for a released end. If its axes rotate, its rates change with the
- * state, but this change is neglected. */
+/* Like inertia_add_tangent, for a released end. The change of its rates with the orientation of its
+ * axes is neglected. */
 static void released_tangent(const model *m, int vertex, const model_state *s,
                              const inertia_parts *p, const inertia_relation *with, sparse *S)
 {
@@ -303,7 +303,7 @@ static status stored(const equations *eq, const model_state *s, double time, dou
 {
     const model *m = eq->m;
     double none[1] = {0};
-    *out = model_absolute(m) ? NAN : 0; /* there may be no energy */
+    *out = model_absolute(m) ? NAN : 0; /* there may be no energy function */
     for (int i = 0; i < model_elements(m) && !model_absolute(m); i++) {
         double energy = 0;
         const double *inner =
@@ -341,10 +341,10 @@ status balance_of(const equations *eq, const frame_masses *masses, const motion_
     return STATUS_OK;
 }
 
-/* relative rounding error of coordinates that are computed from equations */
+/* relative rounding error of coordinates that are solutions of equations */
 static const double coordinate_rounding = 32 * DBL_EPSILON;
 
-/* Returns the strain energy [J] of an element due to rounding errors of its coordinates. */
+/* Returns the strain energy [J] that rounding errors of its coordinates cause in an element. */
 static double rounding_of(const model *m, const mesh_element *el, int index)
 {
     enum { E = ELEMENT_MAX_STRAINS };

@@ -1,5 +1,5 @@
-/* Computes initial accelerations as a stage in which accelerations change while positions hardly
- * move. See time_impl.h for coordinates without inertia. */
+/* Initial accelerations are those of a stage with a very small softness: accelerations change, and
+ * positions hardly move. time_impl.h describes coordinates without inertia. */
 #include "harness/time/time_impl.h"
 
 #include <float.h>
@@ -16,9 +16,8 @@
  * acceleration, relative to h^2; so small that the positions hardly move */
 static const double softness = 1e-12;
 
-/* Sets the rates of a sequence of angles. The sum of these rates times their axes is then closest
- * to the angular velocity `spin`. Fixed and prescribed angles, and angles of another node, keep
- * their rates. */
+/* Sets the rates of a sequence of angles so that the angular velocity is closest to `spin`. Fixed
+ * and prescribed angles, and angles of other nodes, are unchanged. */
 static void start_angles(const model *m, const model_state *s, int index, const double spin[3],
                          double v[])
 {
@@ -42,7 +41,7 @@ static void start_angles(const model *m, const model_state *s, int index, const 
             A[n * i + j] = vec3_dot(b[of[i]], b[of[j]]);
     }
     if (n == 0 || dense_lu_regular(n, A, pivot) != 0)
-        return; /* two angles have the same axis, so both keep their rates */
+        return; /* two axes coincide; both angles keep their rates */
     dense_lu_solve(n, 1, A, pivot, right);
     for (int i = 0; i < n; i++)
         v[frame->coordinate[SCENE_RX + of[i]]] = right[i];
@@ -84,8 +83,7 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
         start_angles(m, s, index, field->spin, v);
 }
 
-/* Checks the initial velocity field. REFUSED: fixed or prescribed coordinates contradict the field.
- * */
+/* Checks the initial velocity field. REFUSED: it contradicts fixed or prescribed coordinates. */
 static status check_field(const model *m, const model_state *s, const scene_start *field,
                           const double v[], fault *f)
 {
@@ -109,8 +107,8 @@ static status check_field(const model *m, const model_state *s, const scene_star
     return STATUS_OK;
 }
 
-/* Checks the drivers. REFUSED: the value of a driver at the start differs from the prescribed
- * coordinate in the state. */
+/* Checks the drivers. REFUSED: the value of a driver at the start differs from the coordinate in
+ * the state. */
 static status check_drivers(const model *m, const double inc[], fault *f)
 {
     const double nothing = 1e-9;
@@ -179,14 +177,14 @@ status consistent_restart(analysis_context *c, const frame_masses *masses, const
         inc != NULL ? begin(&s, how, now, room, inc, inc + s.all + 1, f)
                     : fault_set(f, STATUS_FAULT, "out of memory for the time integration");
     now->state->path =
-        now->time; /* loads after the jump, or after a static path, act from now on */
+        now->time; /* loads after the jump, or after a static path, act from this time on */
     free(inc);
     stage_free(&s);
     return outcome;
 }
 
-/* Checks the coordinates that follow another coordinate. REFUSED: the rate of such a coordinate in
- * the field violates the relation. */
+/* Checks coordinates that are coupled to others. REFUSED: their rates in the field violate the
+ * relation. */
 static status check_followers(const model *m, const model_state *s, const scene_start *field,
                               const double v[], fault *f)
 {
@@ -251,7 +249,7 @@ status initial_conditions_rotating(analysis_context *c, const frame_masses *mass
         TRY(set_field(m, now->state, &field, now->v, f));
         TRY(check_field(m, now->state, &field, now->v, f));
     }
-    /* initial velocities of the scene plus the rotation of the axes, with the origin as centre */
+    /* initial velocity field of the scene plus the rotation of the axes, relative to the origin */
     double own[3], of_frame[3];
     vec3_cross(how->start.spin, how->start.centre, own);
     vec3_cross(frame->omega, frame->centre, of_frame);
@@ -278,8 +276,8 @@ static status check_newton(const analysis_context *c, const scene_motion *how, f
     return STATUS_OK;
 }
 
-/* Checks the mass. REFUSED: the integrator or the formulation does not support consistent mass, or
- * the motion continues a motion with the other kind of mass. */
+/* Checks the kind of mass. REFUSED: the integrator or the formulation does not support consistent
+ * mass, or the previous motion has the other kind. */
 static status check_mass(const analysis_context *c, int analysis, fault *f)
 {
     const scene_analysis *one = &c->scene->analysis[analysis];
@@ -303,8 +301,7 @@ static status check_mass(const analysis_context *c, int analysis, fault *f)
     return STATUS_OK;
 }
 
-/* Checks for the conserving integrator that strains depend only on the state, and not on rigid
- * rotations. */
+/* Checks for the conserving scheme that strains are independent of rigid rotations. */
 static status check_conserving(const analysis_context *c, int analysis, fault *f)
 {
     const element_type *t = model_type(c->model);
@@ -323,7 +320,7 @@ static status check_conserving(const analysis_context *c, int analysis, fault *f
                      t->name, model_history(c->model) > 0 ? "has a history" : "is not objective");
 }
 
-/* Checks that no energy of an element is requested that need not exist. */
+/* Checks that no energy is requested if an element has no energy function. */
 static status check_energies(const analysis_context *c, int analysis, fault *f)
 {
     for (int i = 0; i < c->scene->quantities && model_absolute(c->model); i++) {
@@ -397,7 +394,7 @@ static const double rounding = 32 * DBL_EPSILON;
 
 double extent_allows(const extent *so_far, double part, double tolerance)
 {
-    /* the size of the structure, which does not change if the structure moves far away */
+    /* the size of the structure, independent of its position in space */
     const double size = 1;
     const double most = tolerance * fmax(so_far->scale, fmin(size, so_far->largest)),
                  noise = 8 * DBL_EPSILON * so_far->bent;
@@ -406,7 +403,7 @@ double extent_allows(const extent *so_far, double part, double tolerance)
 
 int extent_is_less(const extent *so_far, double tolerance, double *scale)
 {
-    /* known: relative error of an equilibrium that was found by Newton's method */
+    /* known: relative error of an equilibrium from Newton's method */
     const double part = 0.5, known = 1e-10;
     *scale = fmax(so_far->largest, rounding);
     return so_far->largest > known * so_far->bent && *scale < part * so_far->scale &&

@@ -8,7 +8,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* Eigenvalues of the scaled M below this fraction of the largest mass count as zero. */
+/* Relative to the largest mass: eigenvalue of the scaled M below which a motion has no mass. */
 static const double massless_nothing = 1e-14;
 
 /* Operations on the mass matrix of a body. */
@@ -69,7 +69,7 @@ static double stiffest(const body_mass *g, double none, const double diagonal[],
     return most;
 }
 
-/* Performs the task for a body and the bodies that constraints join to it. Returns the rank of
+/* Performs the task for a body and the bodies that constraints connect to it. Returns the rank of
  * their mass matrix. */
 static int visit(const model *m, const frame_masses *all, int body, const model_state *s,
                  body_mass *g, null_space_task *of)
@@ -147,7 +147,7 @@ status massless_motion(const model *m, const frame_masses *all, const model_stat
     return walk(m, all, s, &of, &count, f);
 }
 
-/* Finds the largest ratio of stiffness to inertia [1/s^2]. diagonal[free]: diagonal of the
+/* Computes the largest ratio of stiffness to inertia [1/s^2]. diagonal[free]: diagonal of the
  * stiffness matrix. */
 static status massless_stiffest(const model *m, const frame_masses *all, const model_state *s,
                                 const double diagonal[], double *out, fault *f)
@@ -218,7 +218,7 @@ status massless_accelerate(const model *m, const frame_masses *all, const model_
 enum { BLOCK = 9, BLOCKS = 2 };
 
 /* Returns 1 if all three translations (block 0, in global axes) or rotations (block 1) of a body
- * are free. Bodies that constraints join to it must have the same coordinates. */
+ * are free. This must also hold for bodies that constraints connect to it. */
 static int is_whole(const model *m, int i, int block)
 {
     const int *at = model_vertex(m, i)->coordinate + 3 * block, first = model_first_joined(m, i);
@@ -231,8 +231,8 @@ static int is_whole(const model *m, int i, int block)
     return whole;
 }
 
-/* Computes column k of the projections of all bodies at once, because bodies do not affect each
- * other. */
+/* Computes column k of the projections of all bodies in one call, because the projections are
+ * independent. */
 static status column(const model *m, const frame_masses *masses, const model_state *s, int block,
                      int k, double dx[], massive *h, fault *f)
 {
@@ -262,8 +262,8 @@ static void own_axes(const model *m, const model_state *s, massive *h)
     }
 }
 
-/* Returns 1 if a motion dx[free] without inertia moves this component, or one of the three
- * translations or rotations to which it belongs. */
+/* Returns 1 if a motion dx[free] without inertia moves this component, or another component of the
+ * same translation or rotation. */
 static int is_moved(const model *m, const model_state *s, const scene_component *what,
                     const double dx[])
 {
@@ -283,8 +283,7 @@ static int is_moved(const model *m, const model_state *s, const scene_component 
     return most > 1e-9;
 }
 
-/* Returns 1 if nothing remains to be computed: the analysis has no other quantity, and no other
- * analysis continues it. */
+/* Returns 1 if all quantities of the analysis are undefined and no other analysis continues it. */
 static int is_all(const scene *s, int analysis, const unsigned char undefined[])
 {
     for (int i = 0; i < s->quantities; i++)
@@ -321,7 +320,7 @@ status massless_readings(const model *m, const frame_masses *masses, const model
             q->what.of.rated.rate == SCENE_SPEED)
             continue;
         for (int k = 0; k < model_unknowns(m); k++)
-            dx[k] = 1 + 0.01 * k; /* an arbitrary motion of all coordinates */
+            dx[k] = 1 + 0.01 * k; /* a motion of all coordinates */
         outcome = massless_motion(m, masses, s, dx, f);
         (*undefined)[i] = outcome == STATUS_OK && is_moved(m, s, scene_component_of(q), dx);
         first = (*undefined)[i] && first == NULL ? q : first;
@@ -379,12 +378,11 @@ double massive_norm(const massive *h, const model *m, const double weight[], dou
 }
 
 /* Newton's method for the motions without inertia. Forces and increments are projected onto these
- * motions (massless_forces). A large stiffness that is added to the masses in the tangent fixes all
- * other motions. */
+ * motions (massless_forces). For all other motions, the tangent contains a large stiffness. */
 
-/* Stiffness that fixes coordinates with inertia, relative to the largest stiffness. It multiplies
- * rounding errors by at most this factor. Newton's method converges linearly, with corrections that
- * decrease by about this factor. */
+/* Relative to the largest stiffness: stiffness that fixes coordinates with inertia. It multiplies
+ * rounding errors by at most this factor. Newton's method converges linearly, with a ratio of
+ * corrections of about its inverse. */
 static const double firm = 1e6;
 
 static double *diagonal_of(const sparse *S, double out[])
@@ -410,7 +408,6 @@ static status forces(motion_stage *s, motion_state *now, sparse *K, fault *f)
     return STATUS_OK;
 }
 
-/* Workspace of the iteration. */
 typedef struct massless_solution {
     motion_stage *s;
     const double *zero;
@@ -476,8 +473,8 @@ static int mark(const model *m, const mesh_element *el, unsigned char of[])
     return count;
 }
 
-/* Marks in of[free] the coordinates that relax slowly: those of elements and springs whose damping
- * time is at least 1e-3 h, where h is the size of a step. Returns their number. */
+/* Marks in of[free] the coordinates that relax slowly: those of elements and springs with a
+ * relaxation time of at least 1e-3 h, where h is the step size. Returns their number. */
 static int mark_overdamped(const equations *eq, const model_state *state, double h,
                            unsigned char of[])
 {
@@ -504,8 +501,8 @@ static int mark_overdamped(const equations *eq, const model_state *state, double
     return count;
 }
 
-/* Finds the equilibrium with damping forces as if the displacement took the time softness * h. If
- * softness is small, coordinates with damping hardly move. */
+/* Finds the equilibrium with damping forces as if the displacement took the time softness * h. A
+ * small softness prevents the motion of damped coordinates. */
 static status relax(motion_stage *s, const double zero[], double h, double softness,
                     motion_state *now, double moved[], fault *f)
 {
@@ -513,10 +510,9 @@ static status relax(motion_stage *s, const double zero[], double h, double softn
     return balance(s, zero, now, moved, f);
 }
 
-/* Computes the rates from a displacement that is large enough to be accurate, then the equilibrium
- * of coordinates without damping, starting from the state before this displacement. Gaps between
- * D(x) and e that iterations have left are closed first, because they would act as a displacement.
- * */
+/* Computes the rates from a displacement that is large enough to be accurate. Then computes the
+ * equilibrium of coordinates without damping, from the state before this displacement. Gaps between
+ * D(x) and e would act as a displacement, so they are closed first. */
 static status overdamped_rates(motion_stage *s, const double zero[], double h, motion_state *now,
                                double moved[], const unsigned char of[], fault *f)
 {

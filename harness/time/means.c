@@ -6,7 +6,8 @@
 
 enum { MOST = 2 * MEANS_NODES - 1 };
 
-/* Lobatto's rule with five points between -1 and 1, exact for polynomials of seventh degree. */
+/* Abscissas of Lobatto's rule with five points in [-1, 1], exact for polynomials of degree
+ * seven. */
 static const double node_of[MEANS_NODES] = {-1, -0.65465367070797714380, 0, 0.65465367070797714380,
                                             1},
                     weight_of[MEANS_NODES] = {1.0 / 10, 49.0 / 90, 32.0 / 45, 49.0 / 90, 1.0 / 10};
@@ -41,8 +42,8 @@ static int is_square(const observer *one)
     return one->q->reduction == SCENE_RMS;
 }
 
-/* Returns the value to be integrated. A root mean square is computed relative to the largest value
- * so far, so its square does not overflow. */
+/* Returns the value to integrate. Squares are relative to the largest value so far, so they do not
+ * overflow. */
 static double integrand(const observer *one, double value)
 {
     if (!is_square(one))
@@ -50,7 +51,7 @@ static double integrand(const observer *one, double value)
     return one->largest > 0 ? pow(value / one->largest, 2) : 0;
 }
 
-/* Changes the scale of the integrals of a root mean square if a value is the largest so far. */
+/* Rescales the integrals of squares if a value is the largest so far. */
 static void rescale(observer *one, double value)
 {
     if (!is_square(one) || !(fabs(value) > one->largest))
@@ -79,7 +80,7 @@ static void add_inside(observers *s, observer *one, double a, double b)
         }
 }
 
-/* Compares the polynomial with a probe step at the middle of every eighth step. */
+/* In every eighth step, compares the polynomial with a probe step at the middle. */
 static status check_inside(observers *s, observer *one, const motion_state *from, double a,
                            double b, fault *f)
 {
@@ -136,9 +137,9 @@ static double apart_from_simpson(const observer *one, const means_part *p)
     return lobatto(one, p) - simpson * (p->time[MEANS_NODES - 1] - p->time[0]) / 6;
 }
 
-/* Returns the difference between two integrals over two steps: the integral of the polynomial
- * through all points except the middle of each step, and the integral by Lobatto's rule. The
- * difference has the order of the rule, and exceeds its error even if the slope jumps. */
+/* Returns the difference of two integrals over two steps: that of the polynomial through all points
+ * except the middle of each step, and that by Lobatto's rule. The difference has the order of the
+ * rule, and exceeds its error even if the slope jumps. */
 static double apart_from_both(const observer *one, const means_part *a, const means_part *b)
 {
     double t[MOST], value[MOST];
@@ -169,8 +170,7 @@ static void add_error(observer *one, const means_part *now)
     one->holds = !pairs;
 }
 
-/* Adds the integral from a to b by Lobatto's rule, for forces and energies, which come from probe
- * steps. */
+/* Adds the integral from a to b by Lobatto's rule, for forces and energies from probe steps. */
 static void add_from_probes(observers *s, observer *one, double a, double b)
 {
     means_part now;

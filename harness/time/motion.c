@@ -12,10 +12,10 @@ enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };
 /* bounds of the ratio of consecutive step sizes, and safety factor for the error estimate */
 static const double shorter = 0.3, longer = 2, safety = 0.9;
 
-/* The rates of very short steps are rounding errors. A remainder before a discontinuity or before
- * the end that is shorter than `least_rest`, relative to the step size, is added to the last step.
- * The sum of the last step and a remainder that is shorter than `short_rest` is divided into two
- * equal steps. */
+/* Rates computed in a very short step are rounding errors. A remainder before a discontinuity or
+ * before the end that is shorter than `least_rest`, relative to the step size, is added to the last
+ * step. The sum of the last step and a remainder that is shorter than `short_rest` is divided into
+ * two equal steps. */
 static const double least_rest = 1e-6, short_rest = 1e-3;
 
 /* Data of the integration of a motion. */
@@ -41,11 +41,11 @@ typedef struct motion_course {
     frames frames;
     abouts abouts;
     outcome_motion *out;
-    /* energy balance of `now`, and of `next` */
+    /* energy balance of `now` and of `next` */
     double balance[SCENE_BALANCES], ahead[SCENE_BALANCES];
     int looked_ahead; /* 1: `ahead` is valid */
     account account;
-    extent extent, reaches; /* extent so far, and extent including the trial step */
+    extent extent, reaches; /* extent so far, and extent with the trial step */
     double rounding;        /* [J] rounding error of the energy */
     int quiet;              /* number of steps since the last discontinuity of the loads */
     int unchecked;          /* number of steps whose balance has not been checked */
@@ -108,9 +108,9 @@ static double end_of_all(const motion_course *w)
     return path->value[path->stations - 1];
 }
 
-/* Returns 1 if the error allows the step, and sets the size of the next step according to this
- * error. If the errors of steps add up to the error of the motion, the allowed error of a step is
- * proportional to its size. */
+/* Returns 1 if the error of the step is allowed. Sets the size of the next step accordingly. If the
+ * errors of steps add up to the error of the motion, the allowed error of a step is proportional to
+ * its size. */
 static int allowed(motion_course *w, double step, double error)
 {
     w->reaches = extent_with(&w->extent, w->c->model, w->scheme, &w->now, &w->next, step, error);
@@ -126,17 +126,17 @@ static int allowed(motion_course *w, double step, double error)
     return of <= most;
 }
 
-/* Returns 1 if the balance is checked. The first steps of generalized-alpha after a jump of the
- * loads gain energy, even if they are very short. */
+/* Returns 1 if the energy gain of this step is checked. The first steps of generalized-alpha after
+ * a jump of the loads gain energy, even if they are short. */
 static int checks_flutter(const motion_course *w)
 {
     return w->how->tolerance > 0 && !model_absolute(w->c->model) &&
            (w->how->scheme != SCENE_ALPHA || w->quiet >= ACCOUNT_STEPS);
 }
 
-/* Detects energy that is gained without cause, for example because of unresolved modes. Shorter
- * steps reduce such a gain. *grows: 1 if the gain in this step, or in this and previous steps, is
- * larger than allowed. Fixed steps are not checked. */
+/* Checks for an unexplained gain of energy, for example because of unresolved modes; shorter steps
+ * reduce it. *grows: 1 if the gain in this step, or in this and previous steps, is larger than
+ * allowed. Fixed steps are not checked. */
 static status check_growth(motion_course *w, int *grows, fault *f)
 {
     *grows = 0;
@@ -160,7 +160,7 @@ static void lengthen(motion_course *w, double step, double whole, int rejected)
             w->h,
             whole); /* a step that was shortened to end at a station does not limit the next step */
     if (w->how->tolerance <= 0 && rejected == 0)
-        w->h = fmin(w->how->step, 2 * w->h); /* returns to the size before the step was halved */
+        w->h = fmin(w->how->step, 2 * w->h); /* return to the size before halving */
 }
 
 /* Makes one step. After a failure, tries shorter steps until a step succeeds. */
@@ -206,7 +206,7 @@ static status take_step(motion_course *w, double target, fault *f)
     }
 }
 
-/* Restarts the integration after a discontinuity of the loads. */
+/* Restarts the scheme after a discontinuity of the loads. */
 static status jump(motion_course *w, fault *f)
 {
     TRY(consistent_restart(w->c, &w->masses, w->how, &w->now, &w->next, f));
@@ -214,9 +214,9 @@ static status jump(motion_course *w, fault *f)
     return extrema_here(&w->extrema, &w->now, w->balance, 0, f);
 }
 
-/* Checks the energy balance at the end of a step. The first steps after the start or after a jump
- * of the loads are checked together with later steps, unless frequent jumps leave 2 ACCOUNT_STEPS
- * steps unchecked. */
+/* Checks the energy balance at the end of a step. The first steps after the start or after a
+ * jump of the loads are checked together with later ones. At most 2 ACCOUNT_STEPS steps are
+ * unchecked. */
 static status check_balance(motion_course *w, double end, fault *f)
 {
     if (w->quiet <= ACCOUNT_STEPS && w->unchecked < 2 * ACCOUNT_STEPS && w->now.time < end) {
@@ -224,7 +224,7 @@ static status check_balance(motion_course *w, double end, fault *f)
         return STATUS_OK;
     }
     w->unchecked = 0;
-    if (model_absolute(w->c->model)) /* there may be no energy */
+    if (model_absolute(w->c->model)) /* there may be no energy function */
         return STATUS_OK;
     return account_check(&w->account, w->how, w->now.time, w->balance, w->rounding, f);
 }
@@ -253,8 +253,8 @@ static status integrate(motion_course *w, fault *f)
                        w->out, f);
 }
 
-/* Continues from the end of the previous motion. The scheme or the step size may differ only if
- * both motions belong to the same scene. */
+/* Continues from the end of the previous motion. The scheme or step size may differ only if both
+ * motions are in one scene. */
 static status go_on(motion_course *w, fault *f)
 {
     const scene_motion *former = w->from->analysis == w->analysis
@@ -273,7 +273,7 @@ static status go_on(motion_course *w, fault *f)
                : STATUS_OK;
 }
 
-/* Finds the end of the motion that this motion continues, in another run or in the scene. */
+/* Finds the end that this motion continues, of another run or of the scene. */
 static status find_end(motion_course *w, fault *f)
 {
     w->from = resume_given(w->c, w->analysis);
@@ -283,8 +283,8 @@ static status find_end(motion_course *w, fault *f)
     return resume_before(w->c, w->follows, &w->from, f);
 }
 
-/* Finds the state at time 0 from which the motion starts, and the rotation of the axes in which
- * this state is at rest. */
+/* Finds the state at time 0 from which the motion starts, and the rotation of the axes in which it
+ * is at rest. */
 static status begin(motion_course *w, scene_rotating_frame *frame, fault *f)
 {
     const int follows = w->follows;
@@ -391,8 +391,8 @@ static void release(motion_course *w)
     damping_end(&w->c->eq, &w->damping);
 }
 
-/* Integrates the motion once for a given estimate of its extent. *again: 1 if the motion was
- * smaller and a better estimate is known. */
+/* Integrates the motion once for a given estimate of its extent. *again: 1 if the motion is
+ * smaller, so that the estimate must be reduced. */
 static status run(analysis_context *c, int analysis, double *scale, int *again, analysis_outcome *o,
                   fault *f)
 {
@@ -415,7 +415,7 @@ static status run(analysis_context *c, int analysis, double *scale, int *again, 
         history_add_motion(c->result, analysis, w.path, w.out, f) != STATUS_OK)
         result = STATUS_FAULT;
     release(&w);
-    if (*again) { /* the work is counted, and the steps are discarded */
+    if (*again) { /* the work is counted; the steps are discarded */
         history_go_back(c->result, &begin);
         c->run->counters.steps = before.steps;
         c->run->counters.rejected_steps = before.rejected_steps;

@@ -7,17 +7,16 @@
 
 #include "harness/numerics/numerics.h"
 
-/* intervals of a step, in each of which one root is searched for */
+/* intervals of a step in which one root each is sought */
 enum { PIECES = MEANS_NODES - 1, MOST_HALVINGS = 200 };
 
-/* values below this fraction of the size of the quantity have no sign */
-static const double
-    no_sign = 1e-13,
-    /* the same limit for forces and energies, relative to the largest magnitude so far */
+/* relative to the size of the quantity: values below this have no sign */
+static const double no_sign = 1e-13,
+                    /* the same for forces and energies, relative to the largest magnitude so far */
     no_sign_aside = 1e-9,
-    /* The sign changes by a jump, and not through zero, if the value at the root is
-     * not below this fraction of the values around it. For example, a rotation
-     * vector reverses its direction at half a revolution. */
+                    /* The sign changes at a jump, not at zero, if the value at the root exceeds
+                     * this fraction of the values around it. For example, a rotation vector
+                     * reverses its direction at half a revolution. */
     a_jump = 1e-3;
 
 static void begin(observers *s, observer *one, const scene_quantity *q)
@@ -33,7 +32,7 @@ static void begin(observers *s, observer *one, const scene_quantity *q)
     s->by_probe |= one->by_probe;
 }
 
-/* Returns 1 for a quantity of the motion that is not one of `extrema`. */
+/* Returns 1 for a quantity of the motion that `extrema` does not evaluate. */
 static int is_observed(const observers *s, const scene_quantity *q)
 {
     return q->analysis == s->analysis && scene_is_passed(q, SCENE_MOTION) &&
@@ -137,15 +136,15 @@ static status crossed(observers *s, observer *one, const motion_state *from, dou
     return STATUS_OK;
 }
 
-/* Returns 1 if a crossing to this side of the level (1: above, -1: below) is counted. */
+/* Returns 1 if a crossing towards this side of the level is counted; side 1: above, -1: below. */
 static int counts(const observer *one, int side)
 {
     const scene_direction way = one->q->passing.direction;
     return way == SCENE_EITHER || side == (way == SCENE_RISING ? 1 : -1);
 }
 
-/* Returns 1 for positions. A jump of a position is not a crossing. Forces and accelerations, in
- * contrast, can jump with the loads. */
+/* Returns 1 for positions, whose jumps are no crossings. Jumps of forces and accelerations with the
+ * loads are crossings. */
 static int turns_back(const observer *one)
 {
     return !one->by_probe && one->q->what.kind != SCENE_RATE;
@@ -289,7 +288,7 @@ static int is_followed(const scene *s, int analysis)
     return 0;
 }
 
-/* Computes the numbers of values that are stored for this model. */
+/* Computes the numbers of stored values for this model. */
 static void measure(const model *m, const motion_state *now, outcome_end *out)
 {
     out->between = (size_t)turns_between_count(m);
@@ -299,7 +298,7 @@ static void measure(const model *m, const motion_state *now, outcome_end *out)
     out->released = now->ends_known ? motion_state_ends(m) : 0;
 }
 
-/* Positions and sizes of the parts of a state in the stored array of an end. */
+/* Positions and sizes of the parts of a state in outcome_end.value. */
 enum { PARTS = 7 };
 typedef struct part {
     double *of;

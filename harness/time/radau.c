@@ -12,7 +12,6 @@
 static status radau_error(radau *, const motion_state *from, double h, motion_state *room,
                           double *error, fault *);
 
-/* Work space for the iteration of the stages. */
 typedef struct radau_solution {
     radau *r;
     const motion_state *from;

@@ -10,7 +10,6 @@
 
 /* Computes out = R B, where R is the orientation of a vertex in stage i. */
 static void radau_in_space(const radau *, int vertex, int i, const double B[9], double out[9]);
-/* Adds the consistent masses to S. */
 static void radau_spread(radau *, double h);
 /* Adds the damping of members to the residual and, if fresh is 1, to S. */
 static void radau_damp(radau *, int fresh, const motion_state *from, double h);
@@ -304,8 +303,8 @@ static void radau_in_space(const radau *r, int vertex, int i, const double B[9],
     mat3_mul(R, B, out);
 }
 
-/* Elements with damping stresses V e'. The strain rates of the stages, e_i' = 1/h sum_j B_ij
- * (e_j - e_0), couple all three stages in every damped element. */
+/* Elements with damping stresses V e'. The strain rates e_i' = 1/h sum_j B_ij (e_j - e_0) couple
+ * all three stages. */
 
 /* Damping forces of an element in a stage. */
 typedef struct damped {
@@ -375,8 +374,8 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, const doubl
     }
 }
 
-/* Like add_stress and add_blocks, for a dashpot, whose stress is not stored in a slot. The tangent
- * includes the effect of the rotation of its axes on its force. */
+/* Like add_stress and add_blocks, for a dashpot, whose stress is in no slot. The tangent includes
+ * the rotation of its axes. */
 static void damp_spring(radau *r, int fresh, const motion_state *from, double h, int spring)
 {
     enum { SIX = SPRING_STRAINS, X = ELEMENT_MAX_COORDINATES };

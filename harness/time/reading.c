@@ -1,5 +1,4 @@
-/* Values of quantities in a state. The files in cases/quantities read them from the known data of
- * the state. */
+/* Values of quantities in a state. The functions in cases/quantities use this interface. */
 #include "harness/time/time_impl.h"
 
 #include <float.h>
@@ -10,17 +9,16 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* A state in the form in which the kinds of quantities read it. */
+/* A state with the interface of cases/quantities. */
 typedef struct read_state {
     quantity_state as;
     const reading *from;
     inertia_resultants_motion motion;
     internal_state section;
-    status *outcome; /* status of the first force that could not be computed; OK: none */
+    status *outcome; /* status of the first force whose computation failed; OK: none */
     fault *f;
 } read_state;
 
-/* Returns the reader's data, whose first member is the interface. */
 static const read_state *of(const quantity_state *s)
 {
     return (const read_state *)s;
@@ -116,8 +114,8 @@ static double linear_released(const quantity_state *s, int member, int end, int 
     return value;
 }
 
-/* Returns the value if the outcome is OK. Otherwise records the outcome if it is the first failure.
- * */
+/* Returns the value if the outcome is OK. Otherwise stores the outcome, unless an earlier one is
+ * stored. */
 static double known(const quantity_state *s, status outcome, const double *value)
 {
     if (outcome != STATUS_OK && *of(s)->outcome == STATUS_OK)
@@ -254,8 +252,8 @@ int reading_is_slope(const scene_quantity *q)
     return q->what.kind == SCENE_RATE && q->what.of.rated.rate == SCENE_JERK;
 }
 
-/* Returns the size of the positions of a node whose rounding errors enter its rates. turns 1:
- * rotation [rad]; 0: displacement of the frame that moves the node, plus its rotation times the arm
+/* Returns the size of the positions whose rounding errors affect the rates of a node. turns 1:
+ * rotation [rad]; 0: displacement of the frame that moves the node plus its rotation times the arm
  * [m]. */
 static double place_size(const model *m, const model_state *s, int node, int turns)
 {
@@ -281,7 +279,7 @@ double reading_rounding(const model *m, const scene_quantity *q, const model_sta
         return 0;
     const scene_component *of = scene_component_of(q);
     const int third = q->what.of.rated.rate == SCENE_JERK;
-    /* derivatives of the polynomial's rates with respect to the increment: at most 6/h^2 and
+    /* derivatives of the polynomial's rates with respect to the increment are at most 6/h^2 and
      * 60/h^3 */
     return (third ? 60 : 6) * DBL_EPSILON * place_size(m, s, of->node, of->component >= SCENE_RX) /
            pow(h, third ? 3 : 2);
@@ -308,7 +306,7 @@ double reading_of(const model *m, const scene_quantity *q, const model_state *s,
     return quantity_type_of(q)->read(q, &state.as);
 }
 
-/* Reads a quantity. a: accelerations plus the forces of mass-proportional damping divided by the
+/* Reads a quantity. a: accelerations plus forces of mass-proportional damping divided by the
  * mass. */
 static status read_whole(const reading *from, const scene_quantity *q, const double a[],
                          double *out, fault *f)

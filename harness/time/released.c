@@ -170,9 +170,8 @@ void released_project(const released_masses *of, const double A[36], const doubl
                 out[i * n + j] += of->T[k * n + i] * half[k * n + j];
 }
 
-/* Computes the damping matrix V [strains x strains] of the formulation. Returns 1 if it is not
- * zero.
- */
+/* Computes the damping matrix V [strains x strains] of the formulation. Returns 1 unless it is
+ * zero. */
 static int own_damping(const model *m, int kind, double V[])
 {
     const int n = model_strains(m) * model_strains(m);
@@ -217,12 +216,12 @@ static size_t of_members(const model *m)
     return (size_t)model_elements(m) * (size_t)model_strains(m);
 }
 
-/* Elements with the same damping matrix: those of one kind with the same damping of their members.
- */
+/* Damping matrices of elements of the same kind: one for each damping of a member. */
 typedef struct damped_kinds {
-    int *first;          /* [kinds] first matrix of a kind, or NONE */
-    int *next, *element; /* [count] next matrix of the same kind, or NONE; an element */
-    double *eta;         /* [count] [s] */
+    int *first; /* [kinds] first matrix of a kind, or NONE */
+    int *next,
+        *element; /* [count] next matrix of the same kind, or NONE; an element with this matrix */
+    double *eta;  /* [count] [s] */
     int count;
 } damped_kinds;
 
@@ -255,7 +254,7 @@ static int matrix_of(const model *m, int element, double eta, damped_kinds *k)
 }
 
 /* Returns STATUS_REFUSED unless the damping matrix of the formulation is symmetric and positive
- * semidefinite up to rounding errors. C: stiffness at rest. */
+ * semidefinite up to rounding. C: stiffness at rest. */
 static status dissipates(const char *name, int n, const double C[], const double V[], fault *f)
 {
     static const char shown[] = "('energy' in the output of element-test shows the error)";
@@ -290,7 +289,8 @@ static status dissipates(const char *name, int n, const double C[], const double
     return STATUS_OK;
 }
 
-/* Computes V = eta S0 + the damping matrix of the formulation, and the longest relaxation time. */
+/* Computes V, the sum of eta S0 and the damping matrix of the formulation, and the longest
+ * relaxation time. */
 static status fill_matrix(const model *m, int element, double eta, double V[], double *slowest,
                           fault *f)
 {
@@ -315,8 +315,7 @@ static status fill_matrix(const model *m, int element, double eta, double V[], d
     return STATUS_OK;
 }
 
-/* Finds the damping matrices of all elements. more [s]: damping that is added to that of all
- * members. */
+/* Finds the damping matrices of all elements. more [s]: additional damping of all members. */
 static status fill_matrices(const model *m, double more, damped_kinds *k, run_damping *d, fault *f)
 {
     const size_t square = (size_t)model_strains(m) * (size_t)model_strains(m);
@@ -340,7 +339,7 @@ static status fill_matrices(const model *m, double more, damped_kinds *k, run_da
     return STATUS_OK;
 }
 
-/* Allocates the data of damping for the run. */
+/* Allocates the damping data of a run. */
 static status begin(const equations *eq, double more, run_damping *d, fault *f)
 {
     const model *m = eq->m;
@@ -567,8 +566,7 @@ rotation_form forms_of(const model *m, int vertex)
     return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
 }
 
-/* Returns 1 if at most one rotation axis is free. Fixed rotations whose rows are kept count as
- * free. */
+/* Returns 1 if at most one rotation is free. Fixed rotations whose rows are kept count as free. */
 static int keeps_axis(const model *m, int vertex)
 {
     int moving = 0;
@@ -577,7 +575,7 @@ static int keeps_axis(const model *m, int vertex)
     return moving <= 1;
 }
 
-/* Returns REFUSED. The message names the two axes of free rotation and the third axis. */
+/* Returns REFUSED with a message that names the two axes of free rotation and the third axis. */
 static status refuse_turns(const model *m, int vertex, fault *f)
 {
     static const char axis[] = "xyz";

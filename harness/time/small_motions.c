@@ -29,9 +29,9 @@ typedef struct small_motions {
     int all;
     model_state *moved;
     double *inc, *zero; /* [all] */
-    double *force;      /* [all] inertia forces in a moved state, or for other rates */
+    double *force;      /* [all] inertia forces in a displaced state, or for changed rates */
     double *column;     /* [3 x all] */
-    /* [all] 1: the coordinate belongs to a rotation about axes that move with other coordinates */
+    /* [all] 1: coordinate of a rotation about axes that other coordinates move */
     char *odd;
 } small_motions;
 
@@ -84,8 +84,8 @@ static int turns_freely(const model *m, int vertex)
     return own && forms_of(m, vertex) == FORM_BODY;
 }
 
-/* Marks the coordinates of released ends and of sequences of angles. They rotate about moving axes,
- * for which this file has no closed form of the derivatives. */
+/* Marks the coordinates of released ends and of sequences of angles. Their derivatives have no
+ * closed form in this file, because they rotate about moving axes. */
 static void mark_odd(small_motions *s)
 {
     const model *m = s->m;
@@ -121,8 +121,7 @@ static void subtract_turning(const small_motions *s, const sparse *B, sparse *A)
     }
 }
 
-/* Adds the inertia forces times `scale`, after moving the coordinate, or changing its rate, by h.
- * */
+/* Adds `scale` times the inertia forces after the coordinate, or its rate, has changed by h. */
 static void add_forces(small_motions *s, int c, int rate, double h, double scale, double out[])
 {
     double *const changed = rate ? s->now->v : s->inc;
@@ -157,8 +156,8 @@ static void put_column(int c, const double of[], sparse *A)
 }
 
 /* Computes the columns of a free rotation from the columns in the axes of the frame. Derivatives
- * with respect to positions are in the exponential chart, as in all parts of a tangent, so half of
- * the effect of the moment on the coordinates is added. */
+ * with respect to positions are in the exponential chart, so half of the effect of the moment is
+ * added. */
 static void put_turn(small_motions *s, int vertex, int rate, sparse *A)
 {
     const int *at = &model_vertex(s->m, vertex)->coordinate[SCENE_RX];
@@ -238,17 +237,17 @@ static void add_inertia(small_motions *s)
         out->G.value[i] = out->C.value[i] - out->G.value[i];
     sparse_zero(&out->C);
     put_odd(s, 1, &out->G);
-    if (s->masses->damping != 0) /* the finite differences already contain this term */
+    if (s->masses->damping != 0) /* the finite differences contain this term */
         for (int c = 0; c < s->all; c++)
             for (int k = out->G.column[c]; k < out->G.column[c + 1] && s->odd[c]; k++)
                 out->G.value[k] -= s->masses->damping * out->M.value[k];
     subtract_turning(s, &out->M, &out->G);
 }
 
-/* Change of J of all damped elements and dashpots during the motion, by finite differences. */
+/* Change of J of damped elements and dashpots during the motion, by finite differences. */
 
-/* Returns a duration [s] in which no node rotates by much more than turn_by or moves by much more
- * than turn_by times the size of the model; 0: nothing moves. */
+/* Returns a duration [s] in which rotations of nodes are at most about turn_by, and their
+ * displacements at most about turn_by times the size of the model; 0: nothing moves. */
 static double short_time(const small_motions *s)
 {
     const double length = model_length(s->m);
@@ -290,8 +289,8 @@ static void strains_of(const model *m, const model_state *at, int element, doubl
 /* Memory for J of one element or spring. */
 enum { ROOM = ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES };
 
-/* Adds to change[(elements + springs) x ROOM] the Jacobians J of damped elements and springs,
- * multiplied by `scale`. */
+/* Adds `scale` times the Jacobians J of damped elements and springs to change[(elements + springs)
+ * x ROOM]. */
 static void add_jacobians(const small_motions *s, const model_state *at, double scale,
                           double change[])
 {
@@ -360,8 +359,8 @@ static void add_rates(small_motions *s, const double change[])
     }
 }
 
-/* Computes C, and the part of K that is due to the effect of a change of J on damping forces. The
- * tangent contains the effect of the present damping forces. */
+/* Computes C, and the part of K due to the effect of a change of J on damping forces. The tangent
+ * already contains the effect of the current damping forces. */
 static status add_damping(small_motions *s, fault *f)
 {
     if (s->eq->run->damping != NULL)
@@ -379,7 +378,7 @@ static status add_damping(small_motions *s, fault *f)
     return STATUS_OK;
 }
 
-/* Makes the strains compatible with the positions, then computes the stresses from the strains and
+/* Makes the strains compatible with the positions. Then computes the stresses from the strains and
  * their rates. */
 static status make_compatible(const equations *eq, motion_state *now, fault *f)
 {
@@ -398,7 +397,7 @@ static status make_compatible(const equations *eq, motion_state *now, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the part of K due to stresses, damping stresses and loads with their present values. */
+/* Computes the part of K due to stresses, damping stresses and loads in the state. */
 static status add_stiffness(small_motions *s, fault *f)
 {
     const equations *eq = s->eq;

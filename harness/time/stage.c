@@ -68,7 +68,7 @@ static void add_entry(void *S, int row, int column, double value)
     assemble_subtract(S, row, column, -value);
 }
 
-/* Computes dx from the equations of the present state. fresh 0: the previous factors are used. */
+/* Computes dx from the equations of the state. fresh 0: the previous factors are used. */
 static status direction(motion_stage *s, int fresh, double time, const stage_rates *r,
                         model_state *now, step_record *record, fault *f)
 {
@@ -92,7 +92,6 @@ static status direction(motion_stage *s, int fresh, double time, const stage_rat
     return stage_direction(s, fresh, f);
 }
 
-/* Workspace of the iteration of a stage. */
 typedef struct stage_solution {
     motion_stage *s;
     const model_state *from;
@@ -144,12 +143,12 @@ struct strain_update {
     const model *m;
     double *before; /* [elements x strains] strains for which the stresses were linearised */
     double
-        /* size of the correction after which the stresses of all elements agreed; 0: they have not
-         * agreed in this step */
+        /* size of the correction after which the stresses of all elements agreed with their
+         * targets; 0: not yet in this step */
         settled;
 };
 
-/* Returns 1 if the stiffness C depends on the strains. */
+/* Returns 1 if C depends on the strains. */
 static int curved(const model *m, const element_data *data, double length)
 {
     double e[MOST] = {0}, sigma[MOST], rest[MOST * MOST] = {0}, C[MOST * MOST] = {0};
@@ -206,7 +205,7 @@ void strain_update_begin(strain_update *c, const model_state *s)
                (size_t)(model_elements(c->m) * model_strains(c->m)) * sizeof *s->e);
 }
 
-/* Data of the iteration of an element towards its target stresses. */
+/* Iteration of an element towards its target stresses. */
 typedef struct strain_update_search {
     const equations *eq;
     const model *m;
@@ -215,8 +214,8 @@ typedef struct strain_update_search {
     double e[MOST], sigma[MOST], C[MOST * MOST]; /* P' and P'' at e */
 } strain_update_search;
 
-/* Returns a distance that is small enough: below this distance, Newton's method converges as fast
- * from the strains as from the stresses. */
+/* Returns a difference of stresses below which Newton's method converges equally fast from the
+ * strains and from the stresses. */
 static double near_of(int n, const double sigma[])
 {
     double largest = 0;
@@ -268,7 +267,7 @@ static int move(strain_update_search *w, double gap[])
     return 1;
 }
 
-/* Runs Newton's method as long as the gap decreases. Returns 1 if the stresses reach the goal. */
+/* Runs Newton's method as long as the gap decreases. Returns 1 if the gap is small enough. */
 static int reach_target(strain_update_search *w, const double goal[])
 {
     enum { MOST_ITERATIONS = 8 };
@@ -286,8 +285,8 @@ static int reach_target(strain_update_search *w, const double goal[])
     return 0;
 }
 
-/* Moves the stresses in steps from their present values to the target stresses. Returns 1 if they
- * reach the target. */
+/* Moves the stresses in steps from their current values to the target. Returns 1 if they reach
+ * it. */
 static int follow(strain_update_search *w, const double goal[])
 {
     const int n = model_strains(w->m);
@@ -314,8 +313,8 @@ static int follow(strain_update_search *w, const double goal[])
 }
 
 /* Returns the target stresses for the strains of an element; NULL: the element has no stresses at
- * e. They are the stresses of the state or, if there is damping, the part that depends only on
- * strains: P'(e) + P''(e) de, where e are the strains before the increment. */
+ * e. The target is the stress of the state or, with damping, its part that depends on strains only:
+ * P'(e) + P''(e) de, where e are the strains before the increment. */
 static const double *target_of(const strain_update *c, const model_state *s, int element,
                                double room[])
 {
@@ -378,7 +377,7 @@ static void settled(const strain_update *c, const model_state *s, int count, con
 }
 
 /* Updates the strains of elements [first, end). Returns 1 if the stresses of all these elements
- * agree. */
+ * agree with their targets. */
 static int follow_stresses(const strain_update *c, model_state *s, int first, int end)
 {
     const size_t n = (size_t)model_strains(c->m);

@@ -47,8 +47,8 @@ static void put(const dense_output *b, int coordinate, const between_ends *e)
     memcpy(part, b->degree == DENSE_OUTPUT_CUBIC ? cubic : quintic, sizeof cubic);
 }
 
-/* Sets the polynomial of a coordinate whose increments add up. It increases by `whole` in the step.
- * */
+/* Sets the polynomial of a coordinate that is not a rotation in body axes. It increases by `whole`
+ * in the step. */
 static void put_plain(const dense_output *b, int c, double whole, double h)
 {
     const motion_state *from = b->from, *to = b->to;
@@ -73,8 +73,7 @@ static void vector_rates(const double t[3], const double W[3], const double Wd[3
     mat3_mul_vec(inverse, more, second);
 }
 
-/* Computes the rotation vector of a vertex from the start to the end of the step, in its axes at
- * the start. */
+/* Computes the rotation vector of a vertex in the step, in its axes at the start. */
 static void turn_of(const dense_output *b, int vertex, double t[3])
 {
     double back[4], q[4];
@@ -202,7 +201,7 @@ static void blend_elements(const dense_output *b, double s, model_state *at)
     blend(inner, s, from->inner, to->inner, at->inner);
 }
 
-/* Sets positions and rates at a time [s] inside the step or near the step. */
+/* Sets positions and rates at a time [s] inside the step or close to it. */
 static void between_places(const dense_output *b, double time, motion_state *at)
 {
     const model *m = b->m;
@@ -233,7 +232,7 @@ static void between_places(const dense_output *b, double time, motion_state *at)
 
 enum { SLOPE = 5 };
 
-/* Returns the slope at x of the polynomial through the values at 0.1, 0.3, ..., 0.9. */
+/* Returns the derivative at x of the polynomial through the values at 0.1, 0.3, ..., 0.9. */
 static double slope_of(const double value[SLOPE], double x)
 {
     double sum = 0;
@@ -270,8 +269,8 @@ void dense_output_at(const dense_output *b, double time, motion_state *at)
     blend_elements(b, (time - b->from->time) / (b->to->time - b->from->time), at->state);
 }
 
-/* A station that is closer than this to the end of a step, relative to the step size, counts as the
- * end of the step. */
+/* Relative to the step size: distance to the end of a step below which a station counts as this
+ * end. */
 static const double same_instant = 1e-9;
 
 static int is_slope(const stations *s, int quantity)
@@ -362,7 +361,7 @@ static int reads_forces(const stations *s, double time)
     return 0;
 }
 
-/* Writes a station from a probe step that starts at the start of the step of the motion. */
+/* Writes a station from a probe step that begins at the start of the step. */
 static status step_to(stations *s, const motion_state *from, double time, fault *f)
 {
     double balance[SCENE_BALANCES];

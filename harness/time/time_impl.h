@@ -1,11 +1,4 @@
-/* Internal interfaces of time/.
- *
- * Sections, in this order: alpha; probe steps; balance; body
- * mass; cayley; strain update; inertia (relations of rates); forms; masses at frames; massive;
- * conserving; deformable; drive; explicit; extent; frames; increment; integrator; discontinuities;
- * stage; initial conditions; massless; extrema; frame motion; radau; released; resume; consistent
- * massless coordinates; inertia resultants; consistent mass; stations; rotation rates; vertex
- * rates; observers. */
+/* Internal interfaces of time/. */
 #ifndef BEAMWORK_TIME_IMPL_H
 #define BEAMWORK_TIME_IMPL_H
 
@@ -25,11 +18,11 @@ void motion_state_store(const newton_convergence *, motion_state *to);
 
 status dense_output_alloc(const equations *, dense_output *, fault *);
 void dense_output_free(dense_output *);
-/* Sets the step. The states at both ends must not change while the polynomial is in use. */
+/* Sets the step. The states at both ends must remain unchanged while the polynomial is used. */
 void dense_output_set(dense_output *, dense_output_degree, const motion_state *from,
                       const motion_state *to);
-/* Returns a kinematic quantity at a time inside the step. at: work space. A jerk is the slope of
- * a polynomial of fourth degree through five accelerations of the step. */
+/* Returns a kinematic quantity at a time inside the step. at: work space. A jerk is the derivative
+ * of the polynomial of degree four through five accelerations in the step. */
 double dense_output_reading(const dense_output *, const scene_quantity *, double time,
                             motion_state *at);
 
@@ -38,9 +31,8 @@ double dense_output_reading(const dense_output *, const scene_quantity *, double
  * those in the state with rates v and accelerations a at `time`. */
 double work_power(outer_work *, const model_state *, const double v[], const double a[],
                   double time, const double along[]);
-/* Returns the work [J] of external forces in a step: the mean of the forces at the start and at the
- * end of the step, times the increment inc[free + driven]. The result is exact for constant forces,
- * and of second order otherwise. */
+/* Returns the work [J] of external forces in a step: the mean of the forces at both ends times the
+ * increment inc[free + driven]. The error is of second order; constant forces have none. */
 double work_trapezoid(outer_work *, const motion_state *from, const motion_state *to,
                       const double inc[]);
 
@@ -48,19 +40,19 @@ double work_trapezoid(outer_work *, const motion_state *from, const motion_state
  * rounding. */
 double account_most(const account *, double part, double rounding);
 
-/* Checks the energy balance. NOT_CONVERGED: without cause, the motion gained more energy than
- * account_gained allows, or it lost more than account_lost allows although the scene does not
- * request numerical damping. rounding [J]: see balance_rounding. */
+/* Checks the energy balance. NOT_CONVERGED: the unexplained gain exceeds account_gained, or the
+ * loss exceeds account_lost although the scene requests no numerical damping. rounding [J]: see
+ * balance_rounding. */
 status account_check(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
 
-/* Damping of elements: stresses gain V e', where e' are the strain rates. V is eta S0, where S0 is
- * the stiffness of the undeformed element, plus the damping matrix of the formulation. Rigid
- * motions have no damping. Dashpots have the same form, with the deformations of the spring and a
- * given matrix. */
+/* Damping adds V e' to the stresses of elements, where e' are the strain rates. V is eta S0 plus
+ * the damping matrix of the formulation; S0 is the stiffness of the undeformed element. Rigid
+ * motions are not damped. For dashpots, e' are the deformation rates of the spring, and V is
+ * given. */
 
-/* Sets the present strain rates to known + g (e - strains of `from`) with known[model_stresses].
- * from NULL: g is 0. */
+/* Sets the strain rates to known + g (e - strains of `from`) with known[model_stresses]. from NULL:
+ * g is 0. */
 void damping_follow(const equations *, double g, const double known[], const model_state *from);
 /* Copies the strains of elements and springs to e[model_stresses]. */
 void damping_strains(const model *, const model_state *, double e[]);
@@ -78,7 +70,7 @@ double springs_circulating_power(const model *, const model_state *, const doubl
 /* Adds the force of dashpots to F[6] on the frame of a node. */
 status dashpots_at_node(const model *, const model_state *, const double v[], int node, double F[6],
                         fault *);
-/* Computes strain rates from the rates of the coordinates. Does nothing if there is no damping. */
+/* Computes strain rates from the rates of the coordinates. Without damping, nothing changes. */
 status damping_now(const equations *, motion_state *, fault *);
 /* Returns the power dissipated by strain rates [W]. */
 double damping_power(const equations *, const double rate[]);
@@ -92,26 +84,25 @@ double damping_power(const equations *, const double rate[]);
  * (alpha_m - alpha_f)/2 - 1/6| (a1 - a). */
 status alpha_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* A probe step computes the state of the motion at a time inside a step. The motion does not
+/* Probe steps: a probe step computes the state at a time inside a step. The motion does not
  * continue from this state. */
 
-/* Makes a probe step from the start of the step of the motion. The work of the probe step is
- * counted, but its iterations are not recorded. */
+/* Makes a probe step from the start of the step. Its work is counted, but its iterations are not
+ * recorded. */
 status probe_step(analysis_context *, motion_scheme *, const motion_state *from, double time,
                   motion_state *at, fault *);
 /* An instant of the motion at which a quantity is read. */
 typedef struct probe_point {
     const motion_state *at;
-    const double *balance; /* [SCENE_BALANCES]; NULL: not known yet */
+    const double *balance; /* [SCENE_BALANCES]; NULL: not computed */
     int before;            /* 1: before a jump of the loads at this instant */
 } probe_point;
 status probe_read(const analysis_context *, const frame_masses *, const outcome_motion *,
                   const scene_quantity *, const probe_point *, double *out, fault *);
 
-/* Values of any quantity inside one step. Quantities that read the same instants share probe steps.
- */
+/* Values of any quantity inside a step. Quantities at the same time share a probe step. */
 
-enum { PROBE_STEPS = 4 }; /* number of stored probe steps of a step: the first three and the last */
+enum { PROBE_STEPS = 4 }; /* number of stored probe steps in a step: the first three and the last */
 
 typedef struct probe_steps {
     analysis_context *c;
@@ -121,7 +112,7 @@ typedef struct probe_steps {
     const motion_state *from, *to; /* ends of the step */
     motion_state at[PROBE_STEPS];
     int made;       /* number of stored probe steps */
-    status outcome; /* last failure since probe_steps_set; a FAULT is not replaced */
+    status outcome; /* last failure since probe_steps_set; a FAULT is retained */
     fault why;
 } probe_steps;
 
@@ -129,23 +120,21 @@ typedef struct probe_steps {
 status probe_steps_alloc(probe_steps *, fault *);
 void probe_steps_free(probe_steps *);
 void probe_steps_set(probe_steps *, const motion_state *from, const motion_state *to);
-/* Returns the value at a time of the step, before the factor and offset of the quantity are
- * applied. NAN: no solution was found, and `outcome` contains the status. */
+/* Returns the value at a time of the step, without factor and offset; NAN: no solution was found,
+ * and `outcome` is the status. */
 double probe_steps_reading(probe_steps *, const scene_quantity *, double time);
 
 /* Energies and momenta during a motion. */
 
-/* Computes out[SCENE_BALANCES]. The initial energy is not yet subtracted from the energy-balance
- * error. */
+/* Computes out[SCENE_BALANCES]. The energy-balance error does not yet contain the initial
+ * energy. */
 status balance_of(const equations *, const frame_masses *, const motion_state *,
                   double out[SCENE_BALANCES], fault *);
-/* Returns the strain energy [J] due to rounding errors of all coordinates; smaller energies
- * count as zero. */
+/* Returns the strain energy [J] due to rounding errors of all coordinates. */
 double balance_rounding(const model *);
 
-/* Mass matrix of a body, of the bodies that constraints join to it, and of everything that moves
- * with these bodies. The rows belong to the coordinates of the bodies and of member ends that are
- * released from them. */
+/* Mass matrix of a body, of bodies that constraints connect to it, and of all nodes that move with
+ * them. The rows are the coordinates of the bodies and of member ends released from them. */
 
 typedef struct body_mass {
     int count, *index; /* [count] free coordinates of the body */
@@ -160,11 +149,11 @@ typedef struct body_mass {
     double *zero;         /* [free + driven] rates */
 } body_mass;
 
-/* Allocates work space for any body of the model. */
+/* Allocates work space for all bodies of the model. */
 status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
-/* Computes the mass matrix of a body in a state. For the first of several joined bodies, computes
- * the mass matrix of all of them. Returns the largest mass of a frame or of a node [kg]. */
+/* Computes the mass matrix of a body in a state; for the first of several connected bodies, that of
+ * all of them. Returns the largest mass of a frame or node [kg]. */
 double body_mass_of(const model *, const frame_masses *, int body, const model_state *,
                     body_mass *);
 /* Returns the mass of a warping amplitude [kg m^4]. */
@@ -178,11 +167,11 @@ int body_mass_rank(body_mass *, double none);
  * c c^T, G half the common rotation and D_j = r_j - mean r,
  *   r(s) = (1 - s) G D_n + s G^T D_1,   R(s) = exp(s phi) G R_n,   a(s) = a_n + s da,
  *   dr^_j = S (dD_j - c x Dm_j),   c^_j = T (c_j - c)/(kappa (1 + c.c_j/4)),   phi_j = psi_j c^_j.
- * The relative motion is zero for every rigid motion. For a spring to the ground there is no common
- * rotation: c = 0, D_j = r_j. */
+ *   Rigid motions have no relative motion. A spring to the ground has no common rotation: c = 0,
+ *   D_j = r_j. */
 
-/* Compute the Cayley vector 2 tan(|t|/2) t/|t| of a rotation vector t, and the inverse of this
- * function. */
+/* Compute the Cayley vector 2 tan(|t|/2) t/|t| of a rotation vector t, and t from the Cayley
+ * vector. */
 void cayley_of_vector(const double t[3], double c[3]);
 void cayley_to_vector(const double c[3], double t[3]);
 /* Computes T = (1 + c~/2)/(1 + c.c/4). The spatial rotation increment at the end of the step is T
@@ -193,7 +182,7 @@ void cayley_skew(const double v[3], double A[9]);
 
 typedef struct cayley_step {
     int nodes;
-    double share; /* weight of a node in the means: 1/nodes, or 0 for a spring to the ground */
+    double share; /* weight of a node in the means: 1/nodes; 0 for a spring to the ground */
     double mean[3], kappa, b, S[9], T[9], G[9];
     double Dn[ELEMENT_MAX_NODES][3], D1[ELEMENT_MAX_NODES][3], Dm[ELEMENT_MAX_NODES][3];
     double dD[ELEMENT_MAX_NODES][3];
@@ -203,7 +192,7 @@ typedef struct cayley_step {
     const node_state *from;
 } cayley_step;
 
-/* Starts from dr[nodes x 3], c[nodes x 3] and da[nodes] of the nodes. The memory of `from` must
+/* Starts from the increments dr[nodes x 3], c[nodes x 3] and da[nodes]. The memory of `from` must
  * remain valid. */
 void cayley_begin(int nodes, int ground, const node_state from[], double dr[][3], double c[][3],
                   const double da[], cayley_step *);
@@ -216,43 +205,39 @@ typedef struct cayley_point {
 } cayley_point;
 void cayley_between(const cayley_step *, double at, cayley_point *);
 
-/* Transforms forces f on the relative motion (the columns of f[7 nodes x columns]) to forces on dr,
- * c and da: F_j = S f_j, M_j = z_j T m_j - mean (z_i T m_i + Dm_i x S f_i). */
+/* Transforms the columns of f[7 nodes x columns], forces on the relative motion, to forces on dr, c
+ * and da: F_j = S f_j, M_j = z_j T m_j - mean (z_i T m_i + Dm_i x S f_i). */
 void cayley_forces(const cayley_step *, int columns, double f[]);
 
-/* Updates the strains to match the stresses of the state. This is necessary if the stress function
- * P' of elements is nonlinear. Newton's increment de gives sigma = P'(e) + P''(e) de, but at the
- * new strains P' differs by P''' de^2 / 2. In a member that is stiff in elongation, this difference
- * can be thousands of times its axial force, and the next tangent would contain the difference.
- * Therefore the strains are changed to satisfy P'(e) = sigma, and D(x) - e contains the difference.
- * These are the same equations in complementary (Hellinger-Reissner) form. The solution does not
- * change. */
+/* Updates the strains to match the stresses of the state, if the stress function P' of elements is
+ * nonlinear. Newton's increment de gives sigma = P'(e) + P''(e) de; at the new strains, P' differs
+ * from sigma by P''' de^2 / 2. In a member that is stiff in elongation, this difference can be
+ * thousands of times the axial force, and it would enter the next tangent. Therefore the strains
+ * are changed to satisfy P'(e) = sigma, and D(x) - e contains the difference. This is a
+ * complementary (Hellinger-Reissner) form of the same equations, with the same solution. */
 
 typedef struct strain_update strain_update; /* data for one state */
 
-/* Allocates the data of the update. Sets *out to NULL if no update is needed or possible. This is
- * the case if all stresses are linear in the strains, if they depend on inner unknowns of the
- * element, or if the type evaluates all elements in one call (in another process), so that updates
- * would need many requests. */
+/* Allocates the data of the update. Sets *out to NULL if there are no updates: stresses are linear
+ * in the strains, they depend on inner unknowns, or a type in another process evaluates all
+ * elements in one call. */
 status strain_update_alloc(const equations *, strain_update **out, fault *);
 void strain_update_free(strain_update *);
 
-/* Call before advance_state. Does nothing for NULL. */
+/* Call it before advance_state. NULL: nothing happens. */
 void strain_update_begin(strain_update *, const model_state *);
-/* Sets e of every element so that its stresses become sigma, which does not change. Call this
- * function after advance_state. An element does not change if its stresses already agree to 10 %,
- * or if no strains with these stresses are found. iteration: starts at 1. correction: size of
- * Newton's correction. Once all elements agree, no element is checked after a smaller correction in
- * the same step. Does nothing for NULL. */
+/* Changes e of each element so that its stresses become sigma. Call it after advance_state. An
+ * element does not change if its stresses agree to 10 %, or if no such strains are found.
+ * iteration: starts at 1. correction: size of Newton's correction. After all elements have agreed,
+ * they are not checked again for smaller corrections in the same step. NULL: nothing happens. */
 void strain_update_apply(strain_update *, model_state *, int iteration, double correction);
 
 /* Derivatives of increments and rates with respect to the state. */
 
-/* Change of the rates and of their derivatives with the state: dv = g dx and da = b dx for
+/* Derivatives of rates and accelerations with respect to the state: dv = g dx and da = b dx for
  * translations, warping and angles. For a rotation in the axes of the frame, dx is replaced by d
  * inc, which is X R^T times the spatial increment, where X = rotation_rates_inverse at inc[free +
- * driven].
- * */
+ * driven]. */
 typedef struct inertia_relation {
     double b, g; /* [1/s^2], [1/s] */
     const double *inc;
@@ -264,13 +249,13 @@ void inertia_chart(const model *, int vertex, const double inc[], const double R
 /* Computes E = R N, the same derivative in global axes. */
 void inertia_turn(const model *, int vertex, const model_state *, const double inc[], double E[9]);
 
-/* Computes two matrices. Columns of turn: spatial rotation of a body per unit of each rotation
- * coordinate. Columns of rate: angular velocity per unit rate of each rotation coordinate. */
+/* Computes two matrices of a body. Columns of turn: spatial rotation per unit of a rotation
+ * coordinate. Columns of rate: angular velocity per unit rate of a rotation coordinate. */
 void inertia_turns(const model *, const model_state *, int vertex, double turn[9], double rate[9]);
 
-/* Rates of the rotation of a frame, and rates of all coordinates of a model. For translations,
- * warping amplitudes and angles, the rates are derivatives. For a rotation that is free or given by
- * a vector, they are the angular velocity in axes that rotate with the frame. */
+/* Forms of the rates of frames and of all coordinates. For translations, warping amplitudes and
+ * angles, the rates are derivatives. For a rotation that is free or given by a vector, they are the
+ * angular velocity in axes that rotate with the frame. */
 
 typedef enum rotation_form {
     FORM_BODY, /* three coordinates whose rates are the angular velocity in the axes of the frame */
@@ -278,11 +263,11 @@ typedef enum rotation_form {
     FORM_SEQUENCE /* successive angles */
 } rotation_form;
 
-/* Checks the rotations of all nodes. REFUSED: two rotations about fixed axes are free while the
- * third rotation is fixed or follows a driver, whether its row is kept or eliminated. Such
- * rotations fix a component of the angular velocity at zero. This constraint is not integrable:
- * exp(-b e_j~) exp(-a e_i~) exp(b e_j~) exp(a e_i~) = 1 - a b e_k~ + ..., so the coordinates do not
- * determine the orientation of the node. */
+/* Checks the rotations of all nodes. REFUSED: of three rotations about fixed axes, exactly two are
+ * free, and the third is fixed or prescribed, with or without a row. Then a component of the
+ * angular velocity is given. This constraint is not integrable: exp(-b e_j~) exp(-a e_i~) exp(b
+ * e_j~) exp(a e_i~) = 1 - a b e_k~ + ..., so the coordinates do not determine the orientation of
+ * the node. */
 status forms_check(const model *, fault *);
 rotation_form forms_of(const model *, int vertex);
 
@@ -300,16 +285,16 @@ void forms_rates(const model *, const model_state *, int vertex, const double v[
 void forms_add_force(const model *, const model_state *, int vertex, const double F[6],
                      double out[]);
 
-/* Inertia forces of the masses at frames, in global axes. For a mass with first moment c and tensor
- * J about the frame, the force is m a + w' x c + w x (w x c), and the moment is c x a + J w' + w x
- * J w. */
+/* Inertia forces of masses at frames, in global axes. For a mass with first moment c and tensor J
+ * about the frame, the force is m a + w' x c + w x (w x c), and the moment is c x a + J w' + w x J
+ * w. */
 
 /* Computes the force and the moment about the frame that accelerate a mass: F[6]. */
 void inertia_force_at(const frame_mass *, const frame_rates *, double F[6]);
 void inertia_force(const model *, const frame_mass *, const model_state *, const double v[],
                    const double a[], double F[6]);
 /* Subtracts from out[free + driven] the inertia forces for the rates v and their derivatives a. a
- * NULL: zero, so only the terms due to velocities remain. */
+ * NULL: only terms due to v. */
 void inertia_subtract(const model *, const frame_masses *, const model_state *, const double v[],
                       const double a[], double out[]);
 
@@ -318,24 +303,24 @@ void inertia_subtract(const model *, const frame_masses *, const model_state *, 
 void inertia_add_tangent(const equations *, const frame_masses *, const model_state *,
                          const double v[], const double a[], const inertia_relation *, sparse *S);
 
-/* Frame on the arm of a diaphragm. The arm rotates by the first angle of the frame: v = v_master +
+/* Frame on the arm of a diaphragm, which rotates by the first angle of the frame: v = v_master +
  * moved angle', a = a_master + moved angle'' + inward angle'^2. */
 typedef struct inertia_swing {
-    int led;          /* 0: there is no arm, and the other members are not set */
+    int led;          /* 0: no arm; the other members are not set */
     double moved[3];  /* derivative of the position with respect to the angle [m] */
     double inward[3]; /* derivative of `moved` */
-    double rate;      /* [rad/s] of the angle */
+    double rate;      /* [rad/s] rate of the angle */
     double change[3]; /* derivative of the acceleration with respect to the angle [m/s^2] */
 } inertia_swing;
-/* a NULL: zero. */
+/* a NULL: zero accelerations. */
 void inertia_swing_of(const model *, const model_state *, int vertex, const double v[],
                       const double a[], inertia_swing *out);
-/* Adds the motion on the arm to K[n x n], whose rows are not yet those of the coordinates. The
- * coordinates of the frame start at `at`. inertia_swing_column: adds the terms due to the change of
- * `moved` with the angle to a column out[n]. A and C [n x n] are the derivatives of the force with
- * respect to accelerations and velocities; rate and place are the factors of the derivatives with
- * respect to the rate of the angle and to the angle. inertia_swing_row: adds the row of the angle,
- * for a force[3] on the frame. */
+/* Two functions add the motion on the arm to K[n x n], before its rows are transformed to
+ * coordinates. The coordinates of the frame start at `at`. inertia_swing_column: adds the terms due
+ * to the change of `moved` with the angle to a column out[n]. A and C [n x n] are the derivatives
+ * of the force with respect to accelerations and velocities; rate and place are the factors of the
+ * derivatives with respect to the rate of the angle and to the angle. inertia_swing_row: adds the
+ * row of the angle, for a force[3] on the frame. */
 void inertia_swing_column(const inertia_swing *, int n, int at, const double A[], const double C[],
                           double rate, double place, double out[]);
 void inertia_swing_row(const inertia_swing *, int n, int at, const double force[3], double place,
@@ -366,8 +351,8 @@ typedef struct inertia_balance {
     double momentum[3]; /* [kg m/s] */
     double angular[3];  /* [kg m^2/s] angular momentum about the origin */
 } inertia_balance;
-/* Computes momentum and energy. ends[released ends x 6]: velocities of the centres of mass of
- * released ends, and angular velocities in the axes of the ends; NULL: they follow from v. */
+/* Computes momenta and kinetic energy. ends[released ends x 6]: velocities of the centres of mass
+ * of released ends, and angular velocities in the axes of the ends; NULL: they follow from v. */
 void inertia_of(const model *, const frame_masses *, const model_state *, const double v[],
                 const double ends[], inertia_balance *out);
 
@@ -375,8 +360,9 @@ void inertia_of(const model *, const frame_masses *, const model_state *, const 
 double inertia_damping_power(const model *, const frame_masses *, const model_state *,
                              const double v[]);
 
-/* Motions with inertia, for error estimates. An estimate must not use the accelerations of massless
- * coordinates, which are differences of positions divided by the square of the step. */
+/* Projection onto motions with inertia, for error estimates. Accelerations of massless coordinates
+ * are differences of positions divided by the square of the step, so estimates must not contain
+ * them. */
 
 typedef struct massive {
     int ready;
@@ -427,10 +413,10 @@ typedef struct conserving {
     deformable_values *deformable_values; /* [CHUNK_MOST] work space */
     double h;                             /* [s] size of the step */
     double k, denominator,
-        /* missing: residual of the equation for k, which is the sum of k_e . gap_e + k_d . gap_d */
+        /* missing: residual of the equation for k, sum of k_e . gap_e + k_d . gap_d */
         missing;
     int settled;            /* 1: the remaining gaps are rounding errors and cause no stresses */
-    int wild;               /* 1: k was too large and was not used */
+    int wild;               /* 1: k was too large and is not used */
     double largest, change; /* stresses */
     newton_convergence newton_convergence;
     long counted;
@@ -439,7 +425,7 @@ typedef struct conserving {
 /* Functions for all elements and springs (conserving_strain.c). */
 /* Computes the energies, and the data of the springs, at the start of the step. Sets d to zero. */
 status conserving_begin(conserving *, const motion_state *from, fault *);
-/* Computes the stresses for the present strains, and k. k is 0 until it is reliable. */
+/* Computes the stresses for the current strains, and k. k is 0 until it is reliable. */
 status conserving_stresses(conserving *, const motion_state *from, model_state *now, int iteration,
                            fault *);
 /* Updates the strains at the end of the step and d, for the increments dx. Returns the largest
@@ -455,12 +441,12 @@ void conserving_forces(conserving *, const motion_state *from, model_state *now,
  * */
 void conserving_inertia(conserving *, const motion_state *from, const model_state *now, double h);
 
-/* Adds to out[free + driven] the loads at the middle of the step, and adds their tangent to S
+/* Adds the loads at the middle of the step to out[free + driven], and their tangent to S
  * (conserving_forces.c). */
 void conserving_loads(conserving *, const motion_state *from, const model_state *now, double h,
                       double out[]);
 
-/* Computes an initial guess of the step as increments of coordinates (conserving_strain.c). */
+/* Computes initial increments of the step (conserving_strain.c). */
 void conserving_predict(conserving *, const motion_state *from, double h);
 void conserving_increment(const conserving *, const model_state *from, double inc[]);
 
@@ -470,12 +456,13 @@ status conserving_work(conserving *, const motion_state *from, motion_state *to,
  * members. */
 void conserving_damped(const conserving *, const motion_state *from, double h, motion_state *to);
 
-/* At the end of a step, prescribed coordinates take their prescribed rates, which differ from the
- * rates during the step. Impulses on the prescribed masses cause this change
+/* Prescribed coordinates have their prescribed rates at the end of a step, which differ from the
+ * rates during the step. The difference is due to impulses on the prescribed masses
  * (conserving_driven.c). */
-/* Changes the rates of free coordinates such that these impulses do not change their momenta. */
+/* Changes the rates of free coordinates so that these impulses do not change the momenta of the
+ * free coordinates. */
 void conserving_free_rates(conserving *, const motion_state *from, double h, motion_state *to);
-/* Returns the work of the impulses. */
+/* Returns the work [J] of the impulses. */
 double conserving_impulses(const conserving *, const motion_state *from, double h,
                            const motion_state *to);
 
@@ -494,19 +481,19 @@ typedef struct frame_mass_step {
     double c[3];
     int partly_fixed; /* 1: some but not all translations of the frame are fixed */
     double held[9];   /* projection onto the fixed translations */
-    /* terms due to the fixed translations (see frame_masses.c) */
+    /* terms due to fixed translations (see frame_masses.c) */
     double g[3], behind[3], turned[3], late[3];
 } frame_mass_step;
 
 /* Computes the centre of a mass relative to the frame, and its tensor about the centre, both in the
- * axes of the frame. If the frame can only rotate, the origin of the frame replaces the centre. */
+ * axes of the frame. If the frame can only rotate, its origin replaces the centre. */
 void frame_mass_step_centre(const model *, const frame_mass *, double centre[3], double J[9]);
 void frame_mass_step_of(const conserving *, const motion_state *from, const model_state *now,
                         double h, const frame_mass *, frame_mass_step *);
 
 /* Frames with both fixed and free translations (frame_masses.c). */
-/* Computes v1 of the fixed translations, and the moment `late` of the forces on these translations.
- * */
+/* Computes v1 in the directions of the fixed translations, and `late`, the moment of the forces in
+ * these directions. */
 void frame_mass_step_follow(const frame_mass *, frame_mass_step *);
 /* Computes sway[9]: `swept`, with the rows along fixed translations replaced by the rows of -h/2
  * dv1/dc. swept: minus d(centre)/dc. T: see cayley_tangent. */
@@ -528,43 +515,42 @@ typedef struct cayley_slopes {
 } cayley_slopes;
 void cayley_slopes_of(const cayley_step *, cayley_slopes *);
 
-/* Adds A Y times `weight` to `out`. Y transforms A[rows x 7 nodes] from spatial increments of x(s)
- * to dr, c and da. */
+/* Adds `weight` A Y to `out`. Y transforms A[rows x 7 nodes] from spatial increments of x(s) to dr,
+ * c and da. */
 void cayley_slopes_columns(const cayley_step *, const cayley_slopes *, const cayley_point *,
                            double weight, int rows, const double A[], double out[]);
 /* Adds to K[7 nodes x 7 nodes] the derivative of cayley_forces at fixed f[7 nodes]. */
 void cayley_slopes_forces(const cayley_step *, const cayley_slopes *, const double f[], double K[]);
 
-/* Checks that a motion can be integrated as requested. REFUSED: the request is not supported. */
+/* Checks whether a motion can be integrated as requested. REFUSED: the request is not supported. */
 
-/* Checks that the integrator supports the form of Newton's method, that inertia is defined for
- * transient analysis with the requested mass, and that all drivers are functions of time. */
+/* Checks that the integrator supports the form of Newton's method, that inertia of the requested
+ * kind is defined, and that all drivers are functions of time. */
 status checks_of(const analysis_context *, int analysis, fault *);
-/* Checks the treatment of massless coordinates. Their positions follow from the equilibrium of each
- * body, which excludes consistent masses. Without numerical damping, their accelerations grow until
- * they overflow. */
+/* Checks the treatment of massless coordinates. Their positions follow from equilibrium per body,
+ * which is not possible with consistent mass. Without numerical damping, their accelerations grow
+ * without bound. */
 status checks_massless(const analysis_context *, const frame_masses *, const scene_motion *,
                        const model_state *begin, fault *);
 
-/* A step that conserves energy and both momenta for any formulation. The step evaluates `strain` in
- * three states, and `stress` at the end. With the strains e at both ends, s = (sigma_n +
+/* Integrator that conserves energy and both momenta for any formulation. A step evaluates `strain`
+ * in three states, and `stress` at its end. With the strains e at both ends, s = (sigma_n +
  * sigma_1)/2,   W = (P''(e_n) + P''(e_1))/2, d = sum_g w_g J(x(s_g)) (dr^, phi, da),   sigma_m = s
- * + k W d, k = sum [P(e_1) - P(e_n) - s.d]/sum d.W d. The number k applies to the whole structure.
- * Then sum sigma_m.d is the change of energy, and the forces A^T sigma_m do no work in any rigid
- * motion (cayley_step). Translations follow from m (v1 - v)/h = f - F with dr = h (v + v1)/2.
+ * + k W d, k = sum [P(e_1) - P(e_n) - s.d]/sum d.W d. The number k is common to the whole
+ * structure. Then sum sigma_m.d is the change of energy, and the forces A^T sigma_m do no work in a
+ * rigid motion (cayley_step). Translations follow from m (v1 - v)/h = f - F with dr = h (v + v1)/2.
  * Rotations follow from Cayley vectors: R_n^T c = h (W + W1)/2, (R_1 J W1 - R_n J W)/h = m - M. The
  * method follows Simo, Tarnow & Doblare (1995), Gonzalez (1996) and Sansour et al. (2004). The
- * common rotation of an element, its two points and the single number k are additions. W is not P''
- * of the undeformed element: if stresses inside an element depend on its bending, the stiff
- * directions change with the strains, and k W d would have a component along these directions. */
+ * common rotation of an element, its two points and the single number k are beamwork's variant. W
+ * is not P'' of the undeformed element: if stresses depend on the bending of an element, its stiff
+ * directions change with the strains, and k W d would have a component along them. */
 
-/* Allocates the integrator. Rates of massless coordinates are mean rates over a step. REFUSED: a
- * node has several successive angles, no rotation has inertia, a node of a diaphragm tilts, or the
- * rates cannot follow the constraints. */
+/* Allocates the integrator. Rates of massless coordinates are mean rates of a step. REFUSED: a node
+ * has several successive angles, no rotation has inertia, a node of a diaphragm tilts, or rates
+ * cannot satisfy the constraints. */
 status conserving_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* An element or a spring during a step. Elements and springs differ only in the function that
- * evaluates them. */
+/* An element or a spring in a step. Only the evaluation differs between the two. */
 
 enum {
     DEFORMABLE_POINTS = 2, /* number of points between the ends of the step */
@@ -576,12 +562,12 @@ typedef struct deformable {
     const mesh_element *el;
     const mesh_discrete *spring; /* NULL: an element */
     int index;                   /* index of the element or spring */
-    int strains, coordinates;    /* 7 nodes */
+    int strains, coordinates;    /* coordinates: 7 nodes */
     const double *before;        /* sigma_n, the stresses at the start of the step */
     double *W, *C_before;        /* mean of P'' at the two ends of the step, and P''(e_n) */
-    double *e, *sigma, *d;       /* values of the present iteration */
+    double *e, *sigma, *d;       /* values of the current iteration */
     double *first;               /* [strains] e_n of a spring; NULL: an element */
-    /* Values of an iteration that the evaluation stores for the update. */
+    /* Values of an iteration, stored for the update. */
     /* [strains x coordinates] de/dx at the end of the step, with respect to dr, c and da */
     double *J;
     double *C, *memory;    /* [strains x strains] P''(e), and the memory of the stress function */
@@ -591,15 +577,13 @@ typedef struct deformable {
     double length;         /* [m] reference length for incompatibilities */
 } deformable;
 
-/* deformable_count returns the number of deformables, which are the elements followed by the
- * springs. deformable_at returns the data of a deformable. */
+/* deformable_count: number of deformables, first all elements, then all springs. deformable_at:
+ * data of a deformable. */
 int deformable_count(const conserving *);
 deformable deformable_at(const conserving *, const motion_state *from, model_state *now, int i);
-/* Returns the number of elements, starting with index `first`, that are evaluated together. These
- * elements are of the same kind. Returns 1 if elements are evaluated one by one. */
 int deformable_together(const conserving *, int first);
 
-/* Values of an element in one iteration. */
+/* Values of an element in an iteration. */
 struct deformable_values {
     deformable of;
     cayley_step step;
@@ -624,9 +608,9 @@ struct deformable_values {
 void deformable_evaluate(const conserving *, const motion_state *from, const model_state *now,
                          int count, deformable_values[]);
 
-/* Prescribed coordinates as functions of time: their increments, rates and derivatives of rates. */
+/* Prescribed coordinates as functions of time: increments, rates and accelerations. */
 
-/* Checks the drivers. REFUSED: an unknown driver has no function of time, which a motion needs. */
+/* Checks the drivers. REFUSED: an unknown driver is not a function of time. */
 status drive_check(const model *, fault *);
 /* Computes entries [free, free + driven) of inc (relative to the state), v and a at `time`; NULL:
  * not requested. */
@@ -635,9 +619,8 @@ void drive_at(const equations *, const model_state *from, double time, double in
 
 /* Runge-Kutta method of order 8 with an error estimate of order 7 (Prince & Dormand 1981, rk8pd of
  * GSL). The equations are inc' = X v and v' = M^-1 (f - h - J^T sigma), where X is
- * rotation_rates_inverse for rotations in the axes of the frame, and 1 otherwise. The method
- * computes reference values for a given mesh. Positions are increments from the start of each step.
- */
+ * rotation_rates_inverse for rotations in the axes of the frame, and 1 otherwise. It is meant for
+ * reference values of a given mesh. Positions are increments from the start of a step. */
 
 /* Allocates the integrator. REFUSED: a coordinate has no inertia. */
 status explicit_alloc(const scheme_request *, motion_scheme **, fault *);
@@ -653,33 +636,34 @@ typedef struct explicit_scheme {
      * feedback; their error estimates from GSL; their derivatives at the end of the step */
     double *y, *error, *dydt;
     double *inc, *residual; /* [free + driven] */
-    double *memory, *still; /* memory of one element, whose size its type defines; a zero increment
-                               of strains */
-    double power;           /* [W] power of dashpots */
-    double *weight;         /* [free + driven] weights as in model.h */
-    const motion_state *from; /* start of the present step */
+    double *memory,
+        *still; /* memory of one element (its type defines the size); zero increments of strains */
+    double power;             /* [W] power of dashpots */
+    double *weight;           /* [free + driven] weights as in model.h */
+    const motion_state *from; /* start of the current step */
     double end;               /* [s] latest time at which loads are read */
     motion_state *at;         /* state of the last evaluation */
     status outcome;
     fault why;
 } explicit_scheme;
 
-/* Extent and rate of the motion so far. The tolerance of a step is relative to the largest motion
- * so far, but at least to an estimate of the largest motion. The estimate is initially 2 % of the
+/* Extent and rate of the motion so far. Tolerances of steps are relative to the largest motion so
+ * far, or to an estimate of the largest motion if this is larger. The first estimate is 2 % of the
  * size of the structure. If the motion does not reach half of the estimate, it is integrated again
  * with a smaller estimate. */
 
 typedef struct extent {
     model_state *begin; /* initial state */
-    /* distance of the initial state from the undeformed state; rounding of this distance is the
-     * noise */
+    /* distance of the initial state from the undeformed state, the reference of its rounding
+     * errors */
     double bent;
     /* estimate of the largest motion, with the norm of model.h; 1 is the size of the structure */
     double scale;
     double largest; /* largest distance from `begin` so far, over coordinates with inertia */
     double rate;    /* [1/s] largest mean rate of a step, over coordinates with inertia */
     double
-        /* error of a step divided by a power of its size, the order of the scheme (extent_error) */
+        /* error of a step divided by the power of its size given by the order of the scheme
+         * (extent_error) */
         density;
     double worst; /* largest ratio of the error of an accepted step to its allowed error */
 } extent;
@@ -691,20 +675,19 @@ void extent_begin(extent *, const model *);
 /* Returns the extent after a step of h [s]. */
 extent extent_with(const extent *, const model *, const motion_scheme *, const motion_state *from,
                    const motion_state *to, double h, double error);
-/* Returns the estimated error of a step of h [s]. If the errors of steps add up, the result follows
- * from the largest estimate within the last ten radians of the motion. The reason is that the error
- * of positions vanishes at a change of sign of the rates, where the error of the rates is largest.
- * */
+/* Returns the estimated error of a step of h [s]. If errors add up, it is computed from the largest
+ * estimate within the last ten radians of the motion. At a change of sign of the rates, the error
+ * of positions is zero, but the error of the rates is largest. */
 double extent_error(const extent *, const motion_scheme *, double h, double error);
-/* Returns the allowed error of a part of the motion, given the tolerance of the whole motion. The
- * result is at least the rounding error of the coordinates. */
+/* Returns the allowed error of a part of the motion, given the tolerance of the whole motion; at
+ * least the rounding error of the coordinates. */
 double extent_allows(const extent *, double part, double tolerance);
-/* Returns 1 if three conditions hold: the completed motion was less than half of the estimate, its
- * steps are too long for a tolerance relative to its size, and the motion exceeds the rounding
- * error of its initial state. *scale: a better estimate. */
+/* Returns 1 if the completed motion was less than half of the estimate and exceeds the rounding
+ * error of its initial state, and its steps are too long for a tolerance relative to its size.
+ * *scale: a better estimate. */
 int extent_is_less(const extent *, double tolerance, double *scale);
 
-/* States of a motion for pictures, at equally spaced times, which may lie inside steps. */
+/* States of a motion for pictures, at equally spaced times. */
 
 typedef struct frames {
     const equations *eq;
@@ -715,7 +698,7 @@ typedef struct frames {
     motion_state at;
 } frames;
 
-/* Allocates the frames. count 0: there are no pictures. The caller sets m, to, begin and end. */
+/* Allocates the frames. count 0: no pictures. The caller sets m, to, begin and end. */
 status frames_alloc(frames *, int count, fault *);
 void frames_free(frames *);
 /* Stores the initial state. */
@@ -734,32 +717,31 @@ void increment_apply(const model *, const model_state *from, const double inc[],
 /* Composes inc with the spatial increments dx. `now` is the state before dx. */
 void increment_add(const model *, const model_state *now, const double dx[], double inc[]);
 
-/* The integrator that the analysis requests. */
+/* The requested integrator. */
 
 /* Allocates the requested integrator. REFUSED: the integrator cannot integrate this model; the
  * message gives the reason. */
 status integrator_alloc(const scheme_request *, motion_scheme **, fault *);
 void integrator_free(motion_scheme *);
 
-/* Slope discontinuities and jumps of loads and prescribed motions. They are always at the ends of
- * steps. */
+/* Slope discontinuities and jumps of loads and prescribed motions; a step ends at each of them. */
 
 /* Returns the time of the first discontinuity after `time` [s]; INFINITY: none. */
 double discontinuities_next(const model *, double time);
-/* Returns a time just before `time` if there is a discontinuity at `time`, otherwise `time`. A step
- * that ends at a discontinuity evaluates its loads at the returned time. */
+/* Returns the largest number below `time` if there is a discontinuity at `time`, otherwise `time`.
+ * A step that ends at a discontinuity evaluates its loads at the returned time. */
 double discontinuities_before(const model *, double time);
 
-/* The state of a motion at a time, computed by a mixed Newton iteration (Nijenhuis et al., section
- * 4) from the previous state. The state is in equilibrium with the inertia forces of rates that
- * follow the increment, v = v0 + g inc, a = a0 + b inc. Strains and stresses of elements are
- * unknowns, so stiff elements need no additional iterations. */
+/* Computation of the state at a time from the previous state by a mixed Newton iteration (Nijenhuis
+ * et al., section 4). The state is in equilibrium with the inertia forces of rates that follow the
+ * increment, v = v0 + g inc, a = a0 + b inc. Strains and stresses of elements are unknowns, so
+ * stiff elements need no additional iterations. */
 
-/* Returns 1 if the last factors may be used again. They cause an error that is the product of two
- * successive corrections. In stiff members, the corrections of the stresses (newton.h) show this
- * error. Corrections must be below 1e-4. The largest possible limit was measured with members that
- * are 1e6 times stiffer in elongation. If the limit exceeds 2e-4, corrections stop decreasing and
- * steps of 0.2 s fail. Below 2e-4, the number of iterations is the same as with new factors. */
+/* Returns 1 if the last factors may be used again, because corrections are below 1e-4. The error
+ * due to old factors is the product of two successive corrections. In stiff members, the
+ * corrections of stresses (newton.h) show it. The largest possible limit was measured with members
+ * that are 1e6 times stiffer in elongation. If the limit exceeds 2e-4, corrections stop decreasing
+ * and steps of 0.2 s fail. Below 2e-4, the number of iterations is the same as with new factors. */
 int stage_stands(const newton_convergence *);
 
 typedef struct motion_stage {
@@ -771,7 +753,7 @@ typedef struct motion_stage {
     newton_convergence newton_convergence;
     strain_update *strain_update;
     int all, free;
-    int begins; /* at a discontinuity, 1: the loads after it apply; 0: the loads before it apply */
+    int begins; /* at a discontinuity, 1: loads after it; 0: loads before it */
     long counted;
 } motion_stage;
 
@@ -786,12 +768,12 @@ status stage_direction(motion_stage *, int fresh, fault *);
 typedef struct stage_rates {
     double b, g, h;
     const double *a0, *v0;
-    /* input: initial guess of inc; the entries of prescribed coordinates are exact */
+    /* input: initial inc; those of prescribed coordinates are exact */
     double *inc, *v, *a;
 } stage_rates;
-/* Computes the state at `time`. `now` contains the strains and stresses of `from`, or better
- * values, and becomes this state. NOT_CONVERGED: the fault gives the reason, and `now` is invalid.
- * */
+/* Computes the state at `time`. On entry, `now` contains strains and stresses of `from` or an
+ * extrapolation; on return, it is the state. NOT_CONVERGED: the fault gives the reason, and `now`
+ * is invalid. */
 status stage_solve(motion_stage *, const model_state *from, double time, stage_rates *,
                    model_state *now, step_record *, fault *);
 
@@ -802,10 +784,10 @@ status stage_solve(motion_stage *, const model_state *from, double time, stage_r
  * Velocities do not change. */
 status consistent_restart(analysis_context *, const frame_masses *, const scene_motion *,
                           motion_state *now, motion_state *room, fault *);
-/* Sets initial rates of a structure at rest in rotating axes. `now` contains the state and the
- * time; `room` is work space. frame: angular velocity [rad/s] and centre [m] of the axes; omega
- * zero: the axes do not rotate. REFUSED: a fixed or prescribed coordinate does not follow this
- * rotation. */
+/* Sets the initial rates of a structure that is at rest in rotating axes, plus the requested
+ * velocities. `now` contains the state and the time; `room` is work space. frame: angular velocity
+ * [rad/s] and centre [m] of the axes; omega zero: the axes do not rotate. REFUSED: a fixed or
+ * prescribed coordinate does not follow this rotation. */
 status initial_conditions_rotating(analysis_context *, const frame_masses *, const scene_motion *,
                                    const scene_rotating_frame *frame, motion_state *now,
                                    motion_state *room, fault *);
@@ -813,14 +795,14 @@ status initial_conditions_rotating(analysis_context *, const frame_masses *, con
 status initial_conditions(analysis_context *, const frame_masses *, const scene_motion *,
                           motion_state *now, motion_state *room, fault *);
 
-/* Separates motions with inertia from motions without inertia, for a body and the ends released
- * from it. Positions of motions without inertia always follow from equilibrium. */
+/* Separation of motions with inertia from motions without inertia, for a body and the ends released
+ * from it. Positions in motions without inertia follow from equilibrium. */
 
 /* Computes the number of free coordinates minus the rank of their masses in the state. */
 status massless_count(const model *, const frame_masses *, const model_state *, int *count,
                       fault *);
-/* Removes the motions with inertia from force[free], or from dx[free] (spatial increments of
- * rotations). Only the part along motions without inertia remains. */
+/* Removes the motions with inertia from force[free], or from dx[free] with spatial increments of
+ * rotations. */
 status massless_forces(const model *, const frame_masses *, const model_state *, double force[],
                        fault *);
 status massless_motion(const model *, const frame_masses *, const model_state *, double dx[],
@@ -828,7 +810,7 @@ status massless_motion(const model *, const frame_masses *, const model_state *,
 /* Finds the quantities of the analysis that read the acceleration or the jerk of a node that moves
  * without inertia: *undefined[quantities of the scene], which the caller frees. Accelerations of
  * massless coordinates are unknown (see consistent_massless). REFUSED: the analysis has no other
- * quantities to compute. */
+ * quantities. */
 status massless_readings(const model *, const frame_masses *, const model_state *, int analysis,
                          unsigned char **undefined, fault *);
 /* Removes motions without inertia from a[free], given in the coordinates of forms_rates. */
@@ -840,10 +822,9 @@ status massless_accelerate(const model *, const frame_masses *, const model_stat
 
 /* Extrema of reactions, resultants, stresses, energies and momenta during a motion. The values at
  * the ends of steps are those of the scheme. Between the ends, a cubic through four consecutive
- * ends (order 4) shows where a value may be larger, and a probe step computes the value at this
- * time. An extremum of the cubic counts only if the probe step differs from it by less than it
- * exceeds the values at both ends. An extremum that the steps do not resolve is therefore rejected.
- */
+ * ends (order 4) gives the time of an extremum, and a probe step computes the value at this time.
+ * The extremum counts only if this value differs from the cubic by less than the cubic exceeds the
+ * values at both ends. Extrema that the steps do not resolve are thus rejected. */
 
 enum { EXTREMA_ENDS = 4 }; /* number of consecutive ends of steps */
 
@@ -851,7 +832,7 @@ enum { EXTREMA_ENDS = 4 }; /* number of consecutive ends of steps */
 typedef struct extremum {
     const scene_quantity *q;
     outcome_passing *out;
-    /* sign 1: maximum, -1: minimum; the other members are the window [s] */
+    /* sign 1: maximum, -1: minimum; from, until: window [s] */
     double sign, from, until;
     double value[EXTREMA_ENDS]; /* values at the last ends of steps */
 } extremum;
@@ -869,8 +850,8 @@ typedef struct extrema {
     motion_state last[EXTREMA_ENDS], at;
 } extrema;
 
-/* Allocates the search for extrema. Does nothing if no quantity needs extrema. The caller sets c,
- * analysis, scheme, masses and out. */
+/* Allocates the search for extrema, if a quantity needs it. The caller sets c, analysis, scheme,
+ * masses and out. */
 status extrema_alloc(extrema *, fault *);
 void extrema_free(extrema *);
 /* Adds the end of a step, with its energies. last 1: a discontinuity of the loads or the end of the
@@ -882,19 +863,19 @@ void extrema_jump(extrema *);
 /* Completes the search at the end of the motion. */
 void extrema_end(extrema *);
 
-/* Motion of a frame during a step, from the coordinates of its body and of a released end. The
- * motion is exact, so forces do the same work in both sets of coordinates. Subscript m denotes the
- * mean of the values at the two ends of the step, subscripts n and 1 denote the start and the end.
- * For a frame moved by a body: dr = dr_b + c x rho_m, with forces f and m + rho_m x f. Angles and
- * released rotations, each about an axis b, with tau = 2 tan(d angle/2): c_k = c_(k-1) + tau_k x_k,
- * x = [b + c x b/2 + c (c.b)/4]/(1 - tau c.b/4), where b is taken at the start; x lies along the
- * mean axis, about which no moment acts. Released sliding s along an axis a adds c x (a s)_m + [a_m
+/* Motion of a frame during a step, from the coordinates of its body and of a released end. It is
+ * exact, so forces do equal work in both sets of coordinates. Subscript m denotes the mean of the
+ * values at the two ends of the step, subscripts n and 1 denote the start and the end. For a frame
+ * moved by a body: dr = dr_b + c x rho_m, with forces f and m + rho_m x f. Angles and released
+ * rotations, each about an axis b, with tau = 2 tan(d angle/2): c_k = c_(k-1) + tau_k x_k, x = [b +
+ * c x b/2 + c (c.b)/4]/(1 - tau c.b/4), where b is taken at the start; x lies along the mean axis,
+ * about which no moment acts. Released sliding s along an axis a adds c x (a s)_m + [a_m
  * - c x (a_1 - a_n)/4] ds to dr. */
 
 enum { FRAME_MOTION_MOST = 6 + SCENE_RELEASED };
 
 typedef struct frame_motion {
-    /* number of coordinates: six of the body, followed by released rotations and released slides */
+    /* number of coordinates: six of the body, then released rotations, then released slides */
     int columns;
     /* [6 x columns] forces F on the frame become work^T F in these coordinates */
     double work[6 * FRAME_MOTION_MOST];
@@ -916,7 +897,7 @@ void frame_motion_step(const conserving *, const model_state *from, const model_
 
 /* Transforms forces[n] of a frame to its coordinates. The six coordinates of its body start at
  * index `at`, and the released coordinates start at index `own`. The other functions transform
- * rows, and K[n x n] on both sides. */
+ * rows, or both sides of K[n x n]. */
 void frame_motion_forces(const frame_motion *, int at, int own, double forces[]);
 void frame_motion_row(const frame_motion *, int at, int own, double row[]);
 void frame_motion_matrix(const frame_motion *, int n, int at, int own, double K[]);
@@ -948,16 +929,16 @@ typedef struct stages_matrix {
 status stages_alloc(const equations *, const frame_masses *, const sparse *single, stages_matrix *,
                     fault *);
 void stages_free(stages_matrix *);
-/* Sets the diagonal block of a stage to K. Call this function for stage 0 first, or clear the
- * matrix. */
+/* Sets the diagonal block of a stage to K. The first call must be for stage 0, or the matrix must
+ * have been cleared. */
 void stages_put(stages_matrix *, int stage, const sparse *K);
 void stages_zero(stages_matrix *);
-/* Adds entries K[columns x columns] of an element to block (i, k) if all blocks are full (damping,
- * consistent masses). pattern: pattern of a single block. */
+/* Adds entries K[columns x columns] of an element to block (i, k), if off-diagonal blocks are full
+ * (damping, consistent masses). pattern: pattern of one block. */
 void stages_add_element(stages_matrix *, int i, int k, const mesh_pattern *pattern, int element,
                         const double K[]);
-/* Adds a value to entry (row, column) of block (i, k). Does nothing if the row or the column is not
- * free. */
+/* Adds a value to entry (row, column) of block (i, k). Rows and columns of coordinates that are not
+ * free are skipped. */
 void stages_add(stages_matrix *, int i, int k, int row, int column, double value);
 
 /* Internals of the three stages. */
@@ -993,8 +974,7 @@ void radau_integrate(radau *, const motion_state *from, double h, const step_rec
 /* Functions of radau_equations.c. */
 /* Sets the nodes, the weights and B of the scheme. */
 void radau_coefficients(radau *);
-/* Returns the time of a stage [s]. The time of the last stage is exactly the requested end of the
- * step. */
+/* Returns the time of a stage [s]. For the last stage, it is exactly the end of the step. */
 double radau_time(const radau *, const motion_state *from, double h, int stage,
                   const step_record *);
 /* Computes v and a of all stages from their increments. */
@@ -1007,17 +987,17 @@ typedef struct radau_relation {
 } radau_relation;
 void radau_relate(const radau *, int vertex, double h, int i, int k, radau_relation *);
 
-/* radau_equations.c */
-/* Computes the residual of all stages in their present states, and S if fresh is 1. */
+/* Equations of the stages (radau_equations.c). */
+/* Computes the residual of all stages in their current states; fresh 1: also S. */
 status radau_equations(radau *, int fresh, const motion_state *from, double h, step_record *,
                        fault *);
 
 /* Returns the energy [J] that damping dissipates in a completed step. room[elements x strains]:
  * work space. */
 double radau_dissipated(const radau *, const motion_state *from, double h, double room[]);
-/* Adds damping to the stresses of the model for radau_error, with strain rates -sum e_i (increase
- * of strains)/h and tangent g. The damping remains until damping_follow changes it. room[elements x
- * strains]: work space. */
+/* Adds damping to the stresses for radau_error, until damping_follow is called. The strain rates
+ * are -sum e_i (increase of strains)/h, with the tangent g. room[elements x strains]: work
+ * space. */
 void radau_damp_error(const radau *, const motion_state *from, double h, const double e[STAGES],
                       double g, double room[]);
 
@@ -1054,36 +1034,35 @@ void released_motion(const released_masses *, double plain, const double body[9]
 void released_project(const released_masses *, const double A[36], const double motion[],
                       double out[KINEMATICS_MOST * KINEMATICS_MOST]);
 
-/* Continues a motion from the end of another motion. The result is the same as for a single motion.
- * */
+/* Continuation of a motion from the end of another motion, with the result of a single motion. */
 
 /* Step-control data with which a motion continues. */
 typedef struct resume_control {
-    double step; /* [s] next step size */
+    double step; /* [s] size of the next step */
     account account;
     double origin; /* [J] energy at t = 0 */
     int quiet;     /* number of steps since the last discontinuity of the loads */
     extent extent;
 } resume_control;
 
-/* Stores the end of a motion for a later motion of the scene that continues it. The end of the last
- * motion is stored for another run (solve_options.keep_ends). Otherwise does nothing. */
+/* Stores the end of a motion for a later motion of the scene that continues it. The end of a last
+ * motion is stored for another run if solve_options.keep_ends is 1. */
 status resume_keep(const analysis_context *, int analysis, const motion_state *now,
                    const resume_control *, outcome_motion *, fault *);
-/* Finds the end of an earlier motion of the scene. NOT_CONVERGED: this motion stopped prematurely.
- * */
+/* Finds the end of an earlier motion of the scene. NOT_CONVERGED: that motion stopped
+ * prematurely. */
 status resume_before(const analysis_context *, int before, const outcome_end **, fault *);
-/* Sets the state and the step control from this end. REFUSED: the end belongs to another mesh. */
+/* Sets the state and the step control from an end. REFUSED: the end belongs to another mesh. */
 status resume_take(const analysis_context *, const outcome_end *, motion_state *now,
                    resume_control *, fault *);
 
 /* Consistent state of coordinates without inertia, computed from positions and rates at one time.
  * */
 
-/* Brings massless coordinates into equilibrium with the present loads and with the gyroscopic
- * moments of the other rates, then computes accelerations (0 for massless coordinates). Coordinates
- * whose damping time exceeds a fraction of the step h [s] keep their positions; their rates
- * establish equilibrium. zero[free + driven]: zeros. NOT_CONVERGED: no equilibrium was found. */
+/* Brings massless coordinates into equilibrium with the loads and with the gyroscopic moments of
+ * the other rates. Then computes accelerations (0 for massless coordinates). Coordinates whose
+ * relaxation time exceeds a fraction of the step h [s] keep their positions; their rates follow
+ * from equilibrium. zero[free + driven]: zeros. NOT_CONVERGED: no equilibrium was found. */
 status consistent_massless(motion_stage *, const double zero[], double h, motion_state *now,
                            fault *);
 
@@ -1099,18 +1078,18 @@ typedef struct inertia_resultants_motion {
  * moved by the node. */
 status inertia_resultants_node(const model *, const model_state *,
                                const inertia_resultants_motion *, int node, double F[6], fault *);
-/* Computes density[nodes][6]: for each node, the force per initial length that accelerates the mass
- * of an element if the whole element has the motion of the node, and the moment about the node. */
+/* Computes density[nodes][6]: for each node, force per initial length, and moment about the node,
+ * that accelerate the mass of an element if the whole element has the motion of the node. */
 void inertia_resultants_along(const model *, const model_state *, const inertia_resultants_motion *,
                               int element, double density[ELEMENT_MAX_NODES][6]);
-/* Adds to ends[e][7] the inertia force on the share of an element's mass at its first (0) and last
- * (1) node, including the warping component. */
+/* Adds to ends[e][7] the inertia force of the share of an element's mass at its first (0) and last
+ * (1) node, including warping. */
 void inertia_resultants_ends(const model *, const model_state *, const inertia_resultants_motion *,
                              int element, double ends[2][7]);
 
-/* Consistent masses of elements (element_type.spreads), which replace masses lumped at nodes. The
- * inertia forces at the nodes of an element are transferred to the bodies that move the nodes, and
- * to released ends. If an element cannot be evaluated, all of its values are NaN. */
+/* Consistent masses of elements (element_type.spreads) instead of lumped masses. The inertia forces
+ * at the nodes of an element are transferred to the bodies that move the nodes, and to released
+ * ends. If an element cannot be evaluated, all of its values are NaN. */
 
 struct mesh_element;
 
@@ -1149,9 +1128,9 @@ void consistent_mass_element(const model *, int element, const model_state *, co
 /* Computes only the mass matrix, p->acceleration, and p->turn, in the given state. */
 void consistent_mass_masses(const model *, int element, const model_state *,
                             consistent_mass_parts *);
-/* Motion of a body as a function of the coordinates: a factor for translations and warping, and a
- * matrix for rotations. For a released end: matrices for the spatial rotations of its body and of a
- * ball joint, and factors for the other coordinates. */
+/* Motion of a body per unit of its coordinates: a factor for translations and warping, and a matrix
+ * for rotations. For a released end: matrices for the spatial rotations of its body and of a ball
+ * joint, and factors for the other coordinates. */
 typedef struct consistent_mass_motion {
     double plain, turn[9], ball[9];
 } consistent_mass_motion;
@@ -1169,13 +1148,13 @@ void consistent_mass_swing(const model *, const consistent_mass_parts *, double 
                            double K[]);
 
 /* Computes the matrices of small motions about a state during a motion, on all coordinates. The
- * accelerations of `now` are consistent with its forces. out: initially zero except for its time;
- * freed with the outcome, even after a failure. */
+ * accelerations of `now` are consistent with its forces. out: zero except for its time on entry;
+ * freed with the outcome, also after a failure. */
 status small_motions_of(const equations *, const frame_masses *, motion_state *now,
                         outcome_about *out, fault *);
 
 /* Times about which modes and harmonic analyses compute small motions. For a time inside a step, a
- * probe step computes the state. The motion does not continue from this state. */
+ * probe step computes the state. */
 
 typedef struct abouts {
     analysis_context *c;
@@ -1184,23 +1163,23 @@ typedef struct abouts {
     const scene_motion *how;
     motion_scheme *scheme;
     outcome_motion *out;
-    /* [s] a time that is closer than this to the end of a step counts as the end of the step */
+    /* [s] distance to the end of a step below which a time counts as this end */
     double near;
     motion_state at, room;
 } abouts;
 
-/* Allocates the data. Does nothing if there are no such times. The caller sets c, analysis, masses,
- * how, scheme and out. */
+/* Allocates the data, if such times exist. The caller sets c, analysis, masses, how, scheme and
+ * out. */
 status abouts_alloc(abouts *, fault *);
 void abouts_free(abouts *);
-/* Computes the states at the times inside a step, excluding its end. */
+/* Computes the states at the times inside a step, without its end. */
 status abouts_inside(abouts *, const motion_state *from, const motion_state *to, fault *);
-/* Stores the present state if an analysis needs it. */
+/* Stores the state if an analysis needs it. */
 status abouts_here(abouts *, const motion_state *now, fault *);
 
 /* Output of a motion at the requested times, which are independent of the ends of steps. Positions
  * and rates follow from the polynomial inside the step. If forces or energies are read, a probe
- * step computes the state. The motion does not continue from this state. */
+ * step computes the state. */
 
 typedef struct stations {
     analysis_context *c;
@@ -1208,7 +1187,7 @@ typedef struct stations {
     const frame_masses *masses;
     motion_scheme *scheme;
     outcome_motion *out;
-    int slopes, sloped; /* slopes 1: a slope is read; sloped 1: a step has been made */
+    int slopes, sloped; /* slopes 1: a derivative is read; sloped 1: a step has been made */
     dense_output inside;
     motion_state at;
 } stations;
@@ -1216,9 +1195,9 @@ typedef struct stations {
 /* Allocates the data. The caller sets c, analysis, masses, scheme and out. */
 status stations_alloc(stations *, fault *);
 void stations_free(stations *);
-/* Writes the stations inside a step, excluding its end. */
+/* Writes the stations inside a step, without its end. */
 status stations_inside(stations *, const motion_state *from, const motion_state *to, fault *);
-/* Writes the station at the present time if there is one. */
+/* Writes the station at this time, if there is one. */
 status stations_here(stations *, const motion_state *now, const double balance[SCENE_BALANCES],
                      fault *);
 
@@ -1243,20 +1222,20 @@ void inertia_rates(const model *, const model_state *, int vertex, const double 
 void vertex_rates(const model *, const model_state *, int vertex, const double v[],
                   const double a[], frame_rates *);
 
-/* Loads with feedback. Their factors follow from measured components, their rates, and the
+/* Loads with feedback. Their factors are computed from measured components, their rates, and
  * integrals in the state. */
 
-/* Starts the feedback. Does nothing if no load has feedback. */
+/* Starts the feedback of all loads that have it. */
 status feedback_begin(const equations *, fault *);
 /* Returns the number of loads of the scene if at least one of them has feedback, otherwise 0. */
 int feedback_count(const equations *);
-/* Computes the factors for the evaluation of this state, including the effect of its integrals. v
- * NULL: the structure is at rest. */
+/* Computes the factors for this state, including its integrals. v NULL: the structure is at
+ * rest. */
 void feedback_take(const equations *, const model_state *, const double v[], double time);
 /* Computes the errors (reference value minus measured value): out[feedback_count]. */
 void feedback_errors(const equations *, const model_state *, double time, double out[]);
-/* Size of a step [s], and times at which reference values are read for its ends. The time for the
- * end of a step is before a jump. */
+/* Size of a step [s], and times at which reference values are read for its ends; before a jump for
+ * its end */
 typedef struct feedback_step {
     double h, begin, end;
 } feedback_step;
@@ -1269,16 +1248,17 @@ typedef struct feedback_gains {
     double place, rate, integral;
 } feedback_gains;
 typedef void feedback_entry(void *to, int row, int column, double value);
-/* Computes minus the derivatives of the loads, on the pattern of motions. Call this function after
- * feedback_take. */
+/* Computes minus the derivatives of the loads, on the pattern of motions. Call feedback_take
+ * before. */
 void feedback_tangent(const equations *, const model_state *, const feedback_gains *,
                       feedback_entry *take, void *to);
 
-/* Extrema, level crossings and means of a motion between its stations. Positions and rates come
- * from the polynomial inside a step, whose roots are accurate to rounding error. Level crossings
- * and means of reactions, resultants, stresses, energies and momenta come from probe steps. */
+/* Extrema, level crossings and means of a motion between its stations. Positions and rates are
+ * values of the polynomial inside a step. Its roots are accurate to rounding error. For reactions,
+ * resultants, stresses, energies and momenta, level crossings and means are computed from probe
+ * steps. */
 
-/* Values in one step from which a mean is computed. */
+/* Number of values in a step from which a mean is computed. */
 enum { MEANS_NODES = 5 };
 typedef struct means_part {
     double time[MEANS_NODES], value[MEANS_NODES];
@@ -1289,22 +1269,22 @@ typedef struct observer {
     const scene_quantity *q;
     outcome_passing *out;
     double from, until; /* [s] */
-    double noise;       /* values within this distance from the level have no sign */
-    int side;           /* side of the level on which the last value was; 0: no value yet */
-    int crossings; /* number of counted crossings inside the window, in the requested direction */
+    double noise;       /* distance from the level below which a value has no sign */
+    int side;           /* side of the level of the last value; 0: no value yet */
+    int crossings;      /* number of counted crossings in the window, in the requested direction */
     double first, last; /* [s] first and last crossing */
-    double error;       /* [s] error of the first and of the last crossing */
+    double error;       /* [s] errors of `first` and of `last` */
     int by_probe;       /* 1: values come from probe steps */
-    double blur;        /* rounding error of a rate in the present step */
-    double blurred;     /* its time integral, for a mean */
+    double blur;        /* rounding error of a rate in the current step */
+    double blurred;     /* time integral of `blur`, for a mean */
     double sum, span; /* time integral of values, or of squares relative to `largest`; length of the
                          interval [s] */
     double largest;   /* largest magnitude so far */
-    /* error of a mean. parts: number of steps with the polynomial; with probe steps, 0: no step, 1:
+    /* error of a mean. parts: number of steps with the polynomial; with probe steps, 0: none, 1:
      * one step, 2: at least one pair. holds 1: `past` is the first step of a pair */
     int parts, holds;
     means_part past;
-    double add_error, worst; /* error of `sum` so far, and its largest magnitude so far */
+    double add_error, worst; /* error of `sum`, and its largest magnitude */
     double apart;            /* largest difference between probe steps and the polynomial */
 } observer;
 
@@ -1328,8 +1308,7 @@ void observers_free(observers *);
 status observers_step(observers *, const motion_state *from, const motion_state *to, fault *);
 /* Completes the data at the end of the motion. */
 void observers_end(observers *);
-/* Returns the value of the quantity at a time of the step, before its factor and offset are
- * applied; NAN: there is no value. */
+/* Returns the value of the quantity at a time of the step, without factor and offset; NAN: none. */
 double observer_value(observers *, const observer *, double time);
 /* Computes the difference between a probe step to the given time and the polynomial; 0 for
  * quantities that do not use the polynomial. */

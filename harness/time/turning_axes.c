@@ -1,5 +1,5 @@
-/* Small motions in axes that rotate with angular velocity w: dx = R y, so dx' = y' + w~ y and dx''
- * = y'' + 2 w~ y' + (w'~ + w~ w~) y at the time when R is 1. */
+/* Small motions in axes that rotate with angular velocity w: dx = R y. At the time when R is 1, dx'
+ * = y' + w~ y and dx'' = y'' + 2 w~ y' + (w'~ + w~ w~) y. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -8,8 +8,8 @@
 #include "cases/scene/scene.h"
 #include "elements/math/vec3.h"
 
-/* Three coordinates of a vertex that form a vector, and the matrices of R' and R'' in their axes.
- * */
+/* Three coordinates of a vertex that form a vector, and the matrices of R' and R'' in their
+ * axes. */
 typedef struct turning_vector {
     int at[3];
     double once[9], twice[9];
@@ -18,7 +18,7 @@ typedef struct turning_vector {
 typedef struct turning_axes {
     const model *m;
     const outcome_about *about;
-    int node; /* node whose axes are used; SCENE_NONE: the axes of each node */
+    int node; /* node whose axes are used; SCENE_NONE: each node uses its own axes */
 } turning_axes;
 
 static void skew(const double v[3], double A[9])
@@ -72,8 +72,8 @@ static int vector_of(const turning_axes *t, int vertex, int turns, turning_vecto
     return 1;
 }
 
-/* Returns 1 if a diaphragm determines both components of a translation. The rotation about its
- * normal is the same for all its nodes. */
+/* Returns 1 if a diaphragm determines both components of a translation. The nodes of a diaphragm
+ * have a common rotation about its normal. */
 static int moves_together(const model *m, int vertex, const int pair[2])
 {
     const scene *s = model_scene(m);
@@ -111,7 +111,6 @@ static int is_tied(const turning_axes *t, int vertex, int turns, const turning_v
     return 0;
 }
 
-/* Adds A W multiplied by `times` to the columns `at` of `out`. */
 static void add_product(const sparse *A, const int at[3], const double W[9], double times,
                         sparse *out)
 {
