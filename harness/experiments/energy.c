@@ -46,7 +46,7 @@ static int stress_at(const void *context, int i, double si, int j, double sj, do
 }
 
 /* Returns the scale of C[i][j]: the geometric mean of C[i][i] and C[j][j]. Diagonal entries below
- * 1e-9 of the largest one are replaced by this bound. */
+ * 1e-9 times the largest one are replaced by this bound. */
 static double size_of(const test_element *s, const double C[], int i, int j)
 {
     const int m = s->strains;

@@ -257,7 +257,7 @@ typedef struct orders_question {
     beam_analysis analysis;
     element_analysis declared;
     unsigned needs;
-    int plane; /* 1, 2: the displacements are along y or z */
+    int plane; /* 1: displacements along y; 2: along z */
 } orders_question;
 
 static const orders_question questions[] = {

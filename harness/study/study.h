@@ -213,7 +213,7 @@ typedef struct rule {
 typedef struct rule_subject {
     const case_type *type;
     const double *parameter;
-    unsigned features; /* enum element_feature: bits of the physics that the scene requires */
+    unsigned features; /* bits of enum element_feature: features that the scene requires */
     const char *formulation, *quantity, *verdict;
 } rule_subject;
 
@@ -679,9 +679,9 @@ double run_cost_of_cell(const sweep *s, int index, int mesh);
 
 /* Writes why there is no agreement, and which formulation could contribute to one. */
 void families_why(FILE *to, const sweep *s, int point_index, int quantity, const truths *);
-/* For every quantity of a point that has no reference value of its model, adds the
- * cross-formulation agreement as a reference value of the kind agreement. files_only 1: only for
- * scene files, not for built-in cases. */
+/* For every quantity without a reference value of its model, adds the cross-formulation agreement
+ * as a reference value of the kind agreement. files_only 1: only for scene files, not for built-in
+ * cases. */
 status families_add_truths(const sweep *s, int files_only, truths *t, fault *f);
 /* Like families_add_truths, for one point. Call when all series of the point are complete. */
 status families_add_point(const sweep *s, int point_index, int files_only, truths *t, fault *f);

@@ -126,8 +126,8 @@ typedef struct workload {
     const sweep_follower *follower; /* NULL: none */
     int time_limit;                 /* [s] time limit of a cell; 0: none */
     int together;                   /* as in the request */
-    /* number of cells, which are in the order of their cost; number of all tasks, two more for each
-     * series */
+    /* count: number of cells, which come first, in the order of their cost; all: number of all
+     * tasks, which are the cells and two more for each series */
     int count, all;
     workload_task *tasks;
     char *done;         /* [all] 1: the task has a result */

@@ -120,8 +120,8 @@ class Choice(ProgramTest):
         self.refused(2, "--error", "solve", "deep_beam", "-n", "4", "--error", "1%")
 
     def test_slow_convergence(self):
-        """For lateral-torsional buckling with shear, the order of convergence is below one. The error is then larger
-        than the change between the last two meshes, for which the estimate must allow."""
+        """For lateral-torsional buckling with shear, the order of convergence is below one. The error is then
+        larger than the change between the last two meshes. The estimate must allow for this."""
         path = self.folder / "beam.yaml"
         path.write_text("""beamwork: 1
 units: mm, N, MPa

@@ -135,8 +135,8 @@ class Cubic(Judged, PluginTest):
     cases = Corotational.cases
 
     def test_beside_the_paper(self):
-        """N section 4.1: with two elements, C_xx within 0.7 % and C_zz within 0.2 % of the converged values; at a
-        deflection of half the length, C_zz within 1 %."""
+        """Nijenhuis et al. (2024), section 4.1: with two elements, C_xx must be within 0.7 % and C_zz within 0.2 % of
+        the converged values; at a deflection of half the length, C_zz within 1 %."""
         for deflection, bounds in (("0.015", (0.007, 0.002)), ("0.05", (0.007, 0.01))):
             two, many = (self.values(self.object, "cubic", "sheet_cantilever", "-n", n, "-s", f"tip_deflection={deflection}",
                                      "-k", "=C_xx or =C_zz") for n in ("2", "8"))

@@ -115,8 +115,8 @@ static void meshes(void)
     sweep_free(&s);
 }
 
-/* Random combinations of pieces of valid input must be accepted, or rejected in one line. Crashes
- * and other statuses are not allowed. */
+/* Random combinations of pieces of valid input must be accepted, or rejected in one line. A crash
+ * or another status is an error. */
 static void random_input(void)
 {
     static const char *const piece[] = {"length",
