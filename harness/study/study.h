@@ -589,7 +589,7 @@ void child_begin(pid_t parent);
 void child_alarm(int seconds);
 /* Returns 1 if the child has ended. The child is not reaped. */
 int child_has_ended(pid_t process);
-/* Waits at most two seconds for the end of the child, then kills it. Reaps the child and returns
+/* Waits for the end of the child, and kills it after two seconds. Reaps the child and returns
  * the status from waitpid. */
 int child_reap(pid_t process);
 /* Describes how the child ended. how: status from waitpid. late 1: the child was killed after the

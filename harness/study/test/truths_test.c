@@ -209,7 +209,8 @@ static void damaged_files(const char *path)
 }
 
 /* Verdicts on formulations in the table must affect the exit status; verdicts on other built-in
- * formulations must not. Until a table is read, all verdicts affect it. */
+ * formulations must not. Until a table is read, all
+ * verdicts affect the exit status. */
 static void accepted_ones(const char *path)
 {
     truths t;
