@@ -94,7 +94,6 @@ static void show_equal_error(const error_comparison *d, double level, const mesh
     paragraph_write(stdout, at, 4, line);
 }
 
-/* Lists the errors that more elements do not reduce. */
 static void show_defects(const error_comparison *d)
 {
     for (int i = 0; i < 2; i++)

@@ -54,7 +54,6 @@ static void add_cell(digest *to, const cell_result *cell)
     add_numbers(to, work, sizeof work / sizeof work[0]);
 }
 
-/* Writes whether the array exists (array is not NULL) and, if so, its contents. */
 static int put_array(FILE *to, const void *array, size_t size)
 {
     const int there = array != NULL;
@@ -242,7 +241,6 @@ static void make_batches(cut *c)
     c->w.batches = cut_items(c->items, c->each, c->first, c->cost);
 }
 
-/* Removes the series of missing batches. */
 static status leave_out(const cut *c, const spread_end *end, fault *f)
 {
     char *keep = malloc((size_t)c->s->seriess + 1);

@@ -56,7 +56,6 @@ static status lap_here(compared_run *c, double *seconds, fault *f)
     return STATUS_OK;
 }
 
-/* Reads times and counts of work from the output of the program. */
 static status read_lap(compared_run *c, FILE *from, double *seconds, fault *f)
 {
     json_error_t where;

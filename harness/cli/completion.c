@@ -258,7 +258,6 @@ static void offer_selection(const offer *o)
     offer_choices(&word, "and|or|not");
 }
 
-/* Offers the parameters of the case or scene file on the command line. */
 static void offer_parameters(const offer *o, const completion_reading *r,
                              void names(const offer *, const case_type *))
 {

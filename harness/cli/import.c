@@ -27,7 +27,6 @@ static status print_mistakes(const import_request *r, const mistakes *m, fault *
     return STATUS_OK;
 }
 
-/* Reads all files as one series, with the map given by --map. */
 static status read_mapped(const command_line *l, const import_request *r, import_set *set, fault *f)
 {
     mistakes m = {.file = r->map};

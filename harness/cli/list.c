@@ -17,7 +17,6 @@ enum { COLUMN = 26, LINE = 4000 };
 
 static const unsigned theories = FEATURE_ENGESSER | FEATURE_HARINGX;
 
-/* Prints a text with continuation lines indented by two more columns. */
 static void hang(int indent, const char *text)
 {
     const int word = (int)strcspn(text, " ");
@@ -98,7 +97,6 @@ static void show_options(const element_type *t)
         list_formulation_option(o);
 }
 
-/* Prints the cases to which the rule applies, and the verdicts that it explains. */
 static void show_verdicts(const rule *r)
 {
     char line[LINE];

@@ -53,7 +53,6 @@ void roff_text(FILE *to, const char *text)
     fputc('\n', to);
 }
 
-/* Writes one escaped argument after a macro, with a preceding blank. */
 static void roff_argument(FILE *to, const char *text)
 {
     fputs(" \"\\&", to);
@@ -61,7 +60,6 @@ static void roff_argument(FILE *to, const char *text)
     fputc('"', to);
 }
 
-/* Writes a line inside .Bd -literal. */
 static void roff_literal(FILE *to, const char *line, size_t length)
 {
     write_word(to, line, length);

@@ -28,7 +28,6 @@ static status add(again *out, const char *text, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the absolute path if the file still exists, otherwise the given path. */
 static const char *choose(const char *absolute, const char *given)
 {
     return strcmp(absolute, given) != 0 && access(absolute, F_OK) == 0 ? absolute : given;

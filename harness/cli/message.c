@@ -86,7 +86,6 @@ static void crashed(int number)
     end_by(number);
 }
 
-/* Handles a call of exit() with a status that beamwork does not use. */
 static void ended(int code, void *unused)
 {
     (void)unused;
@@ -310,7 +309,6 @@ static status check_options(const verb *v, const verb *const *verbs, int count,
     return STATUS_OK;
 }
 
-/* Prints the usage as argp does, but reports an output that cannot be written. */
 static void show_usage(const struct argp_state *state)
 {
     argp_state_help(state, stdout, ARGP_HELP_USAGE & ~(unsigned)ARGP_HELP_EXIT_ERR);

@@ -27,7 +27,6 @@ typedef struct solve_request {
     const char *ends, *restart;
 } solve_request;
 
-/* Data of a solution, from the request to the result. */
 typedef struct solve_work {
     solution_request what;
     solution_choice why;
@@ -172,7 +171,6 @@ static void report_loops(const scene *s, const system_matrices *of)
                     closed ? " except those in state_space of harmonic analyses" : "");
 }
 
-/* Writes the matrices of all states, if requested. */
 static status write_matrices(const solve_request *r, const sweep *s, fault *f)
 {
     const cell_result *cell = &s->series[0].cell[0];
@@ -314,7 +312,6 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
     return prepare_ends(r, &w->from, &w->what, &w->s.point[0].scene, f);
 }
 
-/* Stores the final states of completed motions. */
 static status write_ends(const solve_request *r, const solution_request *what, const sweep *s,
                          fault *f)
 {

@@ -73,7 +73,6 @@ static status identify(const sweep_options *r, sweeping *s, fault *f)
     return STATUS_OK;
 }
 
-/* Reads the batches in the folders of --from. */
 static status take_given(void *context, const shard_work *w, fault *f)
 {
     sweeping *s = context;
@@ -293,7 +292,6 @@ static status compute(const shard_options *r, const shard_work *w, spread_end *o
     return output_flush(f);
 }
 
-/* Lists the types of processors that computed the batches, each with one host. */
 static void name_processors(const batch_store *s, spread_end *out)
 {
     size_t at = 0;

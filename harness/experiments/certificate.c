@@ -252,7 +252,6 @@ check_outcome checks_outcome(const check_results *c)
     return held ? CHECK_PASSED : CHECK_NOT_MADE;
 }
 
-/* Prints the violated requirements or, if verbose, all requirements, in one line each. */
 static void write_checks(FILE *to, screen look, const check_results *c, int verbose)
 {
     for (int i = 0; i < c->count; i++) {

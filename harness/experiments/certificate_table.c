@@ -67,7 +67,6 @@ static void put_number(const paper_table *t, char cell[CELL], int digits, double
     }
 }
 
-/* Writes an error in the same format as the text output. */
 static void put_error(const paper_table *t, char cell[CELL], double error)
 {
     const double percent = 100 * fabs(error);

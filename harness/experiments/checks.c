@@ -266,7 +266,6 @@ static void corrupt_strains(const test_element *s, double by, check_result *one)
     }
 }
 
-/* Checks that all calls return, even for states far outside the valid range. */
 static void far_away(const test_element *s, double size, check_result *one)
 {
     double e[NONFINITE_M], J[NONFINITE_M * TEST_ELEMENT_COORDINATES], sigma[NONFINITE_M],

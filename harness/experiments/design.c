@@ -94,7 +94,6 @@ static void end(design_mark *m)
     *m = (design_mark){NULL, NULL};
 }
 
-/* Stores the state of the sequence at the first point of every stride. */
 static status set_marks(design *d, fault *f)
 {
     const long least = (d->points + DESIGN_MARKS - 1) / DESIGN_MARKS;

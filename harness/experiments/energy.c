@@ -101,7 +101,6 @@ static void check_stiffness(const energy_place *at, const double C[], check_resu
     }
 }
 
-/* Checks that energy and stress are zero if the strains are zero. */
 static void check_rest(const test_element *s, check_results *c)
 {
     const double none[ENERGY_M] = {0};

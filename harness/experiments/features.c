@@ -376,7 +376,6 @@ static void total(const test_element *s, const node_state x[], const double M[],
     }
 }
 
-/* Checks that the mass matrix rotates with the element. */
 static void carried(const test_element *s, const node_state x[], const double M[],
                     check_result *one)
 {

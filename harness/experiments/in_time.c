@@ -13,7 +13,6 @@
 
 enum { N = TEST_ELEMENT_COORDINATES };
 
-/* State and rates at which the derivatives of M x' are computed. */
 typedef struct moving_place {
     test_element_stencil at;
     const double *rate; /* [7n] */
@@ -102,7 +101,6 @@ static void check_rates(const test_element *s, const node_state x[], const doubl
     }
 }
 
-/* Checks that rotating the element and its rates rotates the required forces. */
 static void check_turned(const test_element *s, const node_state x[], const inertia_output *out,
                          double size, check_result *one)
 {

@@ -441,7 +441,6 @@ static double angle(const double a[4], const double b[4])
     return 4 * atan2(sqrt(fmin(less, more)), sqrt(fmax(less, more)));
 }
 
-/* Returns the largest distance between two nodes in the undeformed structure. */
 static double size_of(const shapes *s)
 {
     double size = 0;

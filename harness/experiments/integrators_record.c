@@ -311,7 +311,6 @@ static void gather_ladders(const integrators *p, const integrators_group *g, sub
     }
 }
 
-/* Collects the lowest cost of each integrator at each error level. */
 static void gather_reached(const integrators *p, const integrators_group *g, subjects *out)
 {
     const char *name[INTEGRATORS_METHODS_MOST];

@@ -68,7 +68,6 @@ static json_t *runs_of(const char *what, const runs_on *r)
                      "other_model", r->other);
 }
 
-/* Returns the declarations of a type, with its options. */
 static json_t *declaration_of(const formulation *chosen)
 {
     const series one = {.formulation = *chosen};

@@ -129,7 +129,6 @@ static const state states[] = {
     {"torsion, warping held", 0, 0, 1, 0, BEAM_LINEAR, SCENE_MOMENT, 0, SCENE_RX, "G It or E Iw"},
 };
 
-/* Returns the exact displacement or rotation of the end in the measured component. */
 static double states_exact_of(const state *s, const section *c, double load)
 {
     const double EIz = c->young * c->Iz, EIy = c->young * c->Iy, GI = c->shear_modulus * c->It;
@@ -285,7 +284,6 @@ static void elastica(double angle, double *load, double *deflection)
             root;
 }
 
-/* Sets the applied load, and returns the exact result for this load. */
 static double orders_exact_of(const orders_question *q, const section *c, beam_request *r)
 {
     const double EI = c->young * (q->plane == 1 ? c->Iz : c->Iy), lambda = 1.8751040687119611;

@@ -74,7 +74,6 @@ void own_damping_check(const test_element *s, const double C[], check_results *c
         least, s->words);
 }
 
-/* A point of an element, with a force and a moment. */
 typedef struct line_place {
     test_element_stencil at;
     double point, force[3], moment[3];
@@ -185,7 +184,6 @@ static void check_second(const line_place *p, check_result *one)
     }
 }
 
-/* Checks that the forces on the nodes are in equilibrium with the load. */
 static void check_sums(const line_place *p, check_result *one)
 {
     const test_element *s = p->at.s;
@@ -214,7 +212,6 @@ static void check_sums(const line_place *p, check_result *one)
     }
 }
 
-/* Checks the section of the undeformed element, if it is straight. */
 static void check_at_rest(const line_place *p, check_result *one)
 {
     const test_element *s = p->at.s;

@@ -282,7 +282,6 @@ static void add_numbers(digest *to, const double value[], size_t count)
         digest_add_number(to, value[i]);
 }
 
-/* Adds everything except the times to the digest. */
 static void add_content(digest *to, const rows *w)
 {
     const size_t points = (size_t)w->points, known = points * (size_t)w->shape.quantities,

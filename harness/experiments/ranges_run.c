@@ -199,7 +199,6 @@ static status take_all(range_sweep *s, const batch_store *there, fault *f)
     return end(s, outcome, f);
 }
 
-/* Removes the batches from the folder, and removes the folder if it is empty. */
 static status remove_batches(const batch_store *there, const char *folder, fault *f)
 {
     char path[PATH_MAX];

@@ -151,7 +151,6 @@ static void write_leasts(FILE *to, const tally *t)
     }
 }
 
-/* Explains how points are counted at which some quantities have no reference. */
 static void write_open(FILE *to, const tally *t)
 {
     int open = 0;
@@ -207,7 +206,6 @@ static void write_failures(FILE *to, const tally *t)
     }
 }
 
-/* Writes the values on the axes of a point with few digits. */
 static void short_point(const parameter_ranges *r, const double at[], char *text, int size)
 {
     int used = 0;

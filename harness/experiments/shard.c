@@ -95,7 +95,6 @@ static void clean(const worker_pool *c, int batch, int ended)
     batch_clean(c->todo.request->into, name, ended);
 }
 
-/* Handles a process that has sent a message or has ended. */
 static status handle_process(worker_pool *c, int self, fault *f)
 {
     batch_report report;
@@ -147,7 +146,6 @@ static status work_off(worker_pool *c, int requested, fault *f)
     return STATUS_OK;
 }
 
-/* Kills all processes and deletes incomplete files. */
 static void end_all(worker_pool *c)
 {
     for (int i = 0; i < c->jobs; i++)

@@ -77,7 +77,6 @@ double tally_edge(const tally *t, int axis_index, int place)
     return axis_at(a, (double)place / places);
 }
 
-/* Returns the index of the field that contains a value of an axis. */
 static int frame_motion_of(const tally *t, int axis_index, double value)
 {
     const int places = axis_index == 0 ? t->columns : t->lines;

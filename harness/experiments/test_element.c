@@ -15,7 +15,6 @@ static int fits(const test_element *s)
     return s->inner <= TEST_ELEMENT_INNER && s->memory <= TEST_ELEMENT_MEMORY;
 }
 
-/* Computes the undeformed state, with the nodes along the arc of the initial curvature. */
 static void at_rest(const test_element *s, node_state x[])
 {
     static const double ahead[3] = {1, 0, 0};
@@ -32,7 +31,6 @@ static void at_rest(const test_element *s, node_state x[])
     }
 }
 
-/* Computes the history of the undeformed state. */
 static status begin(test_element *s, fault *f)
 {
     node_state x[ELEMENT_MAX_NODES];
@@ -267,7 +265,6 @@ static void one_way(const way *w, check_results *c, test_elements_check *check)
     test_element_free(&s);
 }
 
-/* Checks straight and curved test elements with every section that the type supports. */
 static void all_forms(const formulation *chosen, check_results *c, test_elements_check *check)
 {
     const element_type *t = chosen->type;

@@ -8,7 +8,6 @@
 #include "harness/numerics/numerics.h"
 #include "harness/terminal/terminal.h"
 
-/* State of the evaluation of a run. */
 typedef struct evaluation_run {
     truths *truths;
     evaluation *evaluation;
@@ -356,7 +355,6 @@ static int shows_limits(const verification *v)
     return v->requested->verbose || v->requested->cells.select != NULL || v->overview.rows == 1;
 }
 
-/* Prints the overview, the counts, unexpected results and the conclusion. */
 static void print(FILE *to, const verification *v)
 {
     const screen look = screen_of(to);

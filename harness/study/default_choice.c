@@ -32,7 +32,6 @@ static int count_omits(const scene *s, const element_type *type)
     return count;
 }
 
-/* Returns the smallest of the highest declared orders over the requested quantities. */
 static int order_of(const scene *s, const element_type *type)
 {
     double options[ELEMENT_MAX_OPTIONS] = {0};
@@ -147,7 +146,6 @@ static default_choice_candidates candidates_of(const scene *s, const rule_subjec
     return out;
 }
 
-/* Finds the candidates and writes the first half of the reason for the choice. */
 static status find(const scene *s, const rule_subject *where, const rule *rules, int count,
                    default_choice_candidates *all, char why[FAULT_TEXT], fault *f)
 {

@@ -207,7 +207,6 @@ static int is_near(const char *folder, const char *name, char path[PATH_MAX])
     return 0;
 }
 
-/* Finds the folder of the running program. */
 static void program_folder(char out[PATH_MAX])
 {
     const ssize_t length = readlink("/proc/self/exe", out, PATH_MAX - 1);

@@ -68,7 +68,6 @@ static void expect(const sweep *s, truths *t, verdict *v)
     v->matches = v->kind == v->expected;
 }
 
-/* Checks the records of every cell of a series. */
 static status check_cells(const sweep *s, int index, evaluation *out, fault *f)
 {
     const series *one = &s->series[index];

@@ -150,7 +150,6 @@ static int iterations_of_steps(const solve_result *r)
     return sum;
 }
 
-/* Returns the number of longer steps that were rejected before the accepted steps. */
 static long rejected_before_steps(const solve_result *r)
 {
     long sum = 0;
@@ -266,7 +265,6 @@ static status add_agreement(const agreement *one, evaluation *out, fault *f)
     return STATUS_OK;
 }
 
-/* Compares the values of a mesh with a row of the reference values. */
 static status compare_mesh(const sweep *s, const truth *row, int index, int mesh, evaluation *out,
                            fault *f)
 {

@@ -90,7 +90,6 @@ static void add_columns(const sweep *s, overview *out, int of_new)
     }
 }
 
-/* Finds the columns, those of new formulations last. */
 static void find_columns(const sweep *s, overview *out, int joined)
 {
     out->joined = joined;

@@ -37,7 +37,6 @@ static int list_has_formulation(const char *list, const char *key)
     return list_has(list, key) || list_has(list, bare);
 }
 
-/* A term of a condition, without surrounding blanks. */
 typedef struct rules_term {
     unsigned feature; /* bit of the feature; 0: the term compares a parameter */
     int negated;      /* 1: "not" precedes the feature */

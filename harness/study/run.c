@@ -189,7 +189,6 @@ int progress_is_due(const progress *p, double now)
     return p->to != NULL && now - p->last >= interval;
 }
 
-/* Returns the width available for the line. */
 static int columns_of(FILE *to)
 {
     struct winsize size = {0};

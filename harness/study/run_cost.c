@@ -104,7 +104,6 @@ double run_cost_of_cell(const sweep *s, int series_index, int mesh)
 /* fraction of the work of one process above which a series is expensive */
 static const double expensive_share = 0.01;
 
-/* A series that is run. */
 typedef struct expense {
     double all; /* cost of the series; 0: the series is not expensive */
     int series;
@@ -229,7 +228,6 @@ static int get(FILE *from, void *data, size_t size)
     return size == 0 || fread(data, size, 1, from) == 1 ? 0 : -1;
 }
 
-/* Writes every array after its length. */
 static int put_parts(FILE *to, const void *record, const branch parts[])
 {
     for (const branch *b = parts; b->size > 0; b++) {

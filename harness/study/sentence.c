@@ -81,7 +81,6 @@ static void not_evaluated(const verdict *v, char *text, size_t size)
         snprintf(text, size, "no reference value to compare with");
 }
 
-/* Writes the omitted physics and the resulting difference from the reference value. */
 static void other_model(const verdict *v, char *text, size_t size)
 {
     const int agreed = v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0;
@@ -159,7 +158,6 @@ static void count_part(char *text, size_t size, int *parts, int count, const cha
     add_part(text, size, parts, ", ", part);
 }
 
-/* Returns the number of unexpected undecided verdicts. */
 static int count_undecided(const evaluation *j)
 {
     int count = 0;
@@ -228,7 +226,6 @@ static void new_ones(const evaluation *j, char *text, size_t size)
                  j->proposed == 1 ? "is" : "are", j->proposed == 1 ? "it" : "them");
 }
 
-/* Explains the expected verdicts other than pass. */
 static void expected_deviations(const evaluation *j, char *text, size_t size)
 {
     const known_value k = count_known(j);

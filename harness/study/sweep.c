@@ -244,7 +244,6 @@ static void choose_given(const sweep_request *request, chosen_cells *out)
         out->list[out->count++] = request->formulation[i];
 }
 
-/* Adds the formulation once for each choice of the options that are evaluated. */
 static void choose_options(const element_type *type, chosen_cells *out)
 {
     for (int k = 0; k < parameter_count(type->options); k++) {

@@ -164,7 +164,6 @@ static void check_name(deviations_reader *r)
                   r->t->rule[i].from != NULL ? r->t->rule[i].from : "the list of known deviations");
 }
 
-/* Checks that the rule gives a cause and the proof of this cause. */
 static void check_grounds(deviations_reader *r)
 {
     if (r->row->field[CAUSE][0] == '\0' || strcmp(r->row->field[CAUSE], PROPOSAL_CAUSE) == 0)

@@ -158,7 +158,6 @@ static void take_row(truths_reader *r, const case_type *type, truth *out)
     check_quantity(r, type, out->parameter);
 }
 
-/* Checks the words of a row, and members that require each other. */
 static void check_row(truths_reader *r, const truth *row)
 {
     const char *wrong = truth_rows_wrong(row);

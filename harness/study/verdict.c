@@ -233,7 +233,6 @@ static const truth *contradiction(const sweep *s, const truths *t, const verdict
     return NULL;
 }
 
-/* Sets the verdict for another model, whose values are not evaluated. */
 static void describe_other_model(const series *one, verdict *v)
 {
     char words[OMISSION_TEXT];

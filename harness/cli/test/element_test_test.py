@@ -204,7 +204,6 @@ class Tested(ProgramTest):
         return one
 
     def broken(self, made, limit):
-        """Checks the exit status, and returns the sentences about violated requirements."""
         return broken(self.certificate(made, 1, limit))
 
     def told(self, name, faults):

@@ -37,7 +37,6 @@ def commands(text):
 
 
 def manual_commands(page):
-    """Returns the commands of a manual page without markup."""
     text = run("help", "--man", page).stdout.partition(".Sh EXAMPLES")[2].partition(".Sh SEE")[0]
     plain = text.replace("\\-", "-").replace("\\(dq", '"').replace("\\&", "").replace("\\e", "\\")
     lines = (re.sub(r'^\.Dl "(.*)"$', r"\1", line) for line in plain.splitlines())
@@ -76,7 +75,6 @@ class Examples(ProgramTest):
             subprocess.run([PROGRAM, *shlex.split(made)], cwd=cls.place, check=True, stdout=subprocess.DEVNULL)
 
     def run_all(self, found):
-        """Runs the commands in order in a copy of the folder."""
         here = self.place.with_name(f"here {len(list(self.place.parent.iterdir()))}")
         shutil.copytree(self.place, here, symlinks=True)
         if any("--into parts" in command for command in found):

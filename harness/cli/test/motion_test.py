@@ -255,7 +255,6 @@ def with_key(scene):
 class MassTest(SceneCase):
 
     def massive(self):
-        """Returns (case, settings) for each case with mass."""
         names = [c["case"] for c in self.record("list")["cases"]]
         having = [n for n in names if "mass" in {p["name"] for p in self.record("list", n)["parameters"]}]
         self.assertEqual(set(names) - set(having), MASSLESS)

@@ -73,8 +73,6 @@ class Words(ProgramTest):
 
 
 class Tables(ProgramTest):
-    """Checks the arrays of options in the sources of the verbs."""
-
     CLI = ROOT / "harness" / "cli"
     ANSWERS = {"bench": ("bench", "bench_against", "compared_run")}  # source files that use the options; for other verbs, the file of the verb
     ELSEWHERE = {("scene", "format")}  # used for errors, by case_input
@@ -252,7 +250,6 @@ def solve(case, *assignments):
 
 
 def untimed(text):
-    """Returns the output of verify without the run time."""
     return re.sub(r"scatter, in [\d.]+ s", "scatter", text)
 
 

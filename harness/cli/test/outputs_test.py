@@ -139,7 +139,6 @@ class Places(Folder):
 class Twice(Folder):
 
     def names(self, name):
-        """Returns other names of the same file."""
         path = self.folder / name
         link = self.folder / f"link_of_{name}"
         link.unlink(missing_ok=True)
@@ -231,7 +230,6 @@ ASCII = environment(LC_ALL="C")
 
 
 def on_terminal(*arguments, **changes):
-    """Returns the output of the program on a terminal."""
     parent, child = pty.openpty()
     with subprocess.Popen([PROGRAM, *map(str, arguments)], stdin=subprocess.DEVNULL, stdout=child,
                           stderr=child, env=environment(**changes)) as process:

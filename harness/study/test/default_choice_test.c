@@ -192,7 +192,6 @@ static void round_trips(random_source *d)
     fclose(file);
 }
 
-/* A cell that failed before it had any results has the smallest content. */
 static void empty_cell(void)
 {
     const cell_result sent = {.solve = {.status = STATUS_SINGULAR, .reason = "nothing"}};

@@ -46,7 +46,6 @@ PRINTED = ("beamw", "sheet_second", "sheet_third", "sheet_third_printed", "sheet
 class Digits(ProgramTest):
 
     def limit(self, case, formulation, given, quantity, meshes):
-        """Returns the record of converge for one quantity of one formulation."""
         words = [word for one in given for word in ("--set", one)]
         series, = self.record("converge", case, "-f", formulation, "-n", meshes, "-j", 1,
                               *words)["series"]

@@ -186,7 +186,6 @@ static draw draw_from(gsl_rng *r, const coverage_family *f, const int n[], int m
     return d;
 }
 
-/* Returns the computed limit of one random sequence of the family. */
 static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
 {
     const int *n = grid[gsl_rng_uniform_int(r, GRIDS)];

@@ -144,7 +144,6 @@ static void larger_of_two(const case_type *type)
     sweep_free(&s);
 }
 
-/* Runs one mesh at a point of a case. */
 static void run_values(const char *name, const char *text, int values_only, sweep *s)
 {
     static const int mesh[] = {2};

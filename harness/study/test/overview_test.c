@@ -256,7 +256,6 @@ static void overview_tests(void)
     new_ones();
 }
 
-/* Counts that make the run fail if they are not zero. */
 static const size_t failing[] = {
     offsetof(evaluation, unexpected), offsetof(evaluation, disagreements),
     offsetof(evaluation, unobserved), offsetof(evaluation, unmet),
