@@ -27,8 +27,6 @@ static const struct {
                     {"goes on", "parts=2;middle=0.6"}};
 enum { DAMPED = 3, FOLLOWER = 6, KINDS = sizeof account_kind / sizeof account_kind[0] };
 
-/* Returns the largest energy-balance error of the motion, relative to account_size. *turned is the
- * work relative to the energy. */
 static double missing(const solve_result *r, double *turned)
 {
     account of = {.largest = 0};
@@ -73,7 +71,7 @@ static void balanced(scene_scheme by, double step, double most)
 static const struct {
     double drift, turned, rounding, rho, tolerance;
     scene_scheme by;
-    const char *words; /* words of the message, or NULL if the error is allowed */
+    const char *words; /* words of the message; NULL: the error is allowed */
 } row[] = {
     {0.09, 0, 0, 0.9, 1e-4, SCENE_ALPHA, NULL},
     {0.11, 0, 0, 0.9, 1e-4, SCENE_ALPHA, "which is 1.1 % of 10 J"},
@@ -121,7 +119,6 @@ static void judged(void)
     }
 }
 
-/* Solves a case at parameters "name=value;...", as `solve` does. */
 static status run(const case_type *type, const char *parameters, int elements, cell_result *out)
 {
     cell_request request = {.type = type, .elements = elements};
@@ -175,12 +172,8 @@ static void account_tests(void)
 extern const element_type element_beamw_consistent, element_beamw, element_geometrically_exact,
     element_collocation;
 
-enum {
-    ELEMENTS = 9,
-    MOST = ELEMENT_MAX_STRAINS
-}; /* more elements than are evaluated in one call */
+enum { ELEMENTS = 9, MOST = ELEMENT_MAX_STRAINS };
 
-/* Makes a model of a long thin leaf along x. */
 static model *leaf(const element_type *type, scene *s)
 {
     static const double y[3] = {0, 1, 0};
@@ -211,8 +204,6 @@ static double largest(int n, const double a[], const double b[])
     return out;
 }
 
-/* Sets the stresses of element i to those of bending by `angle`, a small twist and hardly any
- * elongation, and computes the corresponding strains by a linear law. */
 static void load(const model *m, int i, double angle, double sigma[], double e[])
 {
     const double l = model_kind_of(m, i)->length;
@@ -232,7 +223,7 @@ static long checks_flutter(const equations *eq, strain_update *c, model_state *s
     return eq->run->counters.stress_evaluations - before;
 }
 
-/* Once all elements agree, they are evaluated again only after larger corrections and in a new
+/* After all elements agree, they are evaluated again only after larger corrections and in a new
  * step. */
 static void again(const equations *eq, strain_update *c, model_state *s)
 {
@@ -349,9 +340,6 @@ static void strain_update_tests(void)
     leave(&element_geometrically_exact, "its stresses are linear");
     leave(&element_collocation, "it has unknowns of its own");
 }
-
-/* Tests the work of forces on coordinates without inertia. The warping amplitudes are with and
- * without mass. */
 
 enum { MASSLESS_MOST = 80 };
 

@@ -175,7 +175,7 @@ static void driven(const element_type *type, int released)
     }
     double size = 0;
     a[1].value[9] -=
-        answer_of(&a[1], "z") * answer_of(&a[1], "Fy"); /* reduces the moment to the origin */
+        answer_of(&a[1], "z") * answer_of(&a[1], "Fy"); /* transforms the moment to the origin */
     a[1].value[10] += answer_of(&a[1], "z") * answer_of(&a[1], "Fx");
     for (int i = 0; i < 6; i++)
         size = fmax(size, fabs(a[1].value[6 + i]));
@@ -223,8 +223,6 @@ static double iterations_of(double stiffening, scene_mass mass, scene_scheme sch
     return mean;
 }
 
-/* Newton's method must require as many iterations as with lumped mass, if any of the stiffnesses is
- * large. */
 static void iterations(void)
 {
     for (int k = 0; k < 2; k++) {
@@ -280,7 +278,6 @@ static void consistent_tests(void)
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_spin_up, case_elbow, case_pendulum;
 
-/* Returns the largest energy-balance error of all stations, relative to the largest energy. */
 static double drift(const case_type *type, scene_scheme scheme, double step, double end)
 {
     scene s;
@@ -298,8 +295,6 @@ static double drift(const case_type *type, scene_scheme scheme, double step, dou
     return moving_largest(&a, "drift") / energy;
 }
 
-/* `conserving`: largest energy-balance error of the conserving scheme, with step sizes `step` and
- * step/2 */
 static const struct {
     const case_type *type;
     double step, end, conserving;
@@ -420,8 +415,7 @@ extern const element_type element_collocation;
 enum { ELEMENTS = 4 };
 
 typedef struct swing {
-    double
-        iterations; /* iterations per step, or NAN if the formulation does not support the motion */
+    double iterations;
     long steps;
 } swing;
 

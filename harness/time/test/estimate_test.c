@@ -114,7 +114,6 @@ static void radau_errors(double eta)
     scene_free(&s);
 }
 
-/* Compares the result of one step with the exact motion from the state at its start. */
 static void of_second_order(scene_scheme by, const char *name, const scene_alpha *alpha,
                             double tolerance)
 {
@@ -237,7 +236,6 @@ static void build(scene *s, scene_scheme by, double step)
                 how.thrown);
 }
 
-/* Integrates to 0.8 s and computes the position of node B. */
 static void fly(scene_scheme by, double step, double place[PLACES])
 {
     scene s;
@@ -267,7 +265,6 @@ static double error_of(scene_scheme by, double step)
     return distance(place, exact);
 }
 
-/* Checks the ratio of the time-integration errors for a step size and for half of it. */
 static void converge(scene_scheme by, double step, double ratio)
 {
     const double first = error_of(by, step), second = error_of(by, step / 2);
@@ -281,8 +278,7 @@ static void agree(scene_scheme by, double step, double most)
     gsl_test(!(error < most), "integrator %d, spin %g, joint: error %g m", by, how.spin, error);
 }
 
-/* Compares with explicit steps for decreasing bending inertia, because explicit steps require
- * inertia. */
+/* compared with explicit steps for decreasing bending inertia */
 static void limit(void)
 {
     double place[3][PLACES], without[PLACES];
@@ -298,7 +294,6 @@ static void limit(void)
              "less inertia of bending turns: %g, %g, then %g m from none", coarse, fine, rest);
 }
 
-/* A restart in the middle of a motion must change neither positions nor inertia forces. */
 static void start_again(void)
 {
     scene s;

@@ -34,7 +34,6 @@ static int add_motion(scene *s)
     return scene_add_motion(s, SCENE_NONE, 1, &how.time, m);
 }
 
-/* Builds a body with J = diag(1, 2, 3) and a rod between two of its points. */
 static status body(const double value[], scene *s, fault *f)
 {
     static const double y_axis[] = {0, 1, 0};
@@ -108,7 +107,6 @@ static void free_body(void)
              half, order);
 }
 
-/* Builds a soft rod that is hinged at one end, where it is lifted. */
 static status rod(const double value[], scene *s, fault *f)
 {
     static const double y_axis[] = {0.1, 1, 0.2};
@@ -141,7 +139,6 @@ static status rod(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Compares with RADAU5, which has a different order and a different Newton iteration. */
 static void against_radau(const char *chosen)
 {
     cell_result one, other;
@@ -211,7 +208,6 @@ static void between(const double t[3], const double s[3], double out[3])
     rotation_log(q, out);
 }
 
-/* Computes the derivative out[3] of f along d at t by finite differences of fourth order. */
 static void differ(void (*f)(const double t[3], double out[3]), const double t[3],
                    const double d[3], double out[3])
 {

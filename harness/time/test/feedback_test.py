@@ -171,7 +171,6 @@ omit: [trapeze, wagner_moments, wagner_torque]
 
 
 class Driven(ProgramTest):
-    """A scene with placeholders for the parts that tests vary."""
 
     def solved(self, *words, code=0):
         """Solves the scene. Returns the values of quantities or, if an exit code is given, the printed text."""
@@ -183,7 +182,6 @@ class Driven(ProgramTest):
 
 
 class Elongation(Driven):
-    """A member with a prescribed unstressed length, a stiffness of 50 N/m, and a mass of 0.5 kg at its end."""
 
     scene, elements = BAR, 2
 
@@ -239,7 +237,6 @@ omit: [trapeze, wagner_moments, wagner_torque]
 
 
 class Tension(Driven):
-    """A rigid boom on a spring is pulled towards a fixed point and has one degree of freedom."""
 
     scene, elements = BOOM, 1
 

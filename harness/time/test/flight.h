@@ -68,7 +68,6 @@ static inline status flight_ready(flight *f,
     return flight_prepare(f, with, elements);
 }
 
-/* Starts with the initial conditions of the motion in the scene. */
 static inline status flight_begin(flight *f,
                                   status (*build)(const double value[], scene *, fault *),
                                   const char *with, int elements)
@@ -131,7 +130,6 @@ static inline double flight_strain_energy(const flight *f)
     return sum;
 }
 
-/* Returns the kinetic energy and the momenta. */
 static inline inertia_balance flight_inertia(const flight *f)
 {
     inertia_balance b;

@@ -88,7 +88,6 @@ static inline status flying_step(flying *f, double h)
     return outcome;
 }
 
-/* Copies all numbers of an instant, unless `numbers` is NULL. Returns the number of numbers. */
 static inline size_t flying_numbers(const flying *f, const motion_state *at, double *numbers)
 {
     const size_t n = (size_t)model_all_coordinates(f->m), size = at->state->size,
@@ -115,7 +114,7 @@ static inline size_t flying_numbers(const flying *f, const motion_state *at, dou
     return 3 * n + size + 6 + rates + ends;
 }
 
-/* Returns all numbers of the present instant, which the caller frees. */
+/* Returns all numbers of the current instant; the caller frees them. */
 static inline double *flying_all(const flying *f)
 {
     double *all = malloc(flying_numbers(f, &f->now, NULL) * sizeof *all);

@@ -7,7 +7,6 @@
 #include "harness/time/test/masses.h"
 #include "harness/time/time_impl.h"
 
-/* Computes the rates as derivatives of increments with spatial rotations. */
 static void in_space(const moving_one *o, const double v[], double out[])
 {
     memcpy(out, v, (size_t)o->all * sizeof *out);
@@ -115,7 +114,6 @@ static double energy_of(double of, const double beside[3], const double J[9], co
     return (of * vec3_dot(at, at) + vec3_dot(W, JW)) / 2;
 }
 
-/* Computes the velocity and angular velocity of a vertex in its own axes. */
 static void own_rates(const moving_one *o, int vertex, double v[3], double W[3])
 {
     const mesh_vertex *at = model_vertex(o->m, vertex);
@@ -133,7 +131,6 @@ static void own_rates(const moving_one *o, int vertex, double v[3], double W[3])
     mat3_transpose_mul_vec(r.R, r.w, W);
 }
 
-/* Compares the kinetic energy with the sum over bodies and the shares of elements. */
 static void kinetic_energy(const moving_one *o)
 {
     inertia_balance all;
@@ -201,8 +198,6 @@ static double apart(size_t count, const double a[], const double b[])
     return largest;
 }
 
-/* Returns the largest difference of rates. Ends that rotate freely are excluded, because they have
- * no rates within a step. */
 static double rates_apart(const model *m, const double a[], const double b[])
 {
     double largest = 0;
@@ -422,7 +417,6 @@ static void go(const equations *eq, const model_state *from, double time, model_
     forms_rates(m, to, 0, v, a, r);
 }
 
-/* Checks the prescribed rotation at time t after increments from a state. */
 static void check(const equations *eq, const model_state *from, double t, model_state *to)
 {
     const double dt = 1e-4;

@@ -9,7 +9,6 @@
 
 static const double y_axis[] = {0, 1, 0};
 
-/* How the second bar is connected to the first. */
 typedef struct tested_joint {
     const char *name;
     int released, component[SCENE_RELEASED]; /* released components at the start of the second
@@ -115,7 +114,6 @@ static status build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Largest relative changes after the loads have ended. */
 typedef struct joints_changes {
     double energy, angular, momentum;
 } joints_changes;
@@ -354,7 +352,6 @@ static struct {
     int angles;
 } massless_how = {20, 0};
 
-/* Builds a rod that is thrown by a force and a moment that rise and end. */
 static status massless_build(const double value[], scene *s, fault *f)
 {
     static const double end = 10;
@@ -387,7 +384,6 @@ static status massless_build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the largest change of an angular velocity from one step to the next [rad/s]. */
 static double roughest(double h)
 {
     flight f;

@@ -89,7 +89,6 @@ static inline void build(scene *s, int warps, int released)
                       (warps ? FEATURE_SHEAR : 0));
 }
 
-/* A structure in motion. */
 typedef struct moving_one {
     scene scene;
     model *m;

@@ -113,7 +113,6 @@ def mean(f, begin, end, count=4000):
 class MeansTest(SceneCase):
 
     def solve(self, text):
-        """Returns the record, and its quantities by name."""
         record = self.record("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 1)
         return record, {one["quantity"]: one for one in record["quantities"]}
 

@@ -161,7 +161,6 @@ static void check_base(scene_scheme by, double tolerance)
              "scheme %d: the base moves or its inertia acts: %.12g, %.12g", by, moves, acts);
 }
 
-/* Returns the number of iterations per step. */
 static double work_at(const char *integrator, const char *stiffening, double *A_x)
 {
     char how[64], much[64];

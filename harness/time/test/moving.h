@@ -1,4 +1,3 @@
-/* Motions for tests: the structure of a case, with a motion defined by the test. */
 #ifndef BEAMWORK_TEST_MOVING_H
 #define BEAMWORK_TEST_MOVING_H
 
@@ -65,7 +64,6 @@ static inline void moving_range(scene *s, const char *name, int motion, scene_ba
     }
 }
 
-/* Returns the larger magnitude of NAME_max and NAME_min. */
 static inline double moving_largest(const answer *a, const char *name)
 {
     char full[SCENE_NAME];

@@ -18,7 +18,6 @@
 extern const element_type element_geometrically_exact, element_collocation;
 extern const case_type case_free_flight_space;
 
-/* Builds a free rod in motion, which is bent by its load. */
 static void throw_rod(scene *s, scene_scheme by)
 {
     moving_case(&case_free_flight_space, "", s);
@@ -26,8 +25,6 @@ static void throw_rod(scene *s, scene_scheme by)
     motion_added(s, by, 0.05, 1);
 }
 
-/* Builds two rods on a base that shakes, with a joint between them and a spring across the joint.
- */
 static void shake_rods(scene *s, scene_scheme by)
 {
     scenes_read(s, REJECTED_SWUNG, "base=shaken;second=%s;integrator=%s;step=0.02",
@@ -185,7 +182,6 @@ typedef struct blow {
     const char *then;
 } blow;
 
-/* Builds a leaf of 0.5 m along x with a mass at its tip. */
 static int leaf(scene *s, double damping, const blow *by, int *root)
 {
     section_spec spec = section_spec_rectangle(200e9, 77e9, 0.02, 0.001);
@@ -251,7 +247,6 @@ static void compare(const element_type *type, double damping, const blow *by, do
     }
 }
 
-/* Returns the resultant in the middle at 0.1 s. */
 static double middle(double step)
 {
     const blow swing = {{0, 0, 2}, {0}, "sin(50*t)", "sin(50*t)"};
@@ -275,7 +270,6 @@ static double out_of_balance(flying *f)
     return outcome == STATUS_OK ? most : NAN;
 }
 
-/* Returns the largest change of the rates, relative to the largest rate before. */
 static double changed(const flying *f, const double before[])
 {
     double most = 0, size = 0;
@@ -306,8 +300,9 @@ static void start_from(const char *then, double least, double most)
         gsl_test(flying_step(&f, (0.0205 - f.now.time) / (steps - i)) != STATUS_OK, "step %d: %s",
                  i, f.why.text);
     for (int k = 0; k < model_elements(f.m) * model_strains(f.m); k++)
-        f.now.state->e[k] *= 1 + 1e-9; /* small differences between strains and positions, such as
-                                          those that Newton's method leaves */
+        f.now.state->e[k] *=
+            1 +
+            1e-9; /* small differences between strains and positions, as after Newton's method */
     kinematics_frame(f.m, f.now.state, 1, r, before);
     double *rates = malloc((size_t)model_unknowns(f.m) * sizeof *rates);
     memcpy(rates, f.now.v, (size_t)model_unknowns(f.m) * sizeof *rates);
@@ -366,7 +361,6 @@ static double *strains_in(flying *f, double h)
     return out;
 }
 
-/* Returns the largest difference of a and b relative to the largest value of b. */
 static double apart(int n, const double a[], const double b[])
 {
     double most = 0, size = 0;

@@ -46,7 +46,6 @@ SCHEMES = (("radau", 1e-6), ("explicit", 1e-6), ("alpha", 2e-4))
 class ShortStepsTest(SceneCase):
 
     def solve(self, text):
-        """Returns the values and the step sizes, without the entries for the starts of motions."""
         record = self.record("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 1)
         return values(record), [one["step"] for one in record["motion"] if one["step"] > 0]
 

@@ -8,7 +8,6 @@
 #include "harness/time/test/masses.h"
 #include "harness/time/time_impl.h"
 
-/* Adds parts that masses.h does not have. */
 static void add_more(scene *s)
 {
     double k[36];
@@ -37,7 +36,6 @@ typedef struct way {
     double size; /* size of the stresses */
 } way;
 
-/* Computes the strains, stresses and inner unknowns for the present positions. */
 static void relax_inner(way *w)
 {
     const model *m = w->o.m;

@@ -144,7 +144,6 @@ static double relax_flight(flight *f)
     return correction;
 }
 
-/* Moves the prescribed coordinates to their values at the start. */
 static void pull(flight *f)
 {
     model *m = f->m;
@@ -159,7 +158,6 @@ static void pull(flight *f)
     free(dx);
 }
 
-/* Returns the largest change of a strain over the steps, relative to the largest strain. */
 static double spin_change(flight *f, const double begin[], int *iterations)
 {
     const int count = model_elements(f->m) * model_strains(f->m);
@@ -276,7 +274,6 @@ static status reversed(const double value[], scene *s, fault *f)
     return scene_edit_apply(s, &edit, f);
 }
 
-/* Makes this number of steps. The test fails if a step fails. */
 static void fly(flight *f, int steps, double step)
 {
     status outcome = STATUS_OK;
@@ -285,7 +282,6 @@ static void fly(flight *f, int steps, double step)
     gsl_test(outcome != STATUS_OK, "EA x %g, steps of %g s: %s", how.stiffening, step, f->why.text);
 }
 
-/* Computes the positions of both ends, and rotates them back from the axes of the scene. */
 static void ends_of(const flight *f, double r[6])
 {
     double back[4];
@@ -304,7 +300,6 @@ static double apart(const double a[6], const double b[6])
     return largest;
 }
 
-/* Returns the mean number of iterations per step. */
 static double long_flight(const char *with)
 {
     flight f;
@@ -427,7 +422,6 @@ static void flights_tests(void)
 
 enum { FORMULATIONS_STEPS = 60 };
 
-/* Shape and motion of a rod. */
 typedef struct look {
     const char *name;
     section_kind kind;

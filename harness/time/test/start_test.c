@@ -189,8 +189,6 @@ enum { COMPONENTS = 3, REQUESTED = COMPONENTS + 2 };
 
 static const char *const ends_joints[] = {"hinge", "universal", "ball", "slide", "sliding_hinge"};
 
-/* Computes the position of the tip, the reaction of the node from which the second rod is released,
- * and the energy-balance error. */
 static void ends_solve(const char *of, scene_scheme by, double step, double found[REQUESTED])
 {
     static const char *const name[] = {"C_ux", "C_uy", "C_uz", "held", "drift"};
@@ -243,7 +241,6 @@ extern const element_type element_geometrically_exact;
 
 #define DAMPING_RODS "harness/time/test/rods.yaml"
 
-/* Returns the angular frequency of the lowest mode. */
 static double lowest(void)
 {
     answer a;

@@ -9,7 +9,6 @@
 
 #define STATIONS_SWUNG "harness/time/test/swung.yaml"
 
-/* Choices of the positions of stations and of the quantities that are read (requested_texts). */
 enum { ODD, ENDS, BOTH, REQUESTED_KINDS };
 
 static const char *const requested_texts[REQUESTED_KINDS] = {
@@ -22,8 +21,6 @@ static void solve(int scheme, double step, int requested, cell_result *out)
                  scenes_integrator[scheme], step, requested_texts[requested]);
 }
 
-/* Returns the largest difference of the curves of quantities `first` to `last`, each relative to
- * the largest value of the curve. */
 static double apart(const cell_result *a, const cell_result *b, int first, int last)
 {
     double largest = 0;
@@ -315,7 +312,7 @@ static void extrema_tests(void)
 /* The base moves as 0.3 sin 5 t until 3 s, so all values are known. */
 static const struct {
     const char *name;
-    double expected, at, tolerance; /* at < 0: there is no value */
+    double expected, at, tolerance; /* at < 0: no value */
 } known[] = {{"largest", 0.3, PI / 10, 1e-12},
              {"known_least", -0.3, 3 * PI / 10, 1e-12},
              {"largest_behind_1_5_s", 0.3, -1, 1e-12},
