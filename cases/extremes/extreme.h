@@ -7,7 +7,7 @@
 
 enum { EXTREME_MAX_SETTINGS = 8, EXTREME_MAX_QUANTITIES = 4, EXTREME_MAX_VALUES = 12 };
 
-/* parameter = offset + factor x^power */
+/* The value of the parameter is offset + factor x^power. */
 typedef struct extreme_setting {
     const char *parameter; /* NULL ends the list */
     double offset, factor, power;
@@ -20,12 +20,12 @@ typedef struct extreme_quantity {
 
 /* Effect of x in addition to the settings of parameters. */
 typedef enum extreme_knob {
-    EXTREME_PARAMETERS, /* no further effect */
-    EXTREME_ELEMENTS,   /* x is the number of elements per member */
-    EXTREME_STEPS,      /* x is the number of load steps between two stations */
-    EXTREME_SPLIT,      /* the first member is split at the fraction x of its length */
-    EXTREME_REVERSE,    /* 1 if every member is reversed, otherwise 0 */
-    EXTREME_WHOLE       /* the steps of a motion are not halved */
+    EXTREME_PARAMETERS,
+    EXTREME_ELEMENTS, /* x is the number of elements per member */
+    EXTREME_STEPS,    /* x is the number of load steps between two stations */
+    EXTREME_SPLIT,    /* the first member is split at the fraction x of its length */
+    EXTREME_REVERSE,  /* 1 if every member is reversed, otherwise 0 */
+    EXTREME_WHOLE     /* the time step is not refined: x sets it */
 } extreme_knob;
 
 typedef enum extreme_criterion {
@@ -34,23 +34,22 @@ typedef enum extreme_criterion {
 } extreme_criterion;
 
 typedef struct extreme {
-    const char *name;  /* NULL ends the table */
+    const char *name;
     const char *group; /* name of the extremes of one kind for several cases, which form one column
                           of a map */
-    const char *summary; /* one line */
-    const char *base;    /* name of the base case */
-    const char *fixed;   /* "name=value;..." for parameters that differ from their defaults */
+    const char *summary;
+    const char *base;  /* name of the base case */
+    const char *fixed; /* "name=value;..." for parameters that differ from their defaults */
     extreme_setting setting[EXTREME_MAX_SETTINGS];
     extreme_quantity quantity[EXTREME_MAX_QUANTITIES];
     const char *x_name, *x_unit;
     extreme_knob knob;
     int elements; /* number per member, unless x sets it */
     int values;
-    double value[EXTREME_MAX_VALUES]; /* values of x */
+    double value[EXTREME_MAX_VALUES];
     extreme_criterion criterion;
     double same_as;   /* value of x with which the results for other values are compared */
-    double tolerance; /* relative tolerance, within which a value is neither under-resolved nor
-                         wrong */
+    double tolerance; /* relative; a value within this tolerance is accurate */
 } extreme;
 
 extern const extreme extremes[];

@@ -1,5 +1,4 @@
-/* The extremes in SI units. Each row gives the base case, its settings, and the value with which
- * the results are compared.
+/* The table of extremes, in SI units.
  *
  * Order of the fields: name, group | summary | base case, parameters | settings | quantities | x,
  * unit, effect | elements, count and values of x | comparison, value of x for the comparison,
@@ -10,7 +9,6 @@
 
 /* clang-format off */
 const extreme extremes[] = {
-    /* Thin and slender. */
     {"thin_sheet", "thin", "thickness-to-length ratio of a sheet flexure deflected by 0.15 of its length",
      "sheet_cantilever", "shear=0",
      {{"thickness", 0, 0.1, 1}},
@@ -36,7 +34,6 @@ const extreme extremes[] = {
      {{"length", 0, 0.02, 1}},
      {{"buckling_load", 0}}, "length/height", "1", EXTREME_PARAMETERS,
      16, 6, {1, 10, 1e2, 1e3, 1e4, 1e5}, EXTREME_EXACT, 0, 1e-4},
-    /* Flexible in shear. */
     {"soft_channel", "E/G", "E/G of the C-shaped column (Engesser)",
      "c_column", "",
      {{"shear_modulus", 0, 1.44e11, -1}},
@@ -104,8 +101,7 @@ const extreme extremes[] = {
      {{NULL, 0, 0, 0}},
      {{"buckling_load", 0}}, "short/whole", "1", EXTREME_SPLIT,
      8, 6, {0.5, 1e-1, 1e-2, 1e-4, 1e-6, 1e-8}, EXTREME_EXACT, 0, 1e-4},
-    /* Other units of length, with x units per metre. The size of the second scene is divided by x.
-     * Moduli and density are multiplied by x^-2. */
+    /* Other units of length. x is the number of units per metre. */
     {"units_sheet", "units", "sheet flexure in m, mm and um",
      "sheet_cantilever", "",
      {{"length", 0, 0.1, 1}, {"width", 0, 0.1, 1}, {"thickness", 0, 0.00225, 1}, {"tip_deflection", 0, 0.015, 1},
@@ -148,7 +144,6 @@ const extreme extremes[] = {
      {{NULL, 0, 0, 0}},
      {{"u_tangent", 0}, {"u_radial", 0}, {"u_load", 0}}, "reversed", "1", EXTREME_REVERSE,
      4, 2, {0, 1}, EXTREME_SAME, 0, 1e-9},
-    /* Large rotations. */
     {"twist", "twist", "one element twisted by up to a quarter turn, with warping restrained at both ends",
      "sheet_wagner", "wagner=0;tip_deflection=0;tip_phi_z=0",
      {{"tip_phi_x", 0, 1, 1}},
@@ -169,7 +164,6 @@ const extreme extremes[] = {
      {{"turns", 0, 1, 1}},
      {{"M_x", 0}, {"M_y", 0}, {"M_z", 0}, {"u_x", 0}}, "turns", "1", EXTREME_PARAMETERS,
      4, 5, {0, 1, 3, 10, 30}, EXTREME_SAME, 0, 1e-9},
-    /* Nearly equal eigenvalues. */
     {"equal_frequencies", "equal eigenvalues", "the lowest bending and torsion frequencies of the C-shaped column approach each other",
      "c_column", "",
      {{"width", 0.223203587801597, 0.223203587801597, 1}},
@@ -180,7 +174,6 @@ const extreme extremes[] = {
      {{"length", 0, 0.6, 1}},
      {{"buckling_load", 0}}, "length/height", "1", EXTREME_PARAMETERS,
      64, 5, {1, 0.3, 0.1, 0.03, 0.01}, EXTREME_EXACT, 0, 1e-4},
-    /* Transient analyses. */
     {"stiff_pendulum", "EA in motion", "elongation and shear of a swinging rod up to a million times as stiff as rubber",
      "pendulum", "time=0.25",
      {{"stiffening", 0, 1, 1}},
@@ -227,8 +220,8 @@ const extreme extremes[] = {
      {{"step", 0, 0.5, 1}},
      {{"w_z", 0}, {"R_xx", 0}, {"energy", 0}}, "turn in a step", "rad", EXTREME_WHOLE,
      1, 4, {0.1, 0.9, 2, 3}, EXTREME_EXACT, 0, 1e-9},
-    /* The rotation after a conserving step, 2 atan(x/2), has an error of order 2 and is not
-     * included. */
+    /* The rotation by the energy-conserving integrator is not included: a step of x gives the angle
+     * 2 atan(x/2), an error of order two. */
     /* The first period is 3627.6 s, with four steps in each period. */
     {"long_motion", "long motion", "energy of a cantilever with a heavy body over many periods, integrated by conserving",
      "release", "body=1e6;integrator=conserving;step=907;tolerance=0",

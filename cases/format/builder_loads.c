@@ -8,7 +8,7 @@ static int add(const fields *f, const scene_load *what)
     scene *s = f->b->scene;
     double *path, *factor;
     const int load = scene_add_load(s, what->kind, what->where, 0, 0, 0);
-    *scene_load_at(s, load) = *what; /* name and factors follow */
+    *scene_load_at(s, load) = *what;
     if (fields_have(f, "path") || fields_have(f, "factor")) {
         const int stations = builder_stations(f, "factor", &path, &factor);
         if (stations > 0 && load >= 0)
@@ -43,7 +43,6 @@ static int is_heavy(const scene *s, const scene_member *m)
     return 0;
 }
 
-/* Returns the gravity load of a body, with the same acceleration. */
 static scene_load at_centre(const scene_load *what)
 {
     scene_load out = *what;
@@ -52,8 +51,8 @@ static scene_load at_centre(const scene_load *what)
     return out;
 }
 
-/* Adds gravity for each member with a density and each body with a mass. An error that occurs in
- * several entries is reported only once. */
+/* Adds gravity for each member with a density and each body with a mass. Reports an error only
+ * once, even if it applies to several entries. */
 static void weigh_all(const fields *f, scene_load *what)
 {
     const scene *s = f->b->scene;
@@ -84,7 +83,6 @@ static void check_weight(const fields *f, const scene_load *what)
             "the node on which gravity acts has no mass; give the node a mass, or name a member");
 }
 
-/* Returns the index of the entry whose gravity acts on all members and bodies, or -1. */
 static int whole_of(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_LOADS].count; i++) {
@@ -108,8 +106,8 @@ static void check_gravity(const fields *f, const scene_load *what, int whole)
                          f->b->list[SCENE_LOADS].entry[whole].name);
 }
 
-/* The first keys of the table, up to gravity, are in the order of the kinds of loads. Temperature
- * follows. */
+/* The keys of the table have the order of scene_load_kind up to gravity, followed by
+ * temperature. */
 enum { OF_TEMPERATURE = SCENE_GRAVITY + 1 };
 
 static int spreads(int given)
@@ -118,8 +116,7 @@ static int spreads(int given)
            given == OF_TEMPERATURE;
 }
 
-/* Returns the kind of a load. Forces and moments at a position inside a member have different kinds
- * from those at a node. */
+/* Forces and moments inside a member have other kinds than those at a node. */
 static scene_load_kind kind_of(const fields *f, int given)
 {
     const int within = fields_have(f, "where");
@@ -129,7 +126,6 @@ static scene_load_kind kind_of(const fields *f, int given)
                                      : (scene_load_kind)given;
 }
 
-/* Reads a fraction of the member length. Returns `otherwise` if the key is missing. */
 static double part_of(const fields *f, const char *key, double otherwise)
 {
     const double part = fields_number(f, key, otherwise);
@@ -140,7 +136,6 @@ static double part_of(const fields *f, const char *key, double otherwise)
     return otherwise;
 }
 
-/* Rejects keys that a load of this kind cannot have. */
 static void check_keys(const fields *f, int given)
 {
     static const char *const of_range[] = {"from", "to", "to_value"};
@@ -163,7 +158,6 @@ static void check_keys(const fields *f, int given)
     }
 }
 
-/* Reads the part of the member on which the load acts. */
 static void read_range(const fields *f, int given, scene_load *what)
 {
     check_keys(f, given);
@@ -182,7 +176,6 @@ static void read_range(const fields *f, int given, scene_load *what)
                      what->range[0], what->range[1]);
 }
 
-/* Returns the node or the member on which a load acts. */
 static int frame_motion_of(const fields *f, const scene_load *what)
 {
     const int node = fields_names(f, "on", SCENE_NODES),
@@ -210,8 +203,8 @@ static int frame_motion_of(const fields *f, const scene_load *what)
     return fields_entry(f, "on", scene_load_along(what) ? SCENE_MEMBERS : SCENE_NODES);
 }
 
-/* Rotates the vector to the axes of the scene. A vector in the axes of a member does not change,
- * because these axes rotate with the instance. */
+/* Rotates the load from the axes of the instance to those of the scene. A load in the axes of a
+ * member does not change, because these axes rotate with the instance. */
 static void turn_load(const fields *f, scene_load *what)
 {
     if (what->axes == SCENE_AXES_MEMBER)
@@ -261,7 +254,8 @@ void builder_loads(builder *b)
     }
 }
 
-/* Rotates the stiffness from the axes of an instance, K <- T K T^T with T = diag(R, R). */
+/* Rotates the stiffness from the axes of the instance to those of the scene: K <- T K T^T with T =
+ * diag(R, R). */
 static void turn_stiffness(const placement *placed, double K[36])
 {
     double turned[36];
@@ -282,7 +276,7 @@ static void turn_stiffness(const placement *placed, double K[36])
         K[i] = (turned[i] + turned[i / 6 + 6 * (i % 6)]) / 2;
 }
 
-/* Reads a matrix of a spring, or the six diagonal entries of the matrix. Returns 0 if the key is
+/* Reads a 6 x 6 matrix of a spring, given by 36 entries or by its diagonal. Returns 0 if the key is
  * missing. */
 static int spring_matrix(builder *b, const fields *f, const char *key, double out[36])
 {
@@ -330,7 +324,7 @@ void builder_springs(builder *b)
     }
 }
 
-/* Reads the nodes of an 'equal' constraint or of a diaphragm. */
+/* Reads the nodes of an `equal` constraint or of a diaphragm. */
 static void read_nodes(const fields *f, const char *key, int least, int index)
 {
     const document_node *n = document_find(f->map, key);
@@ -431,8 +425,6 @@ void builder_imperfections(builder *b)
     }
 }
 
-/* Adds the load case that a load or a motion names, unless the list already contains the load
- * case. */
 static void add_case(builder *b, const unrolled *entry)
 {
     const fields f = fields_of(b, entry);
@@ -443,7 +435,7 @@ static void add_case(builder *b, const unrolled *entry)
         return;
     *list = arena_grow(b->arena, *list, *count, sizeof **list);
     if (*list == NULL) {
-        *count = 0; /* out of memory, which the arena records */
+        *count = 0; /* out of memory; the arena has recorded the error */
         return;
     }
     (*list)[(*count)++] = (unrolled){fields_called(&f, n), n, n, n, b->names, NULL};
@@ -459,7 +451,6 @@ void builder_cases(builder *b)
         scene_add_case(b->scene, b->list[SCENE_CASES].entry[i].name);
 }
 
-/* Returns 1 if an entry of the map has this load case, whatever the conditions of the entry. */
 static int names_case(const document_node *entries, const char *name)
 {
     for (int i = 0; entries != NULL && entries->kind == DOCUMENT_MAP && i < entries->count; i++) {
@@ -500,7 +491,6 @@ void builder_combinations(builder *b)
     }
 }
 
-/* Returns 1 if a combination, an analysis or a quantity uses the load case. */
 static int is_read(const scene *s, int load_case)
 {
     for (int i = 0; i < s->combinations; i++)

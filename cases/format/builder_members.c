@@ -16,7 +16,6 @@ static int share(const fields *f, const document_node *name)
         document_mistake(b->mistakes, name, 0, "shared: a name is expected");
         return SCENE_WARP_FREE;
     }
-    /* full name of an entry of an instance */
     char full[200];
     const int length = snprintf(full, sizeof full, "%.90s.%.90s",
                                 f->placed != NULL ? f->placed->name : "", name->text);
@@ -92,8 +91,8 @@ static void read_sections(const fields *f, scene_member *m)
     check_taper(f, n, (const int[]){m->section, m->section_q});
 }
 
-/* Reads the released components of an end of a member: a word, or a list of words. Their order is
- * the order of the releases. */
+/* Reads the released components of an end of a member: one word or a list of words, whose order is
+ * that of the releases. */
 static void read_released(const fields *f, const char *key, int member, int end)
 {
     const document_node *n = document_find(f->map, key);
@@ -133,7 +132,6 @@ void builder_members(builder *b)
     }
 }
 
-/* Checks that the unit of the motion is that of the prescribed coordinate. */
 static void check_unit(const fields *f, int motion)
 {
     const document_node *given = document_find(f->map, "unit");
@@ -158,7 +156,6 @@ static void check_unit(const fields *f, int motion)
                          angle == 1 ? "a translation" : "an angle", angle == 1 ? "m" : "rad");
 }
 
-/* Checks that the motion has either values, along a path or in time, or a condition. */
 static void check_given(const fields *f)
 {
     const int known = fields_have(f, "value") || builder_has_function(f),
@@ -249,7 +246,7 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
             : "");
 }
 
-/* Functions of time: an expression of t, pieces of such expressions, or a table. */
+/* Maximum number of characters of an expression of t after names have been replaced by values. */
 
 enum { MOST_TEXT = 4000 };
 
@@ -260,8 +257,8 @@ typedef struct written_out {
     size_t used;
 } written_out;
 
-/* Appends text whose characters have the position `place` in the file. Returns 0 if the text does
- * not fit. */
+/* Appends text. All its characters have the position `place` in the file. Returns 0 if the text
+ * does not fit. */
 static int put(written_out *to, const char *text, size_t length, int place)
 {
     if (to->used + length >= MOST_TEXT)
@@ -274,8 +271,8 @@ static int put(written_out *to, const char *text, size_t length, int place)
     return 1;
 }
 
-/* Copies a word of functions of time, or the value of any other name, and moves *at past the name.
- * Returns 0 after an error. */
+/* Copies a name that functions of time define, such as t or sin, or the value of any other name.
+ * Moves *at past the name. Returns 0 after an error. */
 static int put_name(const fields *f, const document_node *n, int *at, written_out *to)
 {
     const int from = *at, length = (int)expression_name_length(n->text + from);
@@ -313,7 +310,7 @@ static int write_out(const fields *f, const document_node *n, written_out *to)
     while (n->text[at] != '\0') {
         const int length = (int)expression_name_length(n->text + at);
         const char before = at > 0 ? n->text[at - 1] : ' ';
-        /* the e of 1e-3 is part of the number */
+        /* the e of 1e-3 is not a name */
         const int named = length > 0 && before != '.' && !(before >= '0' && before <= '9');
         const int taken = length > 0 ? length : 1, errors = f->b->mistakes->count;
         int behind = at;
@@ -368,8 +365,8 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
 }
 
 /* Computes the slopes m of the cubic spline that starts and ends at rest and has a continuous
- * second derivative. They satisfy m[k-1]/h + 2 m[k] (1/h + 1/g) + m[k+1]/g = 3 (rise/h^2 + next
- * rise/g^2). */
+ * second derivative. With the intervals h, g and the rises before and after station k, m[k-1]/h + 2
+ * m[k] (1/h + 1/g) + m[k+1]/g = 3 (rise/h^2 + next rise/g^2). */
 static void spline_slopes(int count, const double at[], const double value[], double m[],
                           double room[])
 {
@@ -387,7 +384,6 @@ static void spline_slopes(int count, const double at[], const double value[], do
         m[k] -= room[k] * m[k + 1];
 }
 
-/* Adds cubic pieces between stations, with the given slopes. */
 static void add_cubic(scene *s, int index, builder_piece *add, const double at[2],
                       const double value[2], const double slope[2])
 {

@@ -8,11 +8,12 @@
 #include "elements/math/vec3.h"
 #include "elements/shared/choice.h"
 
-/* Deviations of a unit vector that are smaller than this value are round-off. */
+/* Smaller deviations from a unit vector are round-off. */
 static const double round_off = 1e-12;
 
 /* Returns the component in the axes of the scene that is parallel to component c of the instance,
- * or SCENE_NONE if no axis is parallel. *same is 1 if the two directions are equal. */
+ * or SCENE_NONE if no axis is parallel. *same is 1 if the two directions are equal and 0 if they
+ * are opposite. */
 static int component_of(const fields *f, int c, int *same)
 {
     double axis[3] = {0};
@@ -30,8 +31,8 @@ static int component_of(const fields *f, int c, int *same)
 
 static const char held_choices[] = "all|ux|uy|uz|rx|ry|rz";
 
-/* Returns 1 if the axes of the node are given in the file, or are those of a rotated instance, and
- * sets the latter. */
+/* Returns 1 if the axes of the node are given in the file or are those of a rotated instance. Sets
+ * the axes of a rotated instance. */
 static int has_axes(const fields *f, scene_node *n)
 {
     const unsigned held = fields_words(f, "hold", held_choices);
@@ -88,7 +89,6 @@ static void read_directions(const fields *axes, scene_node *n)
                          "perpendicular directions");
 }
 
-/* Reads the axes of a straight member that ends at the node. */
 static void read_member_axes(const fields *axes, int node, scene_node *n)
 {
     const document_node *name = document_find(axes->map, "member");
@@ -119,8 +119,8 @@ static void read_member_axes(const fields *axes, int node, scene_node *n)
     }
 }
 
-/* Converts the rotations of a node with its own axes. A single prescribed rotation becomes a
- * sequence of one angle. Several rotations are rejected, because their order would be undefined. */
+/* Converts the rotations of a node with its own axes. One prescribed rotation becomes a sequence of
+ * one angle. Several prescribed rotations are rejected, because their order would be undefined. */
 static void turn_about_axes(const fields *f, scene_node *n)
 {
     double R[9];
@@ -184,7 +184,6 @@ static void read_drive(const fields *f, int node, int own)
     }
 }
 
-/* Reads an angle, which is free, fixed or prescribed by a motion. */
 static int angle_of(const fields *f, const document_node *n)
 {
     if (n->kind == DOCUMENT_TEXT && strcmp(n->text, "free") == 0)
@@ -242,7 +241,7 @@ static void read_rotation(const fields *f, scene_node *n)
         n->angle[i] = fields_entry_of(&rotation, vector->item[i], SCENE_DRIVERS);
 }
 
-/* Checks that rotations are defined only once: by components, a rotation or a fork. */
+/* Checks that rotations are defined only once: by components, by a rotation or by a fork. */
 static void check_masters(const fields *f, const scene_node *n)
 {
     const int held =
@@ -293,7 +292,6 @@ void builder_nodes(builder *b)
     }
 }
 
-/* Returns the index of the point that a wall names, or -1 after an error. */
 static int point_of(const fields *wall, const char *key, const document_node *points)
 {
     const document_node *name = document_find(wall->map, key);
@@ -355,7 +353,6 @@ static int are_zero(int count, const double value[])
     return i == count;
 }
 
-/* Reads section constants that the key table does not describe. */
 static void read_rest(const fields *f, section_spec *spec)
 {
     const fields those = fields_below(f, "constants");
@@ -390,8 +387,8 @@ static void read_matrices(const fields *f, section_spec *spec)
     read_matrix(f, "mass", spec->constants.mass);
 }
 
-/* Checks the material. Sections given by matrices have no material and no overrides, and only they
- * have a mass matrix. */
+/* Sections given by matrices have no material and no overrides, and only they have a mass
+ * matrix. */
 static void check_material(const fields *f)
 {
     static const struct {
@@ -464,11 +461,11 @@ void builder_sections(builder *b)
     }
 }
 
-/* Defaults of a transient analysis without a step and without a tolerance. The tolerances are
- * relative to the size of the motion, and the step is relative to the last station. */
+/* Defaults of a transient analysis. The tolerances are relative to the size of the motion, and the
+ * step is relative to the time of the last station. */
 static const double usual_tolerance = 1e-3, usual_of_radau = 1e-5, usual_step = 1e-3;
 
-/* Reads a parameter of alpha, which must lie between two limits. */
+/* Reads a parameter of the integrator alpha and checks its range. */
 static double between(const fields *f, const char *key, double otherwise, double least, double most,
                       const char *range)
 {
@@ -495,8 +492,8 @@ static scene_alpha alpha_of(const fields *f)
 
 static const char *const of_alpha[] = {"rho", "hht", "trapezoidal", "parameters"};
 
-/* Returns 1 if the file selects alpha without naming an integrator. It does so by a parameter that
- * only alpha has, or by constant steps. */
+/* Returns 1 if the file selects the integrator alpha without naming it: by a parameter that only
+ * alpha has, or by constant steps. */
 static int has_alpha_keys(const fields *f)
 {
     int requests = fields_have(f, "step") && !fields_have(f, "tolerance");
@@ -505,8 +502,8 @@ static int has_alpha_keys(const fields *f)
     return requests;
 }
 
-/* Rejects parameters of alpha for another integrator, unless their values are parameters of the
- * scene. */
+/* Rejects parameters of alpha if another integrator is selected. Values that are parameters of the
+ * scene are accepted. */
 static void check_parameters(const fields *f, scene_scheme scheme)
 {
     const int chosen = choice_index(SCENE_SCHEME_CHOICES, fields_text(f, "integrator", "")) < 0;
@@ -516,8 +513,8 @@ static void check_parameters(const fields *f, scene_scheme scheme)
                              "%s applies only to the integrator alpha; remove it", of_alpha[i]);
 }
 
-/* Returns the integrator. In comparisons of integrators (motion -u), sets of parameters of alpha
- * have separate names. */
+/* Returns the integrator. Some sets of parameters of alpha are named integrators, which `motion -u`
+ * compares. */
 static scene_scheme scheme_of(const fields *f)
 {
     static const char *const set[][2] = {{"hht", "hht: 0.1"}, {"trapezoidal", "trapezoidal: yes"}};

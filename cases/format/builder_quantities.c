@@ -6,7 +6,6 @@
 
 #include "cases/scene/scene.h"
 
-/* Returns the default unit of the reported value of a quantity. */
 static const char *usual_unit(const scene *s, const scene_quantity *q)
 {
     if (q->reduction == SCENE_PER_SECOND)
@@ -16,7 +15,7 @@ static const char *usual_unit(const scene *s, const scene_quantity *q)
     return quantity_type_of(q)->unit(s, q);
 }
 
-/* Changes a unit to that of a power density, such as "m^2/Hz" or "(m/s)^2/Hz". */
+/* Changes a unit to that of a power spectral density, such as "m^2/Hz" or "(m/s)^2/Hz". */
 static void make_density(char unit[SCENE_UNIT])
 {
     char of[SCENE_UNIT];
@@ -44,11 +43,10 @@ static void read_unit(const fields *f, scene_quantity *q)
     units_translate(&f->b->units, usual_unit(f->b->scene, q), sizeof own, own);
     if (q->transform == SCENE_PSD)
         make_density(own);
-    /* any unit is valid with a factor; take_envelopes sets the unit of an envelope */
+    /* with a factor, any unit is valid; take_envelopes sets the unit of an envelope */
     if (unit != NULL && !fields_have(f, "factor") && q->what.kind != SCENE_ENVELOPE_OF) {
         if (!f->b->units.given)
             units_check(unit, f->b->mistakes);
-        /* a load factor may have the unit of its load */
         const int factor = strcmp(own, "1") == 0,
                   kept = factor && is_kept(&f->b->units, unit->text);
         if (strcmp(unit->text, own) != 0 && !kept && (f->b->units.given || !factor))
@@ -78,7 +76,7 @@ static void read_abscissa_of(const fields *x, scene_quantity *q)
     scene_set_curve_over(q, over >= 0 ? x->b->list[SCENE_QUANTITIES].entry[over].name : "", "");
 }
 
-/* Sets the units of abscissae, after all quantities have been read. */
+/* Sets the units of abscissae. Requires that all quantities have been read. */
 static void take_abscissa_units(scene *s)
 {
     for (int i = 0; i < s->quantities; i++) {
@@ -88,7 +86,8 @@ static void take_abscissa_units(scene *s)
     }
 }
 
-/* Reads the quantities of an envelope, after all names but not all units have been read. */
+/* Reads the quantities of an envelope. Requires that the names of all quantities have been read;
+ * their units may follow. */
 static void read_members(const fields *what, scene_quantity *q)
 {
     const document_node *n = document_find(what->map, "quantities");
@@ -105,7 +104,6 @@ static void read_members(const fields *what, scene_quantity *q)
     }
 }
 
-/* Sets the unit and the analysis of an envelope to those of its first quantity. */
 static void take_envelopes(builder *b)
 {
     scene *s = b->scene;
@@ -157,7 +155,7 @@ static void read_abscissa(const fields *f, scene_quantity *q)
                     fields_number(&x, "factor", 1), fields_number(&x, "offset", 0));
 }
 
-/* Reads the stations to which the quantity refers: `at` a value, or last, max, min or curve. */
+/* Reads the stations of the quantity: `at` a value, or a statistic such as last, max or curve. */
 static void read_stations(const fields *entry, const fields *what, scene_quantity *q)
 {
     const int taken = fields_word(what, "take", SCENE_TAKE_CHOICES, 0),
@@ -174,7 +172,7 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
                          "an abscissa requires a curve; add take: curve, or remove it");
 }
 
-/* Rejects a window or a level that the quantity does not use. */
+/* Rejects a range of stations or a level that the quantity does not use. */
 static void check_when(const fields *f, const scene_quantity *q)
 {
     static const char *const crossing[] = {"direction", "level", "which"};
@@ -194,7 +192,7 @@ static void check_when(const fields *f, const scene_quantity *q)
                          "minima, but this quantity is none of these; remove it, or change 'take'");
     else
         for (int i = q->passing.direction == SCENE_RISING; i < 3;
-             i++) /* the direction 'rising' is ignored, because it is always written */
+             i++) /* 'rising' is ignored, because scenes that are written always contain it */
             if (fields_have(&when, crossing[i]) && q->reduction != SCENE_CROSSING &&
                 q->reduction != SCENE_PERIOD && q->reduction != SCENE_PER_SECOND)
                 document_mistake(f->b->mistakes, document_find(when.map, crossing[i]), 0,
@@ -203,7 +201,8 @@ static void check_when(const fields *f, const scene_quantity *q)
                                  crossing[i]);
 }
 
-/* Reads the prediction. The text of its source remains valid after a second build of the scene. */
+/* Reads the prediction. Its source is valid as long as the file, even if the scene is built
+ * again. */
 static void read_prediction(const fields *f, const unrolled *entry, scene_quantity *q)
 {
     const fields prediction = fields_below(f, "prediction");
@@ -213,7 +212,6 @@ static void read_prediction(const fields *f, const unrolled *entry, scene_quanti
     q->prediction.source = document_find(written, "source")->text;
 }
 
-/* Returns the number of eigenvalues of an analysis that the quantities request. */
 static int requested_of(const scene *s, int analysis)
 {
     int most = 0;
@@ -230,8 +228,8 @@ static int requested_of(const scene *s, int analysis)
     return most;
 }
 
-/* Sets the number of eigenvalues to the number that the quantities request. Reports an error if
- * `wanted` is smaller than this number. */
+/* Sets the number of eigenvalues to the number that the quantities request. A given number that is
+ * smaller is an error. */
 static void check_wanted(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {
@@ -266,7 +264,6 @@ static void read_overs(const fields *what, scene_quantity *q)
     }
 }
 
-/* Sets the members of a quantity that the key table of its kind does not describe. */
 static void complete(const fields *what, const quantity_type *type, scene_quantity *q)
 {
     const scene *s = what->b->scene;
@@ -306,7 +303,8 @@ void builder_quantities(builder *b)
     check_wanted(b);
 }
 
-/* Adds a path to the last station of the motions, or a linear solution if there are no motions. */
+/* Adds a path analysis up to the last station of the motions, or a linear analysis if there are no
+ * motions. */
 static int add_analysis(builder *b)
 {
     double end = 0;
@@ -318,7 +316,6 @@ static int add_analysis(builder *b)
     return end > 0 ? scene_add_static(b->scene, 1, &end, 1) : scene_add_linear(b->scene);
 }
 
-/* Returns 1 if the node has a load or a prescribed motion. */
 static int is_requested(const scene *s, int node)
 {
     for (int i = 0; i < s->loads; i++)
@@ -361,9 +358,9 @@ static void add_displacements(builder *b, int analysis, int node, int prefixed)
     }
 }
 
-/* Adds displacements of the nodes that have a load or a prescribed translation. If there are none,
- * adds those of all nodes that are not attached to another node. For a linear analysis that solves
- * all load cases and combinations, the quantities are the values of the largest magnitude. */
+/* Adds the displacements of all nodes that have a load or a prescribed translation. If there are no
+ * such nodes, adds those of all nodes that are not attached to another node. For a linear analysis
+ * that solves all load cases and combinations, the value with the largest magnitude is reported. */
 static void add_states(builder *b, int analysis, int prefixed)
 {
     const scene *s = b->scene;
@@ -417,7 +414,7 @@ static void add_quantities(builder *b)
                 scene_add_quantity(s, name, "N/m", i, scene_stiffness_entry(SCENE_UX + k));
             }
             break;
-        case SCENE_HARMONIC: /* a harmonic analysis needs an input, which is unknown */
+        case SCENE_HARMONIC: /* the input of the harmonic analysis is unknown */
             break;
         case SCENE_CONTINUATION:
             scene_add_quantity(s, b->list[SCENE_ANALYSES].entry[i].name, "1", i, scene_factor_at());
@@ -435,7 +432,7 @@ void builder_defaults(builder *b)
         add_quantities(b);
 }
 
-/* Returns the text after an SI unit and its power, or NULL if the text does not start with an SI
+/* Returns the text that follows an SI unit and its power, or NULL if `at` does not start with an SI
  * unit. */
 static const char *word_end(const char *at)
 {
@@ -457,8 +454,8 @@ static const char *product_end(const char *at)
     return at;
 }
 
-/* Returns 1 for a unit such as "N m", "kg/m^3" or "rad/(N m)". One word, or several words in
- * parentheses, must follow the slash. */
+/* Returns 1 for a unit such as "N m", "kg/m^3" or "rad/(N m)". After a slash, several units must be
+ * in parentheses. */
 static int is_si(const char *unit)
 {
     const char *at = product_end(unit);
@@ -526,7 +523,7 @@ void units_check(const document_node *unit, mistakes *m)
 
 typedef struct named_unit {
     const char *name;
-    double value; /* size of the unit in SI */
+    double value;
 } named_unit;
 
 static const named_unit lengths[] = {{"m", 1},       {"cm", 1e-2},   {"mm", 1e-3}, {"um", 1e-6},

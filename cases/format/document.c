@@ -23,8 +23,7 @@ static void *refuse(document_reader *r, yaml_mark_t at, const char *what)
     return NULL;
 }
 
-/* Reports a syntax error, with a message of beamwork for known errors and otherwise with the
- * message of the parser. */
+/* Reports a syntax error. Known errors have a message of beamwork, others that of the parser. */
 static void report_syntax(document_reader *r)
 {
     const yaml_parser_t *p = &r->parser;
@@ -53,8 +52,7 @@ static void report_syntax(document_reader *r)
                      context, context[0] != '\0' ? ": " : "", problem);
 }
 
-/* Returns 1 with the next event, which the caller must delete. Reports a syntax error and returns
- * 0. */
+/* Reads the next event, which the caller must delete. Returns 1, or 0 after a syntax error. */
 static int next(document_reader *r, yaml_event_t *event)
 {
     if (yaml_parser_parse(&r->parser, event))
@@ -78,7 +76,7 @@ static document_node *new_node(document_reader *r, document_kind kind, yaml_mark
     return n;
 }
 
-/* Returns the number of characters in the bytes. Continuation bytes are not counted. */
+/* Returns the number of characters in UTF-8 text. */
 static int characters(const char *text, int bytes)
 {
     int count = 0;
@@ -131,7 +129,7 @@ static int add_entry(document_reader *r, document_node *n, document_node *key, d
     return 1;
 }
 
-/* Checks a key of a map. Reports an error and returns 0 if the key is invalid. */
+/* Returns 1 if the key is valid. Otherwise reports an error and returns 0. */
 static int check_key(document_reader *r, const document_node *map, const document_node *key)
 {
     if (key->kind != DOCUMENT_TEXT) {
@@ -278,7 +276,7 @@ document_node *document_read(const char *bytes, size_t size, arena *a, mistakes 
         return NULL;
     }
     yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
-    /* skips the byte order mark that some editors add */
+    /* length of the byte order mark that some editors add */
     const size_t mark = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     yaml_parser_set_input_string(&r.parser, (const unsigned char *)bytes + mark, size - mark);
     document_node *root = read_stream(&r);
@@ -372,7 +370,6 @@ void arena_free(arena *a)
     memset(a, 0, sizeof *a);
 }
 
-/* Returns 1 if the position precedes the position of the error. */
 static int is_before(int line, int column, const mistake *other)
 {
     return line < other->line || (line == other->line && column < other->column);

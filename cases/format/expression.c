@@ -6,7 +6,7 @@
 
 #include "cases/scene/scene.h"
 
-/* Returns the index of a section constant by its name, or -1. */
+/* Returns the index of the section constant with this name, or -1. */
 static int section_names_index(const char *name, size_t length);
 
 static int report_unknown(const name_context *c, const char *text, int from, int length,
@@ -29,7 +29,7 @@ static int report_unknown(const name_context *c, const char *text, int from, int
     return 0;
 }
 
-/* Reads SECTION.CONSTANT. `length` is the length of the section name including the point. */
+/* Reads SECTION.CONSTANT. `length` includes the point. */
 static int constant(const name_context *c, const char *text, int *at, int length, double *out,
                     expression_mistake *why)
 {
@@ -72,8 +72,8 @@ int names_number(const void *context, const char *text, int *at, double *out,
     return known->word == NULL && !isnan(*out); /* the error has already been reported */
 }
 
-/* Evaluates `length` bytes of the text from `from` on, as expression_number does for the whole
- * text. */
+/* Evaluates `length` bytes of the text, starting at `from`, as expression_number evaluates the
+ * whole text. */
 static int expression_part(const document_node *n, int from, int length, const scope *names,
                            mistakes *m, double *out)
 {
@@ -141,7 +141,7 @@ static int fill(double from, double to, double step, int count, arena *a, mistak
     return count;
 }
 
-/* Divides a range. a..b/n has both ends and n - 1 points between them. a..b/n:log has equal
+/* Computes the n + 1 values of a range a..b/n, which includes both ends. a..b/n:log has equal
  * ratios. */
 static int divide(const document_node *n, double from, double to, int at, const scope *names,
                   arena *a, mistakes *m, double **out)

@@ -1,4 +1,4 @@
-/* Reads values of a map by their keys. */
+/* Functions that read values of a map by their keys. */
 #include "cases/format/format_impl.h"
 
 #include <math.h>
@@ -133,7 +133,7 @@ void builder_call(builder *b, scene_list list, int index, int i)
     scene_set_name(b->scene, list, index, b->list[list].entry[i].name);
 }
 
-/* A list of a builder, used to find the nearest name. */
+/* Context of the search for the nearest name. */
 typedef struct named_list {
     const builder *b;
     scene_list list;
@@ -145,8 +145,8 @@ static const char *entry_at(const void *context, int i)
     return i < those->b->list[those->list].count ? those->b->list[those->list].entry[i].name : NULL;
 }
 
-/* Returns the entry with the name in `text`. Inside an instance, the entries of the instance take
- * precedence. */
+/* Returns the index of the entry with the name `text`. Inside an instance, the entries of the
+ * instance take precedence. */
 static int find_entry(const fields *f, const char *text, scene_list list, int own)
 {
     const size_t prefix = own && f->placed != NULL ? strlen(f->placed->name) : 0;
@@ -162,8 +162,8 @@ static int find_entry(const fields *f, const char *text, scene_list list, int ow
     return found;
 }
 
-/* Returns the name in a node of the tree. The name may contain a loop name or denote a port. Sets
- * *port to 1 for a port. */
+/* Returns the name in a node of the tree, with loop names replaced. Sets *port to 1 if it is a
+ * port. */
 static const char *name_of(const fields *f, const document_node *n, scene_list list, int *port)
 {
     const scope *known = scope_find(f->names, n->text, strlen(n->text));
@@ -203,8 +203,7 @@ int fields_entry_of(const fields *f, const document_node *n, scene_list list)
     const int found = find_entry(f, text, list, !port);
     if (found >= 0)
         return found;
-    if (!substitute_is_left(text) &&
-        !f->b->list[list].incomplete) /* otherwise the error has already been reported */
+    if (!substitute_is_left(text) && !f->b->list[list].incomplete)
         document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
                          mistakes_remedy(choice_nearest(text, entry_at, &those),
                                          list == SCENE_CASES

@@ -1,4 +1,4 @@
-/* Reading and writing of scene files. */
+/* Functions that read and write scene files. */
 #ifndef BEAMWORK_CASES_FORMAT_FORMAT_H
 #define BEAMWORK_CASES_FORMAT_FORMAT_H
 
@@ -9,20 +9,18 @@
 #include "cases/scene/scene.h"
 #include "elements/shared/status.h"
 
-/* Memory that is released as a whole and holds all data of a scene file. */
+/* Memory for all data of a scene file, which is released as a whole. */
 
 typedef struct arena {
     struct arena_block *block;
     size_t used, total; /* bytes used in the first block, and bytes in all blocks */
-    int failed;         /* 1 after an error: out of memory, or above the limit for a file */
+    int failed;         /* 1 if out of memory, or if the file needs more memory than allowed */
 } arena;
 
 /* Makes room for another entry in a list of `count` entries. Returns the list, a copy with twice
  * the room, or NULL if out of memory. */
 void *arena_grow(arena *a, void *list, int count, size_t size);
 void arena_free(arena *a);
-
-/* Errors in a scene file with their positions, which are reported together. */
 
 enum { MISTAKES_MOST = 20 };
 
@@ -34,8 +32,8 @@ typedef struct mistake {
 typedef struct mistakes {
     const char *file; /* name used in messages */
     int count;
-    int more;                    /* number of errors that did not fit */
-    int out_of_memory;           /* 1 if memory ran out before the end of the file was read */
+    int more;                    /* number of further errors, which are not in the list */
+    int out_of_memory;           /* 1 if out of memory before the whole file was read */
     mistake list[MISTAKES_MOST]; /* ordered by position */
 } mistakes;
 
@@ -45,14 +43,14 @@ __attribute__((format(printf, 4, 5)))
 #endif
 void mistakes_add(mistakes *m, int line, int column, const char *format, ...);
 
-/* Returns "; did you mean 'near'?", or the remedy if near is NULL. */
+/* Writes "; did you mean 'near'?" to `text`, or the remedy if near is NULL. Returns `text`. */
 const char *mistakes_remedy(const char *near, const char *remedy, char text[FAULT_TEXT]);
 
 /* Returns OK if there are no errors. Otherwise returns REFUSED, or FAULT if out of memory, and
  * writes the first error to f. */
 status mistakes_status(const mistakes *m, fault *f);
 
-/* Prints "file:line:column: what" in one line for each error, then the number of further errors. */
+/* Prints one line "file:line:column: what" for each error, then the number of further errors. */
 void mistakes_print(const mistakes *m, FILE *to);
 /* Writes {"file": ..., "mistakes": [{"line", "column", "text"}, ...], "more": n} for editors.
  * Returns FAULT if out of memory. */
@@ -60,9 +58,8 @@ status mistakes_json(const mistakes *m, FILE *to, fault *f);
 
 /* A YAML document as a tree of maps, lists and strings, each with its position in the file.
  *
- * Every scalar is a string until a number or a word is read from it; there are no implicit types.
- * Anchors, aliases, tags, merge keys, several documents, duplicate keys, and documents that are too
- * deep or too large are rejected. */
+ * Scalars are strings: types are not inferred. Anchors, aliases, tags, merge keys, several
+ * documents, duplicate keys, and documents beyond the limits below are rejected. */
 
 enum { DOCUMENT_BYTES = 1 << 20, DOCUMENT_DEPTH = 16, DOCUMENT_ENTRIES = 10000 };
 
@@ -71,9 +68,9 @@ typedef enum document_kind { DOCUMENT_TEXT, DOCUMENT_LIST, DOCUMENT_MAP } docume
 typedef struct document_node {
     document_kind kind;
     int line, column; /* position of the first character, starting at 1 */
-    /* For a string that appears unchanged in the file, the number of columns from `column` to its
-     * first character (1 after a quote). -1: the characters of the string do not correspond to
-     * columns of the file (several lines, escapes, an inserted name). */
+    /* Number of columns from `column` to the first character of a string: 0, or 1 after a quote. -1
+     * if the characters do not correspond to columns, for example in a string with escapes or
+     * inserted names. */
     int inset;
     const char *text;            /* without control characters */
     int count;                   /* number of entries of a list or map */
@@ -85,31 +82,30 @@ typedef struct document_node {
 document_node *document_read(const char *bytes, size_t size, arena *a, mistakes *m);
 /* Returns the value of a key, or NULL if the key is missing or `map` is not a map. */
 const document_node *document_find(const document_node *map, const char *key);
-/* Adds an error at character `offset` of the string, or at the start of the node if characters have
- * no positions. */
+/* Adds an error at character `offset` of the string, or at the start of the node if inset is -1. */
 #if defined(__GNUC__)
 __attribute__((format(printf, 4, 5)))
 #endif
 void document_mistake(mistakes *m, const document_node *n, int offset, const char *format, ...);
 
-/* Text of two paragraphs that precedes the list of keys. */
+/* Two paragraphs that precede the list of keys. */
 extern const char *const key_list_head[2];
 
-/* Receives a key: its depth below the root (0), its form ("NAME: {...}") and its description. */
+/* Receives a key: its depth (0 for keys of the root), its form such as "NAME: {...}" and its
+ * description. */
 typedef void key_list_take(void *context, int depth, const char *name, const char *form,
                            const char *text);
-/* Pass either the keys that every entry may have (loops) or all other keys. Each key follows its
- * parent. Keys that are not implemented are omitted. */
+/* key_list_loops passes the keys that every entry may have, and key_list_all all other keys. Each
+ * key follows its parent. Keys that are not implemented are omitted. */
 void key_list_loops(key_list_take *take, void *context);
 void key_list_all(key_list_take *take, void *context);
 
-/* Writes a text after `at` columns of a line, indents continuation lines, and ends the line. */
+/* Writes a text from column `at`. Continuation lines are indented by `indent`. */
 typedef void key_list_print(FILE *to, int at, int indent, const char *text);
-/* Writes the name, form, unit, summary and words of each key. */
+/* Writes the list of all keys with their descriptions. */
 void key_list_write(FILE *to, key_list_print *print);
 
-/* Opens a text file and skips a byte order mark at its start. Returns NULL and sets errno after a
- * failure. */
+/* Opens a text file and skips its byte order mark. Returns NULL and sets errno after a failure. */
 FILE *line_open(const char *path);
 /* Skips the byte order mark of an open stream. */
 void line_skip_mark(FILE *from);
@@ -118,30 +114,31 @@ char *line_trim(char *line);
 /* Returns 1 if the line is UTF-8 without control characters. */
 int line_is_text(const char *line);
 /* Splits a line at commas in place, and trims the fields. A field may be in quotes, within which ""
- * stands for one quote. Returns the number of fields, or more than `most` if there are too many. */
+ * stands for one quote. Returns the number of fields, or a larger number than `most` if there are
+ * too many. */
 int line_split(char *line, char *field[], int most);
-/* Splits a line into words separated by blanks, in place. Returns the number of words, or more than
- * `most` if there are too many. */
+/* Splits a line into words separated by blanks, in place. Returns the number of words, or a larger
+ * number than `most` if there are too many. */
 int line_words(char *line, char *word[], int most);
-/* Reads a finite number that fills the text, whose exponent may be written with D. Returns 1, or 0
- * if the text is not such a number. */
+/* Returns 1 and sets *value if the whole text is a finite number, whose exponent may start with D.
+ * Otherwise returns 0. */
 int line_number(const char *text, double *value);
 
-/* Description of a quantity of a scene, made from the data of the scene. */
+/* Sufficient room for the description of a quantity. */
 
 enum { MEANING_ROOM = 512 };
 
-/* Writes one line without a full stop. The line contains the kind, the component, the node or
- * member with its position, and the station. The line also contains the analysis if the quantity
- * would otherwise be ambiguous. Quantities that differ in these data have different lines. Nodes
- * and members have the names that write_scene writes. Text that does not fit is truncated. */
+/* Describes a quantity in one line without a full stop. The line contains the kind, the component,
+ * the node or member with its position, and the station. It also contains the analysis if another
+ * quantity would have the same line. Nodes and members have the names that write_scene writes. Text
+ * that does not fit is truncated. */
 void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size);
 
-/* A scene file as a case: parameters, a function that builds the scene, and reference values. */
+/* A scene file, which is a case: its parameters, its scene and its reference values. */
 
 typedef struct scene_file scene_file;
 
-/* Reference value that a file gives for a quantity at a parameter point. */
+/* Reference value in a scene file for a quantity at a parameter point. */
 typedef struct scene_truth {
     const double *parameter;       /* values of the parameters [CASE_MAX_PARAMETERS] */
     double value, uncertainty, at; /* `at` is the abscissa on a curve, NAN for a scalar */
@@ -150,12 +147,12 @@ typedef struct scene_truth {
 /* Receives a reference value, whose strings and numbers are valid only during the call. */
 typedef status scene_truth_taker(void *to, const scene_truth *, fault *);
 
-/* Reads the file and builds the scene once at the defaults, which checks them. After a failure *out
- * is NULL. Returns REFUSED with all errors in m and the first error in f, or FAULT if the file
- * cannot be read. `path` must outlive m and the file. */
+/* Reads the file and checks the scene at the default parameters. After a failure *out is NULL.
+ * Returns REFUSED with all errors in m and the first error in f, or FAULT if the file cannot be
+ * read. `path` must outlive m and the file. */
 status scene_file_read(const char *path, scene_file **out, mistakes *m, fault *f);
-/* Reads the file but checks only the form and the parameters, for use with values other than the
- * defaults. scene_file_check checks the scene at such values. */
+/* Reads the file but checks only its form and its parameters. scene_file_check then checks the
+ * scene at other values than the defaults. */
 status scene_file_read_form(const char *path, scene_file **out, mistakes *m, fault *f);
 /* Checks the scene at these parameter values. Returns REFUSED with all errors in m and the first
  * error in f. */
@@ -166,34 +163,32 @@ status scene_file_read_bytes(const char *bytes, size_t size, const char *path, s
                              mistakes *m, fault *f);
 void scene_file_free(scene_file *);
 
-/* Returns the case, which is valid as long as the file. */
+/* Returns the case, which is valid until the file is freed. */
 const case_type *scene_file_case(const scene_file *);
 /* Returns the path of the file from which a case was made, or NULL if the case is built-in. */
 const char *scene_file_path(const case_type *type);
 const struct document_node *scene_file_document(const scene_file *);
 /* Returns 1 if the root of the file contains this key. */
 int scene_file_states(const scene_file *, const char *key);
-/* Passes the reference values that apply at a parameter point to `taker`, evaluated at that
- * point. */
+/* Passes the reference values of a parameter point, evaluated at this point. */
 status scene_file_truths(const scene_file *, const double value[], scene_truth_taker *, void *to,
                          fault *f);
-/* Passes the reference values at the defaults and at every parameter point that a reference value
- * names. A value may be passed more than once. */
+/* Passes the reference values at the defaults and at all parameter points for which the file has
+ * reference values. A value may be passed more than once. */
 status scene_file_truths_all(const scene_file *, scene_truth_taker *, void *to, fault *f);
 
 /* Writes the keys of scene files as a JSON Schema, for completion and checks in editors. */
 
 status schema_file_write(FILE *to, fault *f);
 
-/* Head of a scene that is written as a scene file. Reading this file gives the same scene, bit for
- * bit. */
+/* Keys at the head of a scene file that write_scene writes. */
 
 typedef struct write_head {
     const char *name, *summary, *source;
 } write_head;
 
-/* Writes the scene with loops and expressions expanded. Numbers have as many digits as are needed
- * to reproduce them. Returns REFUSED if the scene contains data that a file cannot express. */
+/* Writes a scene file that gives the same scene, bit for bit. Loops and expressions are replaced by
+ * their values. Returns REFUSED if the scene contains data that a file cannot express. */
 status write_scene(FILE *to, const scene *s, const write_head *head, fault *f);
 /* Returns the text that write_scene writes, which the caller frees. Returns "" if s is NULL or a
  * file cannot express the scene, and NULL if out of memory. */

@@ -1,4 +1,4 @@
-/* Internal declarations of format/. */
+/* Declarations for the sources in cases/format. */
 #ifndef BEAMWORK_CASES_FORMAT_FORMAT_IMPL_H
 #define BEAMWORK_CASES_FORMAT_FORMAT_IMPL_H
 
@@ -12,57 +12,54 @@
 /* Returns zeroed memory that is aligned for every type. If out of memory, returns NULL and sets
  * `failed`. An arena initialised with {0} is empty. */
 void *arena_take(arena *a, size_t size);
-/* Copies the first `length` bytes of a text, and adds a zero. */
 const char *arena_copy(arena *a, const char *text, size_t length);
 
-/* The name that was added last to the names that expressions may use: parameters, derived values
- * and loop names. Earlier names remain visible. NULL: no names. */
+/* A list of the names that expressions may use: parameters, derived values and loop names. Points
+ * to the last name; NULL is an empty list. */
 typedef struct scope {
     const char *name;
-    double number;    /* value of the name, or NAN after an error in its expression was reported */
-    const char *word; /* word of a choice, or NULL if the name stands for a number */
-    const char *choices; /* choices "a|b|c" of a parameter, or NULL if unknown */
+    double number;       /* NAN if its expression has an error, which has been reported */
+    const char *word;    /* word of a choice, or NULL if the name stands for a number */
+    const char *choices; /* choices "a|b|c" of a parameter, or NULL */
     const double
-        *constants; /* constants of a section, whose name ends with a point; NULL for other names */
+        *constants; /* constants of a section, whose name ends with a point; otherwise NULL */
     const struct scope *before;
 } scope;
 
 /* Adds a name for a number. Returns the new scope, or `names` if out of memory. */
 const scope *scope_number(const scope *names, const char *name, double number, arena *a);
 const scope *scope_word(const scope *names, const char *name, const char *word, arena *a);
-/* Adds a name for a word of a parameter with these choices. */
+/* Adds a parameter with these choices, whose value is `word`. */
 const scope *scope_choice(const scope *names, const char *name, const char *word,
                           const char *choices, arena *a);
-/* Adds the constants of a section as names. */
+/* Adds a name for the constants of a section. */
 const scope *scope_constants(const scope *names, const char *name, const double value[], arena *a);
 /* Returns the entry of the name, of `length` characters, or NULL. */
 const scope *scope_find(const scope *names, const char *name, size_t length);
 /* Returns the known name, constant or function that is nearest to a misspelt name, or NULL. */
 const char *scope_nearest(const scope *names, const char *name);
 /* Returns 1 if `key` can be a new name. Such a name has at most 40 letters, digits and underscores,
- * starts with a letter, and is not used by another name or function. Otherwise reports an error and
- * returns 0. */
+ * starts with a letter, and differs from all other names and functions. Otherwise reports an error
+ * and returns 0. */
 int scope_accepts(const scope *names, const document_node *key, mistakes *m);
 
 /* Builds a scene from a checked tree and the parameters `names`. The scene is valid if no error was
- * found. The caller frees the scene in either case. */
+ * found. The caller frees it in either case. */
 void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out);
 
-/* Reads only the sections into a builder with root and names, and adds their constants to the
- * names. */
+/* Reads only the sections and adds their constants to the names of the builder. */
 struct builder;
 void build_sections(struct builder *b);
 
-/* An entry of a map or list after its loops `for` and its local names `let` have been expanded: $i
- * is replaced in its name and strings, and its local names have values. */
+/* An entry of a map or list for one pass of its loops. Loop names $i in its name and strings are
+ * replaced by their values. */
 typedef struct unrolled {
     const char *name;           /* name of an entry of a map, or NULL for a list */
-    const document_node *place; /* position for messages, which is the key or the entry */
+    const document_node *place; /* its position in messages: the key or the entry */
     const document_node *value;
     const document_node *written; /* the value as written in the file */
     const scope *names;
-    const struct placement
-        *placed; /* instance of a part to which the entry belongs, or NULL for the scene */
+    const struct placement *placed; /* instance to which the entry belongs, or NULL for the scene */
 } unrolled;
 
 enum { UNROLL_MOST = 10000 };
@@ -71,26 +68,25 @@ enum { UNROLL_MOST = 10000 };
  * the outermost. An entry with an error in a loop is reported and omitted. */
 int unroll_entries(const document_node *collection, const scope *names, arena *a, mistakes *m,
                    unrolled **out);
-/* Reads NAME: EXPR in order. An expression may contain the names that precede it. */
+/* Reads the local names, NAME: EXPR. An expression may contain the names that precede it. */
 const scope *unroll_let(const document_node *let, const scope *names, arena *a, mistakes *m);
 
-/* Position and orientation of an instance of a part. A part is a sub-assembly that is described
- * once in its own axes. */
+/* Position and orientation of an instance of a part. A part is a sub-assembly in its own axes. */
 typedef struct placement {
-    const char *name; /* name of the instance, whose entries have the names NAME.ENTRY */
+    const char *name; /* NAME; its entries have the names NAME.ENTRY */
     double origin[3]; /* [m] */
     int turned;       /* 0 if the axes of the instance are those of the scene */
-    double R[9];      /* rotation matrix, row-major; its columns are the axes of the instance in the
-                         scene */
+    double R[9]; /* rotation matrix, row-major: column i is axis i of the instance in the axes of
+                    the scene */
     const document_node *connect; /* PORT: NODE, or NULL */
 } placement;
 
 enum { PLACEMENT_LISTS = 4 };
-/* Lists of a part: "nodes", "members", "springs", "loads". */
+/* Names of the lists of a part, such as "nodes". */
 extern const char *const placement_list[PLACEMENT_LISTS];
 
-/* Appends the entries of all instances to each list[k], which has count[k] entries. The lists are
- * in the order of placement_list. */
+/* Appends the entries of all instances to list[k], the list with the name placement_list[k], which
+ * has count[k] entries. */
 void placement_unroll(const document_node *root, const scope *names, arena *a, mistakes *m,
                       unrolled *list[], int count[]);
 
@@ -102,12 +98,12 @@ void placement_move(const placement *, double p[3]);
  * not a port. */
 const document_node *placement_port(const placement *, const char *name);
 
-/* Reports an error if the text is not an allowed unit. Values are in SI or in the units of the
- * scene. For other units, the message contains the correct form. */
+/* Reports an error if the text is not an SI unit. For other known units, the message contains the
+ * conversion. */
 void units_check(const document_node *unit, mistakes *m);
 
-/* Units of a scene: length and force. The units of stress and mass (force s^2/length) follow from
- * both. */
+/* Units of a scene. The units of length and force determine those of stress and mass (force
+ * s^2/length). */
 typedef struct unit_system {
     int given;            /* 0 for SI units */
     double length, force; /* size of one unit in m and in N */
@@ -115,24 +111,23 @@ typedef struct unit_system {
     char name_of_stress[16];
 } unit_system;
 
-/* Reads "mm, N, MPa" or [mm, N, MPa]. If n is NULL, the units are SI. Reports inconsistent
- * units. */
+/* Reads "mm, N, MPa" or [mm, N, MPa]. If n is NULL, the units are SI. Inconsistent units are an
+ * error. */
 void units_read(const document_node *n, mistakes *m, unit_system *out);
-/* Translates an SI unit to the unit system; for example, "N m" becomes "N mm". Seconds and angles
- * do not change. */
+/* Converts the name of an SI unit to that of the unit system; for example, "N m" becomes "N mm". */
 void units_translate(const unit_system *, const char *unit, size_t size, char out[]);
 
-/* Builds a scene from a checked tree, and reads values of its maps by key.
+/* State of a scene that is built from a checked tree.
  *
- * The form of the values has been checked: a requested value is a number, a word, or a list if a
- * list is required. An invalid value is reported, and an arbitrary value is returned. */
+ * The form of the tree has been checked. After an invalid value, the error is reported and an
+ * arbitrary value is used. */
 
 typedef struct builder {
     arena *arena;
     mistakes *mistakes;
     scene *scene;
     const document_node *root;
-    const scope *names; /* parameters and derived values */
+    const scope *names; /* names that expressions may use */
     unit_system units;  /* units of the numbers in the file */
     struct {
         unrolled *entry;
@@ -141,16 +136,16 @@ typedef struct builder {
     } list[SCENE_LISTS]; /* entries of each list, in the order of the indices of the scene */
     const char **shared; /* names of warping coordinates shared by members */
     int shares;
-    int default_warping; /* number of ends without a specified warping condition */
+    int default_warping; /* number of member ends without a specified warping condition */
 } builder;
 
 /* A map: an entry, or a map inside an entry. */
 typedef struct fields {
     builder *b;
     const scope *names;
-    const document_node *map; /* NULL if the map is missing and treated as empty */
+    const document_node *map; /* NULL for an empty map */
     const document_node *place;
-    const placement *placed; /* NULL if the map is in the axes of the scene */
+    const placement *placed; /* instance to which the map belongs, or NULL */
 } fields;
 
 fields fields_of(builder *b, const unrolled *entry);
@@ -161,31 +156,29 @@ int fields_have(const fields *f, const char *key);
 void fields_read(const fields *f, const entry_field *table, void *entry);
 double fields_number(const fields *f, const char *key, double otherwise);
 int fields_whole(const fields *f, const char *key, int otherwise, int least, int most);
-/* Reads a vector. Returns 1. If the key is missing, returns 0 and leaves out[count] unchanged. */
+/* Reads a vector and returns 1. If the key is missing, returns 0 and does not change out[count]. */
 int fields_vector(const fields *f, const char *key, int count, double out[]);
 /* Reads a list or range. Returns the number of values, or 0 if the key is missing or after an
  * error. *out belongs to the arena. */
 int fields_values(const fields *f, const char *key, double **out);
 const char *fields_text(const fields *f, const char *key, const char *otherwise);
-/* Returns the index in "a|b|c" of a word, or of the word that a parameter of that name has. Returns
- * `otherwise` if the key is missing. */
+/* b|b|c" of a word, or of the word that a parameter of that name has. Returns `otherwise` if the
+ * key is missing. */
 int fields_word(const fields *f, const char *key, const char *choices, int otherwise);
 int fields_word_of(const fields *f, const document_node *word, const char *what,
                    const char *choices, int otherwise);
-/* Returns the bits of a word or of a list of words. */
+/* Returns one bit for each word of the value: a word or a list of words. */
 unsigned fields_words(const fields *f, const char *key, const char *choices);
 /* Returns the index of the entry that the key names, or SCENE_NONE. */
 int fields_entry(const fields *f, const char *key, scene_list list);
 int fields_entry_of(const fields *f, const document_node *name, scene_list list);
-/* Returns the name that a string denotes. If the string is a name of the scope with a word, the
- * result is this word, otherwise the string. */
+/* Returns the name in a string: the word of a parameter with this name, otherwise the string. */
 const char *fields_called(const fields *f, const document_node *name);
 /* Returns 1 if the key names an existing entry. Reports no error. */
 int fields_names(const fields *f, const char *key, scene_list list);
 int fields_names_entry(const fields *f, const document_node *name, scene_list list);
 extern const char fields_components[];
 
-/* Gives an entry of the scene the name of entry i of a list of the file. */
 void builder_call(builder *b, scene_list list, int index, int i);
 
 void builder_sections(builder *b);
@@ -197,10 +190,10 @@ void builder_springs(builder *b);
 void builder_constraints(builder *b);
 void builder_imperfections(builder *b);
 void builder_motions(builder *b);
-/* Reads the names of load cases in loads and motions, then the combinations. */
+/* Read the names of load cases in loads and motions, then the combinations. */
 void builder_cases(builder *b);
 void builder_combinations(builder *b);
-/* Reports load cases that nothing uses as errors. */
+/* builder_read_cases reports an error for each load case that is not used. */
 void builder_read_cases(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
@@ -212,28 +205,28 @@ typedef void builder_piece(scene *, int index, double until, const char *text);
 /* Adds the function given by `time`, `pieces` or `table`. A table is interpolated linearly or, if
  * `spline` is 1, by a cubic spline that starts and ends at rest. */
 void builder_function(const fields *f, int index, builder_piece *add, int spline);
-/* Reports that the analysis does not have the quantity, and lists the kinds of analysis that have
- * it. */
+/* Reports that the analysis does not support the quantity, and lists the kinds of analysis that
+ * do. */
 void builder_no_quantity(const fields *what, const char *key, const scene_quantity *q);
-/* Reads `path` and, for each of its stations, one of `values`. Returns the number of stations, or 0
- * if there are none or after an error. */
+/* Reads the stations `path` and the key `values`, with one value per station. Returns the number of
+ * stations, or 0 if there are none or after an error. */
 int builder_stations(const fields *f, const char *values, double **path, double **value);
 /* Adds default analyses and quantities if the file has none. */
 void builder_defaults(builder *b);
 
 /* Reads a section given by dimensions (I, channel, Z, angle, box). Returns 1 and sets the points
- * and walls, or returns 0 if the section does not have such a form. */
+ * and walls. Returns 0 for other sections. */
 int build_shapes_read(const fields *f, section_spec *spec);
 
-/* Returns 1 if all conditions {NAME: VALUE, NAME: [VALUE, ...], ...} are satisfied, which requires
- * that each name has one of its values, or if `conditions` is NULL. Returns 0 otherwise and after
- * an error. */
+/* Returns 1 if all conditions {NAME: VALUE, NAME: [VALUE, ...], ...} are satisfied or `conditions`
+ * is NULL. A list is satisfied if the name has one of its values. Returns 0 otherwise and after an
+ * error. */
 int choose_holds(const document_node *conditions, const scope *names, mistakes *m);
-/* Returns the entry of {NAME: {VALUE: ..., else: ...}} for the present value of the name. A node of
- * another form is returned unchanged. Returns NULL after an error. */
+/* Returns the entry of {NAME: {VALUE: ..., else: ...}} for the current value of the name. Returns n
+ * if it does not have this form. Returns NULL after an error. */
 const document_node *choose_value(const document_node *n, const scope *names, mistakes *m);
 
-/* Context of names_number, the function that finds the names of a scope in expressions
+/* Context of the function that finds the values of names in expressions
  * (cases/scene/expression.c). */
 typedef struct name_context {
     const scope *names;
@@ -241,19 +234,17 @@ typedef struct name_context {
 } name_context;
 int names_number(const void *context, const char *text, int *at, double *out, expression_mistake *);
 
-/* Evaluates an expression. Returns 1 and the value, or 0 after an error, which is reported with the
- * position of its character. */
+/* Evaluates an expression. Returns 1, or 0 after an error, which is reported at its character. */
 int expression_number(const document_node *n, const scope *names, mistakes *m, double *out);
 /* Reads a list of exactly `count` numbers. */
 int expression_vector(const document_node *n, int count, const scope *names, mistakes *m,
                       double out[]);
 
-/* Replaces `file`, `at` and `value` of tables below the node by the numbers in these files.
- * `beside` is the path of the scene file, to which paths are relative, or NULL. */
+/* Replaces the keys `file`, `at` and `value` of all tables below the node by the numbers in the
+ * files. Paths are relative to the folder of the scene file, whose path is `beside`, or NULL. */
 void table_files_read(document_node *, const char *beside, arena *a, mistakes *m);
 
-/* Tables of the keys of scene files, which are used to check and describe a file and to suggest
- * corrections of keys. */
+/* Tables of the keys of scene files. */
 
 extern const entry_field keys_let[], keys_refusal[], keys_root[], keys_truth[], keys_parameter[],
     keys_part[], keys_instance[];
@@ -271,13 +262,13 @@ const entry_field *keys_any(const entry_field *table);
  * Returns 1 if there are no such errors. */
 int keys_check(const document_node *root, mistakes *m);
 
-/* A scene file that the build reads, checks and stores in the program (harness/tools/pack_case.c).
- * The stored form contains no pointers and is used in the same way as other cases. */
+/* A scene file that the build stores in the program (harness/tools/pack_case.c). Its nodes contain
+ * no pointers. */
 
 typedef struct document_packed {
     int kind, line, column, inset; /* values of document_node */
-    /* Position of a string among all strings. List: first entry, which the other entries follow.
-     * Map: first key, which the other keys and then the entries follow. */
+    /* String: its position among all strings. List: its first entry, followed by the others. Map:
+     * its first key, followed by the other keys and then by the values. */
     int first;
     int count;
 } document_packed;
@@ -293,8 +284,8 @@ typedef struct scene_packed {
 status scene_packed_build(const void *context, const double value[], scene *s, fault *f);
 
 /* Reads a list of numbers or a range: a..b (steps of 1), a..b step c, or a..b/n (n equal parts).
- * The last / after .. always precedes n, so a quotient b must be in parentheses. Both ends are
- * included. Returns the number of values, or -1 after an error. *out belongs to the arena. */
+ * The last / precedes n, so a quotient as b must be in parentheses. Both ends are included. Returns
+ * the number of values, or -1 after an error. *out belongs to the arena. */
 int range_values(const document_node *n, const scope *names, arena *a, mistakes *m, double **out);
 /* Returns 1 if the node is a range. */
 int range_is(const document_node *n);
@@ -315,25 +306,25 @@ void parameter_table_read(scene_file *file, mistakes *m);
 /* Returns the names of the parameters of a table, with these values. */
 const scope *parameter_table_names(const parameter_type *, const double value[], arena *a);
 
-/* Adds the constants of a section to the scope, with names such as SECTION.A. c is NULL if the
- * section has an error that has been reported. */
+/* Adds the constants of a section to the scope, with names such as SECTION.A. If c is NULL, the
+ * section has an error, which has been reported. */
 const scope *section_names_add(const scope *names, const char *section_name, const section *c,
                                arena *a);
 /* Names of all constants, for messages. */
 extern const char section_names_all[];
 
 /* Replaces the loop names $i, or ${i} before letters, in strings by the values of the loops, which
- * are integers or words. Returns the same tree if it contains no loop names, otherwise a copy, or
- * NULL if out of memory. A name that cannot be replaced is reported and remains. */
+ * are integers or words. Returns n if it contains no loop names, otherwise a copy, or NULL if out
+ * of memory. A name without a value is reported and remains. */
 const document_node *substitute_node(const document_node *n, const scope *names, arena *a,
                                      mistakes *m);
-/* Returns the string for use in messages, where numbers have six digits. */
+/* Returns the string with loop names replaced, for messages. Numbers have six digits. */
 const char *substitute_for_message(const document_node *n, const scope *names, arena *a,
                                    mistakes *m);
 /* Returns 1 if a loop name remains in the string, for which an error has been reported. */
 int substitute_is_left(const char *text);
 
-/* State of the output, for the sources that write scene files. */
+/* State of a scene file that is written. */
 
 typedef struct writer {
     FILE *to;
@@ -349,27 +340,25 @@ typedef struct write_own {
     void (*write)(writer *, const void *entry);
 } write_own;
 
-/* Writes a map with the keys of an entry whose values differ from the defaults. `own` contains
- * special forms, even for maps inside the entry, or is NULL. */
+/* Writes a map with the keys of an entry whose values differ from the defaults. `own` lists special
+ * forms, also for maps inside the entry, or is NULL. */
 void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[]);
 /* Writes "key: ", preceded by ", " if it is not the first key of its map. */
 void write_values_key(writer *w, const char *key);
 /* Writes a list of words in brackets, one for each bit. */
 void write_values_bits(writer *w, const char *words, unsigned bits);
 
-/* Writes six digits, or as many as are necessary to reproduce the number. */
+/* Write at least six digits, and as many as are necessary to reproduce the number. */
 void write_values_number(writer *w, double value);
 void write_values_numbers(writer *w, int count, const double value[]);
 /* Writes the diagonal of a 6 x 6 matrix, or the whole matrix if other entries are not zero. */
 void write_values_matrix(writer *w, const double A[36]);
-/* Returns 1 if any value is not zero. */
 int write_values_any(int count, const double value[]);
 /* Writes the key and the number if the number differs from the default. */
 void write_values_if(writer *w, const char *key, double value, double otherwise);
-/* Writes the text in double quotes. */
 void write_values_quoted(writer *w, const char *text);
-/* Writes the name of an entry in the file. The name of the scene is used if it is unique and
- * allowed in a file, otherwise a name is made from the index. */
+/* Writes the name of an entry. A name that is not unique or not allowed in a file is replaced by
+ * one made from the index. */
 void write_values_name(writer *w, scene_list list, int index);
 void write_values_motion(writer *w, int index);
 /* Writes `before` and the name of an entry. */

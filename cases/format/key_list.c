@@ -98,7 +98,7 @@ const char *const key_list_head[2] = {
 
 typedef struct key_rows {
     FILE *to;
-    int depth; /* depth of the current part */
+    int depth; /* depth of the keys that are being written */
     key_list_print *print;
 } key_rows;
 
@@ -122,14 +122,13 @@ void key_list_write(FILE *to, key_list_print *print)
 
 static json_t *map_of(const entry_field *table, const entry_field *loop);
 
-/* Returns the schema of a scalar, which is a number or text: an expression, a word or the name of a
- * parameter. */
+/* Returns the schema of a scalar: a number or a text, because every number may be an expression. */
 static json_t *scalar(void)
 {
     return json_pack("{s:[s, s]}", "type", "number", "string");
 }
 
-/* Converts "a|b|c" to examples that editors offer. */
+/* b|b|c" to examples that editors offer. */
 static json_t *words_of(const char *words)
 {
     json_t *list = json_array();

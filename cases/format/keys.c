@@ -175,7 +175,6 @@ const entry_field keys_root[] = {
      .summary = "parts that are placed in the scene", .left_out = "none"},
     {.name = NULL}};
 
-/* The names of two tables in one list. */
 typedef struct known_keys {
     const entry_field *table, *loop; /* tables of keys; loop is NULL if entries cannot have loops */
 } known_keys;
@@ -305,8 +304,7 @@ static void check_value(const document_node *n, const entry_field *k, const docu
     }
 }
 
-/* Returns advice on a word that is not a key but that users of other programs may expect to be one,
- * or on a key in the wrong place. NULL: none. */
+/* Returns the remedy for a key in the wrong place or for a key of another program, or NULL. */
 static const char *elsewhere(const entry_field *table, const char *name)
 {
     static const char *const poisson[] = {"poisson", "poissons_ratio", "poisson_ratio", "nu"};
@@ -323,8 +321,8 @@ static const char *elsewhere(const entry_field *table, const char *name)
     return NULL;
 }
 
-/* Returns the remedy for an unknown key: what to write instead of a key of another program or in
- * another place, the nearest known key, or otherwise the command that lists all keys. */
+/* Writes the remedy for an unknown key: that of `elsewhere`, otherwise the nearest known key,
+ * otherwise the command that lists all keys. */
 static const char *remedy_of(const known_keys *known, const char *name, char text[FAULT_TEXT])
 {
     const char *other = elsewhere(known->table, name);
@@ -333,7 +331,7 @@ static const char *remedy_of(const known_keys *known, const char *name, char tex
                            text);
 }
 
-/* Returns 1 if a misspelt or rejected key of the map probably stands for the missing key. */
+/* Returns 1 if an invalid key of the map is probably a misspelt form of the missing key. */
 static int is_meant(const document_node *map, const known_keys *known, const char *name)
 {
     for (int i = 0; i < map->count; i++) {
@@ -350,7 +348,7 @@ static int is_meant(const document_node *map, const known_keys *known, const cha
     return 0;
 }
 
-/* Lists the names of a group, for messages. */
+/* Lists the names of the keys in a group. */
 static void group_words(const entry_field *table, int group, char text[FAULT_TEXT])
 {
     size_t used = 0;
@@ -395,7 +393,7 @@ static void check_missing(const document_node *map, const known_keys *known,
     }
 }
 
-/* Reports that a map is expected, for example "a map: {mass: ..., stiffness: ..., ratio: ...}". */
+/* Reports that a map is expected, with its keys as in "{mass: ..., stiffness: ...}". */
 static void report_map(const document_node *n, const known_keys *known, const document_node *name,
                        mistakes *m)
 {

@@ -6,8 +6,8 @@
 
 #include "cases/scene/scene.h"
 
-/* Writes the states to which the quantity belongs and their analysis, such as ", at the end of the
- * static path". */
+/* Writes the state in which the quantity is evaluated and its analysis, such as ", at the end of
+ * the static path". */
 static void meaning_state(FILE *to, const scene *s, const scene_quantity *q);
 
 static int is_blank(char c)
@@ -48,8 +48,7 @@ char *line_trim(char *line)
     return line;
 }
 
-/* Returns the number of continuation bytes after the first byte of a character, or 0 if the byte
- * does not start a multi-byte character. */
+/* Returns the number of bytes that follow the first byte of a UTF-8 character. */
 static int following(unsigned char first)
 {
     if (first < 0xc2 || first >= 0xf5)
@@ -59,8 +58,8 @@ static int following(unsigned char first)
     return first < 0xf0 ? 2 : 3;
 }
 
-/* Returns the number of bytes of the character that starts at `at`, or 0 if the character is not
- * allowed. */
+/* Returns the number of bytes of the character that starts at `at`, or 0 if the character is
+ * invalid or a control character. */
 static int character_length(const unsigned char *at)
 {
     if (at[0] < 0x80)
@@ -216,7 +215,6 @@ static const char *path_name(const scene_analysis *a)
     return a->kind == SCENE_CONTINUATION ? "path of the load factor" : "static path";
 }
 
-/* Returns the analysis whose path contains the stations, or NULL. */
 static const scene_analysis *path_of(const scene *s, const scene_analysis *a)
 {
     const scene_analysis *walked =
@@ -224,7 +222,6 @@ static const scene_analysis *path_of(const scene *s, const scene_analysis *a)
     return scene_path_of(walked) != NULL ? walked : NULL;
 }
 
-/* Writes the position on the path: the last station, or the value of the parameter. */
 static void at_station(FILE *to, const scene *s, const scene_quantity *q, const scene_analysis *a)
 {
     const scene_path *path = scene_path_of(a);
@@ -248,7 +245,8 @@ static void at_station(FILE *to, const scene *s, const scene_quantity *q, const 
     }
 }
 
-/* Writes the statistic of a quantity that is evaluated between the stations of a motion. */
+/* Writes the statistic of a quantity that is evaluated at all times of a motion, not only at
+ * stations. */
 static void passing(FILE *to, const scene_quantity *q)
 {
     static const char *const way[] = {"rises through", "falls through", "passes"};

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Checks the reference values and their quantities at a point. */
+/* Checks the reference values and their quantities at a parameter point. */
 static void scene_file_truths_check(const scene_file *file, const scene *s, const double value[],
                                     mistakes *m);
 
@@ -22,8 +22,8 @@ static void check_version(const scene_file *file, mistakes *m)
                          "'beamwork: 1' must be the first key; move it to the top");
 }
 
-/* Returns the file name without its extension, with '_' in place of characters that a name cannot
- * contain. */
+/* Returns the file name without its extension, with '_' instead of each character that a name
+ * cannot contain. */
 static const char *name_of_file(scene_file *file)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_"
@@ -35,7 +35,7 @@ static const char *name_of_file(scene_file *file)
     if (*at == '\0' || *at == '.' || (*at >= '0' && *at <= '9'))
         count = (size_t)snprintf(name, sizeof name, "scene_");
     for (; *at != '\0' && *at != '.' && count < SCENE_NAME - 1; at++)
-        if (((unsigned char)*at & 0xc0) != 0x80) /* other bytes continue a character */
+        if (((unsigned char)*at & 0xc0) != 0x80) /* not a continuation byte */
             name[count++] = strspn(at, letters) > 0 ? *at : '_';
     return arena_copy(&file->arena, name, count);
 }
@@ -61,7 +61,6 @@ static const char *line_of(const scene_file *file, const char *key)
     return n != NULL ? n->text : "";
 }
 
-/* Builds the scene with a temporary arena and adds errors to m. */
 static void build_at(const scene_file *file, const double value[], scene *s, mistakes *m)
 {
     arena a = {0};
@@ -77,9 +76,9 @@ static status build_from(const void *context, const double value[], scene *s, fa
     return mistakes_status(&m, f);
 }
 
-/* Reads the tree and the tables in other files, checks the keys, and reads the parameters. A step
- * is done only if the previous step found no errors. `folder` is the path of a file in the folder
- * of the tables, or NULL. */
+/* Reads the tree and the tables in other files, checks the keys, and reads the parameters. Stops
+ * after a step with errors. `folder` is the path of a file in the folder to which table files are
+ * relative, or NULL. */
 static void read_form(scene_file *file, const char *bytes, size_t size, const char *folder,
                       mistakes *m)
 {
@@ -96,7 +95,6 @@ static void read_form(scene_file *file, const char *bytes, size_t size, const ch
     parameter_table_read(file, m);
 }
 
-/* Checks the scene and the reference values at these parameter values. */
 static void check_at(const scene_file *file, const double value[], mistakes *m)
 {
     scene s;
@@ -115,8 +113,7 @@ status scene_file_check(const scene_file *file, const double value[], mistakes *
     return mistakes_status(m, f);
 }
 
-/* Reads a file. `folder` is the path of a file in the folder of its tables. If `built` is 1, the
- * scene is also built at its defaults. */
+/* `folder` is as in read_form. If `built` is 1, the scene is also built at its defaults. */
 static status read_from(const char *bytes, size_t size, const char *path, const char *folder,
                         int built, scene_file **out, mistakes *m, fault *f)
 {
@@ -151,8 +148,8 @@ status scene_file_read_bytes(const char *bytes, size_t size, const char *path, s
     return read_from(bytes, size, path, NULL, 1, out, m, f);
 }
 
-/* Reads the bytes of a file, at most one byte more than is allowed, so that a longer file is
- * rejected. */
+/* Reads the bytes of a file. One byte more than allowed is read, so that a longer file is
+ * detected. */
 static status read_bytes(const char *path, char *bytes, size_t room, size_t *size, fault *f)
 {
     FILE *from = fopen(path, "rb");
@@ -164,7 +161,7 @@ static status read_bytes(const char *path, char *bytes, size_t room, size_t *siz
     return failed ? fault_set(f, STATUS_FAULT, "%.200s cannot be read", path) : STATUS_OK;
 }
 
-/* Reads a file. The caller, scene_file_read, frees the bytes, even after a failure. */
+/* The caller frees `bytes`, even after a failure. */
 static status read_file(const char *path, char *bytes, size_t room, int built, scene_file **out,
                         mistakes *m, fault *f)
 {
@@ -225,9 +222,9 @@ const char *scene_file_path(const case_type *type)
     return type->build_from == build_from ? ((const scene_file *)type->context)->path : NULL;
 }
 
-/* A reference value at a point. */
+/* A reference value in the file. */
 typedef struct file_truth {
-    int holds; /* 1 if the reference value applies at the present point */
+    int holds; /* 1 if the reference value applies at the current parameter point */
     scene_truth truth_row;
 } file_truth;
 
@@ -239,8 +236,8 @@ static const scene_quantity *quantity_of(const scene *s, const char *name)
     return NULL;
 }
 
-/* Returns the index of a parameter that a reference value names, and sets *value to the value of
- * the parameter. Returns -1 after an error. */
+/* Returns the index of a parameter in the conditions of a reference value, or -1 after an error.
+ * Sets *value to the value in the condition. */
 static int named_value(const scene_file *file, const fields *f, const document_node *those, int i,
                        double *value)
 {
@@ -261,8 +258,8 @@ static int named_value(const scene_file *file, const fields *f, const document_n
     return index;
 }
 
-/* Sets the parameters in `point` to the values that the reference value names. Returns 1 if the
- * parameters already had these values. */
+/* Sets the parameters in `point` to the values in the conditions of the reference value. Returns 1
+ * if this changes nothing. */
 static int visit_point(const scene_file *file, const fields *f, double point[])
 {
     const document_node *those = document_find(f->map, "parameters");
@@ -317,7 +314,6 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
     return (file_truth){holds, t};
 }
 
-/* Workspace for reading the reference values of a parameter point. */
 typedef struct truth_reader {
     builder b;
     unrolled *list;
@@ -329,7 +325,7 @@ static truth_reader open_truths(const scene_file *file, const double value[], ar
     truth_reader r = {.b = {.arena = a, .mistakes = m, .root = file->root}};
     r.b.names = unroll_let(document_find(file->root, "let"),
                            parameter_table_names(file->parameter, value, a), a, m);
-    /* constants of sections, which are names in expressions */
+    /* expressions may contain constants of sections */
     scene of_sections;
     scene_init(&of_sections, "");
     r.b.scene = &of_sections;
@@ -356,8 +352,7 @@ static void scene_file_truths_check(const scene_file *file, const scene *s, cons
     arena_free(&a);
 }
 
-/* Passes the reference values at a point to `take`. The caller, scene_file_truths, frees the
- * workspace, even after a failure. */
+/* The caller frees the workspace, even after a failure. */
 static status give_at(const scene_file *file, const double point[], scene *s, arena *a,
                       scene_truth_taker *take, void *to, fault *f)
 {
@@ -390,8 +385,6 @@ status scene_file_truths(const scene_file *file, const double value[], scene_tru
     return outcome;
 }
 
-/* Passes to `take` the reference values at the defaults and at every other point for which a
- * reference value is given. */
 static status give_everywhere(const scene_file *file, arena *a, scene_truth_taker *take, void *to,
                               fault *f)
 {

@@ -21,7 +21,6 @@ static double number_of(const document_node *entry, const char *key, double othe
     return n != NULL && expression_number(n, NULL, m, &value) ? value : otherwise;
 }
 
-/* Returns 1 if the choices are [0, 1]. */
 static int is_switch(const document_node *choices)
 {
     return choices->kind == DOCUMENT_LIST && choices->count == 2 &&
@@ -67,8 +66,8 @@ static void read_choice(parameter_type *p, const document_node *value, mistakes 
                          p->choices);
 }
 
-/* Reads a parameter that is a number. any_unit 1: the scene has its own units, so the unit of the
- * parameter is not checked. */
+/* Reads a numerical parameter. Its unit is not checked if any_unit is 1, because the scene has its
+ * own units. */
 static void read_number(parameter_type *p, const document_node *entry, int any_unit, mistakes *m)
 {
     const document_node *unit = document_find(entry, "unit"), *at = document_find(entry, "value");
@@ -141,7 +140,7 @@ static const char *const list_name[SCENE_LISTS] = {
     "sections", "nodes",      "members", "springs",      "motions",     "loads",
     "analyses", "quantities", "",        "combinations", "constraints", "imperfections"};
 
-/* Checks the name of an entry to which other entries can refer. */
+/* Checks that the name of an entry is valid. */
 static void check_name(const builder *b, scene_list list, int i)
 {
     const unrolled *entry = &b->list[list].entry[i];
@@ -173,7 +172,7 @@ void build_sections(builder *b)
     builder_sections(b);
 }
 
-/* Lists the entries of the scene except sections, followed by those of its instances. */
+/* Lists the entries of the scene except sections, then those of its instances. */
 static void list_entries(builder *b)
 {
     static const scene_list placed[PLACEMENT_LISTS] = {SCENE_NODES, SCENE_MEMBERS, SCENE_SPRINGS,
@@ -200,8 +199,8 @@ static void list_entries(builder *b)
             check_name(b, (scene_list)i, k);
 }
 
-/* Reads `needs` of earlier versions, which `omit` replaces. Physics that `needs` does not list is
- * omitted, except warping, which was always active for sections that warp. */
+/* Reads the key `needs` of earlier versions, which is replaced by `omit`. Physics that it does not
+ * list is omitted. Warping of sections that warp is never omitted. */
 static void read_needs(const fields *f)
 {
     static const char choices[] =
@@ -220,7 +219,7 @@ static void read_needs(const fields *f)
                                                   : SCENE_SHEAR_OWN;
 }
 
-/* Returns 1 if a word of 'omit' applies: its value is yes, or a condition {NAME: VALUE} that is
+/* Returns 1 if a word of `omit` applies: its value is yes, or a condition {NAME: VALUE} that is
  * satisfied. */
 static int is_omitted(const fields *f, const document_node *n)
 {
@@ -234,7 +233,6 @@ static int is_omitted(const fields *f, const document_node *n)
     return 0;
 }
 
-/* Reads the words of `omit`, which are in a list or a map. */
 static unsigned read_omit(const fields *f, const char *choices)
 {
     const document_node *n = document_find(f->map, "omit");
@@ -282,7 +280,8 @@ static void read_plane(builder *b)
 
 static void read_meshes(builder *b)
 {
-    int usual[] = {1, 2, 4, 8}, least = 1; /* meshes that are fine enough for every initial shape */
+    int usual[] = {1, 2, 4, 8},
+        least = 1; /* default meshes, without those too coarse for an initial shape */
     for (int i = 0; i < b->scene->members; i++) {
         const scene_member *m = &b->scene->member[i];
         if ((m->bow[0] != 0 || m->bow[1] != 0) && 2 * m->half_waves > least)
@@ -312,7 +311,7 @@ static void read_meshes(builder *b)
     scene_meshes(b->scene, count < SCENE_MESHES ? count : SCENE_MESHES, mesh);
 }
 
-/* Reports a rejection at the position of the entry that the message names ("node tip: ..."). */
+/* Reports a rejection, such as "node tip: ...", at the position of the entry in the message. */
 static void report_refusal(const builder *b, const char *text)
 {
     static const char *const word[SCENE_LISTS] = {
@@ -351,7 +350,7 @@ static int refuses(const builder *b)
 }
 
 /* Converts the scene from the units of the file to SI. Quantities are reported in the units of the
- * file. `own` is the number of quantities in the file. */
+ * file. `own` is the number of quantities that the file contains; default quantities follow. */
 static void to_si(const builder *b, int own)
 {
     fault f = {""};
@@ -371,8 +370,8 @@ static void hold_warping(builder *b)
     scene_warping_by_supports(b->scene);
 }
 
-/* Builds the lists in an order in which each refers only to previous lists. Stops if out of memory.
- * Returns the number of quantities in the file. */
+/* Builds the lists. Each refers only to previous ones. Stops if out of memory. Returns the number
+ * of quantities in the file. */
 static int build_lists(builder *b)
 {
     static void (*const own[])(
@@ -453,7 +452,7 @@ status scene_packed_build(const void *context, const double value[], scene *s, f
         build_scene(root, parameter_table_names(p->parameters, value, &a), &a, &m, s);
     m.out_of_memory |= a.failed;
     arena_free(&a);
-    /* for a built-in case, the message is clearer without the position in a file */
+    /* users do not have the file of a built-in case, so the message does not contain a position */
     return m.count > 0 && !m.out_of_memory ? fault_set(f, STATUS_REFUSED, "%s", m.list[0].text)
                                            : mistakes_status(&m, f);
 }

@@ -120,8 +120,7 @@ int substitute_is_left(const char *text)
     return 0;
 }
 
-/* Writes the value of a name as text. If `for_message` is 1, the text is for messages. Returns 0
- * after an error, which is reported. */
+/* Writes the value of a name as text. Returns 0 after an error, which is reported. */
 static int value_text(const document_node *n, int at, size_t length, int for_message,
                       const scope *names, mistakes *m, char out[64])
 {

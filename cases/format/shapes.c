@@ -1,5 +1,5 @@
-/* Sections given by dimensions and rolled sections given by name, represented by thin walls. The
- * dimensions of the former refer to the centre lines of the walls. */
+/* Sections given by dimensions and rolled sections given by name, represented by thin walls.
+ * Dimensions refer to the centre lines of the walls. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -92,8 +92,7 @@ static void tee(const fields *f, section_spec *spec)
 static void add_box(section_spec *spec, flanged s)
 {
     add_line(spec, &s, s.flange / 2, s.flange / 2);
-    for (int k = 0; k < spec->points;
-         k++) /* moves the web from the middle of the flanges to one side of the box */
+    for (int k = 0; k < spec->points; k++) /* web at one side of the box */
         spec->point[k][0] += k == 1 || k == 2 ? -s.flange / 2 : 0;
     add_wall(spec, 3, 0, s.web_thickness);
     spec->cells = 1;
@@ -120,9 +119,9 @@ static void angle(const fields *f, section_spec *spec)
 }
 
 /* Dimensions of rolled sections [mm]: depth, flange width, web and flange thickness, root radius
- * (EN 10365:2017: IPE, HEA, HEB, HEM, UPN). UPN sections have tapered flanges. For them, the
- * constants [cm^2, cm^4, cm^4, cm^4, 10^3 cm^6] and the distance of the shear centre from the
- * centroid [cm] are also listed. */
+ * (EN 10365:2017: IPE, HEA, HEB, HEM, UPN). UPN sections have tapered flanges. Their constants
+ * [cm^2, cm^4, cm^4, cm^4, 10^3 cm^6] and the distance [cm] from the centroid to the shear centre
+ * follow. */
 enum { UPN = 12 };
 
 typedef struct rolled {
@@ -262,15 +261,15 @@ static const double angle_root[][3] = {
 static const double spandrel_area = 1 - PI / 4, spandrel_at = (10 - 3 * PI) / (12 - 3 * PI),
                     spandrel_moment = 1. / 3 - PI / 16 - 1 / (36 - 9 * PI);
 
-/* Sets the constant, unless the scene specifies it. */
+/* Sets the constant unless the file specifies it. */
 static void give(double *to, double value)
 {
     if (isnan(*to))
         *to = value;
 }
 
-/* Adds constants that include fillets. All are exact except It (El Darwish and Johnston, J. Struct.
- * Div. ASCE 91, 1965, as in tables of manufacturers). */
+/* Adds constants that include fillets. They are exact, except It (El Darwish and Johnston, J.
+ * Struct. Div. ASCE 91, 1965, as in tables of manufacturers). */
 static void add_rolled_i(section_spec *spec, const rolled *p, double mm)
 {
     const double h = p->h * mm, b = p->b * mm, tw = p->tw * mm, tf = p->tf * mm, r = p->r * mm,
@@ -290,7 +289,6 @@ static void add_rolled_i(section_spec *spec, const rolled *p, double mm)
     give(&spec->given.Iw, tf * b * b * b * middle * middle / 24);
 }
 
-/* An area with the position of its centroid and its second moments about the centroid. */
 typedef struct patch {
     double area, y, z, Iy, Iz, Iyz;
 } patch;
@@ -301,8 +299,8 @@ static patch rectangle_patch(double y0, double y1, double z0, double z1)
     return (patch){w * h, (y0 + y1) / 2, (z0 + z1) / 2, w * h * h * h / 12, h * w * w * w / 12, 0};
 }
 
-/* Returns the area between a corner and its inscribed quarter circle. The area is on the side of +y
- * and +z if ky = kz = 1; -1 selects the opposite side. `sign` is -1 if the area is cut off. */
+/* Returns the area between a corner and its inscribed quarter circle. With ky = kz = 1, the area
+ * extends from the corner towards -y and -z. `sign` is -1 if the area is cut off. */
 static patch spandrel_patch(double y, double z, double r, int ky, int kz, int sign)
 {
     const double area = spandrel_area * r * r, at = spandrel_at * r,
@@ -331,8 +329,8 @@ static patch sum_of(int count, const patch p[])
     return all;
 }
 
-/* Adds an angle with legs of outer lengths b along y and h along z. Its constants include fillets
- * and are exact except It (Roark's Formulas for Stress and Strain, 7th ed., table 10.7, case 26,
+/* Adds an angle with legs of outer lengths b along y and h along z. Its constants include fillets.
+ * They are exact, except It (Roark's Formulas for Stress and Strain, 7th ed., table 10.7, case 26,
  * legs of equal thickness). The origin is the intersection of the centre lines, which is the shear
  * centre. */
 static void add_rolled_angle(section_spec *spec, double h, double b, double t, double root)
@@ -403,8 +401,8 @@ static int sizes_of(const char *text, double size[3])
     return -1;
 }
 
-/* Adds the rolled section with this name, which is in capitals without blanks. `mm` is a millimetre
- * in the length unit of the scene. Returns 0 if there is no section of this name. */
+/* Adds the rolled section with this name, in capitals without blanks. `mm` is a millimetre in the
+ * length unit of the scene. Returns 0 if there is no section of this name. */
 static int add_profile(section_spec *spec, const char *name, double mm)
 {
     static const struct {
@@ -496,7 +494,6 @@ static void known_profiles(const char *name, char *text, size_t size)
              "sizes, thickness) in mm, or give dimensions");
 }
 
-/* Reads the name of a profile. Blanks and the case of letters are ignored. */
 static void profile(const fields *f, section_spec *spec)
 {
     char name[40] = "", known[FAULT_TEXT / 2];

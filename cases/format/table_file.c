@@ -11,15 +11,14 @@ enum { LINE_BYTES = 8192, COLUMNS = 256, NAME_BYTES = 64, COLUMNS_REPORTED = 160
 
 /* State of a file that is read for a table. */
 typedef struct table_file {
-    const document_node *place; /* name of the CSV file in the scene file */
+    const document_node *place; /* position of the file name, for messages */
     arena *arena;
     mistakes *mistakes;
-    const char *name; /* path as written in the scene file */
-    const document_node
-        *of[2]; /* columns of the abscissa and of the values in the scene file: names or numbers */
-    int column[2], columns, begun; /* columns to be read (from 0), number of columns in the first
-                                      row, and 1 if the columns are known */
-    double last;                   /* last value in the first of the columns to be read */
+    const char *name;              /* path as written in the scene file */
+    const document_node *of[2];    /* columns of the abscissa and of the value: names or numbers */
+    int column[2], columns, begun; /* columns to read, starting at 0; number of columns in the first
+                                      row; 1 if the columns are known */
+    double last;                   /* last value of the abscissa */
     document_node *list[2];
     int line;
     char text[LINE_BYTES], *field[COLUMNS];
@@ -42,8 +41,8 @@ static int split(table_file *t, char *line)
                                      : line_words(line, t->field, COLUMNS);
 }
 
-/* Returns the column that is given by its name in the header or by a number. Reports a missing
- * column and returns -1. */
+/* Returns the column with a given name or number, or -1 after an error. A name requires a
+ * header. */
 static int column_of(const table_file *t, const document_node *of, int header)
 {
     char known[COLUMNS_REPORTED] = "";
@@ -95,8 +94,8 @@ static int add_number(table_file *t, int k, double value)
     return n->text != NULL;
 }
 
-/* Reads the first row. The row is a header if a column is found by its name, or if neither column
- * contains a number. Returns 1 for a header. */
+/* Reads the first row. It is a header if it contains the name of a column, or no number in the
+ * columns to read. Returns 1 for a header. */
 static int begin(table_file *t)
 {
     double number;
@@ -114,7 +113,6 @@ static int begin(table_file *t)
     return header || numbers == 0;
 }
 
-/* Reads a row. Returns 0 after an error. */
 static int read_row(table_file *t, char *line)
 {
     const int count = split(t, line);
@@ -149,7 +147,7 @@ static int read_row(table_file *t, char *line)
     return 1;
 }
 
-/* Reads the rows. Blank lines and lines that start with # are ignored. */
+/* Blank lines and lines that start with # are ignored. */
 static int read_rows(table_file *t, FILE *from)
 {
     while (fgets(t->text, sizeof t->text, from) != NULL) {
@@ -171,7 +169,8 @@ static int read_rows(table_file *t, FILE *from)
     return 1;
 }
 
-/* Reads rows NODE, dx, dy, dz of `shifts: {file: CSV}`, in the order given by a header. */
+/* State of a file of `shifts`: a header, which gives the order of columns, and rows NODE, dx, dy,
+ * dz. */
 typedef struct shift_file {
     table_file t;
     int column[4];
@@ -256,7 +255,7 @@ static int read_shifts_from(shift_file *s, FILE *from)
     return s->map->count > 0 ? 1 : wrong(t, "no rows", "", "; give one per node");
 }
 
-/* Opens a path that is relative to the folder of the scene file. */
+/* Opens a file. Its path is relative to the folder of the scene file. */
 static FILE *open_beside(const char *beside, const char *name, arena *a)
 {
     const char *slash = strrchr(beside, '/');
@@ -294,7 +293,6 @@ static FILE *open_file(table_file *t, const char *beside)
     return from;
 }
 
-/* Replaces `shifts: {file: PATH}` by the rows of the file. */
 static void read_shifts(document_node *map, const char *beside, arena *a, mistakes *m)
 {
     const document_node *file =
@@ -312,7 +310,6 @@ static void read_shifts(document_node *map, const char *beside, arena *a, mistak
     fclose(from);
 }
 
-/* Replaces the file reference in a map by the numbers of the file. */
 static void read_table(document_node *map, const char *beside, arena *a, mistakes *m)
 {
     const document_node *file = document_find(map, "file");
@@ -341,7 +338,7 @@ static void read_table(document_node *map, const char *beside, arena *a, mistake
     }
     read = read && read_rows(&t, from);
     fclose(from);
-    for (int i = 0, to = 0; read && i < map->count; i++) { /* keys other than those of the file */
+    for (int i = 0, to = 0; read && i < map->count; i++) {
         if (map->item[i] == file)
             continue;
         map->key[to] = map->key[i];

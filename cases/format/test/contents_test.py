@@ -1,4 +1,4 @@
-"""Contents of scene files: material read from files, the examples, and scenes with closed-form solutions."""
+"""Tests the examples and scenes with closed-form solutions."""
 import json
 import pathlib
 import re
@@ -89,8 +89,7 @@ omit: [wagner_torque]
         where = ("-f", "collocation", "-n", 1)
         once, twice = (values(self.record("solve", "--scene", p, *where)) for p in (path, again))
         self.assertEqual(once, twice)
-        # closed forms: e = 3 b^2 t_f/(h t_w + 6 b t_f) for the mid-lines of a channel, a ring, and Bredt's formula for a
-        # polygon
+        # shear centre of a channel at e = 3 b^2 t_f/(h t_w + 6 b t_f) from its web, with mid-line dimensions
         height, width, flange, web = 0.2, 0.06, 6e-3, 4e-3
         centre = 3*width**2*flange/(height*web + 6*width*flange)
         ring = (0.05**4 - 0.044**4)*3.141592653589793/32
@@ -123,7 +122,7 @@ quantities:
 """
 
     def test_internal(self):
-        """Resultants at both ends must follow from statics for every formulation that supports a channel."""
+        """Checks the resultants at both ends against statics."""
         path = self.scene(self.INTERNAL, "internal.yaml")
         exact = {"N": (5, 5), "Qy": (0.7, 0.7), "Qz": (0.7, 0.3), "Mx": (1, 1), "My": (-1, 0), "Mz": (1.4, 0)}
         for formulation in ("collocation", "geometrically_exact", "beamw", "beamw_consistent"):
@@ -137,7 +136,7 @@ quantities:
                     inside = {"Qy": 0.7, "Qz": 0.3 + 0.2*b, "Mx": 1, "My": -0.3*b - 0.1*b*b}
                     for name, value in inside.items():
                         self.assertAlmostEqual(got[f"{name}_at_{place}"], value, delta=1e-10)
-                    # the torque about the shear centre is the sum of its Saint-Venant part and its warping part
+                    # torque = Saint-Venant part + warping part
                     self.assertAlmostEqual(got[f"Mx_saint_venant_at_{place}"] + got[f"Mx_warping_at_{place}"] +
                                            got["ys"]*inside["Qz"] - got["zs"]*inside["Qy"], 1, delta=1e-9)
                 for name, value in {"My_max": 0, "My_min": -1, "My_largest": 1, "Qz_max": 0.7, "Qz_min": 0.3}.items():
@@ -167,8 +166,8 @@ quantities:
 """
 
     def test_stress(self):
-        """In a box that is free to warp, under tension and torsion, the shear stress is the sum of Bredt's uniform flow
-        and a part that varies linearly through the thinnest wall."""
+        """The shear stress of a box that is free to warp is Bredt's stress plus a part that varies linearly through
+        the wall."""
         area, swept, perimeter = 2*(0.1*3e-3 + 0.06*2e-3), 2*0.1*0.06, 2*(0.1/3e-3 + 0.06/2e-3)
         It = swept**2/perimeter + 2*(0.1*3e-3**3 + 0.06*2e-3**3)/3
         tau = max(300/It*(swept/perimeter/t + t) for t in (2e-3, 3e-3))
@@ -197,7 +196,7 @@ quantities:
             written = [re.sub("p[0-9]+", "p", self.answered("scene", "--scene", path).stdout)
                        for path in (EXAMPLES / f"{name}.yaml", self.scene(short))]
             self.assertEqual(*written)
-        # an I-section that is rigid in shear, under a tip force along its web: P L^3/(3 E I)
+        # cantilever rigid in shear: P L^3/(3 E I)
         text = LEAF.replace("rectangle: {width: 50e-3, thickness: 0.5e-3}",
                              "i: {depth: 0.2, flange: 0.1, flange_thickness: 8e-3, "
                              "web_thickness: 5e-3}")
@@ -215,8 +214,8 @@ quantities:
         self.assertEqual(*written)
 
     def test_weight_of_a_body(self):
-        """The weight P of a body, at the distance a of its centre of mass from the tip, causes the tip deflection P
-        L^3/(3 E I) + P a L^2/(2 E I)."""
+        """A body of weight P, with its centre of mass at the distance a beyond the tip, deflects the tip by P L^3/(3
+        E I) + P a L^2/(2 E I)."""
         heavy = LEAF.replace("  push: {force: [0, 1, 0], on: tip}", "  weight: {gravity: [0, -9.81, 0], on: tip}")
         body = heavy.replace("tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}")
         self.assertNotIn("push", body)
@@ -297,8 +296,7 @@ class ExamplesTest(SceneCase):
         self.refused(2, "would overwrite", "verify", "--scene", self.folder, "-o", taken)
 
     def test_leaf_spring_guide(self):
-        """Stiffnesses in the undeformed state are compared with closed forms, and those in the displaced state with the
-        values of the reference program."""
+        """Compares the stiffness in the undeformed state with a closed form."""
         path = EXAMPLES / "leaf_spring_guide.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 4))
         self.assertAlmostEqual(got["k_drive"] / 2624.536778, 1, delta=1e-9)
@@ -326,7 +324,7 @@ class ExamplesTest(SceneCase):
             self.assertAlmostEqual(got[name] / value, 1, delta=1e-6)
 
     def test_folded_leaf_stage(self):
-        """Three folded leaves at angles of 120 degrees give the stage the same stiffness in all directions in their
+        """With three folded leaves at 120 degrees, the stiffness of the stage is the same in all directions of their
         plane."""
         path = EXAMPLES / "folded_leaf_stage.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 2))
@@ -338,22 +336,19 @@ class ExamplesTest(SceneCase):
             self.assertAlmostEqual(again[name] / value, 1, delta=1e-11)
 
     def test_box_girder(self):
-        """A closed section in torsion with warping restrained is compared with Benscoter's beam."""
+        """Compares torsion of a closed section, with restrained warping, with Benscoter's theory."""
         path = EXAMPLES / "box_girder.yaml"
         done = self.answered("verify", "--scene", path)
         self.assertRegex(done.stdout, r"12 verdicts against reference values: 12 pass")
         self.assertRegex(done.stdout, r"sheet_second, [\w,\s]+: another model: warping not modelled")
 
 
-# Scenes as a new user would write them, without specified physics, are compared with closed forms. The first lines of
-# each file in cases/textbook describe the scene and its correct values, which the file contains as reference values.
-# The formulation that solve selects, and formulations with all physics, must give these values. A wrong value must
-# never have status ok.
+# The reference values in these files are closed-form solutions. The formulation that `solve` selects must reproduce
+# them, and no wrong value may have the status ok.
 SCENES = sorted((ROOT / "cases" / "textbook").glob("*.yaml"))
 CLOSE = 2e-3
 
-# Scenes, each with a formulation whose elements are too long for their axial force, for any number of elements. The
-# formulation must be reported as failed, without a value.
+# For each scene, a formulation whose elements are too long for their axial force. It must fail without a value.
 REFUSED = {"rotating_string": "geometrically_exact"}
 
 

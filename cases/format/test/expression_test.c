@@ -1,4 +1,4 @@
-/* Expressions and ranges: values, and the position and remedy of invalid input. */
+/* Tests the values of expressions and ranges, and the positions and remedies in error messages. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +8,6 @@
 #include "cases/format/format_impl.h"
 #include "elements/math/scalar.h"
 
-/* Returns a text node as if it stood in line 3, column 10 of a file. */
 static document_node text_node(const char *text)
 {
     return (document_node){.kind = DOCUMENT_TEXT, .line = 3, .column = 10, .text = text};
@@ -57,7 +56,7 @@ static void check_mistakes(const scope *names)
 {
     static const struct {
         const char *text;
-        int column; /* counted as in text_node, from column 10 */
+        int column;
         const char *message;
     } all[] = {{"", 10, "ends"},
                {"1+", 12, "ends"},
@@ -97,7 +96,8 @@ static void check_mistakes(const scope *names)
     }
 }
 
-/* The nesting depth is bounded, so that neither parentheses nor signs exhaust the stack. */
+/* Parentheses and signs that are nested too deeply are rejected, so that they cannot exhaust the
+ * stack. */
 static void check_depth(void)
 {
     static const char *const repeated[] = {"(", "-", "2^", "abs("};
@@ -281,7 +281,7 @@ static void check_bad_loops(void)
     }
 }
 
-/* Twenty errors are stored, sorted by position. Further errors are only counted. */
+/* At most MISTAKES_MOST errors are stored, sorted by position. Further errors are only counted. */
 static void check_many(void)
 {
     static mistakes m = {.file = "f"};
@@ -305,8 +305,8 @@ static void document_tests(void)
     check_many();
 }
 
-/* SI units are accepted in scene files. For other units, the error message must state the SI unit
- * to use and the conversion factor. */
+/* Returns the message for a unit. For units other than SI, it contains the SI unit and the
+ * conversion. */
 
 static const char *message_of(const char *unit, mistakes *m)
 {

@@ -1,4 +1,4 @@
-"""Tests loads, motions in time and stability in scene files."""
+"""Tests loads, functions of time and stability in scene files."""
 import itertools
 import math
 import re
@@ -42,7 +42,7 @@ KINDS = {
 FORCES, MOMENTS = ("force", "force within", "distributed"), ("moment", "moment within", "distributed moment")
 ON_MEMBERS = ("force within", "moment within", "distributed", "distributed moment")
 SPREAD = ("distributed", "distributed moment")
-# keys that each kind of load can have, except that a force or a moment within a member already has `where`
+# for each key, further kinds of load that can have it
 KEYS = {
     "where: 0.75": (),
     "from: 0.25": SPREAD,
@@ -54,7 +54,7 @@ KEYS = {
     "follower: true": FORCES + MOMENTS,
     "path: [0, 1], factor: [0, 2]": tuple(KINDS)
 }
-# explicit defaults, which must have no effect
+# defaults, which may be written for every load
 NOTHING = ("from: 0, to: 1", "lumped: no", "at: [0, 0, 0]", "axes: fixed", "follower: no")
 ANALYSES = {
     "linear": "{linear: {}}",
@@ -84,8 +84,6 @@ class LoadsTest(SceneCase):
         return [line for line in self.written(text).partition("\nloads:\n")[2].splitlines() if line.startswith("  l")]
 
     def test_every_key(self):
-        """A key that a kind of load can have must be preserved by writing and reading. Any other key must be rejected
-        with one line that contains the key and a remedy."""
         taken, refused = [], 0
         for (kind, said), (key, kinds) in itertools.product(KINDS.items(), KEYS.items()):
             where = key.startswith("where") and "within" in kind
@@ -110,8 +108,8 @@ class LoadsTest(SceneCase):
             self.assertIn(key, once)
 
     def test_analyses(self):
-        """Files with every kind of load and every analysis must be reproduced. Loads without a potential must be rejected
-        by name in analyses that require a potential."""
+        """Writes and reads files with all kinds of loads and analyses. Analyses that require a potential must reject
+        loads without one; the message names the load."""
         several = [said for kind, said in KINDS.items() if kind != "all"]
         several += [f"{KINDS[kind]}, from: 0.25, to: 0.5, to_value: [4, 5, 6], follower: true" for kind in SPREAD]
         for analysis, said in ANALYSES.items():
@@ -148,8 +146,7 @@ class LoadsTest(SceneCase):
             self.assertRegex(done.stderr, r":11:3: l0: it (acts|rotates) out of the plane, .*; correct this, or remove plane: xy\n$")
 
     def test_units(self):
-        """In a file in mm and N, positions given as fractions of the length have no unit, and vectors at both ends of a
-        load have the unit of its kind."""
+        """With units mm and N, positions as fractions of the length are not converted, and load vectors are."""
         def loads(millimetre):
             force, moment, line, moments, arm = (f"[{x}, {2*x}, {3*x}]" for x in (1, 0.5*millimetre, 2/millimetre, 0.25, 0.125*millimetre))
             more = [f"distributed: {line}, on: bar, from: 0.25, to: 0.5, at: {arm}, to_value: [0, {8/millimetre}, 0]",
@@ -196,7 +193,7 @@ class MotionTest(SceneCase):
         return values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1, *more))
 
     def test_constant_push(self):
-        """A load without a function of time acts fully from the start: u = F/k (1 - cos w t)."""
+        """A load without a function of time is constant from t = 0: u = F/k (1 - cos w t)."""
         k = self.stiffness()
         exact = PUSH * (1 - math.cos(math.sqrt(k / 0.1) * 0.5)) / k
         self.assertAlmostEqual(self.moved("")["u"] / exact, 1, delta=1e-4)
@@ -204,7 +201,7 @@ class MotionTest(SceneCase):
         self.assertAlmostEqual(doubled / exact, 2, delta=1e-3)
 
     def stiffness(self):
-        """Returns the stiffness of the spring and the wire together [N/m], from the displacement under a static force."""
+        """Returns the stiffness of the spring and the wire in parallel [N/m]."""
         text = BLOCK.replace(", TIME", "").replace(", at: 0.5", "")
         path = self.scene(text.replace("ANALYSES", "swing: {linear: {}}"))
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1))
@@ -246,8 +243,8 @@ class MotionTest(SceneCase):
         self.assertNotEqual(got[0], got[1])
 
     def test_mass(self):
-        """Mass is distributed along members by default. Lumped mass is less accurate. Elements with three nodes and
-        integrators that do not support consistent mass must be named when it is rejected."""
+        """Mass is consistent by default. The message that rejects it names the element or the integrator that does
+        not support it."""
         text = reader_file("howto/dynamics.md", "swing.yaml")
         lumped = self.scene(text.replace("0..1/100", "0..1/100, mass: lumped"), "lumped.yaml")
         usual = self.scene(text, "usual.yaml")
@@ -347,11 +344,11 @@ class MotionTest(SceneCase):
         self.assertRegex(text, r"v +- the path does not reach this station\nw +- likewise\n")
 
 
-# Critical load of a column in a plane, clamped at the bottom and free at the top. The column remains straight and
-# buckles at the path parameter 1. Tables and records must show its stability at each station.
+# Critical load of a column in a plane, clamped at the bottom and free at the top. The column buckles at the path
+# parameter 1. Tables and records must show its stability at each station.
 
-# Critical load of a column in a plane, clamped at the bottom and free at the top. The column remains straight and
-# buckles at the path parameter 1.
+# Critical load of a column in a plane, clamped at the bottom and free at the top. The column buckles at the path
+# parameter 1.
 EULER = math.pi**2/4*210e9*50e-3*5e-3**3/12
 COLUMN = f"""beamwork: 1
 sections: {{strip: {{rectangle: {{width: 50e-3, thickness: 5e-3}}, young: 210e9, shear_modulus: 81e9, density: 7800}}}}
@@ -367,7 +364,7 @@ quantities:
   short: {{displacement: {{analysis: press, node: head, component: ux, take: curve}}}}
   shorter: {{displacement: {{analysis: again, node: head, component: ux}}}}
 """
-# A shaft that rotates faster than its first critical speed, with or without stabilising gyroscopic forces.
+# A shaft that rotates faster than its first critical speed.
 SHAFT = COLUMN.replace("static: {stations: [0.5, 0.95, 1.05, 1.5]}",
                        "static: {stations: [1], spin: {omega: [200, 0, 0]}}").replace(f"-{EULER!r}", "-1e-6")
 
@@ -394,8 +391,7 @@ class StabilityTest(SceneCase):
                          ["yes", "yes", "no", "no"])
 
     def test_meshes(self):
-        """converge reports the path parameter at which the stability changes. solve refines to the finest mesh, because
-        coarser meshes might miss the change."""
+        """`converge` reports the path parameter at which the stability changes."""
         text = self.answered("converge", "--scene", self.scene(COLUMN), "-f", "collocation", "-f", "beamw").stdout
         self.assertIn("collocation had unstable states:\n  n = 1: stable up to 0.95", text)
         line = self.answered("solve", "--scene", self.scene(COLUMN), "-f", "collocation").stdout

@@ -15,7 +15,7 @@
 enum { MOST = 128, KEY = 400, KINDS = SCENE_READING + 1 };
 static int seen[KINDS], requested;
 
-/* Writes a text that identifies the quantity: its extracted value, its factor and its offset. */
+/* Writes a text that identifies the quantity: what it extracts, its factor and its offset. */
 static void key_of(const char *text, const scene_quantity *q, char key[KEY])
 {
     char start[SCENE_NAME + 8];
@@ -201,8 +201,7 @@ static void meaning_tests(void)
     printf("%d quantities\n", requested);
 }
 
-/* Cases that the build generates from scene files must have the same parameters, the same names of
- * entries and, bit for bit, the same scene as these files. */
+/* Compares the parameters of a case that the build stored with those of its scene file. */
 
 static void compare_parameters(const char *name, const parameter_type *packed,
                                const parameter_type *read)

@@ -5,7 +5,7 @@ import re
 
 from cases.format.test.scene_case import SceneCase, values
 
-# Name: A [cm^2], Iy, Iz [cm^4], It [cm^4], Iw [10^3 cm^6], as printed, with three or four digits.
+# Name: A [cm^2], Iy, Iz [cm^4], It [cm^4], Iw [10^3 cm^6], as printed.
 PRINTED = {
     "IPE80": ("7.64", "80.1", "8.49", "0.70", "0.12"),
     "IPE100": ("10.3", "171", "15.9", "1.20", "0.35"),
@@ -145,7 +145,7 @@ def half_unit(printed):
 
 
 def scene(sections, material="young: 210e9, shear_modulus: 81e9, density: 7850", loads=None):
-    """Returns a scene file with these sections and `loads`. By default, the loads are forces, each 1e12 times a section
+    """Returns a scene file with these sections and `loads`. The default loads are forces of 1e12 times a section
     constant, from which the constants are read."""
     loads = loads or {
         f"{name}_{k}": f"[{name}.{k}*1e12, 0, 0]" for name in sections for k in CONSTANTS
@@ -180,8 +180,7 @@ class ProfilesTest(SceneCase):
                             half_unit(printed) * 1.001, f"{constant} of {name}: {got[constant]}")
 
     def test_channels(self):
-        """The printed constants of channels must be close to those of channels made of walls. A misprint in the table
-        would show as a large difference."""
+        """Compares the printed constants of channels with those of thin-walled channels, to detect misprints."""
         sections = {name: f"profile: {name}" for name in UPN}
         got = self.constants(sections)
         written = self.answered("scene", "--scene", self.scene(scene(sections))).stdout
@@ -197,7 +196,7 @@ class ProfilesTest(SceneCase):
                                        msg=f"{constant} of {name}")
 
     def test_sizes_without_fillets(self):
-        """T-sections and non-standard angles consist of walls without fillets, with the exact area of sharp corners."""
+        """The area of T-sections and of angles that are not in the table is that of sharp corners."""
         got = self.constants({
             "t": "t: {depth: 0.1, flange: 0.1, flange_thickness: 0.01, web_thickness: 0.01}",
             "l": "profile: L100x77x8",
@@ -211,8 +210,8 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["given"]["A"], 28.48e-4, delta=5e-7)
 
     def test_angles(self):
-        """The shear centre of an angle is at the intersection of the mid-lines of its legs. If the legs are exchanged,
-        the section is rotated."""
+        """The shear centre of an angle is at the intersection of the mid-lines of its legs. Exchanging the leg
+        lengths rotates the section."""
         sections = {f"s{i}": f"profile: {name}" for i, name in enumerate(ANGLES)}
         got = self.constants(sections)
         for key, printed in zip(sections, ANGLES.values()):
@@ -234,8 +233,8 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(e[2], -23.22e-3, delta=1e-5)
 
     def test_angle_bends_askew(self):
-        """A load along one leg of L100x75x8 causes the deflection d = F L^3/3E [Iz, -Iyz; -Iyz, Iy]/(Iy Iz - Iyz^2), with
-        the second moments about axes along the legs, including fillets."""
+        """The deflection of a cantilever L100x75x8 is d = F L^3/3E [Iz, -Iyz; -Iyz, Iy]/(Iy Iz - Iyz^2), with second
+        moments about axes parallel to the legs."""
         text = scene({"l": "profile: L100x75x8"}, loads={"p": "[0, 0, 10]", "t": "[0, 0, 0]"})
         text = text.replace("  t: {force: [0, 0, 0], on: b}", "  t: {moment: [10*l.ey, 0, 0], on: b}")
         text = text.replace("  uz:", "  uy: {displacement: {analysis: run, node: b, component: uy}}\n  uz:")
@@ -247,8 +246,7 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["uy"] / (-flexibility * Iyz), 1, delta=4e-3)
 
     def test_stresses_of_an_angle(self):
-        """Stresses at the heel and the sharp toes are -M (Iy y - Iyz z)/(Iy Iz - Iyz^2) about axes along the legs. The
-        constants are integrated over the outline with fillets."""
+        """A moment about z causes the stress -M (Iy y - Iyz z)/(Iy Iz - Iyz^2), with axes parallel to the legs."""
         def spandrel(sign, y, z, sy, sz, r, n=4000):
             strips = [(r / n * h, (i + 0.5) * r / n, h) for i in range(n)
                       for h in [r - math.sqrt(r * r - (r - (i + 0.5) * r / n)**2)]]
@@ -276,8 +274,7 @@ class ProfilesTest(SceneCase):
             self.assertEqual(max(stress), stress[0])
 
     def test_stresses_of_mid_lines(self):
-        """Stresses in a section given by mid-lines are computed at its outer surfaces and corners: M_y z/Iy + M_z y/Iz,
-        with y and z on the outer surface and the inertias of the mid-lines."""
+        """Stresses in a thin-walled section are computed on its outer surface, with second moments of the mid-lines."""
         h, b, t = 0.2, 0.1, 0.01
         Iy, Iz = t * h**3 / 6 + b * t * h**2 / 2, t * b**3 / 6 + h * t * b**2 / 2
         box = f"box: {{depth: {h}, flange: {b}, flange_thickness: {t}, web_thickness: {t}}}"
@@ -288,8 +285,7 @@ class ProfilesTest(SceneCase):
             self.assertAlmostEqual(got / (My * (h + t) / 2 / Iy + Mz * (b + t) / 2 / Iz), 1, delta=1e-9, msg=(My, Mz))
 
     def test_beam(self):
-        """The deflection and the stress of a cantilever follow from the printed constants: P L^3/(3 E Iy) and P L/Wel
-        with Wel = 194.3 cm^3."""
+        """Compares the deflection P L^3/(3 E Iy) and the stress P L/Wel of a cantilever, with printed constants."""
         text = scene({"beam": "profile: ipe 200"}, loads={"p": "[0, 0, 1000]"})
         text += "omit: {shear: yes}\n"
         for formulation in ("beamw_consistent", "geometrically_exact", "collocation"):
@@ -305,7 +301,7 @@ class ProfilesTest(SceneCase):
             "210e9, shear_modulus: 81e9, density: 7850", "210e3, shear_modulus: 81e3").replace(
                 "at: [1, 0, 0]", "at: [1000, 0, 0]")
         other = values(self.record("solve", "--scene", self.scene(text), "-n", 2))["uz"]
-        self.assertAlmostEqual(other / ours, 1000, delta=1e-6)  # the factor between m and mm
+        self.assertAlmostEqual(other / ours, 1000, delta=1e-6)
 
     def test_refused(self):
         for text, part in (

@@ -159,8 +159,8 @@ static inline int same_quantity(const scene_quantity *a, const scene_quantity *b
            (one == NULL) == (two == NULL) && (one == NULL || strcmp(one, two) == 0);
 }
 
-/* Returns the name of the first list of the scenes that differs, and sets *index to the first entry
- * that differs. Returns NULL if the scenes are equal. */
+/* Returns the name of the first list that differs, and sets *index to its first entry that differs.
+ * Returns NULL if the scenes are equal. */
 static inline const char *differing(const scene *a, const scene *b, int *index)
 {
     *index = 0;

@@ -1,4 +1,4 @@
-"""Form of scene files: names, parameters, errors, and parts with their instances."""
+"""Tests the form of scene files: names, parameters, errors, parts and instances."""
 import csv
 import json
 import math
@@ -13,7 +13,7 @@ from harness.tools.kit.scenes import LEAF, bad_scenes
 
 
 GOOD = ROOT / "cases/format/test/good"
-# the whole motion of the machine with twelve joints takes too long for a test
+# the whole motion takes too long for a test
 PART = {"hexapod_motion": ("--set", "time=0.05")}
 
 
@@ -55,7 +55,7 @@ class SceneTest(SceneCase):
         self.assertAlmostEqual(values(record)["tip_uy"] / exact, 1, delta=1e-9)
 
     def test_bytes(self):
-        """Different line endings, byte order marks and non-ASCII letters must not change the results."""
+        """Different line endings, byte order marks and non-ASCII letters do not change the results."""
         own = self.answered("scene", "--scene", self.scene(LEAF)).stdout
         for name, text in (("ends", LEAF.replace(
                 "\n", "\r\n")), ("mark", "\ufeff" + LEAF), ("letters", LEAF + "# Größe – 大きさ\n")):
@@ -96,8 +96,8 @@ class SceneTest(SceneCase):
             self.assertEqual(again, written)
 
     def test_needs_of_earlier_versions(self):
-        """A file of an earlier version has `needs`. Physics that it does not list is omitted, except warping, and one
-        line states which key replaces it."""
+        """The key `needs` of earlier versions omits all physics that it does not list, except warping. A line states
+        that `omit` replaces it."""
         rest = ["shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia"]
         buckles = LEAF + ("analyses:\n  run: {buckling: {}}\nquantities:\n"
                           "  P: {critical_factor: {analysis: run}, unit: \"1\"}\n")
@@ -124,7 +124,7 @@ class SceneTest(SceneCase):
         self.refused(2, "did you mean 'width'", *where, "--set", "wdth=0.1")
 
     def test_truths_of_a_point(self):
-        """A reference value with parameters applies only at this parameter point, at which `verify` computes the case."""
+        """A reference value with parameters applies only at this parameter point."""
         path = self.scene(
             LEAF.replace("width: 50e-3", "width: width").replace(
                 "sections:", "parameters:\n  width: {value: 50e-3, unit: m}\nsections:") +
@@ -167,8 +167,7 @@ class SceneTest(SceneCase):
             self.assertLessEqual(used, set(schema["properties"]))
 
     def test_summaries_say_more_than_keys(self):
-        """The summary of a key must not only repeat its name: "'node' is missing (node)" would not state what is
-        required."""
+        """The summary of a key must contain more than the name of the key."""
         self.assertEqual(re.findall(r"^ *(\w+) +(?:NAME|TEXT|EXPR|\.\.\.) +\1(?: \[| \*|$)",
                                     self.answered("scene", "--keys").stdout, re.M), [])
 
@@ -208,7 +207,7 @@ quantities:
   moment: {internal: {analysis: travel, member: left.leaf, end: from, resultant: Mz}, unit: "N m"}
 """
 
-# Changes that make the guide invalid, and the message for each, without the position in the file before it.
+# Changes that make the guide invalid, each with its message without the position.
 WRONG = [
     ("hold: all}\n      top: {at: [0, 0.08, 0]", "hold: all}\n      top: {at: [0, 0, 0]",
      "left.leaf: its ends coincide"),
@@ -228,7 +227,7 @@ class NamesTest(SceneCase):
         self.assertIsNone(NUMBERED.search(text), (what, NUMBERED.search(text)))
 
     def line(self, code, words, *arguments):
-        """Checks that the rejection is one line that contains the words, and returns this line."""
+        """Checks that the message is one line that contains the words. Returns the line."""
         done = run(*arguments)
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertIn(words, done.stderr)
@@ -389,7 +388,7 @@ class PartsTest(SceneCase):
         self.assertAlmostEqual(abs(got["tip_ux"]) / own["tip_uy"], 1, delta=1e-12)
 
     def test_springs_of_a_part(self):
-        """The stiffness of a spring in a rotated part is T K T^T, both at a port and between nodes of the part."""
+        """The stiffness of a spring in a rotated instance is T K T^T, at a port and between nodes of the part."""
         turn, a = 0.4, [3e3, 1e3, 2e3, 4.0, 5.0, 6.0]
         c, s = math.cos(turn), math.sin(turn)
         R = np.kron(np.eye(2), [[c, -s, 0], [s, c, 0], [0, 0, 1]])
@@ -419,7 +418,7 @@ loads:""") + "  pull: {force: [0.5, 1, 2], on: own}\n"
         part = PLACED.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
             "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
         where = ("-f", "collocation", "-n", 1)
-        got = self.same_again(self.scene(part, "part.yaml"), *where)  # the x axis of the part is the z axis of the scene
+        got = self.same_again(self.scene(part, "part.yaml"), *where)  # the x axis of the part is parallel to the z axis of the scene
         plain = LEAF.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
             "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
         self.assertNotEqual(plain, LEAF)

@@ -1,4 +1,4 @@
-"""Tests keys of scene files and the units of their values."""
+"""Tests the keys of scene files and the units of their values."""
 import json
 import re
 import unittest
@@ -11,7 +11,7 @@ from harness.tools.kit.program import ROOT, run
 
 GOOD = ROOT / "cases/format/test/good"
 
-# Entries of every kind that no other scene contains, with as few keys as possible.
+# Entries of the kinds that no other scene contains, with as few keys as possible.
 BARE = [
     """sections:
   b: {rectangle: {width: 0.02, thickness: 0.01}, young: 7e10, shear_modulus: 2.6e10, density: 2700}
@@ -191,17 +191,16 @@ class KeysTest(SceneCase):
                     if done.returncode == 0:
                         self.assertEqual(done.stdout, written, (place, key, entry))
                         tried.add((place, key))
-        # maps below `parts` have the same keys as those of the scene, which are tested
+        # maps below `parts` have the same keys as those of the scene
         self.assertEqual({one for one in wanted - tried if one[0][:1] != ("parts",)}, set())
 
 
-# Units, with one length unit in metres and one force unit in newtons.
+# Unit systems: the value of `units`, the length unit in m, the force unit in N.
 SYSTEMS = (("mm, N, MPa", 1e-3, 1), ("[mm, N]", 1e-3, 1), ("m, kN, kPa", 1, 1e3), ("in, lbf, psi", 0.0254, 4.4482216152605),
            ("cm, kN", 1e-2, 1e3), ("m, N, Pa", 1, 1))
 
 
 def scene(units, metre, newton):
-    """Returns a scene with entries of all kinds, with numbers in these units."""
     def u(value, length=0, force=0):
         return repr(value/metre**length/newton**force)
 
@@ -355,7 +354,7 @@ class UnitsTest(SceneCase):
             self.assertAlmostEqual(found[name]/1e3/exact[name], 1, delta=1e-6, msg=name)
 
     def test_continued(self):
-        """Stations of a continuation are lengths, also for a compliance about states of the continuation."""
+        """Stations of a continuation are displacements here, so they have the unit of length."""
         si, mm = [self.solved(filled(CONTINUED, UNITS=units, NEAR=near, FAR=4*near, **numbers))
                   for units, near, numbers in (("", 1e-3, METRES), ("units: mm, N, MPa", 1, MILLIMETRES))]
         exact, found = values(si), values(mm)
@@ -452,7 +451,7 @@ class Doubtful(SceneCase):
                       "densities are in t/mm^3", self.told("7850", "1").stderr)
 
     def test_larger_than_the_structure(self):
-        """EA/l = 84000 N/mm, so the displacement reaches the size of the structure, 2000 mm, at 168 MN."""
+        """With EA/l = 84000 N/mm, a force of 168 MN causes a displacement as large as the structure, 2000 mm."""
         self.assertEqual(self.told("7.85e-9", "167e6").stderr, "")
         self.assertIn("ux: a linear analysis gives a displacement of 1.01 times the size of the structure",
                       self.told("7.85e-9", "169e6").stderr)
@@ -461,7 +460,8 @@ class Doubtful(SceneCase):
         self.assertRegex(self.told("7.85e-9", "1").stdout, r"\nN +0 N mm")
 
     def test_kelvin(self):
-        """The unit of a load factor may be that of its load, which is K in any unit system. Another unit requires a factor."""
+        """The load factor of a temperature load may have the unit K in every unit system. Other units require a
+        factor."""
         self.assertRegex(self.answered("solve", "--scene", self.scene(WARM), "-f", "beamw", "-n", 8).stdout,
                          r"\ndT +\S+ K")
         self.refused(2, "or write 'unit: MPa, factor: 1' if the load has the value 1 in this unit", "solve", "--scene",

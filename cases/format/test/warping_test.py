@@ -1,4 +1,4 @@
-"""Warping at member ends in scene files, and curved members."""
+"""Tests warping conditions in scene files, and curved members."""
 import csv
 import io
 import json
@@ -11,7 +11,7 @@ from harness.tools.kit.program import run
 
 
 E, G, IT, IW, LENGTH, TORQUE = 210e9, 81e9, 4e-7, 9e-7, 3.0, 50.0
-K = math.sqrt(G * IT / (E * IW))  # [1/m], for which K*LENGTH is 1.2
+K = math.sqrt(G * IT / (E * IW))  # [1/m]
 SAINT_VENANT = TORQUE * LENGTH / (G * IT)
 ONE_HELD = TORQUE / (G * IT) * (LENGTH - math.tanh(K * LENGTH) / K)
 BOTH_HELD = TORQUE / (G * IT) * (LENGTH - 2 * math.tanh(K * LENGTH / 2) / K)
@@ -40,8 +40,7 @@ TIP = f"  tip: {{at: [{LENGTH}, 0, 0]"
 class WarpingTest(SceneCase):
 
     def words(self, scene):
-        """Returns the warping conditions at both ends of each member, in the order of the members. Shared coordinates
-        are numbered."""
+        """Returns the warping conditions at both ends of each member. Shared coordinates are numbered."""
         text = self.answered("scene", "--scene", self.scene(HEAD + scene)).stdout
         return [
             re.sub(r"\{shared: (w\d+)\}", r"\1", word)
@@ -60,7 +59,7 @@ class WarpingTest(SceneCase):
             self.twist(scene, "-f", "collocation") / expected, 1, delta=1e-6, msg="collocation")
 
     def test_numbers(self):
-        """The closed-form values of the warping conditions must differ enough to be distinguished."""
+        """Checks that the closed-form values for the warping conditions differ enough to be distinguished."""
         self.assertGreater(SAINT_VENANT, 1.5 * ONE_HELD)
         self.assertGreater(ONE_HELD, 1.5 * BOTH_HELD)
 
@@ -112,8 +111,8 @@ class WarpingTest(SceneCase):
                     [f"fixed, {told}"])
 
     def test_tied(self):
-        """Warping is restrained at nodes attached to a body. It is also restrained at the node of the body if other
-        springs or members are joined to attached nodes."""
+        """Warping is restrained at nodes attached to a body. At the node of the body, it is restrained if members or
+        springs are joined to attached nodes."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         part = base + "  body: {at: [4, 0, 0]}\n" + TIP + ", part_of: body}\n" + CANTILEVER
         self.assertEqual(self.words(part), ["fixed, fixed"])
@@ -130,8 +129,8 @@ class WarpingTest(SceneCase):
         self.assertEqual(self.words(both), ["fixed, fixed", "fixed, fixed"])
 
     def test_guide(self):
-        """A guide consists of two leaves between clamped bases and a stage. One base is driven. The transverse
-        stiffness at the end of the stroke is compared with a reference value."""
+        """Compares the transverse stiffness of a guide with two leaves, at the end of the stroke, with a reference
+        value."""
         guide = """nodes:
   base_a: {at: [0, 0, 0], hold: all}
   base_b: {at: [0.06, 0, 0], hold: [ux, uy, uz, ry, rz], drive: {rx: tilt}}
@@ -181,14 +180,14 @@ instances:
         self.assertEqual(self.words(scene), ["fixed, free"] * 4)
 
     def test_continued(self):
-        """A node does not interrupt a beam, so two members that continue in one line share their warping."""
+        """Two members in one line share their warping coordinate at the common node."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  mid: {at: [1, 0, 0], mass: 2}\n" + TIP + "}\n"
         two = base + "members:\n  one: {from: base, to: mid, section: SECTION, y: [0, 1, 0]}\n" + \
             "  two: {from: mid, to: tip, section: SECTION, y: [0, 1, 0]}\n"
         beam = two.replace("SECTION", "beam")
         self.assertEqual(self.words(beam), ["fixed, w0", "w0, free"])
         self.is_twisted(beam + TWIST, ONE_HELD)
-        # a fork support between two members, and two fork supports at the ends of two members
+        # one fork support between two members, then fork supports at their ends
         fork = "hold: [ux, uy, uz], fork: {axis: [1, 0, 0], web: [0, 0, 1]}"
         span = f"nodes:\n  left: {{at: [0, 0, 0], {fork}}}\n  tip: {{at: [{LENGTH / 2}, 0, 0]}}\n" + \
             f"  right: {{at: [{LENGTH}, 0, 0], {fork.replace('ux, ', '')}}}\nmembers:\n" + \
@@ -218,7 +217,7 @@ instances:
                 self.assertEqual(self.words(scene), told)
 
     def test_towards(self):
-        """Members that point towards each other share their warping if the section is the same seen from both ends."""
+        """Two members whose x axes are opposite share their warping if the section is symmetric."""
         two = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  mid: {at: [1, 0, 0]}\n" + TIP + "}\n" + \
             "members:\n  one: {from: base, to: mid, section: SECTION, y: [0, 1, 0]}\n" + \
             "  two: {from: tip, to: mid, section: SECTION, y: Y}\n"
@@ -249,7 +248,7 @@ instances:
         self.assertEqual(done.stderr, "")
         record = json.loads(run("solve", "--scene", scene, "--format", "json").stdout)
         self.assertEqual(record["cell"]["warping"], ends)
-        # no warning if the warping is given, if it does not change the result, or if the section does not warp
+        # no warning if the warping condition is given or has no effect
         for text, words in ((torsion.replace("]}", "], warping: [fixed, free]}", 3) + TWIST, ends),
                             (torsion + TWIST.replace(f"[{TORQUE}, 0, 0]", "[0, 0, 0]"), ends),
                             (torsion + TWIST.replace("moment", "force"), ends),
