@@ -7,7 +7,7 @@
 #include "cases/scene/scene.h"
 #include "elements/math/scalar.h"
 
-enum { DIMENSIONS = 3 }; /* m, kg, s */
+enum { DIMENSIONS = 3 };
 
 /* A unit as a factor times powers of m, kg and s. */
 typedef struct unit_measure {

@@ -136,8 +136,8 @@ status deck_write(const deck_request *r, FILE *to, fault *f)
 
 enum { COMPONENTS = 6, TRANSLATIONS = 3 };
 
-/* Newton's iterations stop at 1e-7 of the mean force and of the largest displacement. The defaults
- * of CalculiX are 5e-3 and 1e-2. */
+/* Newton's iterations stop at residuals of 1e-7 of the mean force and corrections of 1e-7 of the
+ * largest displacement increment. The defaults of CalculiX are 5e-3 and 1e-2. */
 #define CONTROLS "*CONTROLS,PARAMETERS=FIELD\n1e-7,1e-7\n"
 #define PRINTS   "*NODE PRINT,NSET=BODIES,FREQUENCY=1000\nU,RF\n*END STEP\n"
 
@@ -145,7 +145,7 @@ typedef struct answers_writer {
     const scene *s;
     const body_numbers *bodies;
     FILE *to;
-    int steps; /* number of steps written so far */
+    int steps;
 } answers_writer;
 
 /* Writes the loads on the structure. Loads on the same coordinate are combined into one card. */
@@ -195,7 +195,6 @@ static void write_unit_load(answers_writer *w, const scene_analysis *a, int comp
     w->steps++;
 }
 
-/* Position of the printed value of a quantity in the last step. */
 typedef struct printed {
     const char *what;
     int node, component, reciprocal;

@@ -30,9 +30,9 @@ const scene_quantity *axes_quantity(const axes *a, const scene *s, const scene_q
 enum { DECK_MOST_ELEMENTS = 400 }; /* largest number of elements along a member */
 
 typedef struct deck_request {
-    const scene *scene; /* valid scene */
-    const char *of;     /* name for an import: "case; parameters" */
-    int elements;       /* number of elements along each member that does not specify a number */
+    const scene *scene;
+    const char *of; /* name for an import: "case; parameters" */
+    int elements;   /* number of elements along each member that does not specify a number */
 } deck_request;
 
 /* Checks that a deck can express the scene, before anything is written. REFUSED: the message names
@@ -55,7 +55,7 @@ typedef struct import_set {
 
 void import_block_free_set(import_set *);
 
-/* A header, with the line number of each entry (0: the entry is missing). */
+/* The entries of a header, with their line numbers (0: the entry is missing). */
 typedef struct import_header {
     char program[IMPORT_TEXT], of[IMPORT_TEXT], model[IMPORT_TEXT], convention[IMPORT_TEXT],
         version[IMPORT_TEXT];
@@ -66,7 +66,7 @@ typedef struct import_header {
 /* A series that is being read. */
 typedef struct import_block {
     import_set *set;
-    const char *path; /* path of the file */
+    const char *path;
     mistakes *m;
     axes axes;
     int at;    /* line of the map that requests the value; 0: line of the value */
@@ -121,17 +121,16 @@ status import_file_read(const char *path, import_set *into, mistakes *m, fault *
 status import_map_read(const char *map, const char *const file[], int files, import_set *into,
                        mistakes *m, fault *f);
 
-/* Reads values that `beamwork import` has stored. They are compared with the results of a run. */
-
 /* Series of a file for which the run has no point. */
 typedef struct import_left {
     int series, all; /* number of series without a point, and number of all series in the file */
-    char first[256]; /* case/parameters/program of the first series without a point; empty: none */
+    char first[256]; /* case/parameters/program of the first series without a point; "" if there is
+                      * none */
 } import_left;
 
-/* Adds a series for each program to every point that has series in the file. A nonzero flag means
- * that verdicts on these series affect the exit status. FAULT: the file is missing, damaged or not
- * such a file. REFUSED: the file has no imported values, or the run already has them. */
+/* Adds a series for each program to every point that has series in the file. A nonzero flag
+ * means that verdicts on these series affect the exit status. FAULT: the file is missing, damaged
+ * or not such a file. REFUSED: the file has no imported values, or the run already has them. */
 status import_store_read(const char *path, int gates, sweep *s, import_left *left, fault *f);
 
 #endif

@@ -1,4 +1,3 @@
-/* Internal declarations of exchange/. */
 #ifndef BEAMWORK_EXCHANGE_IMPL_H
 #define BEAMWORK_EXCHANGE_IMPL_H
 
@@ -24,7 +23,7 @@ enum {
 };
 
 typedef struct face {
-    int elements[2]; /* number of elements along y and z */
+    int elements[2];
     /* positions [m] of the lattice lines relative to the centroid of the beam, in ascending order
      * */
     double corner[2][FACE_MOST + 1];
@@ -46,8 +45,8 @@ typedef struct brick {
     int first_node, first_element; /* numbers, starting at 1 */
     /* centre of the first face [m]; the columns of `axes` are the axes x, y, z */
     double origin[3], axes[9];
-    double length; /* [m] */
-    face face;     /* cross-section, which is constant along the member */
+    double length;
+    face face; /* cross-section, which is constant along the member */
 } brick;
 
 /* Makes the mesh of a member. Numbers start at first_node and first_element. along: number of
@@ -61,7 +60,7 @@ int brick_next_element(const brick *);
 /* Write the lines after the keywords *NODE and *ELEMENT. */
 void brick_write_nodes(const brick *, FILE *to);
 void brick_write_elements(const brick *, FILE *to);
-/* Writes the node numbers of the first face (end 0) or the last face, in one line each. */
+/* Writes the node numbers of the first face (end 0) or of the last face (end 1), one per line. */
 void brick_write_face(const brick *, int end, FILE *to);
 
 /* Rigid bodies of a deck. A body connects all faces at a node and at the nodes attached to this
@@ -83,8 +82,8 @@ int body_direction(int component);
  * value = factor*printed + offset, with the reciprocal of the printed number if `reciprocal` is 1.
  * Steps start at 1; x [SI] is the abscissa of a curve, or empty. */
 
-/* Quantities and loads of a scene that a deck of solids supports. All others are rejected, so that
- * none is omitted without notice. */
+/* Quantities and loads of a scene that a deck of solids supports. All others are rejected, so a
+ * deck never omits one without a message. */
 
 /* Returns the index of the static analysis if there is exactly one, otherwise SCENE_NONE. */
 int export_is_static(const scene *s);
@@ -117,8 +116,9 @@ const char *map_keys_text(mistakes *m, const document_node *map, const char *key
                           const char *otherwise);
 double map_keys_number(mistakes *m, const document_node *map, const char *key, double otherwise);
 
-/* Points of a deck on a static path: its stations, points that quantities need, and the points
- * where drivers and load factors have a change of slope. Each step is then linear. */
+/* Points on a static path at which steps of a deck end: stations, points that quantities need, and
+ * changes of slope of drivers and load factors. Drivers and load factors are then linear within
+ * each step. */
 
 typedef struct path_points {
     int count;

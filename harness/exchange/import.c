@@ -15,7 +15,6 @@ static const scene *scene_of(const import_block *b)
     return b->point >= 0 ? &b->set->sweep.point[b->point].scene : NULL;
 }
 
-/* Returns the line that error messages about a value give. */
 static int line_of(const import_block *b, const imported_row *row)
 {
     return b->at > 0 ? b->at : row->line;

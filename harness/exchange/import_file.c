@@ -30,8 +30,8 @@ typedef struct file_reader {
     const char *path;
     mistakes *m;
     int line, rows;
-    int versioned;     /* 1: the first line has identified the file */
-    int placed;        /* 1: the columns are known */
+    int versioned; /* 1: the first line has identified the file */
+    int placed;
     int place[FIELDS]; /* column of each field; -1: none */
     int fields;
     import_header header;

@@ -21,7 +21,6 @@ static const char *const map_keys[] = {"beamwork_map", "program",  "case",     "
 static const char *const value_keys[] = {"file",  "under", "where", "column",   "minus",
                                          "times", "unit",  "rows",  "abscissa", NULL};
 
-/* State of reading a map. */
 typedef struct map_reader {
     const document_node *root;
     mistakes *m;
@@ -35,7 +34,7 @@ typedef struct wanted {
     const document_node *key, *of, *where;
     const char *file, *under;
     int column, abscissa; /* indices starting at 0; abscissa -1: none */
-    int rows;             /* LAST, ALL, or a row number */
+    int rows;
     double minus, times;
     int seen;
     imported_row row;
@@ -321,7 +320,6 @@ static void map_keys_check(const document_node *map, const char *const known[], 
     }
 }
 
-/* Returns the string of an entry, or `otherwise` if the entry is missing. */
 const char *map_keys_text(mistakes *m, const document_node *map, const char *key,
                           const char *otherwise)
 {

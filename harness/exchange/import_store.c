@@ -31,14 +31,12 @@ static const table_column value_columns[] = {
     TEXT(value_row, version) /* the last field, because older files do not have this field */};
 #define COLUMNS(name) sizeof(name) / sizeof *(name), name
 
-/* Tables of one case. */
 typedef struct tables {
     int points, values;
     point_row *point;
     value_row *value;
 } tables;
 
-/* State of reading a store. */
 typedef struct store_reader {
     const char *path;
     int gates;

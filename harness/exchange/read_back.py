@@ -19,7 +19,7 @@ DIGITS = 5e-7  # relative error of a printed number, due to its 7 digits
 
 
 class Incomplete(Exception):
-    """The deck was not solved to its end, or was not written by beamwork."""
+    """Raised if the deck was not solved to its end or was not written by beamwork."""
 
 
 def printed(path):
@@ -39,7 +39,6 @@ def printed(path):
 
 
 def value_of(answer, blocks):
-    """Returns (value, uncertainty) in the unit of the quantity."""
     what, step, node, direction, reciprocal, factor, offset = answer[2:9]
     steps = blocks[what]
     if int(step) > len(steps):
@@ -61,7 +60,7 @@ def unknowns(lines):
 
 
 def said(lines, card):
-    """Returns the words of a comment in the deck."""
+    """Returns the text after `card` in the first line that starts with it."""
     for line in lines:
         if line.startswith(card):
             return line[len(card):].strip()
@@ -69,7 +68,6 @@ def said(lines, card):
 
 
 def head_of(lines):
-    """Returns the header for the import of the values of a deck."""
     head = HEAD.format(PROGRAM, said(lines, "**CASE "))
     if any(line.startswith("**CONVENTION ") for line in lines):
         head += f"# convention: {said(lines, '**CONVENTION ')}\n"

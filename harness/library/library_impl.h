@@ -1,4 +1,3 @@
-/* Internal declarations of library/. */
 #ifndef BEAMWORK_LIBRARY_IMPL_H
 #define BEAMWORK_LIBRARY_IMPL_H
 
@@ -14,9 +13,7 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Functions that every library function calls at its start and at its end. */
-
-/* Settings of the host, and the place where error messages are stored. */
+/* Settings of the host, and the message of the call. */
 typedef struct call {
     fault fault;
     char *text; /* message that replaces the one of the fault, allocated with malloc; NULL: none */
@@ -97,8 +94,8 @@ enum { RESULT_COLUMNS = 32 };
 
 struct bw_result {
     source *from;
-    sweep sweep;                    /* sweep with one point, one series and one mesh */
-    truths own;                     /* reference values in the scene file */
+    sweep sweep; /* sweep with one point, one series and one mesh */
+    truths own;
     const truths *truths;           /* reference values that apply; NULL: none */
     double *error;                  /* [quantities] errors; NAN: there is no reference value */
     double *step[RESULT_COLUMNS];   /* [steps] columns of the steps, filled on request */
@@ -115,8 +112,6 @@ static inline const scene *result_handle_scene(const struct bw_result *r)
 {
     return &r->sweep.point[0].scene;
 }
-
-/* Documents that are returned as text. */
 
 typedef struct document_text {
     FILE *to; /* stream whose output becomes the text */

@@ -50,8 +50,8 @@ static int founded_vertices(const model *m)
     return count;
 }
 
-/* Adds the stiffness of a length [m] of a foundation to K. foundation: stiffnesses per length. R:
- * axes of the foundation. */
+/* Adds to K the stiffness of a piece of a foundation. foundation: stiffnesses per length. length
+ * [m]: length of the piece. R: axes of the foundation. */
 static void add_founded(const double foundation[6], double length, const double R[9], double K[36])
 {
     for (int block = 0; block < 2; block++)
@@ -69,8 +69,7 @@ static status found_member(model *m, int member, scene_spring *spring, int *used
     const scene_member *sm = &m->scene->member[member];
     const int first = m->mesh.first_element[member], last = m->mesh.nodes - 1;
     member_arc arc;
-    TRY(member_arc_of(m->scene, member, 0, &arc,
-                      f)); /* the axes are those in which the section is described */
+    TRY(member_arc_of(m->scene, member, 0, &arc, f));
     for (int i = first; i < m->mesh.first_element[member + 1]; i++) {
         const mesh_element *el = &m->mesh.element[i];
         for (int k = 0; k <= last; k++) {
@@ -211,7 +210,7 @@ static void evaluate(const model *m, const model_state *s, const mesh_discrete *
         force[k] = -force[k];
 }
 
-/* Like evaluate, in coordinates of the model. */
+/* Like evaluate, but in the coordinates that remain after the elimination. */
 static void eliminated(const model *m, const model_state *s, const mesh_discrete *d,
                        const element_rotating_frame *frame, const spring_rates *r, int material,
                        double force[], double K[])
@@ -303,7 +302,6 @@ double discrete_stored(const model *m, const model_state *s)
     return sum;
 }
 
-/* Adds to F the forces at the nodes that move with `node`, with moments about `node`. */
 static void add_at_node(const model *m, const model_state *s, const mesh_discrete *d,
                         double force[], int node, double F[6])
 {

@@ -45,7 +45,7 @@ int centreline_points(const model *m, int first[])
 typedef struct span {
     int nodes;
     const double *place; /* positions of the nodes */
-    double length;       /* [m] */
+    double length;
     node_state x[ELEMENT_MAX_NODES];
     double q[ELEMENT_MAX_NODES][4];
     double force[ELEMENT_MAX_COORDINATES];
@@ -101,8 +101,8 @@ static void orientation(const span *e, int k, double t, const double direction[3
     rotation_compose(step, q, q);
 }
 
-/* Computes the resultants that act on the part before the point, from the forces on the nodes after
- * the point. */
+/* Computes the resultants on the part of the member before the point, from the forces on the nodes
+ * after the point. */
 static void resultants(const span *e, int k, double t, centreline_point *p)
 {
     double force[3] = {0}, moment[3] = {0}, R[9];
@@ -190,8 +190,8 @@ void centreline_increments(const model *m, const double x[], double out[])
         increment_of_node(m, m->rest, i, x, out);
 }
 
-/* Returns the scale for which a mode is visible. Neither the largest translation nor the largest
- * rotation exceeds its limit. */
+/* Returns a scale that makes a mode visible. The largest translation or the largest rotation
+ * reaches its limit, and neither exceeds it. */
 static double visible_scale(const model *m, const double increment[])
 {
     double scale = INFINITY;
@@ -236,7 +236,7 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
 
 /* Distance between two states of a model, which the arc length uses. */
 
-/* Returns the number of bodies that have a coordinate, but at least 1. */
+/* Returns the number of bodies that have a coordinate, or 1 if there are none. */
 static int moving_bodies(const model *m)
 {
     int count = 0;
@@ -284,7 +284,7 @@ static double turn(const model_state *a, const model_state *b, int vertex)
     return vec3_norm(angle);
 }
 
-/* Returns |d - P d|^2. P NULL: zero. */
+/* Returns |d - P d|^2, with P = 0 if the argument P is NULL. */
 static double square_beside(const double d[3], const double P[9])
 {
     double light[3] = {0, 0, 0}, sum = 0;

@@ -71,7 +71,8 @@ static int conditioned_by(const model *m, int vertex, int component, int known)
     return NONE;
 }
 
-/* Marks the vertices that are connected. An unconnected vertex must not cause a zero row. */
+/* Marks the bodies of vertices to which elements or springs are connected. The coordinates of other
+ * vertices would cause zero rows in the stiffness matrix. */
 static void mark_used(const model *m, char *used)
 {
     for (int i = 0; i < m->mesh.elements; i++)
@@ -93,8 +94,8 @@ static void number_release(model *m, int index)
     }
 }
 
-/* Numbers of coordinates that are fixed, of coordinates that are fixed because they leave the
- * plane, and of coordinates that constraints determine; number of unconnected vertices. */
+/* Counts of coordinates without an unknown: fixed, fixed because they leave the plane, and
+ * determined by constraints; and of unconnected vertices. */
 typedef struct coordinates_tally {
     int held, across, unused, tied;
 } coordinates_tally;
@@ -114,12 +115,11 @@ static void number_vertex(model *m, int index, int pass, int used, coordinates_t
 {
     mesh_vertex *v = &m->mesh.vertex[index];
     for (int c = 0; c < VERTEX_COORDINATES; c++) {
-        const int other =
-            c >= SCENE_RX && is_stretched(m, index); /* the other rotations are fixed */
+        const int other = c >= SCENE_RX && is_stretched(m, index);
         const int motion = v->body == index && !other ? motion_of(m, index, c) : SCENE_HELD;
         const scene_tie *tie = index < m->scene->nodes ? model_tie(m, index, c) : NULL;
         if (tie != NULL && !(tie->node == index && tie->coordinate == c)) {
-            v->coordinate[c] = NONE; /* set later by share_coordinates */
+            v->coordinate[c] = NONE;
             of->tied += pass == 0;
             continue;
         }
@@ -169,7 +169,7 @@ static status number_vertices(model *m, coordinates_tally *of, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory");
     mark_used(m, used);
     for (int pass = 0; pass < 2; pass++) {
-        /* Warping amplitudes are free, so they are numbered between the free and the driven
+        /* Warping amplitudes are free, so they are numbered between the free and the prescribed
          * coordinates. */
         for (int i = 0; i < m->mesh.first_release; i++)
             number_vertex(m, i, pass, used[i], of);
@@ -266,7 +266,7 @@ static int fixed_scalars(const model *m)
     return fixed;
 }
 
-/* Lists the scalars that are not coordinates, with one line for each kind. */
+/* Writes one line for each kind of eliminated coordinate (model_left_out). */
 static status note_left_out(model *m, const coordinates_tally *of, fault *f)
 {
     int absent = 0, attached = 0;

@@ -170,8 +170,8 @@ void division_words(const scene *s, int elements, char *text, size_t room)
     division_free(&d);
 }
 
-/* A transition from one section of the scene to another in `steps` steps, whose sections start at
- * m->section[first]. */
+/* A transition from one section of the scene to another in `steps` steps. The sections of the steps
+ * start at m->section[first]. */
 typedef struct taper {
     int p, q, steps, even, first; /* even 1: the steps have equal lengths */
 } taper;
@@ -234,8 +234,6 @@ static status fill(model *m, int member, const taper *t, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the index of the taper of a member in the list, or the length of the list if this taper
- * is new. */
 static int find(int tapers, const taper *list, const taper *t)
 {
     for (int i = 0; i < tapers; i++)

@@ -65,7 +65,6 @@ static int elements_have_mass(const scene *s)
     return 0;
 }
 
-/* Returns 1 if a member uses the section. */
 static int is_used(const scene *s, int index)
 {
     for (int i = 0; i < s->members; i++)
@@ -84,7 +83,8 @@ static unsigned needs_of_stresses(const section *c, unsigned needs)
         return 0;
     if (hypot(c->wagner_y, c->wagner_z) > zero * c->Ip * arm)
         out |= FEATURE_WAGNER_MOMENTS;
-    /* The effect is cubic in the twist rate, so there is none about the undeformed state. */
+    /* The effect is cubic in the twist rate, so it vanishes for small motions about the undeformed
+     * state. */
     if ((needs & FEATURE_LARGE) && fabs(c->wagner_torque) > zero * c->Ip * arm * arm)
         out |= FEATURE_WAGNER_TORQUE;
     return out;
@@ -182,7 +182,7 @@ unsigned features_not_given(const scene *s, int section_index)
     if (!(needs & FEATURE_LARGE))
         out &= ~(unsigned)FEATURE_WAGNER_TORQUE;
     if (s->plane != SCENE_SPACE)
-        out &= FEATURE_SHEAR; /* the analyses have no torsion */
+        out &= FEATURE_SHEAR;
     return out & ~s->omits;
 }
 

@@ -1,4 +1,3 @@
-/* The initial shape of the imperfections of a scene. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>
@@ -64,7 +63,7 @@ static void add_shifts(const scene *s, scene_node node[])
     }
 }
 
-/* Fills the points of a member at the vertices of its mesh. */
+/* Computes the points of a member from the increments of the vertices of its mesh. */
 static void fill_member(const model *m, int member, const double increment[], int vertex[],
                         model_imperfect *p)
 {
@@ -162,10 +161,9 @@ status model_imperfect_build(const model *m, const model_imperfect *p, model **o
     return model_alloc_imperfect(&request, p->modes ? p : NULL, out, f);
 }
 
-/* Two vertices of a member and their increments. */
 typedef struct piece {
-    const double *from, *to; /* [6] */
-    double line[3];          /* vector between them */
+    const double *from, *to;
+    double line[3];
 } piece;
 
 /* Computes the displacement at x in [0, 1] between the two vertices: a cubic with the rotations of
@@ -183,7 +181,6 @@ static double shift_at(const piece *p, double x, double shift[3])
     return square;
 }
 
-/* Returns the position in [0, 1] of the largest displacement. */
 static double largest_in(const piece *p)
 {
     enum { SAMPLES = 16, CUTS = 60 };

@@ -78,7 +78,6 @@ static void follow_leader(const model *m, model_state *s, int vertex)
                 s->u[3 * v->leader + i] + across[i] * sin(angle) - 2 * half * half * v->arm[i];
 }
 
-/* For a rigid offset, u = u_body + (R - 1) offset. */
 void kinematics_follow(const model *m, model_state *s)
 {
     for (int i = 0; i < m->scene->nodes; i++)
@@ -256,9 +255,9 @@ static double chord_cosine(const model *m, const model_state *s, const mesh_elem
     return vec3_dot(d, axis) / vec3_norm(d);
 }
 
-/* Returns the cosine of half the angle between the ends of an element. The cosine is negative for
- * more than half a revolution, which the signs of the quaternions show. chords 1: also considers
- * the angles between the chord and the x axes of the ends. */
+/* Returns the cosine of half the angle between the ends of an element. The cosine is negative if
+ * the angle exceeds half a revolution, because quaternions distinguish angles up to two
+ * revolutions. chords 1: also considers the angles between the chord and the x axes of the ends. */
 static double half_cosine(const model *m, const model_state *s, const mesh_element *el, int chords)
 {
     double turn = 0, least = 1;
@@ -397,8 +396,6 @@ int kinematics_node_jacobian(const model *m, const model_state *s, int node, int
         release_jacobian(m, state, node, count, first_own, T);
     return count;
 }
-
-/* States of a model. Each state has a single block of numbers. */
 
 const model_state *kinematics_rest(const model *m)
 {

@@ -1,4 +1,3 @@
-/* Matrix patterns, and the positions of the entries of elements in them. */
 #include "harness/model/model_impl.h"
 
 #include <stdlib.h>
@@ -144,8 +143,8 @@ static void begin_lists(size_t pairs, const int index[], int n, int begin[])
 /* Input of compress: pairs in any order, and a list of the pairs sorted by rows. */
 typedef struct pairs {
     size_t count;
-    int *row, *column, *by_row; /* [count] */
-    int *begin, *end;           /* [n + 1] starts of the lists of rows; ends of lists so far */
+    int *row, *column, *by_row;
+    int *begin, *end; /* [n + 1] starts of the lists of rows; ends of lists so far */
 } pairs;
 
 /* Sorts columns after the pairs have been sorted by rows, so the rows of each column are in
@@ -214,8 +213,8 @@ static int entries_of(const mesh_element *el, const mesh_pattern *p, mesh_entry 
     return count;
 }
 
-/* Returns the layout with these entries if it is one of the most recent layouts, otherwise NONE.
- * Elements along a member have the same layout, except at its ends. */
+/* Returns the layout with these entries if it is among the last layouts that were stored, otherwise
+ * NONE. Elements along a member have the same layout, except at its ends. */
 static int find_layout(const mesh_pattern *p, int entries, const mesh_entry entry[])
 {
     const int looked_at = 16;

@@ -1,4 +1,3 @@
-/* Vertices, elements and the data that identical elements share. */
 #include "harness/model/model_impl.h"
 
 #include <float.h>
@@ -88,7 +87,6 @@ static int is_tied(const model *m, int node)
     return tied;
 }
 
-/* Sets the arms of vertices that move with the masters of diaphragms. */
 static void lead_vertices(model *m)
 {
     const scene *s = m->scene;
@@ -117,7 +115,7 @@ static void scene_vertices(model *m)
             v->vector_driver[k] = n->rotation == SCENE_ROTATION_VECTOR ? n->angle[k] : NONE;
         }
         if (n->rotation == SCENE_ROTATION_FORK) {
-            double normal[3]; /* normal of the diaphragm */
+            double normal[3];
             vec3_cross(n->axis[1], n->axis[0], normal);
             add_axis(normal, v);
             add_axis(n->axis[1], v);
@@ -278,7 +276,7 @@ static status add_element(model *m, const member_arc *along, int member, int num
               curves = (m->mesh.type->offers & FEATURE_CURVATURE) != 0,
               curved = curves && bends && !bowed && m->imperfect == NULL, last = m->mesh.nodes - 1;
     mesh_triad triad[ELEMENT_MAX_NODES];
-    double first[3] = {0}; /* position of the first vertex of the element */
+    double first[3] = {0};
     el->member = member;
     el->nodes = m->mesh.nodes;
     for (int k = 0; k <= last; k++) {
@@ -502,7 +500,8 @@ static void set_shares(mesh_element *el, int count)
 }
 
 /* Returns 1 if two consecutive elements of a member have equal length, section and mass. The
- * lengths in a bow differ because of its slope, but by less than the error of the weights. */
+ * lengths of elements along a bow differ because of its slope. This difference is smaller than the
+ * error of the weights. */
 static int runs_on(const model *m, int first, int next)
 {
     const mesh_element *a = &m->mesh.element[first], *b = &m->mesh.element[next];

@@ -41,7 +41,7 @@ static int shares_section(const scene_member *a, const scene_member *b)
 
 /* Returns the diagonal [m] of the box around a member and the connected members with the same
  * section, because several short members may describe one beam. reached[nodes] must be zero on
- * entry. The nodes that are reached are set to 1. */
+ * entry. The entries of the nodes that are reached are set to 1. */
 static double extent_of(const scene *s, int member, char *reached)
 {
     const scene_member *first = &s->member[member];
@@ -372,7 +372,6 @@ static int warp_of(const scene *s, int member, int end)
     return end == 0 ? s->member[member].warp_p : s->member[member].warp_q;
 }
 
-/* Returns 1 if the section at this end warps. */
 static int warps(const scene *s, int member, int end)
 {
     const scene_member *m = &s->member[member];
@@ -390,11 +389,10 @@ static int state_of(const held_ends *e, int member, int end)
     return warp == SCENE_WARP_FIXED ? HELD : warp >= 0 ? SHARED : FREE;
 }
 
-/* Names of the ends, one state after the other. */
 typedef struct ends_words {
     char *text;
     size_t room, used;
-    int names; /* number of names with this state */
+    int names;
 } ends_words;
 
 static void ends_put(ends_words *w, const char *before, const char *text)

@@ -112,7 +112,7 @@ static status note_dashpots(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if an analysis uses the stiffness of springs at rest. */
+/* Returns 1 if an analysis uses the stiffness of springs in the undeformed state. */
 static int is_at_rest(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++) {
@@ -147,8 +147,8 @@ static status note_asymmetry(model *m, int spring, const char *of, double asymme
                : STATUS_OK;
 }
 
-/* Notes the matrices that are replaced by their symmetric part, the free rotations without
- * stiffness, and the dashpots that no analysis uses. */
+/* Adds lines about matrices that are replaced by their symmetric part, about free rotations without
+ * stiffness, and about dashpots that no analysis uses. */
 static status note_means(model *m, fault *f)
 {
     const scene *s = m->scene;
@@ -290,7 +290,6 @@ status model_alloc(const model_request *request, model **out, fault *f)
     return model_alloc_imperfect(request, NULL, out, f);
 }
 
-/* Creates a model of the same scene with another number of elements. */
 static status again(const model *m, int elements, model **out, fault *f)
 {
     const model_request request = {m->scene, m->given, m->options, elements, m->keep_all, m->omits};

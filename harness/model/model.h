@@ -35,8 +35,8 @@ typedef struct model model;
 typedef struct model_request {
     const scene *scene;
     const element_type *type;
-    const double *options; /* options of the formulation; NULL: defaults */
-    int elements;          /* per member */
+    const double *options; /* values of the formulation's options; NULL: their defaults */
+    int elements;          /* number of elements per piece of a member */
     int keep_all;          /* 1: no coordinates are eliminated (same results, more work) */
     /* physics of the scene that is omitted in addition to the physics that the type does not
      * support */
@@ -71,14 +71,14 @@ typedef struct model_size {
     unsigned features;
 } model_size;
 model_size model_sizes(const model *);
-/* Returns 1 if elements have a consistent mass in this motion. */
+/* Returns 1 if elements have a consistent mass matrix in this motion. */
 int model_spreads(const model *, int analysis);
 /* Creates the same model with one element per member. */
 status model_coarse(const model *, model **, fault *);
 /* Creates the same model with twice as many elements. */
 status model_halved(const model *, model **, fault *);
 const scene *model_scene(const model *);
-int model_keeps_all(const model *); /* model_request.keep_all */
+int model_keeps_all(const model *);
 /* Returns the vertex that rigidly moves this vertex, which may be the vertex itself. */
 int model_body(const model *, int vertex);
 /* Returns 1 if the vertex belongs to a released end. Such vertices follow the vertices of the
@@ -86,7 +86,7 @@ int model_body(const model *, int vertex);
 int model_is_released(const model *, int vertex);
 /* Returns the length [m] of the longest member, which is the scale of displacements. */
 double model_length(const model *);
-double model_mass(const model *); /* returns the mass [kg] of all members */
+double model_mass(const model *); /* [kg] mass of all members */
 
 /* Returns the physics of the scene that the model includes, as FEATURE_* bits. */
 unsigned model_features(const model *);
@@ -103,9 +103,6 @@ typedef struct model_state model_state;
 
 const char *model_formulation(const model *);
 const double *model_options(const model *); /* returns all options of the formulation */
-/* Fills the shape of a mode or state, for identification and pictures: displacement (3), rotation
- * (3) and warping of every vertex, in the order of the vertices along the members. Returns the
- * number of vertices. u: [vertices x 7]; position: [vertices x 3], undeformed. */
 unsigned model_leaves(const model *);
 /* Fills the shape of a mode or state, for identification and pictures: displacement (3), rotation
  * (3) and warping of every vertex, in order along the members. Returns the number of vertices. u:
@@ -121,20 +118,19 @@ int model_stresses(const model *);
 /* Returns the section constants that the model uses for a section of the scene. */
 const section *model_section(const model *, int index);
 
-/* Patterns of the matrices of a model. */
-
 /* Patterns of a model that are in use. */
 typedef struct assemble_patterns assemble_patterns;
 status assemble_patterns_alloc(assemble_patterns **, fault *);
 void assemble_patterns_free(assemble_patterns *);
 
-/* Returns a symmetric pattern for the undeformed state. with_driven 0: free x free; 1: all
+/* Returns a symmetric pattern for the undeformed state. with_driven 0: only the unknowns; 1: all
  * coordinates. The pattern is created in the first call and stored. sparse_alloc_like creates
- * matrices on it. */
+ * matrices with this pattern. */
 status assemble_pattern(const model *, assemble_patterns *, int with_driven, const sparse **out,
                         fault *f);
 /* Sets *out to the pattern of the tangent in any state. If a load may make tangents unsymmetric,
- * both triangles are stored. The values then decide if a matrix is symmetric. */
+ * both triangles are stored. A matrix with this pattern is then symmetric only if its values are.
+ * */
 status assemble_pattern_of_states(const model *, assemble_patterns *, int with_driven,
                                   const sparse **out, fault *f);
 /* Like assemble_pattern_of_states, but both triangles are always stored, for states of a motion. */
@@ -205,8 +201,8 @@ double division_inside(const division *, int member, int number, double place);
  * the element towards its start. */
 int division_at(const division *, int member, double place, int before, double *x);
 
-/* The mesh of a model, read-only: elements, vertices and their connections. It does not change
- * after model_alloc. */
+/* The mesh of a model: elements, vertices and their connections. It does not change after
+ * model_alloc. */
 
 /* Largest number of coordinates of an element, for its nodes and released ends. */
 enum {
@@ -229,7 +225,7 @@ typedef struct mesh_vertex {
     int led;
     /* master of the diaphragm, even without an arm; NONE (only for nodes): no diaphragm */
     int leader;
-    double arm[3]; /* [m] across that axis */
+    double arm[3]; /* [m] perpendicular to the first axis */
     int angles;    /* > 0: the rotation is a sequence of this number of angles about the axes */
     double axis[3][3];
     int idle;             /* bits of angles that are fixed because nothing depends on them */
@@ -247,8 +243,8 @@ typedef struct mesh_release {
 
 /* A warping amplitude, or an additional unknown, that the ends of connected elements share. */
 typedef struct mesh_warp {
-    int coordinate; /* global */
-    int scalar;     /* 1: an additional unknown */
+    int coordinate;
+    int scalar; /* 1: an additional unknown */
 } mesh_warp;
 
 typedef double mesh_triad[9]; /* columns nX nY nZ */
@@ -313,7 +309,7 @@ typedef struct mesh_kind {
     double free[3];
     int next; /* another kind with the same section; NONE: there are no more kinds */
     element_data *data;
-    size_t data_size;         /* [bytes] */
+    size_t data_size;
     displacement_field field; /* displacements between the nodes, for loads */
     double *inner; /* field_inner if frequencies are requested; NULL: the type computes its mass */
 } mesh_kind;
@@ -365,7 +361,8 @@ static inline int model_nodes(const model *m)
 {
     return model_mesh_of(m)->nodes;
 }
-/* Return the positions of the nodes along an element, and their shares of a uniform load. */
+/* Return the positions of the nodes along an element (0 to 1), and their shares of a uniform load.
+ * */
 static inline const double *model_places(const model *m)
 {
     return model_mesh_of(m)->place;
@@ -405,7 +402,6 @@ static inline int model_absolute(const model *m)
 {
     return model_mesh_of(m)->type->force != NULL && model_history(m) > 0;
 }
-/* Returns 1 if elements include loads along them in their equilibrium (element_type.along). */
 static inline int model_takes_loads(const model *m)
 {
     return model_mesh_of(m)->takes;
@@ -491,7 +487,6 @@ static inline int model_first_element(const model *m, int member)
 {
     return model_mesh_of(m)->first_element[member];
 }
-/* Returns the division of the members into elements. */
 const division *model_division(const model *);
 static inline int model_kinds(const model *m)
 {
@@ -501,7 +496,6 @@ static inline const mesh_kind *model_kind(const model *m, int kind)
 {
     return &model_mesh_of(m)->kind[kind];
 }
-/* Returns the kind of an element. */
 static inline const mesh_kind *model_kind_of(const model *m, int element)
 {
     return &model_mesh_of(m)->kind[model_mesh_of(m)->element[element].kind];
@@ -577,8 +571,6 @@ static inline int slot_along(const model *m)
     return slot_followed(m) + 3 * model_inner(m);
 }
 
-/* Discrete elements, in addition to the elements of members: rigid bodies at nodes, and springs. */
-
 /* Computes the internal minus the centrifugal force [7 nodes] in the rotating frame of the state,
  * and its tangent [7 nodes x 7 nodes], in coordinates of the model. rates: deformation rates of the
  * dashpots; NULL: the structure is at rest. */
@@ -589,17 +581,17 @@ void discrete_equations(const model *, const model_state *, const mesh_discrete 
  * needed. */
 void discrete_inertia(const model *, const model_state *, const element_rotating_frame *, sparse *M,
                       sparse *G);
-/* Add the two parts of the tangent, as in newton.h. The first function adds the product of the
- * material part with x[free + driven] to y. The second function adds the other part to `out`. */
+/* Add the two parts of the tangent (newton.h). The first function adds to y the product of the
+ * material part and x[free + driven]. The second function adds the other part to `out`. */
 void discrete_material_product(const model *, const model_state *, const double x[], double y[]);
 void discrete_geometric(const model *, const model_state *, const element_rotating_frame *,
                         sparse *out);
 /* Returns a bound of the rounding error of x^T K x for the material part K. */
 double discrete_material_rounding(const model *, const model_state *, const double x[]);
-/* Functions for dashpots. They compute the deformations of all springs [6 x springs], and their
- * rates for increments dx[free + driven] per unit time. They also compute the power [W] that
- * dashpots dissipate. Others add the dashpot forces to out[free + driven] or, on the frame of a
- * node, to F[6], and add the damping matrix for small motions to C. */
+/* Functions for dashpots, in this order: deformations d[6 x springs] of all springs; their rates
+ * for increments dx[free + driven] per unit time; dissipated power [W]; dashpot forces, added to
+ * out[free + driven] or, on the frame of a node, to F[6]; damping matrix for small motions, added
+ * to C. */
 void dashpots_deformations(const model *, const model_state *, double d[]);
 void dashpots_rates(const model *, const model_state *, const double dx[], double rate[]);
 double dashpots_power(const model *, const double rate[]);
@@ -628,22 +620,19 @@ double discrete_stored(const model *, const model_state *);
 void discrete_node_force(const model *, const model_state *, const element_rotating_frame *,
                          int node, double F[6]);
 
-/* Describes members that have more elements than requested. */
-
 /* Writes text such as "beam has 6 elements, 2 in each of 3 pieces: its loads begin, end or act at
  * 0.3, 0.5 of its length". A long list is truncated. elements 0: writes the text for any number n.
  * The text is "" if each member has the requested number. */
 void division_words(const scene *, int elements, char *text, size_t room);
 
-/* Transforms element coordinates to coordinates of the model in place. K: [columns x columns].
- * force: internal forces, for the second derivatives. Arguments that are NULL are skipped. */
+/* Transform forces or matrices from element coordinates to coordinates of the model, in place. K:
+ * [columns x columns]. force: internal forces, for the second derivatives. Arguments that are NULL
+ * are skipped. */
 
 void eliminate_forces(const model *m, const model_state *s, const mesh_element *el,
                       double force[]); /* [columns] */
 void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
                       const double force[], double K[]);
-
-/* Positions of element entries in the matrices and vectors of a model. */
 
 /* An entry of an element's matrix that a pattern stores. */
 typedef struct mesh_entry {
@@ -671,7 +660,8 @@ typedef struct mesh_pattern {
 /* Returns the pattern of the matrix, including the positions of the entries of elements. */
 const mesh_pattern *assemble_of(const assemble_patterns *, const sparse *a);
 void assemble_matrix(const mesh_pattern *p, int element, const double K[], sparse *out);
-/* Adds K of a discrete element, whose positions in the pattern are searched for. */
+/* Adds K of a discrete element to the matrix. Searches the pattern for the positions of the
+ * entries. */
 void assemble_discrete(const mesh_element *el, const double K[], sparse *out);
 void assemble_vector(const mesh_element *el, const double local[], double out[]);
 /* Subtracts a value from an entry. Has no effect if the entry is not stored. */
@@ -707,14 +697,14 @@ unsigned features_needed_by_quantity(const scene *, int quantity);
 int features_eccentric(const section *c);
 status features_of_section(const model *m, int section, unsigned *features, fault *f);
 
-/* States of a model and the motion of its nodes. */
+/* States of a model, and the motion of its nodes. */
 
 status kinematics_state_alloc(const model *, model_state **, fault *); /* undeformed, path = 0 */
 /* Creates a state that contains only the path and the members that kinematics_component and
  * kinematics_driver_value need. No other function may be called with this state. */
 status kinematics_nodes_alloc(const model *, const model_state *from, model_state **, fault *);
 void kinematics_state_free(model_state *);
-const model_state *kinematics_rest(const model *); /* the undeformed state */
+const model_state *kinematics_rest(const model *);
 void kinematics_state_copy(const model *, const model_state *from, model_state *to);
 /* Sets the histories of all elements to those of this accepted state, at which a step starts.
  * Before this call, results and tangent of the state belong to the step that led to it. */
@@ -799,14 +789,16 @@ void kinematics_local(const model *m, const model_state *s, const mesh_element *
 /* Sets the weights [free + driven] for the square of an increment, which is the mean over the
  * bodies of (displacement/size)^2 + rotation^2. */
 void metric_of(const model *, double weight[]);
-/* Returns the share of nodal displacements in an increment [free + driven], with the same norm. */
+/* Returns the share of nodal displacements in the squared norm of an increment [free + driven]
+ * (metric_of). */
 double metric_shift_part(const model *, const double dx[]);
-/* Returns the distance between two states, with the same norm. light[9 x (2 i + block)], row-major:
- * projections of motions of vertex i that are excluded, displacements in block 0, and rotations in
- * the axes of the vertex in block 1; NULL: nothing is excluded. */
+/* Returns the distance between two states (square root of the mean of metric_of). light[9 x (2 i +
+ * block)], row-major: projections of motions of vertex i that are excluded, displacements in block
+ * 0, and rotations in the axes of the vertex in block 1; NULL: nothing is excluded. */
 double metric_distance(const model *, const model_state *, const model_state *,
                        const double light[]);
-/* Returns the largest angle [rad] between the orientations of a node in two states. */
+/* Returns the largest angle [rad], over the nodes, between the orientations of a node in two
+ * states. */
 double metric_turn_between(const model *, const model_state *, const model_state *);
 
 /* Physics that a scene requires and a formulation does not support. There are three kinds: physics
@@ -829,7 +821,6 @@ int missing_words(const scene *, const element_type *, char *words, int size);
 int missing_refused(const scene *, const element_type *, char *words, int size);
 /* Returns the physics that a solution omits, as bits of FEATURE_* and OMIT_*. */
 unsigned missing_omits(const scene *, const element_type *);
-/* Describes these bits in words. */
 void missing_omit_words(unsigned omits, char words[OMIT_WORDS]);
 
 /* Names the features that the scene requires and that the type supports in one direction only
@@ -870,10 +861,10 @@ static inline const double *model_history_of(const model *m, const model_state *
  * and never by a comparison with zero. */
 
 typedef struct movable {
-    int count;           /* dimension */
+    int count;
     unsigned components; /* bit i: at least one motion contains component i */
     int whole;           /* 1: the motions are single components */
-    int component[6];    /* ... [count] */
+    int component[6];    /* [count] components of these motions */
     /* [6 x count] a basis, with lengths in units of `length`: unit vectors if they span the
      * motions, otherwise orthonormal vectors */
     double span[36];
@@ -888,8 +879,6 @@ void movable_of(int columns, const double *T, double length, movable *out);
 /* Sets out[3] to m without its part along the rotations in the columns of T. These rotations are
  * not prescribed, so a moment along them is a residual of Newton's method. */
 void movable_prescribed(int columns, const double *T, const double m[3], double out[3]);
-
-/* Description of the loads and masses of members that are lumped at nodes. */
 
 /* Describes what is lumped, with the order of convergence in space: loads with `lumped`, masses
  * that a motion, the scene or the formulation lumps, and loads that are lumped with these masses. A
@@ -951,7 +940,7 @@ void spring_mean(const scene_spring *, const double from[6], const double e[6], 
 /* Computes S at rest. */
 void spring_at_rest(const scene_spring *, double S[36]);
 
-/* Computes S of a spring, including its tables, for its present deformation. */
+/* Computes S of a spring, including its tables, for its current deformation. */
 void spring_slopes(const model *, const model_state *, int spring, double S[36]);
 
 /* Computes the deformation d of a spring in the axes of p: R_p^T (r_q - r_p) minus its initial
@@ -969,8 +958,8 @@ void spring_strain(int nodes, const node_state x[], const double near[3], strain
  * Constraints are sums of squares of lengths. */
 
 /* Returns 1 if a part of the undeformed structure can move in spite of the supports. *node: a node
- * of this part. motion: a rigid motion that the supports allow, with arbitrary size (displacement
- * of the node [m], rotation [rad]). Prescribed coordinates count as fixed. */
+ * of this part. motion: a rigid motion that the supports allow, scaled arbitrarily (displacement of
+ * the node [m], rotation [rad]). Prescribed coordinates count as fixed. */
 int supports_loose_part(const model *, int *node, double motion[6]);
 
 /* Smallest relative eigenvalue of the sums of squares for which a part counts as held. Fixed points
@@ -997,7 +986,7 @@ void supports_add_springs(const model *, const int part[], int root, const doubl
 /* Rotations beyond half a revolution. An orientation repeats after a revolution, but the rotation
  * vector does not. */
 
-/* Message that says why a rotation vector is NaN. */
+/* Message for a rotation vector that is NaN: its direction is not known. */
 extern const char turns_lost[];
 
 /* Returns the rotation vector [3] of a node in a state; NaN: the vector has lost its direction. */
@@ -1020,8 +1009,6 @@ int turns_swung(const double from[3], const double to[3]);
 int turns_full(double size, double near);
 /* Sets rotation vectors that have lost their direction since `from` to NaN. */
 void turns_lose(const model *, const model_state *from, model_state *);
-
-/* Description of the warping at the ends of members. */
 
 /* Describes the warping at the ends of members with sections that warp, for example "held at
  * base_a, base_b; shared at fold; free at tip". The text lists nodes, or ends in the form "leaf at

@@ -1,4 +1,3 @@
-/* Private declarations of model/. */
 #ifndef BEAMWORK_MODEL_IMPL_H
 #define BEAMWORK_MODEL_IMPL_H
 
@@ -42,13 +41,11 @@ const char *missing_in_section(const element_type *, const section *, int cells,
  * the same end sections and the same number of equal elements share these sections. The elements
  * are prismatic, so the error is of second order in their length for every formulation. */
 
-/* Computes the sections of the scene. */
 status profile_scene(model *m, fault *f);
 /* Computes the sections of all elements of tapered members. Later calls do not change m->section.
  * *sections: number of sections. */
 status profile_members(model *m, int *sections, fault *f);
 
-/* Returns the number of released ends of all members. */
 int release_count(const scene *);
 /* Creates the vertices of released ends, and assigns them to the elements. */
 status release_build(model *, fault *);
@@ -84,8 +81,6 @@ void turns_follow(const model *, model_state *);
 /* Returns the rotation vector between two nodes; NULL: no quantity needs it. */
 const double *turns_between(const model *, const model_state *, int from, int node);
 
-/* The undeformed axis of a member. */
-
 /* An arc of constant torsion and curvature between two points. The arc is straight if torsion and
  * curvature are zero. */
 typedef struct member_arc {
@@ -112,7 +107,7 @@ typedef struct mesh_turn {
 } mesh_turn;
 
 struct model {
-    model_mesh mesh; /* public part, which must be the first member */
+    model_mesh mesh; /* public part; must be the first member */
     const scene *scene;
     const model_imperfect *imperfect; /* NULL: perfect */
     const element_type *given;        /* type as defined in its file */
@@ -129,8 +124,8 @@ struct model {
     mesh_turn *turn;       /* [turns] in the order of model_turns */
     double size;           /* length of the longest member [m] */
     int requested;         /* requested number of elements per piece of a member */
-    division division;     /* division of the members into elements */
-    model_state *rest;     /* undeformed */
+    division division;
+    model_state *rest;
     int lines;
     char **line; /* eliminated coordinates, omitted physics */
 };
@@ -167,10 +162,8 @@ void centreline_increments(const model *, const double x[], double out[]);
 status member_arc_between(const scene *s, int member, const double chord[3], const double y[3],
                           member_arc *, fault *);
 
-/* mesh.c */
 status mesh_build(model *m, fault *f);
 
-/* coordinates.c */
 status coordinates_number(model *m, fault *f);
 status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     __attribute__((format(printf, 3, 4)));

@@ -85,7 +85,7 @@ status member_arc_between(const scene *s, int member, const double chord[3], con
             f, STATUS_REFUSED,
             "%s: the arc of the member becomes parallel to its y axis; give another direction",
             scene_called(s, SCENE_MEMBERS, member).text);
-    for (int i = 0; i < 3; i++) /* R = B local^T */
+    for (int i = 0; i < 3; i++)
         for (int j = 0; j < 3; j++)
             out->R[3 * i + j] = vec3_dot(&B[3 * i], &local[3 * j]);
     return STATUS_OK;
@@ -164,7 +164,7 @@ static void add_end(model *m, int member, int end, const double R[9])
         const int c = what->component[k], normal = scene_normal(m->scene);
         const int across = normal != SCENE_NONE && fabs(R[3 * normal + c % 3]) > 0.5;
         if (normal != SCENE_NONE && across != (c >= SCENE_RX))
-            continue; /* this motion would leave the plane */
+            continue;
         *(c < SCENE_RX ? &r->slide_of[r->slides] : &r->turn_of[r->turns]) = c;
         double *axis = c < SCENE_RX ? r->slide[r->slides++] : r->turn[r->turns++];
         for (int i = 0; i < 3; i++)
@@ -180,8 +180,7 @@ status release_build(model *m, fault *f)
             double position[3], R[9];
             if (!is_own(&m->scene->member[i], end))
                 continue;
-            TRY(member_arc_of(imperfect_lines(m), i, 0, &axis,
-                              f)); /* the axes are those in which the section is described */
+            TRY(member_arc_of(imperfect_lines(m), i, 0, &axis, f));
             member_arc_at(&axis, end * axis.length, position, R);
             imperfect_move(m, i, end, position, R);
             add_end(m, i, end, R);
@@ -275,7 +274,6 @@ void release_jacobian(const model *m, const model_state *s, int vertex, int coun
             T[i * count + own + r->turns + k] = along[k][i];
 }
 
-/* Returns the vertex of a member's end. */
 static int end_vertex(const model *m, int member, int end)
 {
     const int *first = m->mesh.first_element;
@@ -398,7 +396,6 @@ static void take_along(int n, int from, const double v[3], int to, double K[])
             v[0] * K[from * n + j] + v[1] * K[(from + 1) * n + j] + v[2] * K[(from + 2) * n + j];
 }
 
-/* Adds the value to K[a][b] and K[b][a]. */
 static void add_pair(int n, int a, int b, double value, double K[])
 {
     K[a * n + b] += value;

@@ -14,7 +14,6 @@
 
 enum { N = NODE_COORDINATES };
 
-/* Computes I = R I_0 R^T. */
 static void inertia_now(const double given[6], const double R[9], double I[9])
 {
     const double at_rest[9] = {given[0], given[3], given[5], given[3], given[1],

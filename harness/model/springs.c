@@ -54,9 +54,9 @@ status turns_build(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if a rotation vector keeps the direction of `before`. more: the rotation beyond full
- * revolutions. If `more` is small and, apart from rounding errors, parallel to `before`, it does
- * not change the direction. */
+/* Returns 1 if a rotation vector keeps the direction of `before`. more: the part of the rotation
+ * beyond full revolutions. If `more` is small and parallel to `before` up to rounding, the
+ * direction is kept. */
 static int keeps_direction(const double more[3], const double before[3], double length)
 {
     const double near = 1e-3, round_off = 1e-8;
@@ -376,7 +376,7 @@ static void first_derivatives(int nodes, const double P[9], const double w[3], c
         return;
     cross_matrix(w, W);
     add_columns(n, 0, 0, -1, P, one, J);
-    add_columns(n, 0, 3, 1, P, W, J); /* the term -alpha x w */
+    add_columns(n, 0, 3, 1, P, W, J);
     add_columns(n, 3, 3, -1, P, B, J);
 }
 

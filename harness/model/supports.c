@@ -9,8 +9,8 @@
 
 enum { N = 6, ALL = 0x3f };
 
-/* Rotation axes have an error of a few eps. Smaller parts of unit columns count as rounding errors.
- * */
+/* Rotation axes have a rounding error of a few eps. Columns of unit length whose remaining part is
+ * smaller than this are treated as dependent. */
 static const double round_off = 1e-12;
 
 /* Removes the component along the `count` orthonormal vectors from the column. A second pass
@@ -109,7 +109,6 @@ static int count_bits(unsigned bits)
     return count;
 }
 
-/* Sets the motions to translations and rotations along single components. */
 static void set_whole(unsigned components, movable *out)
 {
     memset(out, 0, sizeof *out);

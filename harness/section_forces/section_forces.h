@@ -40,8 +40,8 @@ typedef struct span_frame {
  * the ends, the line is that of the exact beam between the end frames (Simo-Reissner with warping,
  * the constants of the section, and the active physics). It satisfies F' = -q, m' = -r' x F - mu, N
  * = R^T F, M = R^T m, and the torsion equations of section_forces_impl.h. One solution starts at
- * the first end p with the forces at p, and another starts at the second end q with the forces at
- * q. They are combined with weights that are linear in x. The only error is that of the end forces:
+ * the first end p with the forces at p. Another starts at the second end q with the forces at q.
+ * The two are combined with weights that are linear in x. The only error is that of the end forces:
  * values inside the element converge like the end forces, and agree with them at the ends. */
 
 /* Action of the part towards q on the part towards p, in the principal axes of the rotated section.
@@ -66,7 +66,7 @@ enum span_value {
 
 typedef struct span_end {
     span_frame frame;           /* frame of an end, including its position [m] */
-    double force[3], moment[3]; /* force and moment in global axes [N, N m] */
+    double force[3], moment[3]; /* force and moment, in global axes [N, N m] */
     double bimoment, amplitude; /* [N m^2, 1/m] */
 } span_end;
 
@@ -94,8 +94,8 @@ typedef struct span_fields {
 
 /* Motion of a section from the undeformed state, in fixed axes. */
 typedef struct span_move {
-    double displacement[3]; /* [m] */
-    double turn[3];         /* rotation vector [rad] */
+    double displacement[3];
+    double turn[3]; /* rotation vector [rad] */
 } span_move;
 
 /* Computes the section forces. NOT_CONVERGED: no line between the ends was found. */

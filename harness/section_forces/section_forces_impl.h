@@ -1,4 +1,3 @@
-/* Internal declarations of section_forces/. */
 #ifndef BEAMWORK_SECTION_FORCES_IMPL_H
 #define BEAMWORK_SECTION_FORCES_IMPL_H
 
@@ -33,16 +32,15 @@ typedef struct span_twist {
         warping[SPAN_GRID_POINTS]; /* k, B, M_w */
 } span_twist;
 
-/* span_grid.c */
 /* Computes share[SPAN_GRID_POINTS], the weights of the grid points in the value at x. */
 void span_grid_at(const span_grid *g, double x, double share[]);
 /* Computes the integral of component k from 0 to x[i]: out[i][k]. values, out: [points x count],
  * row-major. */
 void span_grid_integrate(const span_grid *g, int count, const double values[], double out[]);
 /* Solves the equation, starting from x[n] with n <= FIXED_POINT_MAX. Stops when no entry changes by
- * more than `enough`, or when the change no longer decreases. x becomes the iterate with the
- * smallest change. Returns the largest change of an entry in this iterate; INFINITY: the map
- * failed. */
+ * more than `enough`, or when the largest change no longer decreases. x becomes the iterate with
+ * the smallest such change. Returns the largest change of an entry in this iterate; INFINITY: the
+ * map failed. */
 double fixed_point_find(int n, fixed_point_map map, void *context, double enough, double x[]);
 
 #endif

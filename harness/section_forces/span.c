@@ -18,7 +18,7 @@ static void span_curve_between(const span_grid *g, const span_frame *p, const sp
 static int span_twist_solve(const span_grid *g, const span_torsion *t, span_twist *out);
 
 enum { N = SPAN_GRID_POINTS, KAPPA = 0, GAMMA = 3 * N, UNKNOWNS = 6 * N };
-static const double span_enough = 1e-12, tolerable = 1e-7; /* strains times the length */
+static const double span_enough = 1e-12, tolerable = 1e-7;
 
 /* All values are in units of the element: length l0, force EI/l0^2, moment EI/l0, bimoment EI. */
 typedef struct span_work {
@@ -84,7 +84,7 @@ static void about_origin(const span_end *end, double out[6])
         out[3 + i] += end->moment[i];
 }
 
-/* Computes N and M at the points from the equilibrium of the parts on both sides. */
+/* Computes N and M at the points from the equilibrium of the parts towards p and towards q. */
 static void resultants(span_work *w)
 {
     double load[N][6], gathered[N][6], from[2][6];

@@ -214,7 +214,7 @@ void paragraph_printf(FILE *to, int at, int indent, const char *format, ...)
     if (vasprintf(&text, format, arguments) >= 0) {
         paragraph_write(to, at, indent, text);
         free(text);
-    } else { /* out of memory, so the text becomes one long line */
+    } else { /* out of memory: the text is written without line breaks */
         fputc(' ', to);
         vfprintf(to, format, again);
         fputc('\n', to);

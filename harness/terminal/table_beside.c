@@ -21,7 +21,6 @@ typedef struct beside_column {
     char title[FORMULATION_KEY + 16];
 } beside_column;
 
-/* Table of a quantity for some of the formulations. */
 typedef struct block {
     const scene_quantity *q;
     int quantity, count;
@@ -187,7 +186,7 @@ static void add_truth(char *line, size_t size, const truth *row)
              agreed ? row->source : "");
 }
 
-/* Writes the reason why there is nothing with which values can be compared. */
+/* Writes the reason why there is no reference value or agreement. */
 static void write_why(FILE *to, int at, const sweep *s, const truths *t, int quantity)
 {
     paragraph words;

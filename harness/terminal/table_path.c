@@ -60,7 +60,7 @@ static void matrix(FILE *to, const double value[36], const char *const row[6],
         fprintf(to, "%7s", row[i]);
         for (int j = 0; j < 6; j++)
             if (isfinite(value[6 * i + j]))
-                fprintf(to, " %14.7g", value[6 * i + j] + 0.0); /* avoids "-0" */
+                fprintf(to, " %14.7g", value[6 * i + j] + 0.0);
             else
                 fprintf(to, " %14s", "-");
         fputc('\n', to);
@@ -229,7 +229,7 @@ static void damping_line(FILE *to, const motion_extent *e)
             when, lost, 100 * part, of);
 }
 
-/* Returns the largest change of a vector from its initial value. */
+/* Returns the largest deviation of a vector from its initial value. */
 static double change_of(const motion_extent *e, int of)
 {
     const double *begin = e->record[e->first].at.balance + of;

@@ -242,8 +242,8 @@ static head head_of(const char *name, int limit, const char *mark)
     return out;
 }
 
-/* Returns the width of a block if the words in its names have at most `limit` characters, and sets
- * its headers. */
+/* Sets the headers of a block whose names are divided into words of at most `limit` characters.
+ * Returns its width. */
 static int width_with(const overview *o, screen look, overview_block *b, int limit)
 {
     char text[OVERVIEW_TEXT];
@@ -331,8 +331,8 @@ static int width_of_names(const overview *o)
     return width;
 }
 
-/* Lists the cases without a row that have an evaluated run (`evaluated` 1) or have none (0). what:
- * words after their number. */
+/* Lists the cases without a row that have an evaluated run (`evaluated` 1) or no evaluated run (0).
+ * what: words after their number. */
 static void print_unshown(FILE *to, const overview *o, int evaluated, const char *what)
 {
     paragraph words;

@@ -119,7 +119,7 @@ static void unfinished_curves(FILE *to, const sweep_point *p, const solve_result
     }
 }
 
-/* Prints bounds of the contribution of omitted modes, or of rounding, to curves. */
+/* Prints bounds of the effect of omitted modes, or of rounding, on curves. */
 static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
 {
     for (int i = 0; i < r->quantities; i++)
@@ -186,7 +186,7 @@ static void imperfections(FILE *to, const scene *s)
     paragraph_end(&words, at, INDENT);
 }
 
-/* Returns 1 if an analysis that is linear about a state holds the driven components fixed. words:
+/* Returns 1 if an analysis that is linear about a state fixes the prescribed components. words:
  * kinds of these analyses. */
 static int holding(const scene *s, char words[40])
 {
@@ -224,8 +224,8 @@ static void put_driven(FILE *text, const scene *s, int node, const int driver[3]
                     scene_name(s, SCENE_NODES, node).text, names + 2 * k);
 }
 
-/* Prints the driven components that are fixed in an analysis, for example "held: stage ux, driven
- * (modal)". */
+/* Prints the prescribed components that are fixed in an analysis, for example "held: stage ux,
+ * driven (modal)". */
 static void driven(FILE *to, const scene *s)
 {
     char kinds[40], *words = NULL;
@@ -275,8 +275,8 @@ static int is_weighed(const scene *s)
     return 0;
 }
 
-/* Prints the masses, in which a wrong unit is visible, for example "mass: bodies 500 kg, members
- * 0.0125 kg". members: mass [kg]. */
+/* Prints the masses, which reveal a wrong unit, for example "mass: bodies 500 kg, members 0.0125
+ * kg". members: mass [kg]. */
 static void masses(FILE *to, const scene *s, double members)
 {
     enum { MOST_NAMES = 8 };

@@ -11,7 +11,7 @@ static int table_lowest_cost(FILE *to, const sweep *, const evaluation *, int po
 
 enum { NAME = 23 };
 
-/* Returns the verdict of a series on a quantity with a reference value; NULL: none. */
+/* Returns the verdict of a series on a quantity; NULL: it has no reference value. */
 static const verdict *verdict_on(const evaluation *j, int series_index, int quantity)
 {
     for (int i = 0; i < j->verdicts; i++)
@@ -84,7 +84,7 @@ static void mark_shown(const sweep *s, const evaluation *j, int at, int quantity
         done[i] |= s->series[i].point == at && verdict_on(j, i, quantity) != NULL;
 }
 
-/* Prints the errors in a quantity of all formulations that have a reference value of it. */
+/* Prints the errors in a quantity, for all formulations with a reference value for it. */
 static void errors_of(FILE *to, const sweep *s, const evaluation *j, int at, int quantity)
 {
     fprintf(to, "  %-*s%5s %11s   of %s\n", NAME, "formulation", "n", "error",
@@ -229,8 +229,8 @@ static void way(FILE *to, const sweep *s, const reached *r)
         fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
 
-/* Prints the formulations that pass and have a higher counted cost than the first, but were faster
- * in every round. */
+/* Prints the formulations that pass and were faster in every round than the formulation with the
+ * lowest counted cost. */
 static void faster_ones(FILE *to, const sweep *s, const reached list[], int count, int ties)
 {
     int reported = 0;
@@ -311,7 +311,6 @@ static int has_truth(const sweep *s, const evaluation *j, int at, int quantity)
     return 0;
 }
 
-/* The formulation with the lowest cost for a quantity, for every level. */
 typedef struct lowest_cost_result {
     int quantity, reported; /* quantity; 1 if the answer has been printed */
     char *text[REACH_LEVELS];

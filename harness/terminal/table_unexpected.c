@@ -22,7 +22,7 @@ static void print_settings(FILE *to, const char *parameters)
             fputc(*parameters, to);
 }
 
-/* Prints the option --element of a formulation that is not built in. */
+/* Prints the option --element for a formulation that is not built in. */
 static void print_element(FILE *to, const element_type *type)
 {
     const char *element = type != NULL ? formulations_element(type) : NULL;
@@ -112,7 +112,7 @@ static void print_verdict(FILE *to, screen look, const sweep *s, const verdict *
             v->expected < VERDICT_KINDS ? verdict_name(v->expected) : "another verdict");
     paragraph_printf(to, 0, INDENT, "%s", sentence);
     print_numbers(to, one, v);
-    if (v->reason[0] != '\0' && isfinite(v->finest)) /* otherwise in the sentence */
+    if (v->reason[0] != '\0' && isfinite(v->finest))
         paragraph_printf(to, 0, INDENT, "%s", v->reason);
     if (v->rule != NULL)
         paragraph_printf(to, 0, INDENT, "known deviation %s: %s", v->rule->name, v->rule->cause);
@@ -265,7 +265,7 @@ static double largest_of(int points, const double value[])
     return largest;
 }
 
-/* Returns the value, or 0 if it is a rounding error relative to the largest value. */
+/* Returns the value, or 0 if its size is within the rounding error of the largest value. */
 static double without_noise(int points, const double value[], int at)
 {
     const double noise = 1e-13;
@@ -319,7 +319,7 @@ void table_curves_values(FILE *to, const scene *s, const solve_result *r)
     for (int q = 0; q < s->quantities; q++) {
         int list[COLUMNS], count = 0, known = curve_of(s, r, q) == NULL;
         for (int k = 0; k < q && !known; k++)
-            known = beside(s, r, k, q); /* already printed */
+            known = beside(s, r, k, q);
         for (int k = q; k < s->quantities && !known; k++) {
             if (beside(s, r, q, k))
                 list[count++] = k;

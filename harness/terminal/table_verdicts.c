@@ -18,7 +18,8 @@ typedef struct verdicts_block {
     const verdict **verdict;
     int name; /* width of the column of names; a longer name has a separate line */
     int rules;
-    const rule *rule[MOST_RULES]; /* rules to which the table refers, with numbers from 1 */
+    const rule *rule[MOST_RULES]; /* known deviations to which the table refers, with numbers from 1
+                                   * */
 } verdicts_block;
 
 static const series *series_of(const verdicts_block *b, const verdict *v)
@@ -60,7 +61,7 @@ static void print_quantity(const verdicts_block *b, const scene_quantity *q, con
         print_other_model(b, v->model_truth);
 }
 
-/* Returns the number of a rule; 0: there is no rule, or the list is full. */
+/* Returns the number of a known deviation; 0: there is none, or the list is full. */
 static int number_of_rule(verdicts_block *b, const rule *r)
 {
     int i = 0;
@@ -87,7 +88,6 @@ static void add_difference(const verdict *v, char *text, size_t size)
                  other->kind);
 }
 
-/* Writes the text of the last column. */
 static void verdict_words(verdicts_block *b, const verdict *v, char *text, size_t size)
 {
     const int number = v->matches ? number_of_rule(b, v->rule) : 0;
@@ -119,7 +119,7 @@ static void print_verdict(verdicts_block *b, const verdict *v)
     verdict_words(b, v, words, sizeof words);
     fputc(' ', b->to);
     paragraph_write(b->to, column, 6, words);
-    if (v->reason[0] != '\0' && v->kind != VERDICT_OTHER_MODEL) /* printed at the end */
+    if (v->reason[0] != '\0' && v->kind != VERDICT_OTHER_MODEL)
         paragraph_printf(b->to, 0, 6, "%s", v->reason);
 }
 
@@ -216,7 +216,7 @@ static void print_point(verdicts_block *b, const evaluation *j, int index)
     table_point(b->to, b->at);
     fputc('\n', b->to);
     table_omitted(b->to, b->at);
-    b->name = b->name > 11 ? b->name : 11; /* width of the heading */
+    b->name = b->name > 11 ? b->name : 11;
     print_columns(b);
     for (int q = 0; q < b->at->scene.quantities; q++)
         print_evaluated(b, q);
@@ -249,7 +249,6 @@ static const char *const words_of[] = {[STEP_OPEN] = "not determined by pivots",
                                        [STEP_GROWS] = "unstable",
                                        [STEP_HELD] = "stable without damping"};
 
-/* Appends a word, truncated to the capacity of the text. */
 static void add(char *text, const char *word)
 {
     const size_t used = strlen(text);

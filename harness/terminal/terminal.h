@@ -6,8 +6,6 @@
 
 #include "harness/study/study.h"
 
-/* Paragraphs on a terminal. */
-
 enum { PARAGRAPH_WIDTH = 100 /* columns */ };
 
 /* Returns the number of columns of a text. */
@@ -47,8 +45,6 @@ screen screen_of(FILE *to);
 /* Prints the text in the given colour, or without escape sequences if colour is off. */
 void screen_put(FILE *to, screen, screen_ink, const char *text);
 
-/* Helpers of the tables on a terminal. */
-
 /* Prints a value with the conversion 'g', 'e' or 'f' of printf in a field of `width` columns; a
  * dash if the value is not finite. */
 void table_value(FILE *to, int width, int digits, char conversion, double value);
@@ -72,8 +68,6 @@ void table_beside(FILE *to, const sweep *s, const truths *t);
 
 void table_convergence(FILE *to, const sweep *s, const truths *t);
 
-/* Modes that are followed over a parameter. */
-
 /* Prints a line for each requested value with a column for each mode [Hz], followed by the
  * crossings and veerings. */
 void table_follow(FILE *to, const char *parameter, const follow_curves *);
@@ -85,9 +79,7 @@ void table_follow(FILE *to, const char *parameter, const follow_curves *);
  * lines. */
 void table_overview(FILE *to, screen, const overview *);
 
-/* Summary of a whole run as text. */
-
-/* Prints the part after the long table: published values that are incompatible with limits, cells
+/* Prints the part after the long table: published values that are incompatible with limits, runs
  * without a solution, and the coverage of limits. */
 void table_run_details(FILE *to, const sweep *s, const evaluation *j);
 /* Prints the counts. seconds: run time. */
@@ -95,7 +87,7 @@ void table_run(FILE *to, const sweep *s, const evaluation *j, double seconds);
 /* Prints the concluding sentence, or nothing if there is none. */
 void table_run_end(FILE *to, screen, const char *sentence);
 
-/* Prints a cell as text: its quantities, matrices and load steps. */
+/* Prints a run as text: its quantities, matrices and load steps. */
 
 void table_solution(FILE *to, const sweep *s, const truths *t);
 

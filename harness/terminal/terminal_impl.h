@@ -1,4 +1,3 @@
-/* Internal declarations of terminal/. */
 #ifndef BEAMWORK_TERMINAL_IMPL_H
 #define BEAMWORK_TERMINAL_IMPL_H
 
@@ -30,8 +29,6 @@ void table_curves_values(FILE *to, const scene *s, const solve_result *r);
  * the formulation with which the others are compared. */
 void table_curves_errors(FILE *to, const sweep *s);
 
-/* Summary of a motion: its steps, energies and momenta. */
-
 /* Load steps with their iterations, and matrices of nodes, as text. */
 
 /* Stability of the states of paths, as far as their tangents show it. */
@@ -45,7 +42,6 @@ int table_stability_paths(FILE *to, const scene *s, const solve_result *r);
  * such states and the meshes that failed. */
 void table_stability_meshes(FILE *to, const sweep *s);
 
-/* table_path.c */
 /* Prints the summaries of motions, or nothing if there are none. Reports loads that jump at the
  * start of a motion. */
 void table_motion(FILE *to, const scene *, const solve_result *);

@@ -54,7 +54,6 @@ WALLS = {
 CHANNEL = "channel: {depth: 0.2, flange: 0.1, flange_thickness: 10e-3, web_thickness: 6e-3}"
 TIP = "at: [0.02, 2, 0]"
 PERCENT = {"ux": -0.29, "uy": 0, "uz": 0.04, "rx": -0.19, "ry": 1.32, "rz": -0.26, "twist": 0.89}
-# Requests a reaction, which a linear analysis does not support.
 HELD = "  held:       {reaction: {analysis: run, node: base, component: ux}, unit: N}\n"
 PATH = "{static: {stations: [0.5, 1]}}"
 

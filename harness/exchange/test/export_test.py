@@ -146,7 +146,7 @@ class Decks(ExportTest):
 
 
 class Answers(ExportTest):
-    """Tests the reading of output in the format of CalculiX, without running CalculiX."""
+    """Tests the evaluation of CalculiX output without running CalculiX."""
 
     def printed(self, *vectors):
         """Writes a deck and its .dat file, in which each step prints the next pair (displacement, force) of `vectors`."""

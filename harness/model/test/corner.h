@@ -7,8 +7,7 @@
 #include "harness/formulations/formulations.h"
 #include "harness/model/model.h"
 
-/* Builds the corner. If attached is 1, adds a node on a rigid arm at the tip. Returns 0 if the test
- * has failed. */
+/* Builds the corner. attached 1: adds a node on a rigid arm at the tip. Returns 0 on failure. */
 static int corner(const char *formulation_name, int elements, int attached, scene *s, model **m)
 {
     const double y[3] = {0, 0, 1}, end = 1;

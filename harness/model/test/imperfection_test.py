@@ -54,7 +54,6 @@ class ImperfectionTest(SceneCase):
                     got = abs(self.solve(
                         column(amplitude, half_waves) + pushed(part, where, resultant), formulation,
                         12 * half_waves)["moment"])
-                    # beyond the first buckling load, the path must stay on this branch although it is unstable
                     self.assertAlmostEqual(got / abs(exact), 1, delta=2e-4,
                                            msg=(formulation, half_waves, resultant))
 
@@ -281,7 +280,7 @@ omit: [shear]
 analyses: {{tones: {{modal: {{}}}}}}
 quantities: {{f: {{frequency: {{analysis: tones}}}}}}
 """
-        turned = [(0.36, 0.48, -0.8), (0.8, -0.6, 0)]  # x and y axes of a rotated scene
+        turned = [(0.36, 0.48, -0.8), (0.8, -0.6, 0)]
         for formulation in ("collocation", "beamw", "sheet_third", "geometrically_exact"):
             for n in (4, 8):
                 straight = self.solve(founded(""), formulation, n)["f"]

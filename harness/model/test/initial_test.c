@@ -17,8 +17,8 @@ static const char *const names[] = {
     "geometrically_exact", "geometrically_exact:nodes=2", "collocation"};
 enum { NAMES = sizeof names / sizeof names[0] };
 
-/* Solves a rectangular member of length 2 m with the initial strains g[3]. Its tip is held in the
- * components held[6]. u[6] and F[6] are the coordinates and the reactions of the tip. */
+/* Solves a rectangular member of length 2 m with the initial strains g[3]. Its tip is fixed in the
+ * components marked in held[6]. u[6] and F[6] are the coordinates and the reactions of the tip. */
 static void solve(const char *name, const double g[3], const int held[6], double u[6], double F[6])
 {
     static const char *const quantity[12] = {"u0", "u1", "u2", "u3", "u4", "u5",
@@ -143,8 +143,7 @@ static void initial_tests(void)
     for (int i = 0; i < NAMES; i++) {
         no_energy_at_rest(names[i]);
         elongation(names[i]);
-        if (strncmp(names[i], "sheet_third", 11) !=
-            0) /* N Eq. 50 has no shear along the thickness, so it is rejected */
+        if (strncmp(names[i], "sheet_third", 11) != 0)
             shear(names[i], 1);
         shear(names[i], 2);
     }
@@ -247,8 +246,7 @@ static void row(scene *s)
     scene_load *part = scene_load_at(s, scene_add_load(s, SCENE_DISTRIBUTED, LOADED, 1, 0, 0));
     part->range[0] = 0.2;
     part->range[1] = 0.7 + 1e-16;
-    scene_add_load_within(s, SCENE_MEMBER_MOMENT, LOADED, 0.7005, 1, 0,
-                          0); /* too close to the force at 0.7 to begin a new piece */
+    scene_add_load_within(s, SCENE_MEMBER_MOMENT, LOADED, 0.7005, 1, 0, 0);
     scene_add_load_within(s, SCENE_MEMBER_MOMENT, LOADED, 0.9995, 1, 0, 0);
     scene_add_load_within(s, SCENE_MEMBER_MOMENT, OWN, 1, 1, 0, 0);
     scene_add_load_within(s, SCENE_MEMBER_FORCE, OWN, 0.5, 1, 0, 0);

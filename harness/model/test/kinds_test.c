@@ -23,8 +23,6 @@ typedef struct kinds_link {
     double length, strain, curvature; /* curvature about z, or 0 if straight */
 } kinds_link;
 
-/* Builds links in a row along x between two clamped nodes, with a force along x at the first
- * joint. */
 static void row_of(int count, const kinds_link links[], double force, scene *s)
 {
     const double y[3] = {0, 1, 0}, end = 1;
@@ -56,8 +54,6 @@ static void row_of(int count, const kinds_link links[], double force, scene *s)
     }
 }
 
-/* Solves a row of links. Returns 1 if successful; `value` is then the reaction at the end and the
- * displacement of the first joint. */
 static int solve(const element_type *type, int count, const kinds_link links[], double force,
                  int elements, double value[2], int *kinds)
 {
@@ -258,8 +254,6 @@ static section_spec rectangle(double width)
     return spec;
 }
 
-/* Builds members in a row along x. ends[i] are the indices of the sections at both ends of member
- * i. */
 static void profile_row_of(int members, const int ends[][2], scene *s)
 {
     const double y[3] = {0, 1, 0};
@@ -282,8 +276,6 @@ static model *meshed(const scene *s, const element_type *type, int elements, fau
     return model_alloc(&what, &m, f) == STATUS_OK ? m : NULL;
 }
 
-/* Each element of a taper has its own kind. Members with the same taper share these kinds, and all
- * prismatic members share one kind. */
 static void kinds(const element_type *type)
 {
     static const struct {
@@ -309,7 +301,6 @@ static void kinds(const element_type *type)
     }
 }
 
-/* Element i of n must have the section at its middle, (i + 1/2)/n. */
 static void middles(const element_type *type)
 {
     const int ends[][2] = {{2, 0}};

@@ -11,8 +11,6 @@
 #include "harness/experiments/experiments.h"
 #include "harness/model/model.h"
 
-/* Fills the columns of T: `shifts` displacements along the axes, then rotations about unit axes in
- * a plane (or in space) of random orientation, at an offset of about `length`. */
 static int fill(uint64_t *state, int shifts, int turns, int in_plane, double length, double T[36])
 {
     const int columns = shifts + turns;
@@ -51,7 +49,6 @@ static double apart_from_unit(const movable *v)
     return worst;
 }
 
-/* Returns the size of that part of a column which is not in the span. */
 static double outside(int columns, const double *T, double length, const movable *v)
 {
     double worst = 0;
@@ -302,8 +299,6 @@ static void derivatives(int nodes, double angle, uint64_t *seed)
              angle, found.asymmetry);
 }
 
-/* If both ends move as one rigid body, there is no deformation. Then one end rotates about an axis
- * of the other. */
 static void known(uint64_t *seed)
 {
     double d[SPRING_MOST], e[SPRING_STRAINS];

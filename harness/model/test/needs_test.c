@@ -1,5 +1,5 @@
-/* Features that a scene needs: each kind of shear coupling violates double symmetry on its own, and
- * frequencies under load require the geometric stiffness. */
+/* Tests the features that a scene needs. Each kind of shear coupling needs support for unsymmetric
+ * sections, and frequencies under load need the geometric stiffness. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

@@ -9,8 +9,8 @@
 #include "elements/math/rotation.h"
 #include "harness/model/model_impl.h"
 
-/* Rotates the last end further by a rotation vector. `own` receives the triads of the element after
- * the rotation. */
+/* Rotates the last end further by a rotation vector. own[]: receives the triads of the element
+ * after the rotation. */
 static inline void turned_end(model *m, const double vector[3], mesh_triad own[ELEMENT_MAX_NODES],
                               mesh_triad *before)
 {

@@ -123,8 +123,7 @@ static void passing(void)
     make(&b, MOST, 4, "beam");
     b.cell[4 * 7 + 2] = (overview_cell){OVERVIEW_UNDECIDED, 0, 3};
     b.cell[4 * 9 + 1] = (overview_cell){OVERVIEW_BIASED, 1, 2};
-    for (int c = 0; c < 4;
-         c++) /* this case passes but is not in the sentence about passing cases */
+    for (int c = 0; c < 4; c++)
         b.cell[4 * 11 + c] =
             (overview_cell){c == 2 ? OVERVIEW_OTHER_MODEL : OVERVIEW_NOTHING, 0, 1};
     char *text = shown(&b, plain);
@@ -176,8 +175,8 @@ static void overview_table_tests(void)
     legend();
 }
 
-/* Unexpected results of every kind must be reported: verdicts, stored values, contradictions, and
- * findings and reference values that match no run. */
+/* Unexpected results of every kind must be reported: verdicts, stored values, published values that
+ * are superseded, and known deviations and reference values that match no run. */
 
 static const case_type made_up = {.name = "made_up"};
 static char words[][300] = {"load",       "N",       "exact", "book, page 3",
@@ -185,7 +184,6 @@ static char words[][300] = {"load",       "N",       "exact", "book, page 3",
                             "wrong limit"};
 enum { LOAD, NEWTON, EXACT, BOOK, NOTHING, ELEMENT, RULE, CASES, WRONG };
 
-/* One unexpected result of each kind. */
 typedef struct unexpected_bench {
     sweep s;
     sweep_point p;

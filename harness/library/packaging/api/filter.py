@@ -85,7 +85,6 @@ def apart(source):
 
 
 def main(path):
-    """Writes the header to standard output."""
     source = apart(features(pathlib.Path(path).read_text(encoding="utf-8")))
     marked = groups(source)
     # output of groups() is already documentation

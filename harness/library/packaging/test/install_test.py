@@ -72,7 +72,6 @@ class Installed(ProgramTest):
         return shlex.split(text)
 
     def compiled(self, *command):
-        """Compiles the user program with that command. Returns its path."""
         source = self.folder / "consumer.c"
         shutil.copy(HERE / "consumer" / "consumer.c", source)
         self.installed("-Wall", "-Wextra", "-Werror", *command[1:], "-o", "consumer",
@@ -164,7 +163,7 @@ class Installed(ProgramTest):
         for source in sources:
             commands = re.findall(r"^(?: \*|!)   ((?:cc|c\+\+|gfortran) .*)$",
                                   source.read_text(encoding="utf-8"), re.M)
-            if source.name == "uel_beam.f90":  # compiled with uel.c
+            if source.name == "uel_beam.f90":
                 continue
             self.assertEqual("FOLDER_OF_BEAMWORK" in commands[-1], source.suffix != ".f90")
             if any(shutil.which(line.split()[0]) is None for line in commands):
@@ -228,7 +227,6 @@ class Installed(ProgramTest):
         self.assertIn("nothing is installed", again.stdout)
 
     def test_nothing_is_written_at_work(self):
-        """Python leaves no compiled files in the installed folders."""
         self.test_report()
         self.assertEqual(list(self.place.rglob("*.pyc")), [])
 

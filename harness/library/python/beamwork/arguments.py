@@ -25,7 +25,6 @@ def utf8(value: Any, what: str) -> bytes | None:
 
 
 def required(value: Any, what: str) -> bytes:
-    """Returns the bytes of a text that is required."""
     if value is None:
         raise TypeError(f"{what}: a string is expected, not None")
     found = utf8(value, what)
@@ -39,7 +38,7 @@ def names(values: Iterable[Any], what: str) -> bytes | None:
 
 
 def whole(value: Any, what: str) -> int:
-    """Returns a whole number, at least 1."""
+    """Returns a whole number. Raises an error if it is less than 1."""
     try:
         number = operator.index(value)
     except TypeError:

@@ -41,7 +41,6 @@ def percent(error: float | None) -> str:
 
 
 def of_unit(unit: str) -> str:
-    """Returns the unit for display, or an empty string for plain numbers."""
     return "" if unit == "1" else unit
 
 
@@ -85,7 +84,6 @@ def scene(about: dict[str, Any], text: str) -> str:
 
 
 def mistakes(told: Iterable[object]) -> str:
-    """Returns the HTML of the errors of a scene that cannot be built."""
     return table(("mistakes", ), ((str(m), ) for m in told))
 
 

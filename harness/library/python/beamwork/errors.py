@@ -30,7 +30,7 @@ class Error(Exception):
     result: Result | None = None
     partial: Owned | None = None  # partial result in memory of the library
 
-    def __reduce__(self) -> tuple[Any, ...]:  # a result cannot be transferred to another process
+    def __reduce__(self) -> tuple[Any, ...]:  # pickles the error without its result
         state = {k: v for k, v in vars(self).items() if k not in ("result", "partial")}
         return type(self), self.args, state
 

@@ -1,5 +1,6 @@
-"""Formulations whose functions are in this process. The library and the program start this file as the process of the
-formulation. That process passes the messages to a socket of this process, in which threads answer them."""
+"""Formulations whose functions are in this process. The library and the program start this file as
+the process of the formulation. That process relays messages through a socket to this process, whose
+threads answer them."""
 from __future__ import annotations
 
 import os

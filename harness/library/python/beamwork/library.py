@@ -21,7 +21,7 @@ def places() -> list[pathlib.Path]:
     if asked:
         return [pathlib.Path(asked)]
     here = pathlib.Path(__file__).resolve().parent
-    found = [here / "lib" / FILE, here / FILE, here.parent / FILE]  # lib: in a wheel
+    found = [here / "lib" / FILE, here / FILE, here.parent / FILE]
     for folder in here.parents:  # PREFIX/lib/python3/dist-packages/beamwork: PREFIX/lib
         found += [folder / FILE, folder / "lib" / FILE, folder / "build" / FILE]
         found += sorted((folder / "lib").glob(f"*/{FILE}"))
@@ -29,7 +29,7 @@ def places() -> list[pathlib.Path]:
     if program:
         folder = pathlib.Path(program).resolve().parent
         found += [folder / FILE, folder.parent / "lib" / FILE]
-    return found + [pathlib.Path(FILE)]  # where the system searches
+    return found + [pathlib.Path(FILE)]  # found by the system's loader
 
 
 def _load() -> tuple[ctypes.CDLL, pathlib.Path]:
@@ -108,7 +108,8 @@ _Found = TypeVar("_Found")
 
 
 class Owned:
-    """A pointer that the library allocated and that is freed with this object. lock: allows one thread at a time."""
+    """A pointer to memory that the library allocated. It is freed with this object. lock: held by
+    the thread that uses the pointer."""
     __slots__ = ("pointer", "lock", "_free", "__weakref__")
 
     def __init__(self, kind: str) -> None:
@@ -120,7 +121,6 @@ class Owned:
             self._free(self.pointer)
 
     def text(self) -> str:
-        """Returns the text, or '' for a null pointer."""
         return ctypes.string_at(self.pointer).decode("utf-8", "replace") if self.pointer else ""
 
 
@@ -133,7 +133,6 @@ def call(name: str, *arguments: Any, entries: Sequence[str] = ()) -> None:
 
 
 def text_of(name: str, *arguments: Any, entries: Sequence[str] = ()) -> str:
-    """Returns the text that bw_NAME returns."""
     text = Owned("text")
     call(name, *arguments, ctypes.byref(text.pointer), entries=entries)
     return text.text()
@@ -157,7 +156,7 @@ def stoppable(work: Callable[[dict[str, Any]], _Found], options: dict[str, Any])
     if "stop" in options or threading.current_thread() is not threading.main_thread():
         return work(options)
     outcome: list[tuple[_Found | None, BaseException | None]] = []
-    done = threading.Event()  # Thread.join treats an interrupted thread as if it had ended
+    done = threading.Event()  # Thread.join treats a thread as ended if the wait is interrupted
     readable, writable = os.pipe()
 
     def run() -> None:
@@ -172,7 +171,7 @@ def stoppable(work: Callable[[dict[str, Any]], _Found], options: dict[str, Any])
     try:
         done.wait()
     finally:
-        os.write(writable, b"x")  # forked processes have the descriptor open, so closing it would not be noticed
+        os.write(writable, b"x")  # forked processes hold the descriptor open, so closing it has no effect
         while not done.is_set():
             try:
                 done.wait()
@@ -187,5 +186,4 @@ def stoppable(work: Callable[[dict[str, Any]], _Found], options: dict[str, Any])
 
 
 def ask(name: str, *arguments: Any) -> Any:
-    """Returns the result of a function that returns no status."""
     return _functions[name](*arguments)

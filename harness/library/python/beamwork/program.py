@@ -28,8 +28,8 @@ LOADED: dict[str, str] = {}  # argument of load() for each loaded formulation, f
 
 
 def program() -> str:
-    """Returns the path of the program: BEAMWORK, that of the wheel, next to the library or in bin of its prefix, or
-    in the PATH."""
+    """Returns the path of the program: the value of BEAMWORK; otherwise the program of the wheel,
+    the program next to the library or in bin of its prefix, or the one in the PATH."""
     asked = os.environ.get("BEAMWORK")
     near = _library.resolve().parent
     places = [pathlib.Path(asked)] if asked else [
@@ -85,7 +85,7 @@ class _Told:
         while some:
             try:
                 some = os.read(self.read, 65536)
-            except OSError:  # a terminal that no process has open
+            except OSError:
                 some = b""
             *lines, rest = re.split(rb"[\r\n]+", rest + some)
             for line in lines + ([] if some else [rest]):
