@@ -72,7 +72,7 @@ static void turned(const double v[3], const double q[4], double p[4])
         p[1 + i] = q[0] * v[i] + across[i];
 }
 
-/* Computes (0, unit vector i) q. */
+/* Computes (0, e_i) q, where e_i is the unit vector along axis i. */
 static void turned_about(int i, const double q[4], double p[4])
 {
     double v[3] = {0, 0, 0};
@@ -135,14 +135,14 @@ void absolute_strain(const element_data *d, const node_state x[], strain_output 
     }
 }
 
-/* The state of the nodes at strains, with the unit quaternions of the nodes and the lengths of the
- * quaternions in the strains. */
+/* The state of the nodes for given strains. Contains the unit quaternions of the nodes, and the
+ * lengths of the quaternions that the strains contain. */
 typedef struct absolute_place {
     const element_data *data;
     const double *history;
     node_state x[ABSOLUTE_NODES];
     double q[ABSOLUTE_NODES][4], size[ABSOLUTE_NODES];
-    gather *together; /* as in relative.c */
+    gather *together;
 } absolute_place;
 
 static absolute_place frame_motion_of(const element_data *d, const double e[],
@@ -287,7 +287,6 @@ static status stress_at(const absolute_place *at, stress_output *out)
     return out->C != NULL ? tangent(at, F, out->C) : STATUS_OK;
 }
 
-/* Data of many elements. */
 typedef struct absolute_many {
     const element_data *const *data;
     const double *const *e;

@@ -10,10 +10,10 @@
 
 struct element_data {
     const element_type *given;
-    int nodes, strains;              /* numbers of nodes and strains of the completed type */
-    int history;                     /* number of history values of the given type */
-    int scalars;                     /* number of additional unknowns of a node */
-    double length;                   /* [m] */
+    int nodes, strains; /* numbers of nodes and strains of the completed type */
+    int history;        /* number of history values of the given type */
+    int scalars;        /* number of additional unknowns of a node */
+    double length;
     double place[ELEMENT_MAX_NODES]; /* positions of the nodes, from 0 to 1 */
     field_mass mass;                 /* used if the type has no `inertia` */
     max_align_t own[];               /* element_data of the type */
@@ -56,7 +56,6 @@ typedef void differences_jacobian(const element_data *d, const node_state x[],
 void differences_curvature(const element_data *d, const node_state x[], differences_jacobian *,
                            const double s[], double H[]);
 
-/* Stresses of a type that computes forces or an energy (relative.c). */
 /* Requires force_many. */
 void relative_stress_many(int count, const element_data *const data[], const double *const e[],
                           const double *const inner[], stress_output out[], status outcome[]);
@@ -69,7 +68,7 @@ void relative_geometric(const element_data *d, const double sigma[], double G[])
 /* Strains and stresses of a type that computes forces with a history (absolute.c). The strains are
  * the motions of the nodes: for each node the displacement u, 2 l (q - q0), and l^2 a [m], where q
  * is the quaternion of the rotation of the node, and q0 its initial value. Rigid motions change
- * them, so that forces which depend on rigid motions are functions of them. */
+ * these strains, so forces that depend on rigid motions are functions of the strains. */
 enum { ABSOLUTE_NODE = 8, ABSOLUTE_KEPT = 11, ABSOLUTE_NODES = 7 };
 enum { ABSOLUTE_MOST = ABSOLUTE_NODE * ABSOLUTE_NODES };
 _Static_assert((int)ABSOLUTE_MOST <= (int)ELEMENT_MAX_STRAINS, "too many strains");

@@ -166,7 +166,7 @@ static void make_relative(const element_type *given, const double options[], ele
     out->memory = NULL;
     out->strain = places_strain;
     out->stress = relative_stress;
-    out->strain_many = NULL; /* does not call the formulation */
+    out->strain_many = NULL;
     out->stress_many = given->force_many != NULL ? relative_stress_many : NULL;
     out->geometric = relative_geometric;
 }
@@ -178,7 +178,7 @@ static void make_absolute(const element_type *given, const double options[], ele
     out->strain = absolute_strain;
     out->stress = absolute_stress;
     out->stress_many = given->force_many != NULL ? absolute_stress_many : NULL;
-    out->geometric = NULL; /* linear buckling is refused */
+    out->geometric = NULL; /* then linear buckling is rejected */
     out->begin = absolute_begin;
     out->commit = absolute_commit;
 }

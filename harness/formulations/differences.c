@@ -196,8 +196,6 @@ void gather_run(int count, int nodes, size_t size, gather_element *element,
     free(g.answer);
 }
 
-/* Derivatives of strains by central finite differences of sixth order in the rotation chart. */
-
 /* State at which finite differences are computed. */
 typedef struct difference_place {
     const element_data *data;
@@ -376,7 +374,6 @@ static void made_part(const element_data *d, const node_state x[], gather *toget
         curvature(&at, out->H);
 }
 
-/* Data of many elements. */
 typedef struct many {
     const element_data *const *data;
     const node_state *x;

@@ -365,7 +365,7 @@ static int joins(const char *word)
     return strcmp(word, "and") == 0 || strcmp(word, "or") == 0 || strcmp(word, "not") == 0;
 }
 
-/* Returns the next word of a well-formed expression that is a name; NULL: none. */
+/* Returns the next word of a valid expression that is a name, not an operator; NULL: none. */
 static const char *next_word(const char *at, char word[SELECT_WORD])
 {
     do {

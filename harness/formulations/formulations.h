@@ -34,7 +34,7 @@ const char *adapters_words(const element_type *given);
 /* Consecutive parameter tables, and the words with which error messages refer to them. */
 typedef struct assignment_list {
     const parameter_type *part[PARAMETER_PARTS];
-    const char *what;     /* "parameter" */
+    const char *what;
     const char *owner;    /* name of the case or the formulation */
     const char *option;   /* option of `beamwork list` before this name: "--scene " or "" */
     const char *shown_by; /* argument of `beamwork list` that shows the parameters */
@@ -42,7 +42,8 @@ typedef struct assignment_list {
 } assignment_list;
 
 enum { ASSIGNMENT_SHOWN = 256 };
-/* Writes the arguments of `beamwork list` that show these parameters, quoted for a shell. */
+/* Writes the arguments of `beamwork list` that show these parameters, with quotation marks for a
+ * shell where necessary. */
 void assignment_shown(const assignment_list *, char out[ASSIGNMENT_SHOWN]);
 
 enum { ASSIGNMENT_VALUE = 64 };
@@ -65,8 +66,6 @@ void assignment_text(const assignment_list *, const double value[], char *text, 
 int assignment_value(const parameter_type *, const char *text, double *value);
 /* Writes the shortest text that gives the same value when it is read, or the name of the choice. */
 void assignment_value_text(const parameter_type *, double value, char *text, int size);
-
-/* Cases by their names. */
 
 /* returns NULL for an unknown name; the message gives the most similar known name */
 const case_type *case_find(const char *name, fault *f);
@@ -96,7 +95,7 @@ typedef struct environment {
     const char *version,
         *released /* version of the program, and its date in the form 2026-11-21 */, *commit,
         *compiler, *flags;
-    char libraries[256], processor[128], clock[32]; /* clock: ISO 8601, UTC */
+    char libraries[256], processor[128], clock[32]; /* time of the computation, ISO 8601, UTC */
     int threads;
 } environment;
 
@@ -119,7 +118,8 @@ typedef enum newton_form {
 
 typedef struct formulation {
     const element_type *type;
-    /* options of the type in the order of its table, followed by the common options */
+    /* values of the options of the type in the order of its table, followed by the common options
+     * */
     double option[FORMULATION_OPTIONS];
     /* name, with the options that differ from their defaults */
     char key[FORMULATION_KEY];
@@ -127,7 +127,6 @@ typedef struct formulation {
 
 /* Options that every formulation has. They follow the options of the type. */
 extern const parameter_type formulation_common[];
-/* Returns the options of a type, followed by the options that all formulations have. */
 assignment_list formulation_options(const element_type *);
 /* Returns the form of Newton's method. Instead of the mixed form, types that compute forces with a
  * history use the form with displacements, because they have no strains that could be unknowns. */
@@ -141,8 +140,6 @@ void formulation_default(const element_type *type, formulation *out);
 int formulation_choice(const element_type *type, int index, int choice, formulation *out);
 /* Returns the features that options with other values than the defaults affect (element_judged). */
 unsigned formulation_bears_on(const formulation *chosen);
-
-/* List of formulations. */
 
 /* Adds a formulation in the form of the option -f, or "all". REFUSED: a formulation is unknown or
  * given twice, or there are more than `most`. */

@@ -1,4 +1,3 @@
-/* Internal declarations of formulations/. */
 #ifndef BEAMWORK_FORMULATIONS_IMPL_H
 #define BEAMWORK_FORMULATIONS_IMPL_H
 
@@ -43,8 +42,8 @@ typedef struct handshake {
     /* 1: the process computes the inertia of elements; if type.spreads is set, also for transient
      * analysis */
     int inertia;
-    int damping; /* of enum damping_answer */
-    int line;    /* 1: the process computes the motion of sections between the nodes */
+    int damping;
+    int line; /* 1: the process computes the motion of sections between the nodes */
     element_constants constants; /* constants of the type */
 } handshake;
 
@@ -118,8 +117,8 @@ void channel_end(channel *);
 status channel_break(channel *, const char *why, fault *);
 
 /* Gathers the perturbed states of many elements, so that one call evaluates all of them. A function
- * that computes finite differences is called twice. The first call records its states, and the
- * second call receives their values. */
+ * that computes finite differences is called twice: in the first call, its states are recorded; in
+ * the second call, it receives their values. */
 
 typedef struct gather {
     int answered;    /* 0: states are gathered; 1: their answers are returned in the same order */

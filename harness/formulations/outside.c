@@ -9,7 +9,7 @@
 
 /* Loads the type that the command describes. The type and its process exist until this process
  * ends. Every worker process starts a separate copy of the command's process. REFUSED: the command
- * does not exist, or its first line does not follow the protocol (protocol.md). */
+ * does not exist, or the first line of its output does not follow the protocol (protocol.md). */
 static status process_load(const char *command, const element_type **out, fault *f);
 
 static status refuse(const char *path, const char *why, fault *f)
@@ -234,7 +234,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     const status outcome = prepare_locked(p, request, out, f);
     p->to.reported |= outcome != STATUS_OK;
     pthread_mutex_unlock(&p->to.lock);
-    /* the same outcome as for a failed evaluation */
+    /* the same status as after a failed evaluation */
     return outcome == STATUS_FAULT ? STATUS_NOT_CONVERGED : outcome;
 }
 

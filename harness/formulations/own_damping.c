@@ -1,4 +1,3 @@
-/* Scaling of the damping matrix of a formulation. */
 #include <math.h>
 
 #include "harness/formulations/formulations.h"
@@ -29,7 +28,7 @@ int damping_scale(int n, const double C[], const double V[], double B[])
         const int k = i * n + i;
         const double least = rounding * (C[k] > 0 && eta > 0 ? eta * C[k] : largest);
         if (fabs(V[k]) <= least)
-            B[k] = fmax(V[k], 0); /* negative by round-off only */
+            B[k] = fmax(V[k], 0); /* the diagonal entry is negative only because of round-off */
         const double factor = 1 / sqrt(fmax(fabs(V[k]), least));
         for (int j = 0; j < n; j++) {
             B[i * n + j] *= factor;

@@ -223,8 +223,8 @@ void assignment_text(const assignment_list *l, const double value[], char *text,
     }
 }
 
-/* Returns 1 if the program has added the parameter, which the original source of the case does not
- * have. */
+/* Returns 1 if the program has added the parameter to a case. The original source of the case does
+ * not have this parameter. */
 static int is_shared(const parameter_type *p)
 {
     return case_is_omit(p) || case_is_mass(p);

@@ -6,7 +6,6 @@
 #include "elements/math/rotation.h"
 #include "harness/formulations/adapted.h"
 
-/* Functions that return a number. */
 #define COUNT(n)                                                                                   \
     static int count_##n(const double options[])                                                   \
     {                                                                                              \
@@ -111,8 +110,7 @@ static void node_rows(const element_data *d, const node_state x[], int k, double
     for (int i = 0; i < 3; i++) {
         double lever[3], global[3];
         mat3_mul_vec(x[0].R, to, global);
-        vec3_cross(global, placed + 3 * i,
-                   lever); /* d(n.d) = n.dd + dphi.(n x d), because n rotates */
+        vec3_cross(global, placed + 3 * i, lever);
         for (int j = 0; j < 3; j++) {
             place[i * n + j] = -placed[3 * i + j];
             place[i * n + 3 + j] = -lever[j];
@@ -254,7 +252,7 @@ void forces_evaluate(const element_data *d, gather *g, int first, int count)
     for (int i = 0; i < count; i++) {
         double *answer = g->answer + (size_t)(first + i) * g->size;
         out[i] = (force_output){.history = g->history[first + i]};
-        if (out[i].history == NULL) /* with a history, there may be no energy */
+        if (out[i].history == NULL) /* with a history, the type may have no energy */
             out[i].energy = answer + ENERGY;
         if (!(given->leaves & LEAVES_FORCE))
             out[i].F = answer + FORCES;

@@ -33,7 +33,8 @@ static void become(char *const words[], int in, int out, int why, pid_t parent)
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
     signal(SIGPIPE, SIG_DFL);
-    setpgid(0, 0); /* Ctrl-C then reaches only beamwork, which ends the child */
+    setpgid(0, 0); /* a separate process group: Ctrl-C then reaches only beamwork, which ends the
+                    * child */
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() == parent && dup2(in, STDIN_FILENO) >= 0 && dup2(out, STDOUT_FILENO) >= 0)
         execvp(words[0], words);
@@ -104,7 +105,6 @@ static status child_start(char *const words[], child *out, fault *f)
                      strerror(number));
 }
 
-/* Returns 1 if the child is still running. */
 static int child_runs(const child *c)
 {
     siginfo_t how = {.si_pid = 0};

@@ -80,7 +80,7 @@ static int frame_nodes(const element_data *d)
     return d->coordinates / (NODE_COORDINATES + d->scalars);
 }
 
-enum { NODE_NUMBERS = 16 }; /* r, u, R and a of a node */
+enum { NODE_NUMBERS = 16 };
 _Static_assert(offsetof(node_state, scalar) == NODE_NUMBERS * sizeof(double),
                "a node is sent as its bytes");
 
@@ -99,8 +99,6 @@ static void frame_put_nodes(char **to, const frame_question *q, const node_state
     for (int i = 0; i < q->count * frame_nodes(d) && d->scalars > 0; i++)
         frame_put(to, x[i].scalar, (size_t)d->scalars * sizeof(double));
 }
-
-/* Strains, stresses and forces of many elements, with one request for each kind of result. */
 
 static status strain_frame(const frame_question *q, const node_state x[], strain_output out[],
                            fault *f)
@@ -328,8 +326,6 @@ void frames_serve(process *p)
     t->stress_many = p->whole ? NULL : stress_many;
     t->force_many = p->whole ? force_many : NULL;
 }
-
-/* Inertia of a formulation whose process computes it, with one request for each element. */
 
 enum { OUTPUTS = 8, TURNING = 1 << 8, RATE = 1 << 9, ACCELERATION = 1 << 10 };
 

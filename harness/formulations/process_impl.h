@@ -1,4 +1,4 @@
-/* Internal declarations of formulations in another process. */
+/* Internal declarations for formulations in another process. */
 #ifndef BEAMWORK_PROCESS_IMPL_H
 #define BEAMWORK_PROCESS_IMPL_H
 
@@ -10,8 +10,8 @@ enum { PROCESS_KINDS = 65536 }; /* number of kinds; larger numbers are taken mod
 typedef struct process {
     element_type type;
     element_constants constants;
-    int whole;   /* 1: the process computes the energy or the forces of whole elements */
-    int damping; /* of enum damping_answer */
+    int whole; /* 1: the process computes the energy or the forces of whole elements */
+    int damping;
     channel to;
     long kinds; /* number of kinds that the running process has prepared */
 } process;
@@ -36,8 +36,6 @@ void frames_serve_history(process *p);
 void frames_serve_damping(process *p);
 /* Sets the function of the type for the motion of sections (process_frames.c). */
 void frames_serve_line(process *p);
-
-/* Requests to the process of a formulation. */
 
 /* A request about `count` elements. */
 typedef struct frame_question {

@@ -162,7 +162,6 @@ static status stress_at(const relative_place *at, stress_output *out)
     return out->C != NULL ? tangent_of(at, out->C) : STATUS_OK;
 }
 
-/* Data of many elements. */
 typedef struct relative_many {
     const element_data *const *data;
     const double *const *e;
@@ -239,7 +238,7 @@ static int tangent_at(const void *context, int i, double si, int j, double sj, d
 
 /* The tangent at e, or its derivative along e. */
 typedef struct tangents {
-    relative_many all; /* data of one element */
+    relative_many all;
     double *C;
     status outcome;
 } tangents;

@@ -15,8 +15,8 @@ static void comparison_lines_work(const listing *l, const long before[RESULTS_WO
 /* Writes the difference of the costs of counted work if both are known. */
 static void comparison_lines_cost(const listing *l, double before, double after);
 static void comparison_cells(const listing *l, const result_cell *a, const result_cell *b);
-/* Compares two sweeps, and writes a line for each point, formulation and mesh that exists in only
- * one of them. */
+/* Compares two sweeps. Writes a line for each point, formulation and mesh that exists in only one
+ * of them. */
 static void comparison_sweeps(const listing *l, const char *select);
 
 const comparison_limits comparison_limits_default = {0.01, RESULTS_FLOOR, 0.02};
@@ -116,7 +116,7 @@ static void run_cells(listing l, const stored_results *before, const stored_resu
 {
     const char *last = NULL;
     for (int i = 0, k = 0; i < before->cells || k < after->cells;) {
-        int order = i == before->cells ? 1 : -1; /* one list is exhausted */
+        int order = i == before->cells ? 1 : -1;
         if (i < before->cells && k < after->cells)
             order = results_order(&before->cell[i], &after->cell[k]);
         const result_cell *a = order <= 0 ? &before->cell[i++] : NULL;
@@ -309,7 +309,8 @@ static void comparison_lines_cost(const listing *l, double before, double after)
 
 /* Compares two series of which at least one is known only from the short table. */
 
-/* Returns the largest relative difference due to rounding to this number of digits. */
+/* Returns the largest relative difference of two equal values after rounding to this number of
+ * digits. */
 static double last_digit(int digits)
 {
     return 0.5 * pow(10, 1 - digits);
@@ -411,7 +412,7 @@ void comparison_series(const listing *l, const result_series *a, const result_se
     result_series common = {.name = NULL};
     const int same = compare_meshes(l, a, b),
               more = !same && l->after->whole && results_series_restrict(l->after, a, &common);
-    if (same || more) { /* sums over different meshes cannot be compared */
+    if (same || more) { /* the sums of different meshes cannot be compared */
         const result_series *now = same ? b : &common;
         if (results_part_differ(l->before, l->after, l->name)) {
             l->out->partial++; /* errors and work depend on the selected quantities */
@@ -434,8 +435,8 @@ enum { REPORTED = 1 << 14, NAME = 2048 };
 typedef struct lone {
     comparison_kind kind;
     const stored_results *other;
-    char reported[REPORTED]; /* formulations and meshes that were printed, in one line each */
-    char where[NAME];        /* the last point printed */
+    char reported[REPORTED];
+    char where[NAME];
 } lone;
 
 /* Returns 1 if the name of cell `next` - 1 or `next` of the run starts with the first `length`
@@ -479,8 +480,8 @@ static void report_column(const listing *l, lone *only, const char *key, int ele
     report(l, only->kind, name, elements);
 }
 
-/* Handles a cell that exists in only one run. next: position at which the cell would be in the
- * other run. */
+/* Handles a cell that exists in only one run. next: position of the cell in the other run, if it
+ * existed there. */
 static void report_cell(const listing *l, int next, lone *only)
 {
     const char *key = strrchr(l->name, '/');

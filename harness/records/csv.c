@@ -98,7 +98,6 @@ static void csv_field(FILE *to, const char *text)
     fputc('"', to);
 }
 
-/* Writes a field, in quotes if necessary. */
 static void csv_record_text(FILE *to, const char *text)
 {
     if (text[strcspn(text, "\",\r\n")] == '\0')
@@ -188,7 +187,6 @@ typedef struct contents {
     const reduced_model *reduced; /* model whose errors are written */
 } contents;
 
-/* A matrix with its comment. */
 typedef struct titled {
     const triplets *matrix;
     const char *comment;
@@ -408,7 +406,7 @@ static void write_ratio_unit(FILE *to, const contents *c, int y, int u)
     fputc('\n', to);
 }
 
-/* Writes the errors of a reduced model: of its natural frequencies and transfer functions. */
+/* Writes the errors of a reduced model in natural frequencies and transfer functions. */
 static void write_errors(FILE *to, const void *what)
 {
     const contents *c = what;

@@ -205,9 +205,8 @@ static void add_value(walk *w, hid_t type, const char *at)
     }
 }
 
-/* An open data set. */
 typedef struct table {
-    hid_t set, space, type; /* type: type of the values in memory */
+    hid_t set, space, type; /* type of the values in memory */
     int rank;
     hsize_t size[MOST_RANK];
     size_t row; /* number of bytes per value of the first index */

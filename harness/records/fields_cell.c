@@ -1,4 +1,3 @@
-/* Records of parameter points, of series of meshes, and of a mesh (size, work, times). */
 #include "harness/records/records_impl.h"
 
 #include <math.h>
@@ -288,8 +287,6 @@ const record_type record_omission = {
     "",
     "physics omitted by the scene of a value, and assumptions about sections",
     {field_omitted}};
-
-/* Records of benchmarks. */
 
 static const cell_timing *timing_of(const subject *s)
 {

@@ -1,4 +1,3 @@
-/* Records of the results of a cell and of its solution path. */
 #include "harness/records/records_impl.h"
 
 #include <math.h>
@@ -320,7 +319,7 @@ const record_type record_matrix = {"matrix",
                                    "compliance and stiffness of a node at a station of a path",
                                    {keys_of_point, keys_of_series, key_of_mesh, fields_of_matrix}};
 
-/* Declarations of a formulation for its current options. */
+/* Returns the type with its declarations for the current options of the formulation. */
 
 static const element_type *type_of(const subject *s)
 {

@@ -1,5 +1,3 @@
-/* Records of the contents of a case: scenes, parameters, quantities, and assumptions on sections.
- * */
 #include "harness/records/records_impl.h"
 
 #include <float.h>

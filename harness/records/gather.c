@@ -140,8 +140,7 @@ static void add_iterations(subject s, const solve_result *r, subjects *out)
 static void add_matrices(subject s, const solve_result *r, subjects *out)
 {
     for (int i = 0; i < r->matrix_sets; i++)
-        add_array(s, r->matrices[i].stations, &r->matrices[i], 0,
-                  out); /* a single record that is read at each station */
+        add_array(s, r->matrices[i].stations, &r->matrices[i], 0, out);
 }
 
 void gather_mesh(const gathering *g, const record_type *type, int series_index, int mesh,
@@ -216,7 +215,6 @@ static void gather_points(const gathering *g, const case_type *of, subjects *out
     }
 }
 
-/* Adds the parameters of a case. */
 static void gather_parameters(subject s, subjects *out)
 {
     while (parameter_at(s.point->type->parameters, s.index) != NULL) {

@@ -293,7 +293,6 @@ static json_t *json_record_numbers(int count, const double value[])
     return list;
 }
 
-/* Converts a square matrix row by row. */
 static json_t *matrix(int count, const double value[])
 {
     const int size = (int)lround(sqrt(count));

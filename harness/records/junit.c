@@ -231,7 +231,7 @@ int assumptions_at(const sweep_point *p, int index, assumption *out)
 
 void assumptions_words(const sweep_point *p, size_t size, char out[])
 {
-    const size_t rest = 40; /* capacity for the number of the remaining assumptions */
+    const size_t rest = 40;
     size_t used = 0;
     int left = 0;
     assumption a;

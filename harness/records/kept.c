@@ -37,8 +37,8 @@ static status unfit(const char *path, fault *f)
                      path);
 }
 
-/* Locks a file, waiting at most `most_waits` tenths of a second; -1: no limit. Returns 0 on
- * success. Otherwise returns -1 and sets errno. */
+/* Locks a file, waiting at most `most_waits` tenths of a second; -1: no limit. Returns 0, or -1
+ * with errno set. */
 static int hold(int file, int kind, int most_waits)
 {
     const int wait = most_waits < 0 ? 0 : LOCK_NB;
@@ -206,8 +206,7 @@ static status close_merged(record_file *r, const char *name, const file_place *a
     return record_close(r, path, f);
 }
 
-/* Returns 1 if the lock file still exists after waiting, and 0 if its previous owner has removed
- * it. */
+/* Returns 1 if the locked file still has this name, and 0 if its previous owner has removed it. */
 static int is_there(int lock, const char *name)
 {
     struct stat own, there;
@@ -215,9 +214,9 @@ static int is_there(int lock, const char *name)
            own.st_ino == there.st_ino;
 }
 
-/* Locks a separate file, because the results file is replaced. A lock file that a killed run has
- * left is harmless, because the lock ends with its process. If there is no lock, returns -1 and
- * sets errno. */
+/* Locks a separate file, because the results file itself is replaced by a new file. A lock file
+ * that a killed run has left is harmless, because the lock ends with its process. Returns the
+ * descriptor of the lock file, or -1 with errno set. */
 static int take_lock(const char *name, int most_waits)
 {
     for (;;) {

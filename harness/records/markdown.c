@@ -6,7 +6,10 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-enum { MOST_ROWS = 50 }; /* keeps comments on pull requests readable; JSON contains all rows */
+enum {
+    MOST_ROWS = 50
+}; /* limits the length of comments on pull requests; JSON contains all rows
+    * */
 
 /* Writes a cell of a table. Escapes vertical bars, and replaces line ends by spaces, because both
  * would break the table. */

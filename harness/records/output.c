@@ -81,7 +81,6 @@ static void remove_all(int at, const char *name)
     unlinkat(at, name, AT_REMOVEDIR);
 }
 
-/* Removes a file, or a folder with its contents. */
 static void output_remove(const char *temporary)
 {
     remove_all(AT_FDCWD, temporary);
@@ -333,7 +332,6 @@ static status create(output_folder *out, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if the folder is empty. */
 static int is_empty(const char *path)
 {
     DIR *folder = opendir(path);
@@ -343,7 +341,7 @@ static int is_empty(const char *path)
     while (readdir(folder) != NULL)
         entries++;
     closedir(folder);
-    return entries <= 2; /* "." and ".." */
+    return entries <= 2;
 }
 
 status output_folder_open(const char *path, output_folder *out, fault *f)

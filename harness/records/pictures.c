@@ -106,18 +106,18 @@ void outline_between(const outline *near, const outline *far, double x, outline 
                 out->corner[w][k][i] += x * (far->corner[w][k][i] - near->corner[w][k][i]);
 }
 
-enum { POLY_LINE = 4, QUAD = 9 }; /* cell types of VTK */
+enum { POLY_LINE = 4, QUAD = 9 };
 
 /* Points and cells of a picture. Each point of a centre line is followed by the points of both
  * edges of every wall of its section. */
 typedef struct grid {
     const scene *scene;
     const shapes *shapes;
-    outline *outline; /* [sections] */
+    outline *outline;
     /* [members] outlines at the far ends of tapered members; NULL: no member is tapered */
     outline *far;
-    int points, cells, ids; /* numbers for one state */
-    int states, *state;     /* number and indices of the states that are written as time steps */
+    int points, cells, ids;
+    int states, *state; /* number and indices of the states that are written as time steps */
 } grid;
 
 static const outline *outline_at(const grid *g, int member)

@@ -104,7 +104,7 @@ static status close_on_disk(record_file *r, fault *f)
                                      r->to.to.path);
     if (outcome == STATUS_OK) {
         fseek(r->to.stream, 0, SEEK_END);
-        fputs(line, r->to.stream); /* the stream stores an error until it is closed */
+        fputs(line, r->to.stream);
     }
     return output_finish(&r->to, outcome, f);
 }

@@ -34,7 +34,7 @@ typedef enum assumption_kind {
 enum { ASSUMPTION_TEXT = 320 };
 typedef struct assumption {
     assumption_kind kind;
-    int section;                /* index of the section in the scene */
+    int section;
     char physics[100];          /* words of `omit`, such as "shear, warping"; "": none */
     char text[ASSUMPTION_TEXT]; /* text of the assumption, with the name of the section */
 } assumption;
@@ -75,7 +75,7 @@ typedef struct result_value {
 } result_value;
 
 typedef struct result_cell {
-    char *name; /* case/parameters/formulation */
+    char *name;
     int elements;
     char status[RESULTS_STATUS];
     long work[RESULTS_WORKS];
@@ -103,7 +103,7 @@ typedef struct result_error {
 
 /* All meshes of a formulation at a parameter point. */
 typedef struct result_series {
-    char *name; /* case/parameters/formulation */
+    char *name;
     int meshes, limits;
     result_mesh *mesh;        /* [meshes] ascending by elements */
     long work[RESULTS_WORKS]; /* sums over the meshes */
@@ -133,7 +133,8 @@ typedef struct stored_results {
     int cells, seriess;
     int whole;  /* 1: the run has cells; 0: it has only series */
     int limits; /* 1: limits were evaluated */
-    int swept;  /* 1: a sweep; its cells without a mesh contain the reference values of a point */
+    int swept;  /* 1: the run is a sweep; its cells without a mesh contain the reference values of a
+                 * point */
     result_cell *cell;     /* cells in ascending order of name and elements */
     result_series *series; /* ascending by name */
 } stored_results;
@@ -162,7 +163,6 @@ typedef struct comparison_limits {
      * the number of its meshes */
     double work;
 } comparison_limits;
-/* Default limits. */
 extern const comparison_limits comparison_limits_default;
 
 typedef enum comparison_kind {
@@ -289,7 +289,6 @@ struct schema_field {
     int key;   /* KEY, KEY_AROUND, or 0: a result */
 };
 
-/* Value of a member of the record. */
 #define AT(type, member) .offset = offsetof(type, member)
 /* Value of a member of the context. The second macro is for a text that is stored as a pointer. */
 #define OF(place, type, member)      .base = BASE_##place, .offset = offsetof(type, member)
@@ -299,7 +298,7 @@ struct schema_field {
 enum { RECORD_PARTS = 5 };
 typedef struct record_type {
     const char *name, *table, *summary; /* table: name of the table in HDF5 and of lists in JSON */
-    const schema_field *part[RECORD_PARTS]; /* field tables, in order and NULL-terminated */
+    const schema_field *part[RECORD_PARTS]; /* field tables, in order and terminated by NULL */
 } record_type;
 
 /* The kinds of records: a series of meshes, a mesh, its results, the way in which they were found,
@@ -409,8 +408,6 @@ void gather_add(subjects *list, const subject *one);
 const void *gather_keep(subjects *list, const void *record, size_t size);
 void gather_free(subjects *list);
 
-/* JSON of one solution and of a verification (jansson). */
-
 /* Writes and frees `root`. FAULT: root is NULL (out of memory), or `root` cannot be written. */
 status json_finish(json_t *root, FILE *to, fault *f);
 
@@ -437,13 +434,9 @@ void json_part_free(json_part *);
 status json_write_verdicts(FILE *to, const sweep *s, const evaluation *j, const environment *e,
                            json_part *part, fault *f);
 
-/* JSON of a convergence study: values, limits, orders. */
-
 /* Writes every quantity of every series for all meshes, with limit, order and verdict, and the
  * formulations whose error is within the level in every quantity. */
 status json_convergence_write(FILE *to, const sweep *s, const truths *t, double level, fault *f);
-
-/* Records as JSON objects, field by field. */
 
 /* Converts a record. keys: KEY_AROUND if the context does not identify the record, otherwise 0. */
 json_t *json_record(const record_type *type, const subject *s, int keys);
@@ -541,7 +534,6 @@ status record_close(record_file *r, const char *path, fault *f);
 /* Frees the memory without writing the file. Returns `outcome`. */
 status record_drop(record_file *r, status outcome);
 
-/* Attributes. */
 void record_text(record_file *r, hid_t at, const char *name, const char *text);
 /* Writes an attribute text[count]. */
 void record_text_list(record_file *r, hid_t at, const char *name, int count,
@@ -607,9 +599,6 @@ status output_folder_file(const output_folder *, const char *name,
 /* Renames the folder if `written` is OK, otherwise removes it. */
 status output_folder_finish(output_folder *, status written, fault *f);
 
-/* Conclusion of a convergence table: the formulations that reach an error, and the numbers of
- * elements that they need. */
-
 #define REACH_LINE_LEVEL 0.01 /* level if none is requested */
 
 /* Writes one line such as "for 1 % in every quantity: collocation n = 1 (0.3 ms), sheet_third n = 2
@@ -633,8 +622,8 @@ void record_fields(record_file *r, hid_t at, const record_type *type, const subj
  * have the same hash. */
 
 typedef struct results_hash {
-    char text[DIGEST_TEXT]; /* SHA-256 */
-    long values;            /* number of hashed numbers and texts */
+    char text[DIGEST_TEXT];
+    long values; /* number of hashed numbers and texts */
 } results_hash;
 
 /* Hashes every data set of results.h5 or of another beamwork file, row by row and in the order of
@@ -646,7 +635,6 @@ status results_hash_of(const char *path, results_hash *out, fault *f);
  * kind of record (record_type). Arrays contain the points of curves and the shapes. `beamwork
  * schema` describes all of them. */
 
-/* A file that is filled case by case during the run. */
 typedef struct store {
     record_file file;
     hid_t root, cases;

@@ -1,4 +1,3 @@
-/* Internal declarations of records/. */
 #ifndef BEAMWORK_RECORDS_IMPL_H
 #define BEAMWORK_RECORDS_IMPL_H
 
@@ -54,7 +53,6 @@ void fields_keys_omitted(const subject *s, field_value *out);
 /* Describes the assumptions on the sections of the scene. */
 void fields_keys_assumed(const subject *s, field_value *out);
 
-/* Adds the records of all series of a case. */
 void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out);
 /* Adds a record for each formulation run by this program, in the order of the series. */
 void gather_declarations(const gathering *g, subjects *out);
@@ -80,8 +78,6 @@ void record_rows(record_file *r, hid_t at, const char *name, int fields,
 /* Creates the table of a kind of record, including its keys. */
 void record_rows_of_type(record_file *r, hid_t at, const record_type *type, int count,
                          const subject row[]);
-
-/* Writes differences as lines. */
 
 /* Destination of the lines, numbers of lines of each kind, and subject of the lines. */
 typedef struct listing {
@@ -119,12 +115,8 @@ void outline_of_far_end(const section_spec *spec, const section *c, const sectio
                         outline *out);
 void outline_between(const outline *near, const outline *far, double x, outline *out);
 
-/* One case of a stored run. */
-
 /* Returns FAULT. The message names the damaged part of the file. */
 status results_case_damaged(const char *path, const char *where, const char *what, fault *f);
-
-/* Reads a stored sweep. */
 
 /* Adds a cell for each point, formulation and mesh. Its name contains the values of all parameters
  * in the file, in the order of their names. Also adds a cell without a mesh for the reference

@@ -67,8 +67,6 @@ void results_free(stored_results *r)
     memset(r, 0, sizeof *r);
 }
 
-/* Summarises the cells of a stored run by series. */
-
 /* Adds the errors of a mesh to those of its series. */
 static void take_errors(result_series *s, const result_cell *cell)
 {
@@ -287,7 +285,7 @@ static int take_limit(char *text, result_series *s)
     return word(text, limit->quantity, sizeof limit->quantity) && number(value, &limit->value);
 }
 
-/* Reads every word of a list with the function `take`. Returns 0 if it cannot read a word. */
+/* Reads all words of a list with the function `take`. Returns 0 if a word is invalid. */
 static int take_words(char *list, result_series *s, int take(char *text, result_series *s))
 {
     char *rest;

@@ -153,7 +153,7 @@ static const table_column limit_columns[] = {
     {"limit", FIELD_DOUBLE, offsetof(limit_row, limit), 0}};
 #define COLUMNS(name) sizeof(name) / sizeof *(name), name
 
-/* Tables of a case. limits -1: nothing was evaluated. */
+/* Tables of a case. limits -1: no limits were evaluated. */
 typedef struct case_tables {
     int points, cells, values, limits;
     case_point_row *point;
@@ -305,7 +305,7 @@ static status take_limits(const char *path, const char *of, const case_tables *t
     return STATUS_OK;
 }
 
-/* Takes the cells of a case. The caller results_case_read() frees *t, even after a failure. */
+/* Takes the cells of a case. *t: freed by results_case_read(), even after a failure. */
 static status take_case(const char *path, hid_t at, const char *name, case_tables *t,
                         stored_results *out, fault *f)
 {

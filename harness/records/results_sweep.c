@@ -10,7 +10,7 @@
 enum {
     VERSION = 1,
     NAME = 200,
-    WORDS = 1 << 14, /* largest length of an attribute */
+    WORDS = 1 << 14,
     /* number of digits of a value of an axis; it is so small that different ranges share their
      * common points */
     DIGITS = 12,
@@ -308,7 +308,7 @@ static int add_mesh(const sweep_file *s, size_t row, int mesh, const char *text,
 static status check_size(const sweep_file *s, fault *f)
 {
     char what[FAULT_TEXT];
-    const double two = 2; /* files */
+    const double two = 2;
     const double cells = (double)s->points * (s->formulations * (double)s->meshes + 1);
     snprintf(what, sizeof what, "%.120s: %.0f cells", s->path, cells);
     if (cells > most_items)

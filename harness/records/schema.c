@@ -309,7 +309,6 @@ static int selects_any(const results_part *p, const stored_results *known, const
     return 0;
 }
 
-/* Returns 1 if a series of the run has this formulation. */
 static int has_formulation(const stored_results *r, const char *key)
 {
     for (int i = 0; i < r->seriess; i++)
@@ -318,7 +317,6 @@ static int has_formulation(const stored_results *r, const char *key)
     return 0;
 }
 
-/* Returns 1 if the run has a series with the same case and parameters. */
 static int is_run(const stored_results *r, const char *series_name)
 {
     const size_t point = (size_t)(formulation_of(series_name) - series_name);
@@ -342,7 +340,7 @@ int results_part_needs(const stored_results *r, const stored_results *other,
         return 0;
     if (p->formulations != NULL && !results_part_has(p->formulations, key))
         return 0;
-    /* Options are run only on request. */
+    /* Series with options are run only on request. */
     if (strchr(key, ':') != NULL && results_part_has(other->part.formulations, key) &&
         !has_formulation(r, key))
         return 0;

@@ -145,7 +145,8 @@ static void put_records(record_file *r, hid_t at, const gathering *g, const reco
     else if (type == &record_scene)
         put_scenes(r, at, &list);
     else if (!r->bad &&
-             ((type != &record_motion && type != &record_assumption) || /* few have these */
+             ((type != &record_motion && type != &record_assumption) || /* few scenes have records
+                                                                         * of these kinds */
               list.count > 0))
         record_rows_of_type(r, at, type, list.count, list.row);
     if (type == &record_curve)
@@ -292,8 +293,6 @@ status store_write_solution(const char *path, const sweep *s, const environment 
                      &s->series[0].cell[0].solve.shapes);
     return close_file(&to, path, f);
 }
-
-/* Centre lines of a cell in the results file (docs/reference/result_files.md). */
 
 /* Stores columns [first, first + count) of the points of every state: [states x points x count]. */
 static void put_columns(record_file *r, hid_t at, const char *name, const shapes *s, int first,

@@ -94,7 +94,6 @@ static void units(int rows, int columns, double out[])
                                 (columns > 1 || rows == 1 ? power[j % NODE_COORDINATES] : 0));
 }
 
-/* Places the nodes of a deformed element that is rotated as a whole. */
 static void deformed(const adapters_subject *s, unsigned seed, node_state x[])
 {
     double d[N];
@@ -441,7 +440,6 @@ static void same(const both *b, const char *what, const double mine[], const dou
              b->given[0].name, what);
 }
 
-/* Compares J and H of all elements, evaluated in one call, with those of each element alone. */
 static void strains(unsigned leaves)
 {
     both b;
@@ -470,8 +468,6 @@ static void strains(unsigned leaves)
     end(&b);
 }
 
-/* Compares energy, stresses and stiffness of all elements, evaluated in one call, with those of
- * each element alone. */
 static void stresses(unsigned leaves)
 {
     both b;

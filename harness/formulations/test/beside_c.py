@@ -8,7 +8,6 @@ from harness.tools.kit.program import ProgramTest
 class BesideC(ProgramTest):
 
     def verdicts(self, element, name, cases):
-        """Returns the verdicts for the default scenes of the cases."""
         record = self.folder / "v.json"
         self.answered("verify", "--element", element, "-f", name, "-k",
                       " or ".join(f"{case}/default" for case in cases), "--json", record)

@@ -1,5 +1,5 @@
-"""Elements that give forces with a history: every analysis must give the results of the same element given by its
-strains, or refuse by name with a remedy. The examples simo_vu_quoc.c and rotation_vector.c."""
+"""Tests elements that compute forces with a history (simo_vu_quoc.c, rotation_vector.c). Every analysis must give the
+results of the same element defined by its strains, or reject the element with a remedy."""
 import json
 import math
 import sys
@@ -66,7 +66,6 @@ class ForceHistory(ProgramTest):
         return json.loads(done.stdout)
 
     def numbers(self, *arguments, **words):
-        """Returns the values of all quantities by name, and those of curves by name and path."""
         record = self.solved(*arguments, **words)
         out = {q["quantity"]: q["value"] for q in record["quantities"] if q["value"] is not None}
         for curve in record["curves"]:
@@ -97,7 +96,6 @@ class ForceHistory(ProgramTest):
             self.alike(self.numbers(text, self.forces, "incremental_force", n=2), wanted, 1e-5)
 
     def test_process(self):
-        """An element in Python that gives forces with a history."""
         script = self.folder / "mine.py"
         script.write_text(f"""import sys
 sys.path.insert(0, {str(EXAMPLES)!r})
@@ -119,7 +117,7 @@ serve(prepare, force=force, begin=of.begin, commit=of.commit, name="mine", famil
         self.alike(found, self.numbers(PATH, self.strains, "incremental", n=2), 1e-6)
 
     def test_refused(self):
-        """Analyses without a defined result must be refused by name with a remedy."""
+        """Analyses without a defined result must be rejected with a remedy."""
         damped = MOTION.replace("y: [0, 1, 0]", "y: [0, 1, 0], damping: 1e-4")
         drift = MOTION + "  e: {energy: {analysis: second, of: drift}}\n"
         buckling = BAR + LOADS % (-1, 0, 0, 0) + ("analyses: {run: {buckling: {}}}\n"
@@ -151,7 +149,7 @@ serve(prepare, force=force, begin=of.begin, commit=of.commit, name="mine", famil
             self.assertEqual("is not symmetric" in " ".join((done.stdout + done.stderr).split()), code == 2)
 
     def test_energy(self):
-        """No energy may be printed that does not exist."""
+        """If there is no energy, none may be printed."""
         scene = self.folder / "scene.yaml"
         scene.write_text(MOTION.replace("INTEGRATOR", "alpha").replace("STEP", "1e-3"), encoding="utf-8")
         done = self.answered("solve", scene, "--element", self.forces, "-f", "incremental_force", "-n", 2)
@@ -161,9 +159,8 @@ serve(prepare, force=force, begin=of.begin, commit=of.commit, name="mine", famil
 
     def test_published(self):
         """Tip positions of Simo and Vu-Quoc (1986) at the forces 300, 450 and 600, for 8 linear elements and three load
-        steps, of which the first required 13 iterations. One of the nine numbers differs, 15.80 instead of 15.79. The
-        paper updates rotations in each iteration, the example in each step; a separate program with updates in each
-        iteration gives 15.799, and the other numbers to their digits."""
+        steps, of which the first required 13 iterations. One of the nine numbers differs: 15.80 instead of 15.79. The
+        paper updates rotations in each iteration, the example in each step."""
         record = self.solved(BEND, self.simo, "simo_vu_quoc", n=1)
         at = [100 * math.sin(math.pi / 4), 100 * (1 - math.cos(math.pi / 4)), 0]
         found = [[x + u for u in curve["curve_value"]] for curve, x in zip(record["curves"], at)]

@@ -74,7 +74,6 @@ class Path:
         self.n, self.twist, self.strain = n, 0, 0
 
     def at(self, twist):
-        """Returns the strain of an element, and its first and second derivative, for a trial twist."""
         step, m = twist / self.n - self.twist, (twist / self.n + self.twist) / 2
         return self.strain + step * (1 + 10 * m * m), 1 + 10 * m * m + 10 * step * m, 20 * m + 5 * step
 
@@ -110,7 +109,6 @@ class History(ProgramTest):
         return path
 
     def solved(self, text, *words, n=1):
-        """Returns the curves of a scene by quantity, and its record."""
         done = self.answered("solve", self.scene(text), "--element", self.shared, "-n", n,
                              *(words if "-f" in words else ("-f", "midpoint", *words)), "--format", "json")
         record = json.loads(done.stdout)
@@ -284,7 +282,6 @@ const element_type beamwork_element""").replace(".stress = stress,", f""".stress
             self.assertAlmostEqual(one / other, 1, delta=1e-6)
 
     def changed(self, name, changes):
-        """Returns the path of a copy of the example with changes."""
         text = (EXAMPLES / name).read_text(encoding="utf-8")
         for before, after in changes:
             self.assertIn(before, text)

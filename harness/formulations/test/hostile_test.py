@@ -67,7 +67,7 @@ class Refused(Speaker):
 
 
 class Evaluated(Speaker):
-    """Errors during a solution lead to exit status 1, and to a reason in each cell."""
+    """Errors during a solution lead to exit status 1, and to a reason in each run."""
 
     def one_line(self, words, at, what=2):
         element = self.speaker(at=f"if what == {what}:\n" + textwrap.indent(at, "    "))

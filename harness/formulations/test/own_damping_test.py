@@ -68,7 +68,6 @@ INTEGRATORS = ("alpha, step: 0.002", "radau, step: 0.005", "conserving, step: 0.
 class OwnDamping(Speaker):
 
     def python(self, before="", after=""):
-        """Returns "exec:" and the command of the example with one replacement."""
         text = (EXAMPLES / "own_damping.py").read_text(encoding="utf-8")
         self.assertIn(before, text)
         path = self.folder / "mine.py"
@@ -173,7 +172,8 @@ class OwnDamping(Speaker):
                             "own_damping_py"), env=WITH_MODULES)
 
     def test_slender(self):
-        """A negative entry is rejected even if it is small against the others, and NaN is named."""
+        """A negative entry must be rejected even if it is small relative to the others. For NaN, the message must say
+        that an entry is NaN."""
         slender = CANTILEVER.replace("width: 0.02, thickness: 0.01", "width: 0.01, thickness: 1e-5") % ""
         slender += """analyses: {damped: {modal: {damped: yes}}}
 quantities: {d: {damping_ratio: {analysis: damped, which: 0, of: decay}}}

@@ -45,7 +45,6 @@ quantities: {factor: {critical_factor: {analysis: run}}}
 class OwnLoads(Speaker):
 
     def python(self, before="", after=""):
-        """Returns "exec:" and the command of the example with one replacement."""
         text = (EXAMPLES / "own_loads.py").read_text(encoding="utf-8")
         self.assertIn(before, text)
         path = self.folder / "mine.py"

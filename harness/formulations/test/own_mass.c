@@ -8,7 +8,7 @@ enum { N = 14 };
 
 typedef struct mass_massive {
     element_data beam;
-    double mass;     /* [kg] */
+    double mass;
     double about[3]; /* half of the moments of inertia of the element about its axes [kg m^2] */
 } mass_massive;
 

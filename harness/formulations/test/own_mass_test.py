@@ -26,7 +26,6 @@ quantities: {x: {displacement: {analysis: run, node: c, component: ux}},
 class OwnMass(Speaker):
 
     def python(self, before="", after="", name="own_mass.py"):
-        """Returns "exec:" and the command of the example with one replacement."""
         text = (EXAMPLES / name).read_text(encoding="utf-8")
         self.assertIn(before, text)
         path = self.folder / "mine.py"

@@ -249,7 +249,6 @@ def command(script):
 class OctaveTest(ProgramTest):
 
     def altered(self, *changes):
-        """Writes the example with parts of its text replaced. Each replaced part must exist."""
         text = EXAMPLE.read_text(encoding="utf-8")
         for before, after in ((HERE, f"addpath('{OCTAVE_EXAMPLES}');"), *changes):
             self.assertIn(before, text)
@@ -395,8 +394,8 @@ CONTRACT_EXAMPLES = ROOT / "elements" / "examples"
 
 
 class ManyAtOnce(ProgramTest):
-    """For calls with many elements, the value of the first element is used for all elements. This error must be
-    reported. The correct code must have no error."""
+    """Code that uses the value of the first element for all elements of a call must be reported. The correct code must
+    not be reported."""
 
     def test_one_value_for_all(self):
         text = (CONTRACT_EXAMPLES / "timoshenko.py").read_text(encoding="utf-8")

@@ -9,7 +9,6 @@ TABLES = "cases/warping_torsion"
 
 
 def of_cell(table):
-    """Returns a function that selects the rows of a table that belong to one cell."""
     return (table["point"] == b"default") & (table["formulation"] == b"beamw") & (table["elements"]
                                                                                   == 4)
 

@@ -321,8 +321,6 @@ static void add(reach_line_bench *b, double limit, long work)
     }
 }
 
-/* Makes three series that agree and a fourth that does not. The work of the second is `times` that
- * of the first. */
 static void line_make(reach_line_bench *b, double times)
 {
     fault f;
@@ -341,7 +339,6 @@ static void line_make(reach_line_bench *b, double times)
     gsl_test(families_add_truths(&b->s, 0, &b->t, &f) != STATUS_OK || b->t.rows != 1, "agreed");
 }
 
-/* Adds a reference value of a different model for the load. */
 static void add_model(reach_line_bench *b, const char *kind, double value)
 {
     truth *row = realloc(b->t.row, (size_t)(b->t.rows + 1) * sizeof *row);
@@ -359,7 +356,6 @@ static void add_model(reach_line_bench *b, const char *kind, double value)
                                .value = value};
 }
 
-/* Adds a quantity for which no cell has a value. */
 static void add_quantity(reach_line_bench *b, const char *name, scene_reduction reduction)
 {
     scene_quantity *q =
@@ -373,7 +369,6 @@ static void finish(reach_line_bench *b)
     scene_free(&b->p.scene);
 }
 
-/* Writes the line without its costs. */
 static void line_of(const reach_line_bench *b, double level, char out[1000])
 {
     char *text = NULL;

@@ -60,7 +60,7 @@ class Complete(Folder):
             process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")],
                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
             if look % 2 == 1:
-                process.stdout.read(1)   # the work is done, and writing the file is next
+                process.stdout.read(1)   # the computation is complete; only the output file remains to be written
             for _ in range(40 * (look // 2)):
                 if os.path.exists(self.path("r.h5")) or process.poll() is not None:
                     break

@@ -60,7 +60,6 @@ static inline status folder_write_text(const char *to, const char *text, fault *
     return output_close(&o, f);
 }
 
-/* Returns 1 if the text is the whole content of the file. */
 static inline int folder_holds(const char *file, const char *text)
 {
     char content[200] = "";

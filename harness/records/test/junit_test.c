@@ -15,7 +15,6 @@
 
 enum { DEEPEST = 8, NAME = 32, HEADER = 3 };
 
-/* Contents of a document that an independent XML reader has found. */
 typedef struct tree {
     int bad;                                     /* 1 if the document is not well-formed */
     int tests, failures, skipped, both, outside; /* `both`: tests that failed and were skipped;
@@ -24,7 +23,7 @@ typedef struct tree {
                          */
     int depth;
     char open[DEEPEST][NAME];
-    int marks; /* number of failure and skip marks of the current test */
+    int marks;
 } tree;
 
 static const char *const header_name[HEADER] = {"tests", "failures", "skipped"};
@@ -112,7 +111,6 @@ static tree read_tree(const char *text)
     return t;
 }
 
-/* A sweep with one point, one series, and any verdicts. */
 typedef struct junit_bench {
     sweep s;
     sweep_point p;
@@ -143,7 +141,6 @@ static void bench_make(junit_bench *b)
     b->j.agreement = b->a;
 }
 
-/* Adds a verdict and counts it as harness/study does. */
 static void add_verdict(junit_bench *b, verdict_kind kind, int matches)
 {
     verdict *v = &b->v[b->j.verdicts++];
@@ -267,7 +264,6 @@ static void junit_tests(void)
 
 enum { MOST_FIELDS = 8, ROOM = 256, LINES = 2 };
 
-/* A record with every kind of value. */
 typedef struct thing {
     char first[ROOM], last[ROOM];
     int count;
@@ -281,7 +277,6 @@ static const schema_field fields[] = {{"first", "", FIELD_TEXT, "a text", AT(thi
                                       {NULL}};
 static const record_type type = {.name = "thing", .table = "things", .part = {fields}};
 
-/* Reads the fields of one record from *at on, and moves *at past its line. */
 static int read_line(const char **at, char field[MOST_FIELDS][ROOM])
 {
     int count = 0;

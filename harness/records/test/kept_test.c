@@ -36,7 +36,6 @@ static status leave(const char *path, const char *name, double mark)
     return kept_close(&r, name, path, &f);
 }
 
-/* Returns the mark of a group, or -1 if the group is missing or incomplete. */
 static long mark_of(const char *path, const char *name)
 {
     static double all[COUNT];
@@ -72,7 +71,6 @@ static void replaces_its_own(const char *path)
              "the root is replaced, groups stay");
 }
 
-/* Writes many times, each time in a separate process. */
 static void write_often(const char *path, const char *name)
 {
     for (int i = 1; i <= TIMES; i++)

@@ -172,7 +172,6 @@ class Frequencies(Matrices):
             self.agree(values, state, found, "lumped")
 
     def inputs(self, folder, value):
-        """Checks that K x = B 1 gives the linear solution, and that the table identifies the rows."""
         K, B = self.read(folder, "undeformed", "K"), self.read(folder, "undeformed", "B")
         x = numpy.linalg.solve(K, B.sum(axis=1))
         rows = self.rows(folder)

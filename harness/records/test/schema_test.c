@@ -173,7 +173,6 @@ static void schema_tests(void)
 
 static const case_type type = {.name = "case_of_test"};
 
-/* Returns the summary, which the caller frees. */
 static char *written(const sweep *s, const evaluation *j)
 {
     const environment e = {.commit = "c0ffee", .compiler = "cc"};

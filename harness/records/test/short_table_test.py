@@ -9,7 +9,7 @@ from harness.records.test.stored import WORK, altered, table_of, verify
 from harness.tools.kit.program import ProgramTest, run
 
 SELECTION = "warping_torsion/default or bend_45/default and collocation"
-FLOOR, ERROR = 1e-8, 0.01  # thresholds of compare
+FLOOR, ERROR = 1e-8, 0.01
 
 
 def names_of(case, rows):
@@ -42,7 +42,7 @@ class ShortTable(ProgramTest):
         altered(self.old, self.new, lambda file: change_rows(file, table, change))
         done = run("compare", former or self.table, self.new)
         self.assertIn(done.returncode, (0, 1), done)
-        return done.stdout.splitlines()[:-2]  # without the last two lines, which are sums
+        return done.stdout.splitlines()[:-2]
 
     def expect(self, planted, lines, words):
         """Checks that there is at least one line with the words for each changed name, and no other line."""

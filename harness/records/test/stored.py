@@ -50,7 +50,6 @@ def replace(group, name, rows):
 
 
 def of_dtype(values):
-    """Converts a column of texts, flags or numbers to an array. None becomes NaN."""
     if isinstance(values[0], str):
         return numpy.array([value.encode() for value in values] or [b""])
     return numpy.array([math.nan if value is None else value for value in values])

@@ -156,7 +156,6 @@ SCENE = ROOT / "cases" / "examples" / "euler_column.yaml"
 
 
 def without(file, formulation):
-    """Removes a formulation from the case."""
     for name in ("cells", "quantities", "verdicts"):
         rows = file[f"cases/{CASE}/{name}"][()]
         kept = rows[rows["formulation"] != formulation.encode()]
@@ -177,7 +176,7 @@ class Part(ProgramTest):
         folder = cls.class_folder()
         cls.whole, cls.table = folder / "whole.h5", folder / "whole.csv"
         verify(f"{CASE}/default or elastica/default or c_column/default", cls.whole)
-        with h5py.File(cls.whole) as file:  # marks the run as complete
+        with h5py.File(cls.whole) as file:
             cls.series = sum(len({(r["point"], r["formulation"]) for r in group["cells"][()]})
                              for group in file["cases"].values())
         cls.whole = altered(cls.whole, folder / "all.h5", lambda f: f.attrs.pop("selection"))
