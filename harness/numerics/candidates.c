@@ -82,7 +82,6 @@ static double rounding(const candidates *p, double mu, const double x[])
     return DBL_EPSILON * sqrt(sum);
 }
 
-/* Moves the last candidate to its sorted position. */
 static void sort_last(candidates *p)
 {
     const size_t n = (size_t)p->n;
@@ -137,8 +136,8 @@ status candidates_refine(candidates *p, int count, fault *f)
                : fault_set(f, STATUS_FAULT, "out of memory for refined solutions");
 }
 
-/* Adds K^-1 (s A x - K y) to y, where K y is computed from the elements. Each call reduces the
- * residual by a factor equal to the relative error of the assembled K. */
+/* Adds K^-1 (s A x - K y) to y, where K y is computed from the elements. Each call multiplies the
+ * residual by about the relative error of the assembled K. */
 static void refine(candidates *p, const double x[], double y[])
 {
     const eigen_problem *e = p->problem;
@@ -188,7 +187,7 @@ double candidates_scale(candidates *p, long *solutions)
     return candidates_is_rounding(p, largest, x) ? 0 : largest;
 }
 
-/* Makes the vector after the last candidate a candidate if its mu exceeds `least`. */
+/* Accepts the vector stored after the last candidate as a candidate if its mu exceeds `least`. */
 static void add_next(candidates *p, double least)
 {
     const eigen_problem *e = p->problem;
@@ -358,7 +357,6 @@ status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_r
 
 /* Projections of Y = K^-1 s A X need no product with K, because Y^T K Y = Y^T s A X. */
 
-/* Computes Ax = s A x. */
 static void signed_product(const candidates *p, const double x[], double Ax[])
 {
     sparse_mul(p->problem->A, x, Ax);

@@ -13,8 +13,8 @@ static status eigen_dense_add(candidates *const side[2], const int wanted[2], fa
 enum { DENSE_UP_TO = 80, SPARE = 2, MAX_PASSES = 8 };
 enum {
     DENSE_AT_LAST_UP_TO = 700
-}; /* largest size for which a dense solution follows an iteration that ended early; such a solution
-      takes seconds */
+}; /* largest size at which dense matrices are used after an iteration that ended early; such a
+    * solution takes seconds */
 
 /* The iteration ignores eigenvalues below this fraction of the largest eigenvalue. */
 static const double negligible = 1e-9;
@@ -34,7 +34,7 @@ void eigen_free(eigen_result *r)
     memset(r, 0, sizeof *r);
 }
 
-/* Adds candidates from a Lanczos run in the complement of the present candidates. mu[count],
+/* Adds candidates from a Lanczos run in the complement of the current candidates. mu[count],
  * Kx[candidates x n]. */
 static status take_lanczos(candidates *p, int count, double mu[], const double Kx[], double least,
                            long *solutions, fault *f)
@@ -154,7 +154,7 @@ static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, e
  * it. */
 static void drop_rounding(candidates *p, eigen_side *out)
 {
-    const double uncertain_below = 1e-6; /* fraction of the largest value */
+    const double uncertain_below = 1e-6;
     for (int i = 0; i < p->count; i++)
         if ((i == 0 || p->mu[i] < uncertain_below * p->mu[0]) &&
             candidates_is_rounding(p, p->mu[i] * p->stiffness[i],
@@ -175,8 +175,8 @@ static double evaluate(candidates *p, int count, eigen_side *out, long *solution
     return largest;
 }
 
-/* Improves the vectors if the assembly of K has changed the eigenvalues, because its errors also
- * affect the vectors. */
+/* Improves the vectors if the errors of the assembled K have changed the eigenvalues, because these
+ * errors also affect the vectors. */
 static status improve(candidates *p, int count, eigen_side *out, eigen_result *r, fault *f)
 {
     enum { SWEEPS = 3 };
@@ -199,7 +199,7 @@ static status improve(candidates *p, int count, eigen_side *out, eigen_result *r
 /* Replaces values without significant digits by NaN. */
 static void drop_lost(candidates *p, int count, eigen_side *out)
 {
-    const double noticeable = 1e-9; /* relative change of K due to its assembly */
+    const double noticeable = 1e-9;
     const int rounded =
         p->problem->K_rounding != NULL && candidates_departure(p, count) > noticeable;
     for (int i = 0; i < count; i++) {

@@ -26,14 +26,13 @@ struct matrix_factor {
     factor_operator by;              /* operator; functions NULL: there is no operator */
     factor_symmetric *symmetric;     /* LDL^T; a matrix with by_numbers has both factors */
     factor_unsymmetric *unsymmetric; /* KLU; both NULL: there are no unknowns */
-    by_numbers *whole; /* upper triangle of a matrix with by_numbers, otherwise NULL */
-    int upper;         /* 1: `symmetric` contains the last factors */
+    by_numbers *whole; /* upper triangle of a matrix with by_numbers; otherwise NULL */
+    int upper;         /* 1: the last values were factored by `symmetric` */
     /* of_upper: entries and flops of `symmetric` if both factors exist */
     factor_counts counts, of_upper;
     double *residual, *other; /* [n] work space; `other` is only for unsymmetric matrices */
 };
 
-/* Allocates everything except the factors. */
 static status begin(const sparse *pattern, matrix_factor **out, fault *f)
 {
     matrix_factor *fa = *out = calloc(1, sizeof *fa);

@@ -21,14 +21,14 @@ struct factor_symmetric {
     /* [n + 1] and [entries] upper triangle of C; `row` contains positions in L after its columns
      * are known */
     int *column, *row;
-    int *source;                    /* [entries] position in A of each entry of C */
-    int *L_column;                  /* [n + 1] */
+    int *source; /* [entries] position in A of each entry of C */
+    int *L_column;
     int *parent, *in_column, *mark; /* [n] elimination tree, and work space of LDL */
     double *D;                /* [n] D is the start of a single allocation for these three arrays */
     double *diagonal, *terms; /* [n] |a_kk|, and |a_kk| + sum_j l_kj^2 |d_j| */
     double *rest;             /* work space of triangular_rows and of solutions */
     triangular_groups groups;
-    int *L_row; /* [L_column[n]] */
+    int *L_row;
     double *L_value;
 };
 

@@ -65,7 +65,7 @@ int subspace_add(subspace *b, const double x[])
     memcpy(v, x, n * sizeof *v);
     b->S(b->context, v, Sv);
     const double before = sqrt(fmax(0, dense_dot(b->n, v, Sv)));
-    for (int pass = 0; pass < 2; pass++) /* two passes are sufficient for orthogonality */
+    for (int pass = 0; pass < 2; pass++)
         for (int i = 0; i < b->count; i++) {
             const double c = dense_dot(b->n, b->SV + (size_t)i * n, v);
             for (size_t k = 0; k < n; k++)
@@ -229,8 +229,8 @@ static double missed(motion_estimate *e, int i, double complex lambda, double ow
     return 2 * sum;
 }
 
-/* Returns a bound of the rounding error of x^H (K + lambda^2 M + lambda G) x. The entries of the
- * matrices are results of a few operations each. */
+/* Returns a bound of the rounding error of x^H (K + lambda^2 M + lambda G) x. Each entry of the
+ * matrices results from only a few operations. */
 static double rounding(const motion_estimate *e, double size, const double re[], const double im[])
 {
     const double operations = 4;

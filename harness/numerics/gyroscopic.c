@@ -19,8 +19,8 @@ static const double no_digits = 1e-7;
  * others, or below near_zero times the square of the rate of G. The shift is then away_from_zero
  * times these values. */
 static const double near_zero = 1e-4, away_from_zero = 1e-2;
-/* If all pairs have been found, the ratio of any other frequency to the last frequency found is at
- * least this value. */
+/* If all pairs have been found, any other frequency is at least this number times the last
+ * frequency found. */
 static const double far = 1e3;
 
 typedef struct gyroscopic_solver {
@@ -36,8 +36,8 @@ typedef struct gyroscopic_solver {
     sparse shifted;
     subspace basis;
     ritz pairs;
-    double *re, *im, *work, *product; /* [free] */
-    int found;                        /* number of requested pairs with significant digits */
+    double *re, *im, *work, *product;
+    int found; /* number of requested pairs with significant digits */
 } gyroscopic_solver;
 
 void gyroscopic_free(gyroscopic_result *r)
@@ -49,7 +49,6 @@ void gyroscopic_free(gyroscopic_result *r)
     memset(r, 0, sizeof *r);
 }
 
-/* Computes y = S x. */
 static void basis_product(void *context, const double x[], double y[])
 {
     const gyroscopic_solver *s = context;
@@ -216,7 +215,7 @@ static double departure(gyroscopic_solver *s)
  * of frequencies found. There is no gap between equal frequencies. */
 static status missing(gyroscopic_solver *s, int wanted, int *number, fault *f)
 {
-    const double gap = fmax(1e-6, 4 * departure(s)); /* relative gap */
+    const double gap = fmax(1e-6, 4 * departure(s));
     int last = s->found, below = 0;
     *number = 0;
     s->out->unproven = s->out->negative > 0 ? unaccounted(s) : 0;
@@ -286,7 +285,7 @@ static status find_shift(gyroscopic_solver *s, fault *f)
 }
 
 /* Returns the shift that the first start shows to be necessary because K or K + shift M is nearly
- * singular, as at a critical speed; 0: the present shift is sufficient. */
+ * singular, as at a critical speed; 0: the current shift is sufficient. */
 static double shift_after(const gyroscopic_solver *s, status started)
 {
     const double rate = rate_of_turning(s->p->G, s->p->M);

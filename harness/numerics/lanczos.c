@@ -115,7 +115,8 @@ static int iterate(const lanczos_problem *p, lanczos_workspace *w, long *solutio
     }
 }
 
-/* Reverses the order, because ARPACK's values are ascending and mu[] is descending. */
+/* Reverses the order of the values, because ARPACK's values are ascending and mu[] is descending.
+ * */
 static void reverse(size_t n, int count, double x[])
 {
     for (int low = 0, high = count - 1; low < high; low++, high--)

@@ -1,4 +1,4 @@
-/* numerics/: sparse matrices, factors, eigenvalues, threads. */
+/* numerics/: sparse matrices, factors, eigenvalues, linear models and threads. */
 #ifndef BEAMWORK_NUMERICS_H
 #define BEAMWORK_NUMERICS_H
 
@@ -51,7 +51,7 @@ typedef struct matrix_factor matrix_factor;
 
 typedef struct factor_counts {
     long entries;        /* number of nonzero entries of the factors */
-    double flops;        /* of one numeric factorisation */
+    double flops;        /* number of floating-point operations of one numeric factorisation */
     long factorisations; /* number of numeric factorisations so far */
     int negative_pivots; /* number of negative pivots of a symmetric matrix; otherwise -1 */
     double asymmetry;    /* largest |a_ij - a_ji|/sqrt|a_ii a_jj| of a matrix with by_numbers */
@@ -59,7 +59,6 @@ typedef struct factor_counts {
     double condition;    /* inexpensive estimate of the condition number, max|d|/min|d| */
 } factor_counts;
 
-/* Largest asymmetry for which a matrix with by_numbers is factored as symmetric. */
 #define FACTOR_SYMMETRIC_WITHIN 1e-11
 /* Makes a symbolic analysis, once, with an order that reduces fill-in (AMD). A symmetric matrix is
  * factored as LDL^T without pivoting; the signs of D give the inertia. An unsymmetric matrix is
@@ -128,7 +127,7 @@ typedef struct eigen_problem {
         *A_rounding; /* return estimated rounding errors of the two forms; NULL: negligible */
     eigen_product *K_product; /* computes y = K x more accurately than the matrix product; NULL: not
                                  available */
-    void *context;            /* passed to all of these functions */
+    void *context;            /* passed to all functions of this structure */
     int iterate;              /* 1: the Lanczos method is used for any size (for tests) */
 } eigen_problem;
 
@@ -161,8 +160,6 @@ typedef struct eigen_result {
  * without significant digits is not returned. */
 status eigen_solve(const eigen_problem *problem, eigen_result *out, fault *f);
 void eigen_free(eigen_result *r);
-
-/* Clocks. */
 
 /* Returns the wall-clock time [s] from an arbitrary origin. */
 double clock_wall_seconds(void);
@@ -252,10 +249,10 @@ typedef enum newton_phase {
 
 typedef struct phases {
     int wanted, running;
-    double last;            /* [s] time of the last reading */
-    double reading;         /* [s] duration of a reading */
-    long readings;          /* number of readings inside iterations */
-    double seconds[PHASES]; /* [s] */
+    double last;    /* [s] time of the last reading */
+    double reading; /* [s] duration of a reading */
+    long readings;  /* number of readings inside iterations */
+    double seconds[PHASES];
 } phases;
 
 /* Sets all parts to zero and measures the duration of a reading, which is the shortest of several.
@@ -294,7 +291,8 @@ static inline void phases_stop(phases *p)
     p->running = 0;
 }
 
-/* Computes all parts such that their sum is `whole` [s] minus the duration of the readings. */
+/* Computes the durations of all parts. Their sum is `whole` [s] minus the duration of the readings.
+ * */
 static inline void phases_of_whole(const phases *p, double whole, double part[PHASES])
 {
     part[PHASE_REST] = whole - (double)p->readings * p->reading;
@@ -337,7 +335,7 @@ void thread_pool_run(thread_pool *t, int count, thread_pool_work *work, void *co
 void thread_pool_relay(thread_pool *t, int pieces, thread_pool_fill *fill, thread_pool_take *take,
                        void *context);
 
-/* Matrices as lists of entries, which are stored and written. */
+/* Matrices as lists of entries. */
 
 typedef enum matrix_kind { MATRIX_GENERAL, MATRIX_SYMMETRIC, MATRIX_SKEW } matrix_kind;
 
@@ -346,8 +344,8 @@ typedef enum matrix_kind { MATRIX_GENERAL, MATRIX_SYMMETRIC, MATRIX_SKEW } matri
 typedef struct triplets {
     matrix_kind kind;
     int rows, columns, entries;
-    int *row, *column; /* [entries] indices starting at zero, column by column */
-    double *value;     /* [entries] */
+    int *row, *column; /* [entries] indices from zero, column by column */
+    double *value;
 } triplets;
 
 /* Sets *out to the entries of `a`. skew 1: `a` contains the upper triangle of a skew-symmetric

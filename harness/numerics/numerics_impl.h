@@ -1,4 +1,3 @@
-/* Internal declarations of numerics/. */
 #ifndef BEAMWORK_NUMERICS_IMPL_H
 #define BEAMWORK_NUMERICS_IMPL_H
 
@@ -17,13 +16,13 @@ typedef struct candidates {
     double *mu; /* [room] descending */
     /* [room] Rayleigh quotient of the assembled matrices, which includes their rounding errors */
     double *matrix_mu;
-    double *noise;       /* [room] change of matrix_mu due to rounding of its sums */
-    double *stiffness;   /* [room] x^T K x from the caller's function */
-    double *x;           /* [room x n] vectors, with x^T K x = 1 for the matrix K */
-    double *work, *form; /* [n] each */
-    int refinements;     /* number of refinements of every solution */
-    double *correction;  /* [n] work space for refined solutions; NULL: solutions are not refined */
-    sparse shifted;      /* K - s A/mu, whose values are set when they are first needed */
+    double *noise;     /* [room] change of matrix_mu due to rounding of its sums */
+    double *stiffness; /* [room] x^T K x from the caller's function */
+    double *x;         /* [room x n] vectors, with x^T K x = 1 for the matrix K */
+    double *work, *form;
+    int refinements;    /* number of refinements of every solution */
+    double *correction; /* [n] work space for refined solutions; NULL: solutions are not refined */
+    sparse shifted;     /* K - s A/mu, whose values are set when they are first needed */
     matrix_factor *shifted_factor;
 } candidates;
 
@@ -37,7 +36,7 @@ int candidates_is_rounding(const candidates *p, double energy, const double x[])
 /* Returns the largest relative change of x^T K x due to the assembly of K, over the first `count`
  * candidates. */
 double candidates_departure(const candidates *p, int count);
-/* Makes all later solutions K^-1 A x use K_product, with iterative refinement until the present
+/* Makes all later solutions K^-1 A x use K_product, with iterative refinement until the current
  * departure is reduced by a factor of 1e-6. */
 status candidates_refine(candidates *p, int count, fault *f);
 /* Returns the threshold below which values are rounding errors of the largest value `scale`. In a
@@ -218,8 +217,6 @@ typedef struct lanczos_problem {
 status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double mu[], double **x,
                        long *solutions, fault *f);
 
-/* Improves candidates whose soft motions have lost digits in the assembly of K. */
-
 /* Replaces the candidates by Ritz vectors of K^-1 A times the candidates, computed with refined
  * solutions (candidates_refine). Components outside the span of the candidates are reduced by the
  * ratio of their mu to that of the candidate. This needs one refined solution per candidate. */
@@ -265,8 +262,6 @@ static inline int triangular_column_of(int place)
 int triangular_rows_factor_plain(const triangular_rows *, const double a[]);
 int triangular_rows_factor_avx2(const triangular_rows *, const double a[]);
 
-/* Finds rows of L that are computed together, and columns that are subtracted together. */
-
 /* A symmetric matrix and its factor, in the order of elimination. */
 typedef struct triangular_pattern {
     int n;
@@ -274,15 +269,15 @@ typedef struct triangular_pattern {
     const int *column, *row;
     const int *parent; /* [n] elimination tree; -1: a root */
     const int *begin;  /* [n + 1] starts of the columns of L */
-    int *mark, *path;  /* [n] workspace */
+    int *mark, *path;
 } triangular_pattern;
 
 typedef struct triangular_groups {
     int groups;
-    int *first_of_group, *run_of_group; /* [groups + 1] */
-    triangular_run *run;                /* [run_of_group[groups]] */
-    int columns;                        /* number of runs of all columns */
-    triangular_run *of_columns;         /* [columns] runs of all columns */
+    int *first_of_group, *run_of_group;
+    triangular_run *run;        /* [run_of_group[groups]] */
+    int columns;                /* number of runs of all columns */
+    triangular_run *of_columns; /* [columns] runs of all columns */
 } triangular_groups;
 
 /* Finds the groups, and fills L_row[begin[n]]. Returns 0 if out of memory. Call

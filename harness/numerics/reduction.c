@@ -25,8 +25,8 @@ typedef struct reduction {
     double *K;       /* [inner^2] symmetric stiffness, which becomes its Cholesky factor */
     double *mode; /* [inner^2] K-orthonormal modes, by columns, with the highest frequency first */
     double *mu;   /* [inner] 1/w^2 of the modes */
-    double *V;    /* [columns x n] */
-    double *r;    /* [motions x n] static deflection shapes due to unit prescribed motions */
+    double *V;
+    double *r; /* [motions x n] static deflection shapes due to unit prescribed motions */
     int columns;
     /* number of modes in V: the requested modes, and modes with the same frequency as the last
      * requested mode */
@@ -64,7 +64,7 @@ static status decompose(reduction *b, fault *f)
  * arbitrary direction, which would couple planes that are independent. */
 static status take_modes(reduction *b, int modes, fault *f)
 {
-    const double same = 1e-6; /* relative difference of frequencies */
+    const double same = 1e-6;
     const int n = b->inner;
     int most = 0;
     while (most < n && b->mu[n - 1 - most] > n * DBL_EPSILON * b->mu[n - 1])
@@ -163,7 +163,6 @@ static void assemble(const reduction *b, double left[], double right[])
         left[(n + k) * width + r + k] = right[(n + k) * width + r + k] = 1;
 }
 
-/* Computes out = left^T A right. */
 static void project(const double left[], const double A[], const double right[], size_t N, size_t R,
                     double room[], double out[])
 {

@@ -225,7 +225,7 @@ static void take_general(const subspace *b, const double re[], const double im[]
                          ritz *r)
 {
     const int k = b->count, n = 2 * k;
-    double largest = 0; /* nu */
+    double largest = 0;
     for (int i = 0; i < n; i++)
         if (beta[i] != 0)
             largest = fmax(largest, hypot(re[i], im[i]) / fabs(beta[i]));

@@ -99,7 +99,7 @@ struct by_numbers {
     /* [entries of upper] positions in the whole matrix; mirror -1: the mirrored entry is not stored
      * */
     int *from, *mirror;
-    double *diagonal; /* [n] */
+    double *diagonal;
 };
 
 /* Returns the position of an entry; -1: not stored. */

@@ -17,7 +17,7 @@
 typedef struct split {
     const second_order *of;
     int n, masses, slow, rigid;
-    double *T; /* [n x n] */
+    double *T;
     double *w; /* [n] circular frequencies of coordinates with mass; 1 for other coordinates */
     double *K, *C, *M; /* [n x n] T^T K T, T^T C T, T^T M T */
     /* [n x motions] forces due to motions through K, C and M; [n x inputs] forces of inputs */
@@ -77,7 +77,6 @@ static void turned(const split *s, const double A[], int size, int from, int col
                     s->T[k * n + i] * A[k * (size_t)size + (size_t)from + j];
 }
 
-/* Transforms all matrices by T. */
 static status project(split *s, fault *f)
 {
     const second_order *m = s->of;
@@ -327,7 +326,7 @@ static status find_modes(split *s, fault *f)
     for (size_t i = 0; i < p; i++) {
         double square = s->w[i] * s->w[i] - s->shift;
         if (fabs(square) <= 1e-9 * s->shift)
-            square = 0;                  /* a rigid-body mode */
+            square = 0;
         for (size_t j = 0; j < p; j++) { /* the symmetric part is diagonal */
             const double skew = 0.5 * (s->K[i * n + j] - s->K[j * n + i]);
             if (j > i) {

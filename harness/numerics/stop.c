@@ -1,4 +1,3 @@
-/* Requests that a solution stops. */
 #include <poll.h>
 
 #include "harness/numerics/numerics.h"

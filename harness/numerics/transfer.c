@@ -9,7 +9,6 @@
 
 #include "harness/numerics/numerics_impl.h"
 
-/* Storage for one frequency. */
 typedef struct transfer {
     const second_order *m;
     double complex w; /* i times the circular frequency */

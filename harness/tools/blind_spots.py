@@ -65,7 +65,7 @@ def planted_values(program, folder, constant):
 
 
 def scale_of(v):
-    """Returns the value to which errors are relative."""
+    """Returns the positive value by which errors are divided."""
     size = abs(v["limit"] if v["truth"] is None else v["truth"])
     return max(size, v["near_zero"] or 0)
 
@@ -80,7 +80,7 @@ def band_of(v, rules):
     if v["verdict"] == "pass":
         band = v["tolerance"] - doubt
         if v["truth_kind"] == "exact":
-            rest = v["tolerance"] - v["truth_uncertainty"] - SOUND * scale  # omitted physics
+            rest = v["tolerance"] - v["truth_uncertainty"] - SOUND * scale
             left_out = max(rest, 0) if v["omitted"] else 0
             band = min(band, SURELY * doubt + v["truth_uncertainty"] + left_out)
         return band, away
@@ -142,7 +142,7 @@ class Notice:
     """The smallest fault in a constant that a verdict detects in one of the two ways; inf: it detects none."""
 
     size: float
-    slope: float  # derivative of the limit with respect to the fault
+    slope: float
     door: str
     constant: str
     verdict: dict
@@ -234,7 +234,7 @@ def fault_of(formulation, constant, found):
 
 
 def tables(verdicts, rules, values):
-    """Returns (rows of quantities, rows of faults)."""
+    """Returns the rows of the two tables: quantities, and faults."""
     pairs, notes = {}, []
     for v in verdicts:
         pairs.setdefault((v["case"], v["quantity"]), []).append(v)

@@ -33,7 +33,6 @@ def bound_of(seen, steps=STEPS):
 
 
 def apart(verdict):
-    """Returns the relative distance of a limit from its derived value."""
     return abs(verdict["limit"] / verdict["predicted"] - 1)
 
 

@@ -65,7 +65,6 @@ def newton_of(formulation):
 
 
 def error_of(limit, exact):
-    """Returns the error relative to the exact value, or the absolute error if the exact value is zero."""
     return (limit - exact) / (abs(exact) or 1)
 
 

@@ -93,7 +93,7 @@ def between_folders(steps):
 
 
 def tell(what, steps):
-    """Prints the circles formed by steps {(from, to): reason}. Returns the number of circles."""
+    """Prints the circles formed by the steps {(from, to): reason}. Returns the number of circles."""
     ways = collections.defaultdict(set)
     for one, other in steps:
         ways[one].add(other)

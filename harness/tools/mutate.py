@@ -78,7 +78,7 @@ class Reader:
         self.open = []  # enclosing brackets, each with a flag: edits inside the bracket are listed
         self.statement = 0  # first token of the statement
         self.begin = 0  # number of open brackets at the start of the statement
-        self.name = ""  # name of the function or table
+        self.name = ""
         for at, (kind, text, _, _) in enumerate(self.tokens):
             if not self.open and text in ("(", "[", "=") and self.tokens[at - 1][0] == "word":
                 self.name = self.word(at - 1)
@@ -95,7 +95,6 @@ class Reader:
         return self.tokens[at][1] if 0 <= at < len(self.tokens) else ""
 
     def ends(self, at):
-        """Returns True if a statement starts after a token."""
         text = self.word(at)
         if not self.open or text == ";":
             return not (self.open and self.open[-1][0] == "(")
@@ -302,7 +301,6 @@ UNJUDGED = tuple(f"harness/{name}" for name in (
 
 
 def tests():
-    """Returns the texts of all tests."""
     files = set(listed("ls-files", "*/test/*_test.c", "cases/*_test.py", "harness/*_test.py"))
     return {file: (ROOT / file).read_text(encoding="utf-8") for file in sorted(files)}
 

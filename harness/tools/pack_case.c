@@ -9,7 +9,7 @@
 
 /* The nodes of the tree in the order of scene_packed. */
 typedef struct packing {
-    const document_node **node; /* [nodes] */
+    const document_node **node;
     int *first;
     int nodes, characters;
 } packing;

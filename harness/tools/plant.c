@@ -89,8 +89,8 @@ static section heavy(const section *given)
     return c;
 }
 
-/* Memory for the data of an element. The data of the same element with the fault in its mass
- * follow. */
+/* Capacity for the data of an element [bytes]. The data of the same element with the fault in its
+ * mass follow. */
 enum { ROOM = 1 << 16 };
 
 typedef struct second {

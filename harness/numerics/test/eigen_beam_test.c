@@ -16,7 +16,6 @@ typedef struct beam {
     sparse K, G, M; /* G: geometric stiffness at unit tension */
 } beam;
 
-/* Makes a beam with simply supported ends, length 1, EI = 1 and mass per length 1. */
 static void beam_init(beam *b, int elements)
 {
     double k[16], g[16], m[16];
@@ -140,7 +139,7 @@ static void test_beam(int elements, double allowed)
 
 /* A problem whose matrix has lost digits that its elements have kept. */
 typedef struct corrupted {
-    const sparse *K; /* the accurate matrix */
+    const sparse *K;
     double rounding; /* relative rounding error of x^T K x */
 } corrupted;
 

@@ -51,7 +51,6 @@ static inline double strings_energy(void *context, const double x[])
     return sum;
 }
 
-/* Returns eigenvalue mu number k, counted from 0. */
 static inline double strings_exact(const strings *s, int k)
 {
     double all[8 * 64];

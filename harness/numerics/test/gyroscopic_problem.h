@@ -83,8 +83,8 @@ static inline int gyroscopic_problem_by_lapack(const problem *p, double frequenc
     double *re = calloc(3 * (size_t)m, sizeof *re), *im = re + m, *beta = im + m;
     int count = 0;
     for (int i = 0; i < n; i++) {
-        for (int j = 0; j < n; j++) { /* column-major matrices of nu [K, 0; 0, 1] z = [-G, -M; 1, 0]
-                                         z, column-major */
+        for (int j = 0; j < n; j++) { /* matrices of nu [K, 0; 0, 1] z = [-G, -M; 1, 0] z,
+                                       * column-major */
             A[j * m + i] = -p->G[i * n + j];
             A[(n + j) * m + i] = -p->M[i * n + j];
             B[j * m + i] = p->K[i * n + j];
@@ -112,7 +112,6 @@ static inline int gyroscopic_problem_by_lapack(const problem *p, double frequenc
     return count;
 }
 
-/* Computes y = K x for the problem passed as the context. */
 static inline void gyroscopic_problem_product(void *context, const double x[], double y[])
 {
     const problem *p = context;

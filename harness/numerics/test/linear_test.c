@@ -19,8 +19,6 @@ enum { MOST = 60 };
 
 typedef enum kind { DEFINITE, INDEFINITE, UNSYMMETRIC } kind;
 
-/* Fills four random entries per row in addition to the diagonal. The units of rows and columns
- * differ by factors of up to 1e3. */
 static void fill_random(int n, kind what, uint64_t *seed, double A[])
 {
     memset(A, 0, (size_t)(n * n) * sizeof *A);
@@ -98,7 +96,6 @@ static double scaled_condition(int n, const double A[])
     return norm[0] * norm[1];
 }
 
-/* Returns the sign of the determinant by Gaussian elimination. */
 static int determinant_sign(int n, const double A[])
 {
     double copy[MOST * MOST];
@@ -373,8 +370,7 @@ static void every_index_once(int threads)
         for (int i = 0; i < TEST_POOL_MOST; i++)
             expected += visits[i] == (i < count);
         if (round % 500 == 0)
-            nanosleep(&(struct timespec){.tv_nsec = 2000000},
-                      NULL); /* long enough for the other threads to fall asleep */
+            nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
     }
     gsl_test_int(expected, 2000 * TEST_POOL_MOST, "%d threads: every index once in every round",
                  threads);
@@ -384,7 +380,7 @@ static void every_index_once(int threads)
 static void count_parts(void *context, int first, int end)
 {
     (void)end;
-    ((int *)context)[first] = 1; /* each part begins at a different index */
+    ((int *)context)[first] = 1;
 }
 
 /* If more threads are requested than THREAD_POOL_MOST, only THREAD_POOL_MOST are used, with one
@@ -406,7 +402,7 @@ static void no_more_than_there_is_room_for(int threads)
 enum { PIECES = 500 };
 
 typedef struct relay_log {
-    int held[THREAD_POOL_SLOTS], fills[PIECES], wrong, taken, last; /* index of the last piece */
+    int held[THREAD_POOL_SLOTS], fills[PIECES], wrong, taken, last;
 } relay_log;
 
 static void write_piece(void *context, int piece, int slot)
@@ -474,7 +470,6 @@ enum {
     FILL = TRIANGULAR_MOST * TRIANGULAR_MOST
 };
 
-/* A matrix in the order of elimination, and its factor by LDL. */
 typedef struct triangular_problem {
     int n, column[TRIANGULAR_MOST + 1], row[FILL], source[FILL];
     double value[FILL];

@@ -45,7 +45,6 @@ static inline sparse matrices_chain(int nodes, int size)
     return s;
 }
 
-/* Returns x^T A x. */
 static inline double matrices_energy(const sparse *A, const double x[])
 {
     double *y = malloc((size_t)A->n * sizeof *y);

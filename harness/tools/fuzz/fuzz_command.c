@@ -7,7 +7,8 @@
 #include "harness/cli/cli.h"
 #include "harness/tools/fuzz/fuzz.h"
 
-/* Replaces exit() (linked with --wrap). An exit of the program ends only the present execution. */
+/* Replaces exit() (linked with --wrap). If the program under test calls it, only the current
+ * execution ends. */
 void __wrap_exit(int code);
 void __real_exit(int code);
 error_t __wrap_argp_parse(const struct argp *parser, int count, char **arguments, unsigned flags,

@@ -11,7 +11,7 @@
 enum { ASK_QUANTITIES = 256, ASK_POINTS = 16 };
 
 typedef enum ask_outcome {
-    ASK_ANSWERED,    /* solved */
+    ASK_ANSWERED,    /* the question was solved and the values were found */
     ASK_NOT_OFFERED, /* the scene requires features that the type does not declare (missing_words)
                       */
     /* the edit of the question is not defined for this scene, regardless of the formulation */

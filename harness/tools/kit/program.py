@@ -11,7 +11,7 @@ import unittest
 
 PROGRAM = os.path.abspath(os.environ.get("BEAMWORK", "build/beamwork"))
 TRUTHS = os.path.abspath(os.environ.get("BEAMWORK_TRUTHS", "build/truths.h5"))
-if "BEAMWORK_TRUTHS" in os.environ:  # absolute path, for programs that run in another folder
+if "BEAMWORK_TRUTHS" in os.environ:  # absolute path, because some programs run in another folder
     os.environ["BEAMWORK_TRUTHS"] = TRUTHS
 ROOT = pathlib.Path(__file__).resolve().parents[3]
 
@@ -27,7 +27,6 @@ def run(*arguments, program=PROGRAM, **options):
 
 
 def environment(**changes):
-    """Returns the environment of this process with some variables changed."""
     return {**os.environ, **changes}
 
 
@@ -53,7 +52,6 @@ def broken(record):
 
 
 def read_json(path):
-    """Returns the contents of a JSON file of beamwork."""
     return json.loads(pathlib.Path(path).read_text(encoding="utf-8"))
 
 

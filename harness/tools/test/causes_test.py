@@ -215,7 +215,7 @@ class Bounds(unittest.TestCase):
     def test_loose(self):
         """A bound is loose if it exceeds ten times the observed error with a derived limit, or 1.5 times without a
         derived limit."""
-        derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}  # the derived limit differs from the limit by 1e-3 of the reference value
+        derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}
         for allowed, verdicts, loose in (("1e-2", [derived], False), ("1.1e-2", [derived], True),
                                          ("1.5e-3", [verdict_of_bounds(1e-3)], False), ("1.6e-3", [verdict_of_bounds(1e-3)], True),
                                          ("1e-3", [derived, verdict_of_bounds(1e-9)], True), ("", [verdict_of_bounds(None)], False),

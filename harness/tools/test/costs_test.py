@@ -158,8 +158,8 @@ class PricesTable(unittest.TestCase):
         self.assertTrue({"", "*"} < names)
 
 
-# Newton's loop calls strain twice and a factorisation once. strain calls a product. The set-up evaluates a strain,
-# which belongs to the set-up.
+# Newton's loop calls strain twice and a factorisation once; strain calls a product. The strain that the set-up
+# evaluates counts as part of the set-up.
 PROFILE = """# callgrind format
 positions: instr line
 events: Ir

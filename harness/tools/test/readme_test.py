@@ -31,7 +31,7 @@ class Readme(unittest.TestCase):
     def test_paths_exist(self):
         found = 0
         for readme in files(".md"):
-            if readme.match("docs/index.md"):  # generated pages, which Sphinx checks
+            if readme.match("docs/index.md"):  # generated pages; Sphinx checks them
                 continue
             text = readme.read_text(encoding="utf-8")
             if readme.name == "CHANGELOG.md":  # entries on former releases refer to folders of that time
