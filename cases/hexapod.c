@@ -1,5 +1,5 @@
 /* Flexure-based hexapod with six cranks, six rods, twelve spherical flexure joints, and a platform
- * that moves along z. The case computes the support stiffness along z with the cranks fixed (N
+ * that moves along z. The quantity is the support stiffness along z with the cranks fixed (N
  * section 4.3, Fig. 10). The paper does not state the dimensions, which are therefore synthetic. */
 #include <stddef.h>
 #include <stdio.h>
@@ -9,7 +9,6 @@
 enum { STROKE = HEXAPOD_PARAMETERS, STEPS };
 enum { MAX_STEPS = 101 };
 
-/* Entries in the order of the enumeration. */
 static const parameter_type parameters[] = {
     {"stroke", "m", 0.05, 0, 1e2, NULL, "the platform moves from -stroke to +stroke"},
     {"steps", "1", 11, 2, MAX_STEPS, NULL, "positions of the platform"},

@@ -1,8 +1,8 @@
 /* A cantilever in steady rotation: flap and lag frequencies, axial displacement of the end, and
  * force on the root [EI/L^2]. L = 1 m, EI = 1 N m^2 and rho A = 1 kg/m, so frequencies are in
- * sqrt(EI/(rho A L^4)). The root is at a distance from the rotation axis, which is normal to the
- * beam or inclined towards it. Flap is motion in the plane of the beam and the axis, and lag is
- * motion normal to this plane. Shear deformation and rotary inertia are neglected. */
+ * sqrt(EI/(rho A L^4)). The root may be offset from the rotation axis, which is normal to the beam
+ * or inclined. Flap is motion in the plane of the beam and the axis, and lag is motion normal to
+ * this plane. Shear deformation and rotary inertia are neglected. */
 #include <math.h>
 #include <stddef.h>
 #include <stdio.h>
@@ -47,8 +47,8 @@ static void make_curve(scene_quantity *q, double omega)
     scene_set_curve(q, "angular velocity", "1", omega, 0);
 }
 
-/* If the rotation axis is along the beam, all modes are whirling modes, neither flap nor lag, and
- * are counted together. */
+/* If the rotation axis is along the beam, the modes are whirling modes, which are numbered
+ * together. */
 static void add_frequencies(scene *s, int rotation, double omega, int curves, int whirl)
 {
     static const struct {
@@ -106,7 +106,8 @@ static status build(const double value[], scene *s, fault *f)
     double path[MOST_STATIONS + 1];
     for (int i = 0; i <= intervals; i++)
         path[i] = intervals > 0 ? (double)i / intervals : 1;
-    /* rotation about an inclined axis bends the beam, which then has more than one equilibrium */
+    /* with an inclined axis, the beam has more than one equilibrium, so the angular velocity is
+     * increased in steps */
     const int steps = value[AXIS] > 0 ? 8 : 1;
     const int rotation = scene_add_rotation(
         s, intervals + 1, path, steps, 2 * MODES,

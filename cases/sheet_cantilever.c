@@ -1,5 +1,5 @@
-/* Clamped sheet flexure with a prescribed tip deflection and no tip rotation about z. The case
- * computes the compliance of the deformed sheet (N section 4.1, Fig. 5). */
+/* Clamped sheet flexure with a prescribed tip deflection and no tip rotation about z. The
+ * quantities are the compliance of the deformed sheet (N section 4.1, Fig. 5). */
 #include "cases/shared/shared.h"
 
 #include <math.h>
@@ -10,7 +10,6 @@
 enum { MODES = SHEET_PARAMETERS, DENSITY, ROTARY, STATIONS };
 enum { MOST_STATIONS = 100, MOST_MODES = 6 };
 
-/* Entries in the order of the enumeration. */
 static const parameter_type parameters[] = {
     {"modes", "1", 0, 0, MOST_MODES, NULL,
      "number of natural frequencies of the deflected sheet, with "
@@ -42,7 +41,7 @@ static void add_predictions(const double value[], scene *s)
 {
     section c;
     if (scene_constants(s, 0, &c, NULL) != STATUS_OK)
-        return; /* model_alloc reports the error */
+        return;
     const sheet_prediction p = sheet_prediction_of(
         &c, value[SHEET_LENGTH], value[SHEET_DEFLECTION], value[SHEET_TIP_WARPING] != 0,
         value[SHEET_SHEAR] != 0, (scene_moments)value[SHEET_MOMENTS]);

@@ -11,7 +11,6 @@
 enum { TILT = JOINT_PARAMETERS, STEPS };
 enum { MAX_STEPS = 1000 };
 
-/* Entries in the order of the enumeration. */
 static const parameter_type parameters[] = {
     {"tilt", "rad", 15 * JOINT_DEGREE, 0, 1, NULL, "rotation of the end effector"},
     {"steps", "1", 50, 1, MAX_STEPS, NULL, "number of azimuths of the tilt axis in one revolution"},

@@ -43,7 +43,7 @@ static void add(unroller *u, const scope *names)
 
 static void unroll_loops(unroller *u, const document_node *loops, int depth, const scope *names);
 
-/* Returns 1 if an item in the list of a loop is a word and not an expression with known names. */
+/* Returns 1 if a value of a loop is a word, not an expression with known names. */
 static int is_word(const document_node *n, const scope *names)
 {
     const size_t length = n->kind == DOCUMENT_TEXT ? expression_name_length(n->text) : 0;
@@ -110,8 +110,8 @@ int unroll_entries(const document_node *collection, const scope *names, arena *a
     return u.count;
 }
 
-/* Reads NAME: EXPR, or a choice among expressions and words. After an error the name is still
- * defined, so the error is reported only once. */
+/* Adds a local name, given by an expression or a choice. After an error the name is still defined,
+ * so that the error is reported only once. */
 static const scope *add_let(const document_node *key, const document_node *value_node,
                             const scope *names, arena *a, mistakes *m)
 {
@@ -150,7 +150,7 @@ static const scope *find(const document_node *key, const scope *names, mistakes 
     return known;
 }
 
-/* Returns 1 if the node is the value of the name, 0 if not, or -1 after an error. */
+/* Returns 1 if the node equals the value of the name, 0 if not, or -1 after an error. */
 static int has_value(const scope *known, const document_node *n, const scope *names, mistakes *m)
 {
     double value;
@@ -284,7 +284,7 @@ static void read_turn(const document_node *turn, const scope *names, mistakes *m
     p->turned = 1;
 }
 
-/* Checks that all ports of the part are connected, and that `connect` contains no other names. */
+/* Checks that `connect` contains all ports of the part and no other names. */
 static void check_ports(const document_node *part, const unrolled *instance, const placement *p,
                         mistakes *m)
 {
@@ -330,7 +330,6 @@ static const placement *read_placement(const document_node *part, const unrolled
     return p;
 }
 
-/* Returns "INSTANCE.ENTRY", or NULL if out of memory. */
 static const char *full_name(const placement *p, const char *name, arena *a)
 {
     char text[200];
@@ -356,7 +355,7 @@ static void add_entries(const document_node *part, const placement *p, const sco
             own[i].placed = p;
             list[k] = arena_grow(a, list[k], count[k], sizeof *list[k]);
             if (list[k] == NULL || own[i].name == NULL) {
-                count[k] = 0; /* the arena records that memory ran out */
+                count[k] = 0;
                 return;
             }
             list[k][count[k]++] = own[i];

@@ -75,7 +75,7 @@ char *write_scene_text(const scene *s, const write_head *head)
     return text;
 }
 
-/* Returns the number of components whose motion is given along the global axes. */
+/* Returns the number of components along the global axes: translations, and spatial rotations. */
 static int components_of(const scene_node *n)
 {
     return n->rotation == SCENE_ROTATION_SPATIAL ? 6 : 3;
@@ -141,7 +141,6 @@ static void write_rotation(writer *w, const void *entry)
     fputs("]}", w->to);
 }
 
-/* Writes a list of the scene: the key, then each entry on a separate line. */
 static void write_list(writer *w, const char *key, scene_list list, const entry_field *table,
                        const write_own own[])
 {
@@ -247,7 +246,6 @@ static void write_scaled(writer *w, const char *text, double scale)
     fprintf(w->to, "\"(%s)*%.17g\"", text, scale);
 }
 
-/* Writes the pieces of a function of time. */
 static void write_pieces(writer *w, const scene_function *f)
 {
     if (f->pieces == 0)
@@ -277,7 +275,6 @@ static void write_stations(writer *w, int count, const double path[], const char
     write_values_numbers(w, count, value);
 }
 
-/* Writes the values of a known motion: along a path, or as a function of time. */
 static void write_known(writer *w, const void *entry)
 {
     const scene_driver *d = entry;
@@ -302,8 +299,6 @@ static void write_on(writer *w, const void *entry)
     write_values_name(w, scene_load_along(load) ? SCENE_MEMBERS : SCENE_NODES, load->where);
 }
 
-/* Writes the temperature of a temperature load, even if it is zero, unless the load gives an
- * elongation. */
 static void write_temperature(writer *w, const void *entry)
 {
     const scene_load *load = entry;
@@ -313,7 +308,6 @@ static void write_temperature(writer *w, const void *entry)
     write_values_number(w, load->temperature);
 }
 
-/* Writes the part of a member on which a load acts. */
 static void write_range(writer *w, const void *entry)
 {
     const scene_load *load = entry;
@@ -348,7 +342,6 @@ static void write_terms(writer *w, const void *entry)
     }
 }
 
-/* Writes a constraint, with the ratio if it couples one component of two nodes. */
 static void write_constraint(writer *w, const void *entry)
 {
     const scene_constraint *c = entry;

@@ -62,8 +62,8 @@ static const write_own *find_own(const write_own own[], const char *of, const ch
     return NULL;
 }
 
-/* Returns 1 if the key must be written, because it is required, its value is not the default, or it
- * is always written. */
+/* Returns 1 if the key must be written: it is required, differs from its default, or is always
+ * written. */
 static int is_due(const entry_field *k, const void *entry)
 {
     const int must = k->always || (k->needed && k->group == 0);
@@ -175,8 +175,8 @@ void write_values_quoted(writer *w, const char *text)
     fputc('"', w->to);
 }
 
-/* Returns 1 if `gravity` on the name of a node would refer to a member with that name, because
- * members take precedence. */
+/* Returns 1 if gravity on a node with this name would act on a member, because members take
+ * precedence over nodes. */
 static int is_mistaken(const scene *s, int node, const char *name)
 {
     int weighs = 0, other = 0;
@@ -231,7 +231,6 @@ void write_values_matrix(writer *w, const double A[36])
     write_values_numbers(w, whole ? 36 : 6, whole ? A : diagonal);
 }
 
-/* Writes D or F, whichever is given (see section_compute). */
 static void write_shear(writer *w, const void *entry)
 {
     const section_spec *spec = entry;
@@ -338,8 +337,6 @@ void write_analyses(writer *w)
     }
 }
 
-/* Writes the position of a resultant or of a deflection. A resultant that refers to the whole
- * member has no position. */
 static void write_end(writer *w, const void *entry)
 {
     const scene_quantity *q = entry;
@@ -365,7 +362,7 @@ static void write_where(writer *w, const void *entry)
     write_values_number(w, scene_stress_of(q)->place);
 }
 
-/* Writes the side, if the position is given. */
+/* Writes the side of a discontinuity, if the quantity has a position. */
 static void write_side(writer *w, const void *entry)
 {
     const scene_quantity *q = entry;

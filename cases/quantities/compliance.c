@@ -31,8 +31,6 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             meaning_axis(e->row), meaning_load(e->column), meaning_axis(e->column));
 }
 
-/* Passes the components of the loaded node that belong to the row and to the column of the entry.
- */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     const scene_entry *what = &q->what.of.entry;

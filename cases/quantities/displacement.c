@@ -25,7 +25,6 @@ static double read(const scene_quantity *q, const quantity_state *state)
     return state->component(state, q->what.of.component.node, q->what.of.component.component);
 }
 
-/* Passes the rotation that the quantity reads. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     (void)s;

@@ -1,4 +1,4 @@
-/* The largest or smallest of other quantities, which may belong to any analyses. */
+/* The largest or smallest of other quantities, also of different analyses. */
 #include "cases/scene/scene.h"
 
 #include <string.h>
@@ -11,7 +11,7 @@ static const entry_field fields[] = {
      ENTRY_IN(scene_quantity, what.of.envelope), .first = SCENE_ENVELOPE_MAX},
     {.name = NULL}};
 
-/* Returns "1", because the values are those reported, which already have their units. */
+/* Returns "1", because the values of the other quantities are already in their reported units. */
 static const char *unit(const scene *s, const scene_quantity *q)
 {
     (void)s;

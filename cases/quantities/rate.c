@@ -30,7 +30,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
             meaning_axis(q->what.of.component.component));
 }
 
-/* Reads the rate. For a jerk, reads the acceleration, whose derivative harness/time computes. */
+/* For a jerk, returns the acceleration, which harness/time differentiates. */
 static double read(const scene_quantity *q, const quantity_state *state)
 {
     const scene_component *what = &q->what.of.component;
@@ -57,7 +57,6 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* Passes the rotation that the quantity reads. */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     (void)s;

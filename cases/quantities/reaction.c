@@ -18,8 +18,6 @@ static const char *unit(const scene *s, const scene_quantity *q)
     return q->what.of.component.component <= SCENE_UZ ? "N" : "N m";
 }
 
-/* Returns 1 if the component of the node, or any rotation of the sequence of the node, is
- * prescribed. */
 static int is_driven(const scene_node *n, int component)
 {
     if (component < SCENE_RX)
@@ -42,8 +40,8 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
                  what->node);
 }
 
-/* Sets the component. turn_1 is the moment about the first axis of a sequence, which does not
- * rotate. */
+/* Only the first rotation axis of a sequence does not rotate, so turn_1 is the only moment about an
+ * axis of a sequence. */
 static const char *complete(const scene *s, scene_quantity *q, const char **key)
 {
     enum { TURN_1 = SCENE_RZ + 1 };

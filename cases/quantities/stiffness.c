@@ -33,8 +33,6 @@ static const char *complete(const scene *s, scene_quantity *q, const char **key)
     return NULL;
 }
 
-/* Passes the components of the loaded node that belong to the row and to the column of the entry.
- */
 static int turns(const scene *s, const scene_quantity *q, int i, scene_component *out)
 {
     const scene_entry *what = &q->what.of.entry;

@@ -43,8 +43,8 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     meaning_member(to, s, c->member);
 }
 
-/* Returns 1 if the section of the member has stress points. Sections given by constants have
- * none. */
+/* Returns 1 if the section of the member has stress points. A section given by constants has no
+ * stress points. */
 static int has_points(const scene *s, int member)
 {
     const int profile = member >= 0 && member < s->members ? s->member[member].section : SCENE_NONE;

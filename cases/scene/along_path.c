@@ -87,8 +87,7 @@ along_path_words along_path_end(const scene *s, int acting)
     return out;
 }
 
-/* Returns 1 if the values at all stations between 0 and 1 lie on the straight line from the value
- * at 0 to the value at 1. */
+/* Returns 1 if the values at all stations between 0 and 1 lie on one straight line. */
 static int is_straight(int stations, const double path[], const double value[])
 {
     for (int i = 0; i < stations; i++) {
@@ -148,8 +147,8 @@ static int called(const scene *s, scene_list list, int i, char *owner_name, int 
     return 1;
 }
 
-/* Returns 1 if `is` is true for a load that acts in the analysis, and writes the name of the first
- * such load to `owner_name` (may be NULL). */
+/* Returns 1 if `is` is true for a load that acts in the analysis. Writes the name of the first such
+ * load to `owner_name`, which may be NULL. */
 static int load_that(const scene *s, int analysis, int (*is)(const scene_load *), char *owner_name,
                      int size)
 {
@@ -198,8 +197,8 @@ static int is_fed_back(const scene_load *l)
     return l->feedback.node != SCENE_NONE && acts && scene_load_acts(l);
 }
 
-/* Returns 1 if a load has feedback that the analysis cannot include. Modal analyses include
- * feedback if their modes are damped, except about an instant. */
+/* Returns 1 if a load has feedback that the analysis cannot include. Damped modes include feedback,
+ * except about an instant of a motion. */
 static int has_feedback(const scene *s, int analysis, char *owner_name, int size)
 {
     const scene_analysis *a = &s->analysis[analysis];
@@ -271,7 +270,7 @@ static int has_unsymmetric_dashpot(const scene *s, int analysis, char *owner_nam
 }
 
 /* Returns 1 if the stiffness of a spring is unsymmetric and the analysis does not compute damped
- * modes, which use unsymmetric stiffness. */
+ * modes. */
 static int has_unsymmetric_spring(const scene *s, int analysis, char *owner_name, int size)
 {
     for (int i = 0; i < s->springs && !s->analysis[analysis].damped; i++)
@@ -383,8 +382,8 @@ static int has_drive_of_case(const scene *s, int analysis, char *owner_name, int
     return 0;
 }
 
-/* Returns 1 if the analysis, or the analysis that it follows, has a rotating frame. *`owner_name`
- * is the name of the analysis with the frame. */
+/* Returns 1 if the analysis, or the analysis that it follows, has a rotating frame. Writes the name
+ * of the analysis with the frame to `owner_name`. */
 static int has_spin(const scene *s, int analysis, char *owner_name, int size)
 {
     const int follows = s->analysis[analysis].follows;
@@ -514,7 +513,7 @@ int scene_inputs_flutter(const scene *s, int analysis)
 {
     if (s->analysis[analysis].follows == SCENE_NONE)
         return 0;
-    for (int i = 0; i < s->loads; i++) /* all analyses store tangents in full */
+    for (int i = 0; i < s->loads; i++)
         if (s->load[i].load_case != SCENE_NONE && scene_load_unsymmetric(&s->load[i]))
             return 1;
     for (const scene_input *i = scene_inputs; i->name != NULL; i++)
@@ -525,8 +524,7 @@ int scene_inputs_flutter(const scene *s, int analysis)
     return 0;
 }
 
-/* Rejects an unknown that is determined along a path, because a linear solution would treat it as
- * zero. */
+/* Rejects unknown drivers, which linear analyses would treat as zero. */
 static status check_unknown(const scene *s, int analysis, scene_column column, fault *f)
 {
     for (int d = 0; d < s->drivers; d++)

@@ -11,7 +11,6 @@ const char *scene_moments_name(scene_moments moments)
     return name[moments];
 }
 
-/* Returns the index of a new analysis, or -1. */
 static int add(scene *s, scene_analysis analysis)
 {
     const int i = scene_grow(s, &s->analysis, &s->analyses, sizeof *s->analysis);
@@ -130,7 +129,7 @@ scene_alpha scene_alpha_of_radius(double rho)
 
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame)
 {
-    if (analysis < 0) /* out of memory */
+    if (analysis < 0)
         return;
     scene_analysis *a = &s->analysis[analysis];
     assert(scene_rotating_frame_of(a) != NULL);
@@ -182,7 +181,7 @@ int scene_spreads(const scene_analysis *a)
     return a->kind == SCENE_MOTION && scene_motion_of(a)->mass == SCENE_CONSISTENT;
 }
 
-/* Returns the first motion in a chain of continued motions. */
+/* Returns the first motion of the chain of motions that ends with this analysis. */
 static int first_motion(const scene *s, int analysis)
 {
     const int before = s->analysis[analysis].follows;

@@ -1,4 +1,4 @@
-/* Constraints: relations in which a coordinate of a node is a multiple of another coordinate. */
+/* Constraints: a coordinate of a node is a multiple of another coordinate. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>
@@ -22,8 +22,8 @@ int scene_add_constraint(scene *s, unsigned components, double ratio)
     return i;
 }
 
-/* Changes the rotations of a node from spatial components to a sequence that begins with the
- * rotation about the normal. */
+/* Replaces the spatial rotation components of a node by a sequence, which begins with the rotation
+ * about the normal. */
 static void turn_across(scene_node *n, int normal)
 {
     if (n->rotation != SCENE_ROTATION_SPATIAL)
@@ -56,7 +56,7 @@ int scene_add_diaphragm(scene *s, int master, int normal)
 
 void scene_constrain(scene *s, int constraint, int node)
 {
-    if (constraint < 0) /* out of memory */
+    if (constraint < 0)
         return;
     scene_constraint *c = &s->constraint[constraint];
     const int i = scene_grow(s, &c->node, &c->nodes, sizeof *c->node);
@@ -93,7 +93,7 @@ static int turns_together(const scene_node *n, const scene_constraint *c)
            (c->components & SCENE_TURNS) == SCENE_TURNS;
 }
 
-/* Returns the angle about the axis of a component if it is the only angle that moves, otherwise
+/* Returns the angle about the axis of a component if all other angles are fixed, otherwise
  * SCENE_NONE. */
 static int angle_of(const scene *s, int node, int component)
 {
@@ -180,7 +180,8 @@ static status coordinate_of(const scene *s, int constraint, int node, int compon
     return STATUS_OK;
 }
 
-/* Returns the coordinate at the end of the chain of relations, with the product of the ratios. */
+/* Follows the chain of relations. Returns the coordinate at its end and the product of the
+ * ratios. */
 static scene_tie follow(const scene_tie tie[], int node, int coordinate)
 {
     scene_tie at = {node, coordinate, 1};
@@ -193,7 +194,7 @@ static scene_tie follow(const scene_tie tie[], int node, int coordinate)
     }
 }
 
-/* Returns the motion of a coordinate: SCENE_FREE, SCENE_HELD or a driver. */
+/* Returns SCENE_FREE, SCENE_HELD or the driver of a coordinate. */
 static int motion_at(const scene *s, scene_tie at)
 {
     const scene_node *n = &s->node[at.node];
@@ -212,8 +213,8 @@ static int is_across(const scene *s, int node, int component)
     return 0;
 }
 
-/* Makes the component of node k equal to ratio times that of the first node, by a relation between
- * the coordinates at the ends of both chains. */
+/* Makes the component of node k `ratio` times that of the first node. The relation connects the
+ * coordinates at the ends of their chains. */
 static status join(const scene *s, int constraint, int k, int component, scene_tie tie[], fault *f)
 {
     const scene_constraint *c = &s->constraint[constraint];
@@ -225,7 +226,6 @@ static status join(const scene *s, int constraint, int k, int component, scene_t
             return refuse(s, constraint, c->node[i == 0 ? 0 : k], component,
                           "also belongs to a diaphragm; remove it from one of them", f);
     const scene_tie first = follow(tie, c->node[0], at[0]), other = follow(tie, c->node[k], at[1]);
-    /* ratio_other root_other = ratio ratio_first root_first */
     const double ratio = c->ratio * first.ratio / other.ratio;
     if (first.node == other.node && first.coordinate == other.coordinate)
         return refuse(s, constraint, c->node[k], component,
@@ -243,7 +243,7 @@ static status join(const scene *s, int constraint, int k, int component, scene_t
     return STATUS_OK;
 }
 
-/* Checks that a diaphragm can move the node. */
+/* Checks that the node can belong to a diaphragm. */
 static status check_across(const scene *s, int i, int node, fault *f)
 {
     const scene_constraint *c = &s->constraint[i];
@@ -273,7 +273,8 @@ static status check_across(const scene *s, int i, int node, fault *f)
     return STATUS_OK;
 }
 
-/* Relates the in-plane translations and the first angles of all nodes to those of the master. */
+/* Relates the in-plane translations and the rotation about the normal of all nodes to those of the
+ * leading node. */
 static status join_across(const scene *s, int i, scene_tie tie[], fault *f)
 {
     const scene_constraint *c = &s->constraint[i];

@@ -7,9 +7,8 @@
 
 extern const quantity_type quantity_hinge;
 
-/* Mirrors a section for a reversed member. Seen from the other end and rotated by pi about z, y' =
- * -y and z' = z, and sectorial coordinates change sign with x. The section face also changes sides,
- * so Qy and Mw keep their signs and Qz changes sign. */
+/* Mirrors a section for a reversed member, whose axes x and y have changed direction. On the
+ * opposite face of a cut, Qy and Mw keep their signs and Qz changes sign. */
 static void mirror_section(section_spec *spec)
 {
     section *c = &spec->constants;
@@ -27,14 +26,13 @@ static void mirror_section(section_spec *spec)
         }
 }
 
-/* Replaces the extracted value of a quantity but keeps its type. */
 static void replace(scene_quantity *q, scene_extract what)
 {
     what.type = q->what.type;
     q->what = what;
 }
 
-/* Reverses a quantity of internal forces for a mirrored section: forces change sides, and x and y
+/* Reverses a quantity of internal forces. The forces act on the opposite face, and the axes x and y
  * change direction. */
 static void reverse_internal(scene_quantity *q)
 {
@@ -98,7 +96,7 @@ static status reverse(scene *s, fault *f)
         m->section_q = section_p;
         m->warp_p = m->warp_q;
         m->warp_q = warp_p;
-        const scene_release released = m->release[0]; /* the released axes do not change */
+        const scene_release released = m->release[0]; /* the axes of a release do not change */
         m->release[0] = m->release[1];
         m->release[1] = released;
         double beside[3];
@@ -176,8 +174,8 @@ static int unused_name(const scene *s)
     return name;
 }
 
-/* Returns the index of the section at `fraction` of the member. Adds a section if the member is
- * tapered. */
+/* Returns the index of the section at `fraction` of the member. For a tapered member, adds this
+ * section. */
 static int section_between(scene *s, const scene_member *m, double fraction)
 {
     section_spec spec;

@@ -3,7 +3,6 @@
 
 #include <math.h>
 
-/* Keys that select the active loads. */
 #define ACTING(otherwise)                                                                          \
     {"case",                                                                                       \
      ENTRY_NAME,                                                                                   \
@@ -51,7 +50,7 @@ static const entry_field spin[] = {OMEGA(of.walk.frame), {.name = NULL}},
      ENTRY_IN(scene_analysis, follows),                                                            \
      .of = SCENE_ANALYSES}
 
-/* Keys for small motions about an instant of a motion. */
+/* Keys of analyses of small motions about an instant of a motion. */
 #define INSTANT                                                                                    \
     {"time",                                                                                       \
      ENTRY_NUMBER,                                                                                 \

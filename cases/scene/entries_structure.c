@@ -337,7 +337,7 @@ static const entry_field wall[] = {
     {"thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "wall thickness"},
     {.name = NULL}};
 
-/* Records that a zero was given explicitly, for constants that are otherwise unknown. */
+/* Records that a constant was given as zero, because zero otherwise means that it is computed. */
 #define ZERO(bit) .zeros = offsetof(section_spec, zeros), .zero = (bit)
 
 static const entry_field constants[] = {

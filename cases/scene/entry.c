@@ -6,11 +6,10 @@
 
 #include "elements/shared/choice.h"
 
-/* Returns 1 if the key is not a map of a group, or if it is the map of its group that the entry
+/* Returns 1 if the key is not a map of a group, or if it is the map of the kind that the entry
  * has. */
 static int entry_stands(const entry_field *, const void *entry);
 
-/* Returns the member of the entry that the key sets. */
 static const void *frame_motion_of(const entry_field *k, const void *entry)
 {
     return (const char *)entry + k->at;
@@ -23,8 +22,8 @@ static int whole_of(const entry_field *k, const void *entry)
     return value;
 }
 
-/* Returns the number of values and sets *out to the first value. Returns 0 if the value is not
- * numeric. */
+/* Returns the number of values of the key and sets *out to the first. Returns 0 if the values are
+ * not numbers. */
 static int numbers_of(const entry_field *k, const void *entry, const double **out)
 {
     const scene_path *path = frame_motion_of(k, entry);
@@ -158,7 +157,7 @@ static status check_number(const entry_field *k, double value, fault *f)
                                                         k->name, value, entry_range(k, range));
 }
 
-/* Checks that the named entry exists. Checks that a key without a name is optional. */
+/* Returns REFUSED if the named entry does not exist, or if a required name is missing. */
 static status check_name(const scene *s, const entry_field *k, int index, fault *f)
 {
     const char *what = scene_list_word(k->of);
@@ -170,7 +169,7 @@ static status check_name(const scene *s, const entry_field *k, int index, fault 
                      index, what);
 }
 
-/* Checks a word. If an optional word is missing, its value may belong to no word. */
+/* Checks that the value belongs to a word, unless the key is optional. */
 static status check_word(const entry_field *k, int value, fault *f)
 {
     char word[SCENE_NAME] = "";

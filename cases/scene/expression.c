@@ -1,6 +1,5 @@
-/* Expressions for numbers and for functions of time are converted to operations on a stack of
- * values with their derivatives. Parts without t are evaluated at once, so an expression without t
- * becomes a single number. */
+/* Expressions are converted to operations on a stack of values with their time derivatives. Parts
+ * without t are evaluated during the conversion. */
 #include "cases/scene/scene.h"
 
 #include <ctype.h>
@@ -111,8 +110,8 @@ static jet of_function(jet_operation what, jet x)
     }
 }
 
-/* Applies the operation to a and, if it has two operands, to b. The result is not finite if the
- * value or a derivative does not exist. The operation must not be JET_NUMBER or JET_TIME. */
+/* Applies the operation to a and, if it has two operands, to b. A value or derivative that does not
+ * exist is not finite. The operation must not be JET_NUMBER or JET_TIME. */
 static jet jet_of(jet_operation what, jet a, jet b)
 {
     switch (what) {
@@ -139,8 +138,8 @@ typedef struct expression_function {
     double value;  /* value of a constant */
     double (*of_one)(double);
     double (*of_two)(double, double); /* for two or more arguments: applied repeatedly */
-    int kinked;                       /* 1 if the function has slope discontinuities or jumps */
-    jet_operation in_time;            /* JET_NUMBER: arguments must not contain t */
+    int kinked;            /* 1 if the function has discontinuities in its value or slope */
+    jet_operation in_time; /* JET_NUMBER if arguments must not contain t */
 } expression_function;
 
 static double sign_of(double x)
@@ -272,8 +271,8 @@ static status emit(reader *r, jet_operation what, double number, int grows)
                : WRONG(r, r->at, "too deeply nested; compute parts with 'let'");
 }
 
-/* Returns the address of the last value if it is a single number, or NULL if it contains t. `first`
- * is the first operation of this value. */
+/* Returns the address of the last value if it is a single number, or NULL if it depends on t.
+ * `first` is the index of its first operation. */
 static double *number_from(const reader *r, int first)
 {
     instruction *step = &r->to->step[first];
@@ -297,8 +296,8 @@ static double of_numbers(jet_operation what, double a, double b)
 }
 
 /* Applies an operation to the last two values, which begin at the operations `left` and `right`.
- * `place` is the position of the operation in the text. Without t, the result is one number with
- * zero derivatives, even if the derivatives of a function are not finite. */
+ * `place` is the position of the operation in the text. Without t, the result is a constant with
+ * zero derivatives, even if the function is not differentiable there. */
 static status operate(reader *r, jet_operation what, int place, int left, int right)
 {
     const double *b = number_from(r, right);
@@ -322,8 +321,8 @@ static int is_digit(char c)
     return c >= '0' && c <= '9';
 }
 
-/* Returns the length of a number. A number consists of digits, a point (but not the first of ".."),
- * digits, and an exponent. */
+/* Returns the number of characters of the number at the start of the text. A point that is followed
+ * by another point does not belong to the number. */
 static int number_length(const char *text, int most)
 {
     int n = 0;
@@ -369,7 +368,7 @@ static status read_literal(reader *r)
 
 static status read_sum(reader *r);
 
-/* Reads the arguments after "(". Arguments that are numbers are evaluated at once. */
+/* Reads the arguments after "(". A function of constants is evaluated. */
 static status read_arguments(reader *r, const expression_function *f, int word, int *count)
 {
     do {
@@ -393,7 +392,6 @@ static status read_arguments(reader *r, const expression_function *f, int word, 
                          : WRONG(r, r->at, "the arguments of %s are not closed; add ')'", f->name);
 }
 
-/* Reads the rest of a call after "(". */
 static status read_call(reader *r, const expression_function *f, int word)
 {
     static const char *const several[] = {"no argument", "one argument", "two arguments"};
@@ -481,7 +479,7 @@ static status read_power(reader *r)
     return operate(r, JET_POWER, place, left, right);
 }
 
-/* Reads a sign, which has lower precedence than ^. */
+/* Reads an operand with its signs, which have lower precedence than ^. */
 static status read_signed(reader *r)
 {
     const int minus = takes(r, '-'), first = r->to->count;

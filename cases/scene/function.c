@@ -67,7 +67,7 @@ void function_at(const scene_function *f, double t, double out[3])
         out[k] *= f->scale;
 }
 
-/* A piece is checked at the ends of this number of equal intervals. */
+/* Number of equal intervals of a piece at whose ends it is checked. */
 enum { SAMPLES = 64 };
 
 static int is_finite(const double at[3], int derivatives)
@@ -119,7 +119,6 @@ static int by_end(const void *a, const void *b)
     return ((*x)->until > (*y)->until) - ((*x)->until < (*y)->until);
 }
 
-/* Lists all pieces of a function except the last, which has no end. Returns their number. */
 static int list_ends(const scene_function *f, scene_piece *list[])
 {
     for (int i = 0; i < f->pieces - 1; i++)

@@ -11,16 +11,17 @@ ROW("distributed_moment", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .un
 ROW("gravity", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "m/s^2",
     .summary = "acceleration that acts on a member whose section has a density, on a node with a "
                "mass, or on all of these")
-/* for SCENE_TEMPERATURE, whose vector is zero */
+/* of a SCENE_TEMPERATURE load, whose vector is zero */
 KEY(double, temperature, , "temperature", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "K",
     .summary = "temperature change of a member at the centroids of its sections")
-/* for SCENE_FORCE with a zero vector: pulls the nodes `where` and `towards` together */
+/* of a SCENE_FORCE load with a zero vector: force that pulls the nodes `where` and `towards`
+ * together */
 KEY(double, tension, , "tension", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "N",
     .summary =
         "force that pulls the node and the node 'towards' together, along the line between them")
 KEY(int, towards, , "towards", ENTRY_NAME, .summary = "second node of a tension",
     .left_out = "none; required with tension", .of = SCENE_NODES)
-/* elongation between the ends of the range, given instead of a temperature */
+/* elongation over the whole range, instead of a temperature */
 KEY(double, elongation, , "elongation", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "m",
     .summary = "stress-free elongation of a member, such as that of an actuator or a turnbuckle")
 KEY(double, gradient, [2], "gradient", ENTRY_VECTOR, .count = 2, .unit = "K/m",

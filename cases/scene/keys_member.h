@@ -1,6 +1,6 @@
-/* Keys of a member that are members of scene_member (scene.h). A key has the form KEY(type, name
- * there, dimensions, row of entry_member in entries_structure.c). ROW defines keys that special
- * functions read and write. A new key needs only one KEY line. */
+/* Keys of a member of the structure. KEY(type, name, dimensions, row) defines a member of the
+ * struct scene_member (scene.h) and a row of entry_member (entries_structure.c). ROW defines keys
+ * that special functions read and write. */
 KEY(int, p, , "from", ENTRY_NAME, .needed = 1, .summary = "start node", .of = SCENE_NODES)
 KEY(int, q, , "to", ENTRY_NAME, .needed = 1, .summary = "end node", .of = SCENE_NODES)
 ROW("section", ENTRY_FORMS, .needed = 1,
@@ -15,7 +15,7 @@ ROW("warping", ENTRY_FORMS,
         "fixed if all six components of the node are fixed or driven, or the node is part_of a "
         "body, and no rotation is released; shared if two members continue in one line; "
         "otherwise free")
-/* curvatures about local y and z; the positions of interior nodes follow the arc */
+/* curvatures about local y and z; interior nodes are on the arc */
 KEY(double, curvature, [3], "curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m",
     .summary = "initial twist and curvatures", .usual = "[0, 0, 0]", .mirrors = "++-")
 /* stress-free strains, for example due to temperature or misfit */
@@ -25,7 +25,7 @@ KEY(double, pretension, , "pretension", ENTRY_NUMBER, .group = 1, .unit = "N",
     .summary =
         "axial force while the nodes are at their given positions, before equilibrium is computed",
     .left_out = "none")
-/* 0 for the length as drawn */
+/* 0 for the distance between the ends */
 KEY(double, unstressed_length, , "unstressed_length", ENTRY_NUMBER, .group = 1, .unit = "m",
     .summary = "length of the member before it is mounted between its nodes",
     .left_out = "length between the given positions of its ends", .most = INFINITY)

@@ -65,8 +65,7 @@ int scene_is_free(const scene *s, scene_words *owner_name)
     return 0;
 }
 
-/* Returns EA [N]. Returns 0 if an axial force causes other strains, or an elongation that varies
- * along the member. */
+/* Returns EA [N], or 0 if an axial force does not cause only a uniform elongation. */
 static double axial_stiffness(const scene *s, const scene_member *m)
 {
     section c;
@@ -78,12 +77,11 @@ static double axial_stiffness(const scene *s, const scene_member *m)
     return coupled ? 0 : c.matrices ? c.stiffness[0] : c.young * c.A;
 }
 
-/* Largest misfit for which strains may be relative to the length as drawn: N = EA (L - Lo)/L
- * instead of EA (L - Lo)/Lo. */
+/* Largest relative misfit for which N = EA (L - Lo)/L instead of EA (L - Lo)/Lo is accepted, where
+ * Lo is the stress-free length. */
 static const double most_misfit = 0.01;
 
-/* Returns 1 if shifts move nodes in every analysis, so that lengths of members differ from those
- * drawn. */
+/* Returns 1 if the scene has shifts, which change the lengths of members. */
 static int is_moved(const scene *s)
 {
     int moved = 0;
@@ -168,7 +166,7 @@ int scene_load_unsymmetric(const scene_load *load)
 
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[])
 {
-    if (load < 0) /* out of memory */
+    if (load < 0)
         return;
     s->load[load].stations = stations;
     s->load[load].path = scene_copy(s, stations, path);

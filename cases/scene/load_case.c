@@ -23,7 +23,7 @@ int scene_add_combination(scene *s, const char *name)
 
 void scene_add_term(scene *s, int combination, int load_case, double factor)
 {
-    if (combination < 0) /* out of memory */
+    if (combination < 0)
         return;
     scene_combination *c = &s->combination[combination];
     const int i = scene_grow(s, &c->term, &c->terms, sizeof *c->term);
@@ -31,8 +31,8 @@ void scene_add_term(scene *s, int combination, int load_case, double factor)
         c->term[i] = (scene_term){load_case, factor};
 }
 
-/* Returns a number for the active loads: 0 for all loads in scenes without load cases. Numbers from
- * 1 on count the combinations, then the load cases. */
+/* Returns the number of the active loads: 0 without load cases, otherwise that of the combination
+ * or load case. Combinations are numbered first, from 1. */
 static int scene_acting_number(const scene *s, scene_acting what)
 {
     if (what.combination != SCENE_NONE)
@@ -83,8 +83,8 @@ scene_words scene_acting_called(const scene *s, int number)
                                     : scene_called(s, SCENE_COMBINATIONS, number - 1);
 }
 
-/* Checks that every load has a load case, because a load without a load case could act in all cases
- * or in none. */
+/* Checks that every load has a load case if the scene has load cases. Otherwise it would be
+ * ambiguous when a load acts. */
 static status check_loads(const scene *s, fault *f)
 {
     for (int i = 0; i < s->loads; i++)
@@ -141,7 +141,6 @@ status scene_validate_cases(const scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Returns an example of the text to write, such as "combination: ULS". */
 static scene_words example(const scene *s)
 {
     scene_words out;
@@ -185,7 +184,7 @@ status scene_validate_acting(const scene *s, int i, fault *f)
 
 status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f)
 {
-    if (q->what.kind == SCENE_ENVELOPE_OF) /* specified by the quantities of the envelope */
+    if (q->what.kind == SCENE_ENVELOPE_OF) /* its quantities select the loads */
         return STATUS_OK;
     const int all = scene_solves_all(s, q->analysis),
               has_envelope =

@@ -39,7 +39,6 @@ const char *scene_list_word(scene_list list)
     return word_of[list];
 }
 
-/* Returns the memory of the name of an entry, or NULL if the entry does not exist. */
 static char *room_of(const scene *s, scene_list list, int i)
 {
     if (i < 0 || i >= scene_count(s, list))
@@ -99,8 +98,7 @@ scene_words scene_numbered(const scene *s, scene_list list, int i)
 {
     scene_words out;
     int end = snprintf(out.text, sizeof out.text, "%s_%d",
-                       list == SCENE_DRIVERS ? "motion" : word_of[list],
-                       i); /* the word used in scene files */
+                       list == SCENE_DRIVERS ? "motion" : word_of[list], i);
     for (int k = 0; k < 8 && is_taken(s, list, out.text); k++)
         end += snprintf(out.text + end, sizeof out.text - (size_t)end, "_");
     return out;

@@ -9,7 +9,7 @@
 #define DECLARED(name) extern const quantity_type quantity_##name;
 QUANTITY_TYPES(DECLARED)
 
-/* Returns the extracted value of the kind that the file of this name defines. */
+/* A scene_extract of the kind that the file with this name defines. */
 #define EXTRACT(name, ...) ((scene_extract){quantity_##name.kind, &quantity_##name, {__VA_ARGS__}})
 
 scene_extract scene_coordinate(int node, int component)
@@ -271,7 +271,7 @@ void scene_keep_quantities(scene *s, const scene *of)
             s->quantity[kept++] = s->quantity[i];
         } else {
             free(s->quantity[i].over);
-            s->quantity[i].overs = 0; /* later envelopes include all combinations */
+            s->quantity[i].overs = 0; /* later envelopes use all combinations */
         }
     s->quantities = kept;
 }

@@ -70,7 +70,8 @@ int scene_add_section(scene *s, const section_spec *spec)
     return i;
 }
 
-/* Compares bits, so NaNs are equal. A difference in padding only causes a repeated computation. */
+/* Compares bits, so that equal NaNs are equal. Different padding only causes an unnecessary
+ * computation. */
 static int same_bits(const void *a, const void *b, size_t size)
 {
     return memcmp(a, b, size) == 0;
@@ -306,8 +307,6 @@ int scene_has_body(const scene_node *n)
     return has;
 }
 
-/* Returns 1 if the section has a mass. Errors are reported elsewhere, when the section is
- * computed. */
 static int is_massive(const scene *s, int index)
 {
     section c;

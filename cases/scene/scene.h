@@ -14,8 +14,8 @@
 #include "elements/shared/status.h"
 
 /* Analyses. An analysis has a kind and the data of this kind. Every scene_add_* returns the index
- * of the new analysis, or -1 if out of memory. Each kind has a function below that returns its data
- * and ends the program if the analysis is of another kind. Other sources do not use the union. */
+ * of the new analysis, or -1 if out of memory. For each kind, a function below returns its data; it
+ * aborts if the analysis is of another kind. Other sources do not use the union. */
 
 typedef struct scene scene;
 
@@ -25,18 +25,18 @@ typedef enum scene_analysis_kind {
     SCENE_LINEAR,   /* one linear solution with all load factors equal to 1 */
     SCENE_STATIC,   /* nonlinear equilibrium along the path */
     SCENE_BUCKLING, /* linear buckling about the undeformed state or about the last state of a path.
-                       About the undeformed state, the prestress is linear: loads at path parameter
-                       0 are constant, and their increase up to 1 is multiplied by the factor */
+                       About the undeformed state, the loads at path parameter 0 are constant. Their
+                       increase from 0 to 1 is multiplied by the factor */
     SCENE_MODAL, /* natural frequencies about the undeformed state or the state of another analysis
                   */
-    SCENE_COMPLIANCE, /* tangent compliance of the undeformed structure, or at every station of the
-                         static path that the analysis follows */
+    SCENE_COMPLIANCE,   /* tangent compliance of the undeformed structure or at every station of a
+                           static path */
     SCENE_CONTINUATION, /* path of a load factor, with arc-length control or control of one
                            coordinate */
-    SCENE_ROTATION,     /* stationary rotation: equilibrium and frequencies in the rotating frame */
+    SCENE_ROTATION,     /* steady rotation: equilibrium and frequencies in the rotating frame */
     SCENE_MOTION,       /* transient analysis: the path parameter is the time [s] */
-    SCENE_HARMONIC      /* steady small vibration about a state, for which the path parameter is the
-                           frequency [Hz] */
+    SCENE_HARMONIC /* steady small vibration about a state; the path parameter is the frequency [Hz]
+                    */
 } scene_analysis_kind;
 
 /* Convention of a reaction moment on a rotating node (harness/newton/newton.h). */
@@ -55,19 +55,18 @@ typedef struct scene_path {
     double *value; /* [stations] */
 } scene_path;
 
-/* Rotation of the axes of the scene. The rotation is constant on a static path or a continuation.
- * In a stationary rotation, it is multiplied by the path parameter. Zero: no rotation. */
+/* Rotation of the axes of the scene. In a rotation analysis, the angular velocity is multiplied by
+ * the path parameter. In other analyses, it is constant. Zero: no rotation. */
 typedef struct scene_rotating_frame {
     double omega[3];  /* angular velocity [rad/s] */
     double centre[3]; /* a point on the rotation axis [m] */
 } scene_rotating_frame;
 
-/* Steps of a static analysis or a stationary rotation. */
+/* Steps of a static analysis or a rotation analysis. */
 typedef struct scene_walk {
     scene_path path;
     int steps_between; /* initial number of load steps between two stations, at least 1 */
-    int modes; /* for a rotation: number of modes of all families together that are computed first
-                */
+    int modes; /* for a rotation analysis: initial number of modes, of all families together  */
     scene_rotating_frame frame;
 } scene_walk;
 
@@ -79,15 +78,15 @@ typedef struct scene_compliance {
 } scene_compliance;
 
 /* Control of a continuation, the path of proportional loads. The control coordinate is a
- * translation of any node, even of an attached node. With arc-length control, the control
- * coordinate is only the abscissa of curves. The arc length is the root of the mean over all nodes
- * of (displacement/size of the scene)^2 + rotation^2, dimensionless. */
+ * translation of a node. With arc-length control, it is only the abscissa of curves. The arc length
+ * is dimensionless: the root of the mean over all nodes of (displacement/size of the scene)^2 +
+ * rotation^2. */
 typedef struct scene_control {
     int node, component;
     int by_arc; /* 1 if steps measure arc length, 0 if they measure the control coordinate */
-    double step, step_max; /* first and largest step [m, dimensionless for arc length] */
-    int constant_steps; /* 1 if all steps equal `step` and a branch jump ends the path, 0 if steps
-                           adapt and avoid jumps */
+    double step, step_max; /* first and largest step: [m], or dimensionless for arc length */
+    int constant_steps; /* 1 if all steps equal `step`, and a jump to another branch ends the path;
+                           0 if the step size adapts */
 } scene_control;
 
 typedef struct scene_continuation {
@@ -109,36 +108,35 @@ typedef enum scene_scheme {
 
 /* Distribution of the mass of members. */
 typedef enum scene_mass {
-    SCENE_MASS_USUAL, /* consistent, if the formulation and all integrators in the chain of motions
+    SCENE_MASS_USUAL, /* consistent if all integrators of the chain of motions and the formulation
                          support it and the scene does not request lumped mass; otherwise lumped */
     SCENE_LUMPED,     /* lumped at the nodes, for all formulations */
-    SCENE_CONSISTENT  /* distributed along the elements, if the formulation supports it */
+    SCENE_CONSISTENT  /* consistent; formulations that do not support it are rejected */
 } scene_mass;
 
 #define SCENE_MASS_CHOICES "lumped|consistent"
 
-/* Parameters of generalized-alpha: alpha_m and alpha_f, either given or computed from rho, the
- * spectral radius at infinite frequency. */
+/* Parameters of the generalized-alpha method. */
 typedef struct scene_alpha {
     double mass, force; /* alpha_m, alpha_f */
 } scene_alpha;
 
-/* Initial velocities, which are those of a rigid body: the velocity of a point and a rotation about
- * this point. */
+/* Initial velocities of a rigid-body motion: the velocity of a point `centre` and the angular
+ * velocity. */
 typedef struct scene_start {
     double velocity[3], spin[3], centre[3]; /* [m/s], [rad/s], [m] */
 } scene_start;
 
 /* A motion starts from rest or with the velocities `start`, in the undeformed state or in the last
- * state of the path that it follows. A motion that follows another motion starts with the rates and
- * the time of that motion. */
+ * state of the path that it follows. If it continues another motion, it starts at the end of that
+ * motion, with its rates. */
 typedef struct scene_motion {
     scene_path path; /* times of output [s] */
     scene_scheme scheme;
     scene_alpha alpha;
-    double step;      /* first step, or every step if there is no tolerance [s] */
-    double tolerance; /* error of a step, relative to the size of the structure; 0 for constant
-                         steps */
+    double step;      /* first step [s], or every step if `tolerance` is 0 */
+    double tolerance; /* allowed error of a step, relative to the size of the structure; 0 for
+                         constant steps */
     scene_start start;
     scene_mass mass;
 } scene_motion;
@@ -148,12 +146,12 @@ typedef struct scene_motion {
  * undamped modes may be added. */
 typedef struct scene_proportional {
     double mass, stiffness; /* [1/s], [s] */
-    double ratio;           /* ratio of all modes that are not in ... */
-    scene_path ratios;      /* ... the ratios of the first modes */
+    double ratio;           /* damping ratio of all modes that are not in ... */
+    scene_path ratios;      /* ... the damping ratios of the first modes */
 } scene_proportional;
 
-/* Active loads: those of a load case, or those of a combination with their factors. If both are
- * SCENE_NONE, scene_acting_of determines the active loads. */
+/* The load case or combination whose loads are active. If both are SCENE_NONE, scene_acting_of
+ * determines the active loads. */
 typedef struct scene_acting {
     int load_case, combination;
 } scene_acting;
@@ -168,10 +166,10 @@ typedef struct scene_analysis {
     scene_analysis_kind kind;
     int follows; /* analysis that provides the states about which this analysis is made, or
                     SCENE_NONE for the undeformed state */
-    double time; /* time of the instant of the motion about which the analysis is made [s], or NAN
-                    for the end of the motion */
+    double time; /* time [s] of the motion about which the analysis is made, or NAN for the end of
+                    the motion */
     scene_turning axes; /* axes of the small motions about the instant */
-    int axes_of;        /* ... or SCENE_NONE, or a node with which the axes rotate */
+    int axes_of;        /* node with which the axes rotate instead, or SCENE_NONE */
     scene_acting acting;
     union {
         scene_walk walk;
@@ -183,7 +181,7 @@ typedef struct scene_analysis {
     scene_proportional
         damping;    /* damping of small vibrations, in addition to that of members and dashpots */
     int damped;     /* 1 if modes include damping */
-    int open_loops; /* 1 if small vibrations do not include the feedback of loads */
+    int open_loops; /* 1 if the feedback of loads is omitted */
     int by_modes;   /* 1 if a harmonic analysis is solved by superposition of modes */
     int modes;      /* number of modes, or 0 for all modes */
     char name[SCENE_NAME]; /* "" for no name */
@@ -191,7 +189,7 @@ typedef struct scene_analysis {
 
 int scene_add_linear(scene *s);
 int scene_add_static(scene *s, int stations, const double path[], int steps_between);
-/* Adds a buckling analysis with as many eigenvalues as the quantities request. */
+/* Add a buckling or modal analysis. The quantities determine the number of eigenvalues. */
 int scene_add_buckling(scene *s, int follows);
 int scene_add_modal(scene *s, int follows);
 int scene_add_compliance(scene *s, int follows, scene_compliance what);
@@ -205,8 +203,8 @@ scene_alpha scene_alpha_of_radius(double rho);
 /* Sets the rotation of the axes of a static path or a continuation. */
 void scene_set_rotating_frame(scene *s, int analysis, scene_rotating_frame frame);
 
-/* Returns the time [s] of the instant of a motion about which an analysis is made, or NAN if the
- * analysis is not about a motion. */
+/* Returns the time [s] of the motion about which the analysis is made, or NAN if it is not about a
+ * motion. */
 double scene_instant_of(const scene *, int analysis);
 /* Returns the start [s] of a motion: 0, or the end of the motion that it continues. */
 double scene_motion_begin(const scene *, int analysis);
@@ -218,7 +216,7 @@ const scene_walk *scene_walk_of(const scene_analysis *a);
 const scene_compliance *scene_compliance_of(const scene_analysis *a);
 const scene_continuation *scene_continuation_of(const scene_analysis *a);
 const scene_motion *scene_motion_of(const scene_analysis *a);
-/* Returns 1 if the damping of the analysis includes damping ratios of modes. */
+/* Returns 1 if damping ratios of modes are given. */
 int scene_has_ratios(const scene_analysis *a);
 /* Returns 1 for a motion for which the scene requests consistent mass. */
 int scene_spreads(const scene_analysis *a);
@@ -226,8 +224,8 @@ int scene_spreads(const scene_analysis *a);
 int scene_may_spread(const scene *s, int analysis);
 /* Returns the path, or NULL if the kind of analysis has no path. */
 const scene_path *scene_path_of(const scene_analysis *a);
-/* Returns the analysis from whose state a chain of motions starts, which is a static path, a
- * continuation or a rotation. Returns SCENE_NONE for the undeformed state. */
+/* Returns the static path, continuation or rotation from whose state a chain of motions starts.
+ * Returns SCENE_NONE for the undeformed state. */
 int scene_origin_of(const scene *s, int analysis);
 const scene_rotating_frame *scene_rotating_frame_of(const scene_analysis *a);
 /* Returns 1 if the axes of the analysis rotate. */
@@ -238,8 +236,8 @@ int scene_rotates(const scene_analysis *a);
  *
  * The operator ^ has the highest precedence and is right-associative (-2^2 = -4, 2^3^2 = 512).
  * Signs follow, then * and /, then + and -. Values are in SI units and angles in radians
- * (30*deg*t). Parts without t must be finite. A function with slope discontinuities, or whose
- * derivatives are not implemented, accepts only arguments without t. Functions of time with
+ * (30*deg*t). Parts without t must be finite. The arguments of functions that have discontinuities,
+ * or whose derivatives are not implemented, must not contain t. Functions of time with
  * discontinuities are given in pieces (scene_piece), so that steps can end at the
  * discontinuities. */
 
@@ -248,8 +246,8 @@ typedef struct expression_mistake {
     char what[FAULT_TEXT]; /* message with the remedy, or "" if the error was already reported */
 } expression_mistake;
 
-/* Sets *out to the value of the name at text[*at] and moves *at past the name. Returns 1, or 0
- * after an error. */
+/* Callback that sets *out to the value of the name at text[*at] and moves *at past the name.
+ * Returns 1, or 0 after an error. */
 typedef int expression_name(const void *names, const char *text, int *at, double *out,
                             expression_mistake *);
 
@@ -258,7 +256,7 @@ typedef int expression_name(const void *names, const char *text, int *at, double
 size_t expression_name_length(const char *text);
 /* Returns the name of function or constant number i, or NULL after the last. */
 const char *expression_word(int i);
-/* Returns 1 if the name is that of a function or a constant. */
+/* Returns 1 for the name of a function or of a constant. */
 int expression_is_word(const char *name, size_t length);
 
 /* Evaluates text[from .. end - 1] as a number. `find` is NULL if no names are allowed. Returns
@@ -275,16 +273,16 @@ typedef struct formula formula;
 
 /* Parses a function. Returns REFUSED if the text is invalid, or FAULT if out of memory. */
 status formula_parse(const char *text, formula **out, expression_mistake *);
-/* Parses a function. Returns REFUSED if the text is invalid; f then contains the error and the
- * position of the character (from 1). */
+/* Parses a function. Returns REFUSED if the text is invalid; f then contains the error and its
+ * position (from 1). */
 status formula_read(const char *text, formula **out, fault *f);
 void formula_free(formula *);
 /* Computes the value and the first two derivatives with respect to t. Undefined values are not
  * finite. */
 void formula_at(const formula *, double t, double out[3]);
 
-/* A function of time in pieces, each of which is a formula. Slope discontinuities and jumps are
- * allowed between pieces. No step crosses them. */
+/* A function of time in pieces, each of which is a formula. Between pieces, the function may be
+ * discontinuous. No time step crosses the end of a piece. */
 
 typedef struct scene_piece {
     double until; /* end of the piece [s]; the last piece has no end */
@@ -295,7 +293,7 @@ typedef struct scene_piece {
 typedef struct scene_function {
     int pieces;
     scene_piece *piece; /* pieces in ascending order [pieces] */
-    double scale;       /* factor of the value, where 0 stands for 1 */
+    double scale;       /* factor of the value; 0 means 1 */
 } scene_function;
 
 /* Appends a piece and copies the text. Returns -1 if out of memory. */
@@ -318,15 +316,15 @@ int function_finite(const scene_function *, double end, int derivatives, double 
 int function_smooth(const scene_function *, double end, double *time, int *derivative);
 
 /* Quantities of an analysis. A quantity has a name, an extracted value (one struct for each kind)
- * and a statistic. Each kind has a function below that returns its data and ends the program if the
- * quantity is of another kind. Other sources do not use the union. */
+ * and a statistic. For each kind, a function below returns its data; it aborts if the quantity is
+ * of another kind. Other sources do not use the union. */
 
 typedef enum scene_quantity_kind {
     SCENE_COORDINATE,       /* displacement component or rotation-vector component of a node */
     SCENE_REACTION,         /* reaction of a prescribed component at a node */
     SCENE_COMPLIANCE_ENTRY, /* entry of the 6 x 6 compliance matrix of the node of the analysis */
-    SCENE_STIFFNESS_ENTRY,  /* reciprocal of compliance entry (i, i), while all fixed coordinates
-                               remain fixed */
+    SCENE_STIFFNESS_ENTRY,  /* reciprocal of the compliance entry (i, i); fixed coordinates remain
+                               fixed */
     SCENE_CRITICAL_FACTOR,  /* load factor of linear buckling */
     SCENE_GROWTH,         /* largest growth rate of all modes [1/s], or 0 if the state is stable */
     SCENE_FREQUENCY,      /* [Hz] */
@@ -334,7 +332,7 @@ typedef enum scene_quantity_kind {
     SCENE_CRITICAL_POINT, /* critical point of a continuation */
     SCENE_DRIVER_VALUE,   /* value of an unknown driver */
     SCENE_INTERNAL,       /* resultant of the stresses on a cross-section of a member */
-    SCENE_STRESS,         /* largest stress of a cross-section or of a member */
+    SCENE_STRESS,         /* largest stress in a cross-section or in a member */
     SCENE_RATE,           /* velocity of a node, angular velocity in the axes of the node, or a time
                              derivative of either */
     SCENE_BALANCE,        /* energy or momentum of a motion */
@@ -343,7 +341,7 @@ typedef enum scene_quantity_kind {
     SCENE_DAMPING_RATIO,  /* damping ratio of a damped mode, or its decay rate */
     SCENE_DEFLECTION,     /* displacement or rotation of a cross-section of a member */
     SCENE_ENVELOPE_OF,    /* largest or smallest of other quantities */
-    SCENE_READING         /* value of nodes that only the file of the quantity type evaluates */
+    SCENE_READING         /* value that depends only on nodes; the quantity type computes it */
 } scene_quantity_kind;
 
 /* A point of a path at which the tangent stiffness is singular. */
@@ -375,16 +373,15 @@ typedef enum scene_reduction {
     SCENE_REDUCTIONS
 } scene_reduction;
 
-/* Returns 1 if the result is a time or a frequency. Otherwise the result is a value of the
- * extracted quantity. Largest and smallest values refer to reported values: if the factor is
- * negative, they are the smallest and largest extracted values. Times are those of extracted
- * values. */
+/* Returns 1 if the result is a time or a frequency, and 0 if it is a value of the quantity.
+ * SCENE_MAX and SCENE_MIN refer to reported values, but SCENE_MAX_TIME and SCENE_MIN_TIME to
+ * extracted values. */
 static inline int scene_is_timed(scene_reduction how)
 {
     return how > SCENE_CURVE && how < SCENE_MEAN;
 }
 
-/* Returns 1 for the largest or smallest value, and for the time of that value. */
+/* Returns 1 for the largest or smallest value or its time. */
 static inline int scene_is_extreme(scene_reduction how)
 {
     return how == SCENE_MAX || how == SCENE_MIN || how == SCENE_MAX_TIME || how == SCENE_MIN_TIME;
@@ -393,25 +390,24 @@ static inline int scene_is_extreme(scene_reduction how)
 /* Direction in which a level is crossed. */
 typedef enum scene_direction { SCENE_RISING, SCENE_FALLING, SCENE_EITHER } scene_direction;
 #define SCENE_DIRECTION_CHOICES "rising|falling|either"
-/* The last two choices are also curves. */
+/* The last two words also select curves. */
 #define SCENE_TAKE_CHOICES                                                                         \
     "last|max|min|curve|max_time|min_time|crossing|period|per_second|mean|rms|spectrum|psd"
 
-/* Transform of a curve of a motion over time to a curve over frequency. The stations x[0 .. N] are
- * spaced evenly by d, and x[N] starts the next period. X[k] = sum w[n] x[n] exp(-2 pi i k n/N) at
- * the frequency k/(N d). */
+/* Transform of a curve of a motion over time to a curve over frequency. The values x[0 .. N] are at
+ * stations with equal spacing d. x[N] starts the next period and is not used. X[k] = sum w[n] x[n]
+ * exp(-2 pi i k n/N) at the frequency k/(N d). */
 typedef enum scene_transform {
     SCENE_HISTORY,
-    SCENE_SPECTRUM, /* amplitudes 2 |X|/sum w; half of this value at the frequencies 0 and 1/(2 d)
-                     */
-    SCENE_PSD /* one-sided power spectral density 2 d |X|^2/sum w^2 [per Hz]; half of this value at
-                 the frequencies 0 and 1/(2 d) */
+    SCENE_SPECTRUM, /* amplitudes 2 |X|/sum w; half of it at the frequencies 0 and 1/(2 d)  */
+    SCENE_PSD /* one-sided power spectral density 2 d |X|^2/sum w^2 [per Hz]; half of it at the
+                 frequencies 0 and 1/(2 d) */
 } scene_transform;
 /* The weights w are 1 or sin^2(pi n/N). */
 typedef enum scene_taper { SCENE_TAPER_NONE, SCENE_TAPER_HANN } scene_taper;
 #define SCENE_TAPER_CHOICES "none|hann"
 
-/* Event of a motion from which a value is taken. */
+/* Level crossing and time window of a statistic. */
 typedef struct scene_passing {
     double level; /* level of the extracted value, in SI units */
     scene_direction direction;
@@ -433,11 +429,10 @@ typedef struct scene_rated {
 } scene_rated;
 
 /* Resultants: forces and moments that the part of a member towards end q exerts on the part towards
- * p, in the principal axes of the rotated cross-section, with moments about the centroid. The parts
- * of the torque are Saint-Venant torsion, restrained warping, and the contribution of stresses
- * along the fibres, which the twist rotates. They add up to the torque about the shear centre, Mx -
- * (ys Qz - zs Qy). The torque due to restrained warping is the rate at which the bimoment decreases
- * along the member. */
+ * p, in the principal axes of the rotated cross-section, with moments about the centroid. The
+ * torque about the shear centre, Mx - (ys Qz - zs Qy), has three parts: Saint-Venant torsion,
+ * restrained warping, and the contribution of the stresses in twisted fibres. The torque due to
+ * restrained warping is the rate at which the bimoment decreases along the member. */
 typedef enum scene_resultant {
     SCENE_N,
     SCENE_QY,
@@ -452,12 +447,12 @@ typedef enum scene_resultant {
     SCENE_RESULTANTS
 } scene_resultant;
 
-/* The cross-section of a member at which a value is taken. */
+/* The cross-section of a member at which a value is computed. */
 typedef enum scene_along {
     SCENE_ALONG_PLACE,  /* at a position */
     SCENE_ALONG_MAX,    /* at the cross-section with the largest value */
     SCENE_ALONG_MIN,    /* at the cross-section with the smallest value */
-    SCENE_ALONG_LARGEST /* at the cross-section with the largest magnitude, which is the result */
+    SCENE_ALONG_LARGEST /* largest magnitude over all cross-sections */
 } scene_along;
 
 typedef struct scene_internal {
@@ -469,7 +464,7 @@ typedef struct scene_internal {
     int before;   /* side at a discontinuity: 1 on the side of p, 0 on that of q */
 } scene_internal;
 
-/* Displacement of the centroid, or rotation of the cross-section, in fixed axes. */
+/* Displacement of the centroid or rotation of the cross-section, in global axes. */
 typedef struct scene_deflection {
     int member, component;
     double place; /* position as a fraction of the initial length, 0 at p to 1 at q */
@@ -485,8 +480,7 @@ typedef enum scene_stress_measure {
 typedef struct scene_stress {
     int member;
     scene_stress_measure measure;
-    int whole; /* 1 for the largest value over all cross-sections of the member, 0 for the value at
-                  the position ... */
+    int whole;
     double place; /* ... as a fraction of the initial length, 0 at p to 1 at q */
     int before;   /* side at a discontinuity: 1 on the side of p, 0 on that of q */
 } scene_stress;
@@ -509,14 +503,13 @@ typedef enum scene_balance {
 } scene_balance;
 #define SCENE_BALANCE_CHOICES "kinetic|strain|energy|work|dissipated|drift|px|py|pz|lx|ly|lz"
 
-/* Displacement of a node relative to another node: the change of its position in the axes of the
- * other node, or its rotation relative to the other node. */
+/* Motion of a node relative to the node `from`: the change of its position in the axes of `from`,
+ * or its relative rotation. */
 typedef struct scene_relative {
     int node, component, from;
 } scene_relative;
 
-/* Data of kinds without a separate struct. The key tables of these kinds list the members that they
- * use. */
+/* Data of kinds without their own struct, whose key tables list the members that they use. */
 typedef struct scene_reading {
     int node[4], component[4];
     double number[4];
@@ -528,7 +521,7 @@ typedef enum scene_vibration {
     SCENE_DISPLACED,
     SCENE_VELOCITY,
     SCENE_ACCELERATION,
-    SCENE_REACTING /* reaction force or moment of the motion that drives the component */
+    SCENE_REACTING /* reaction force or moment of the driver that prescribes the component */
 } scene_vibration;
 typedef enum scene_vibration_part {
     SCENE_AMPLITUDE,
@@ -562,8 +555,8 @@ typedef struct scene_critical_load {
 typedef struct scene_mode {
     int order; /* index among the modes with this family and number of half-waves, from 0 */
     scene_family family;
-    int half_waves; /* number of half-waves, or 0 for any number */
-    int decay;      /* for a damping ratio, 1: the decay rate [1/s] is extracted instead */
+    int half_waves;
+    int decay; /* for SCENE_DAMPING_RATIO: 1 if the decay rate [1/s] is extracted instead */
 } scene_mode;
 
 typedef enum scene_ordinate { SCENE_LOAD_FACTOR, SCENE_CONTROL } scene_ordinate;
@@ -571,16 +564,15 @@ typedef enum scene_ordinate { SCENE_LOAD_FACTOR, SCENE_CONTROL } scene_ordinate;
 typedef struct scene_point {
     scene_critical kind;
     int order;               /* index among the points of this kind along the path, from 0 */
-    scene_ordinate ordinate; /* extracted value: load factor, or control coordinate [m] */
+    scene_ordinate ordinate; /* which value is extracted: load factor or control coordinate [m] */
 } scene_point;
 
-/* The extracted value, which the functions of the kinds below return. */
+/* The value that a quantity extracts. The functions below return it. */
 typedef struct scene_extract {
-    scene_quantity_kind kind;         /* kind of value that is requested from an analysis */
-    const struct quantity_type *type; /* type defined in a file of cases/quantities */
+    scene_quantity_kind kind;
+    const struct quantity_type *type; /* quantity type (cases/quantities) */
     union {
-        scene_component
-            component; /* component for coordinates and reactions, and for the position of a rate */
+        scene_component component; /* component of a coordinate, reaction or rate */
         scene_rated rated;
         scene_entry entry; /* for compliance and stiffness */
         scene_critical_load load;
@@ -604,7 +596,7 @@ scene_extract scene_compliance_entry(int row, int column);
 scene_extract scene_stiffness_entry(int component);
 scene_extract scene_critical_factor(int sign, int order);
 scene_extract scene_growth(void);
-/* scene_frequency returns a frequency for any number of half-waves. */
+/* scene_frequency does not restrict the number of half-waves. */
 scene_extract scene_frequency(int order, scene_family family);
 scene_extract scene_factor_at(void);
 scene_extract scene_critical_point(scene_critical kind, int order, scene_ordinate ordinate);
@@ -622,12 +614,12 @@ int scene_unbalance_along(const scene_response *r, int k);
  * side of q. */
 scene_extract scene_internal_at(int member, double place, scene_resultant resultant);
 scene_extract scene_internal_along(int member, scene_along along, scene_resultant resultant);
-/* Extracts the largest value of a stress measure over the cross-sections of a member, or the
- * smallest value of SCENE_NORMAL_MIN. */
+/* Extracts the largest value of a stress measure over the cross-sections of a member; for
+ * SCENE_NORMAL_MIN, the smallest. */
 scene_extract scene_stress_along(int member, scene_stress_measure measure);
 scene_extract scene_stress_at(int member, double place, scene_stress_measure measure);
-/* Returns `what`, a resultant or a stress at a position, on one side of a discontinuity: that of p
- * if `before` is 1, otherwise that of q. */
+/* Returns `what`, a resultant or a stress at a position, with this side of a discontinuity: 1 for
+ * the side of p, 0 for that of q. */
 scene_extract scene_beside(scene_extract what, int before);
 /* Words of scene files. */
 #define SCENE_STRESS_CHOICES    "von_mises|normal_max|normal_min"
@@ -642,8 +634,7 @@ typedef struct scene_abscissa {
         offset; /* ... factor times the path parameter or control coordinate, plus offset */
 } scene_abscissa;
 
-/* Value of an analytic model with a model error, which is shown for information without a
- * verdict. */
+/* Analytic estimate, which is shown next to the result and has no verdict. */
 typedef struct scene_prediction {
     double value;       /* [unit of the quantity] */
     const char *source; /* NULL without a prediction */
@@ -654,43 +645,42 @@ typedef enum scene_envelope {
     SCENE_ENVELOPE_NONE,
     SCENE_ENVELOPE_MAX,
     SCENE_ENVELOPE_MIN,
-    SCENE_ENVELOPE_LARGEST /* the value of the largest magnitude, with its sign */
+    SCENE_ENVELOPE_LARGEST /* the value with the largest magnitude, including its sign */
 } scene_envelope;
 #define SCENE_ENVELOPE_CHOICES "max|min|largest"
 
 typedef struct scene_quantity {
     char name[SCENE_NAME], unit[SCENE_UNIT];
     int analysis;
-    scene_acting acting; /* load case or combination, for a linear analysis that solves all of them;
+    scene_acting acting; /* the load case or combination, if a linear analysis solves all of them;
                             otherwise ... */
     scene_envelope envelope;
     int overs;
     int *over; /* ... [overs] combinations of the envelope. overs 0: all combinations, or all load
                   cases if there are no combinations. For SCENE_ENVELOPE_OF: the quantities */
     scene_extract what;
-    scene_reduction reduction; /* statistic over the stations of a path */
-    scene_transform transform; /* transform of a curve */
-    double at;                 /* path parameter or control coordinate, for SCENE_AT */
-    scene_passing passing;     /* event of a motion */
-    scene_abscissa x;          /* of a curve */
-    double factor, offset;     /* reported value = factor * extracted value + offset */
-    double near_zero;          /* scale for relative errors of values near zero, or 0 for |value| */
-    double tolerance;   /* tolerance of the limit, relative to the reference value: SCENE_TOLERANCE
-                           unless a case states a reason for another value */
-    double least_order; /* lowest order of convergence with respect to the number of elements */
+    scene_reduction reduction;
+    scene_transform transform;
+    double at; /* path parameter or control coordinate, for SCENE_AT */
+    scene_passing passing;
+    scene_abscissa x;      /* abscissa of a curve */
+    double factor, offset; /* reported value = factor * extracted value + offset */
+    double near_zero;      /* value|value| */
+    double tolerance;      /* relative tolerance of the limit, SCENE_TOLERANCE by default */
+    double least_order;    /* lowest order of convergence with respect to the number of elements */
     scene_prediction prediction;
 } scene_quantity;
 
-/* Adds a quantity and returns it for completion. The result is never NULL. The defaults are the
- * value at the last station, the factor 1, the tolerance SCENE_TOLERANCE, and 0 for all other
- * members. */
+/* Adds a quantity and returns it, never NULL. It is the value at the last station, with the factor
+ * 1 and the tolerance SCENE_TOLERANCE. All other members are 0. */
 scene_quantity *scene_add_quantity(scene *s, const char *name, const char *unit, int analysis,
                                    scene_extract what);
-/* Makes the quantity a curve over the path parameter or the control coordinate, times factor plus
- * offset. */
+/* Makes the quantity a curve. Its abscissa is factor times the path parameter or control
+ * coordinate, plus offset. */
 void scene_set_curve(scene_quantity *q, const char *x_name, const char *x_unit, double factor,
                      double offset);
-/* Makes the quantity a curve over another quantity whose curve has the same stations. */
+/* Makes the quantity a curve whose abscissa is the curve of another quantity at the same
+ * stations. */
 void scene_set_curve_over(scene_quantity *q, const char *quantity, const char *unit);
 /* Returns the index of the quantity that is the abscissa of a curve, or SCENE_NONE if the abscissa
  * is the path. */
@@ -700,8 +690,8 @@ void scene_set_at(scene_quantity *q, double at);
 /* Sets the quantity to a statistic over all times of a motion: SCENE_MAX, SCENE_MIN, or
  * SCENE_MAX_TIME to SCENE_RMS. */
 void scene_set_passing(scene_quantity *q, scene_reduction, scene_passing);
-/* Finds the stations of a spectrum: *count stations, the first of which has the index *first.
- * Returns REFUSED if the stations are not evenly spaced. */
+/* Sets *first to the index of the first station of a spectrum and *count to the number of its
+ * stations. Returns REFUSED if the stations are not evenly spaced. */
 status scene_spectrum_stations(const scene *, const scene_quantity *, int *first, int *count,
                                fault *);
 /* Returns 1 if the quantity is evaluated between the stations of a motion. */
@@ -723,25 +713,24 @@ const scene_stress *scene_stress_of(const scene_quantity *q);
 int scene_requests(const scene_quantity *q, int analysis, scene_quantity_kind kind);
 /* Returns 1 if the quantity needs reactions, resultants or stresses. */
 int scene_reads_forces(const scene_quantity *q);
-/* Returns 1 if a quantity, an imperfection, or a used analysis that follows it uses the analysis.
+/* Returns 1 if the analysis is used: by a quantity, an imperfection or another used analysis.
  * Without quantities, all analyses are used. */
 int scene_reads(const scene *s, int analysis);
-/* Removes all quantities whose names do not occur in the other scene. */
+/* Removes all quantities that the scene `of` does not contain, by name. */
 void scene_keep_quantities(scene *s, const scene *of);
-/* Returns the unit of a response to a force or a moment. Both arguments are SCENE_UX to
- * SCENE_RZ. */
+/* Returns the unit of the displacement or rotation per force or moment. Both arguments are SCENE_UX
+ * to SCENE_RZ. */
 const char *scene_compliance_unit(int row, int column);
 /* Returns 1 if the quantity can be extracted from an analysis of this kind. */
 int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
 
 /* A scene: a structure, its supports and prescribed motions, its analyses and the requested
- * quantities. A scene consists of data that could be in a file. The functions of this header use no
- * solver and no formulation.
+ * quantities. The functions of this header use no solver and no formulation.
  *
  * Every scene_* function that adds an entry returns the index of the entry in its list, or -1 if
  * out of memory (scene_valid reports this once, at the end). */
 
-/* Largest number of meshes in a scene or a command. */
+/* Largest number of meshes of a scene or a command. */
 enum { SCENE_MESHES = 24 };
 
 /* Components of a node: three translations and three rotations about global axes. */
@@ -753,7 +742,7 @@ enum { SCENE_WARP_FREE = -1, SCENE_WARP_FIXED = -2 };
 /* Motion of one coordinate. A value >= 0 is the index of a driver. */
 enum { SCENE_FREE = -1, SCENE_HELD = -2 };
 
-/* Restriction to a plane: no node or member moves out of the plane, and warping is restrained. */
+/* Restriction to a plane: nodes and members remain in the plane, and warping is restrained. */
 typedef enum scene_plane {
     SCENE_SPACE,
     SCENE_PLANE_YZ,
@@ -765,7 +754,7 @@ typedef enum scene_plane {
 typedef enum scene_rotation {
     SCENE_ROTATION_SPATIAL,  /* three increments about global axes, each free or fixed (all fixed:
                                 clamped) */
-    SCENE_ROTATION_SEQUENCE, /* R = exp(axis_1 t_1) exp(axis_2 t_2) exp(axis_3 t_3); each angle is
+    SCENE_ROTATION_SEQUENCE, /* R = exp(axis_1 t_1) exp(axis_2 t_2) exp(axis_3 t_3), each angle
                                 free, fixed or prescribed */
     SCENE_ROTATION_VECTOR,   /* rotation vector prescribed by three drivers */
     SCENE_ROTATION_FORK /* no rotation about the axis of the cross-section, the other two rotations
@@ -791,14 +780,14 @@ typedef struct scene_node {
                           SCENE_HELD or a driver */
     double axis[3][3]; /* rotation axes of the sequence, which ends at a zero axis; for a fork, the
                           axis of the cross-section and the direction of the web */
-    double axes[2][3]; /* x and y axes of the translations, of any length, or zero for the axes of
-                          the scene */
+    double axes[2][3]; /* directions x and y of the translations, of any length; zero for the axes
+                          of the scene */
     scene_body body;
     char name[SCENE_NAME]; /* "" for no name, as for every entry */
 } scene_node;
 
-/* Released components of a member end: rotations, in order, and translations that the end does not
- * transmit to its node. The components are in the axes of the member at this end (y as in
+/* Released components of a member end, which the end does not transmit to its node. Rotations are
+ * in the order of their axes. The components are in the axes of the member at this end (y as in
  * scene_member). With r and R of the node, the end is at r + R_end s, where R_end = R exp(a_1 t_1)
  * exp(a_2 t_2). Of two rotations, the first axis belongs to the node and the second to the member
  * (a universal joint). Translations are along the rotated end. Three rotations are a ball joint. */
@@ -808,8 +797,7 @@ typedef struct scene_release {
     int component[SCENE_RELEASED]; /* SCENE_UX .. SCENE_RZ, each at most once */
 } scene_release;
 
-/* Members of the struct that are also keys of scene files are in keys_member.h, which defines both
- * in one line. */
+/* Members of the struct that are also keys of scene files are defined in keys_member.h. */
 #define KEY(type, name, dimensions, ...) type name dimensions;
 #define ROW(...)
 typedef struct scene_member {
@@ -825,33 +813,30 @@ typedef struct scene_member {
     double offset[2]
                  [3]; /* vectors from the nodes p, q to the ends of the member, which move rigidly
                          with the nodes, in global axes of the undeformed structure [m] */
-    double foundation[6]; /* springs to the ground along the member [N/m^2, N], which act on the
-                             displacements and rotations of the cross-sections from the undeformed
-                             state; they keep the directions of the initial axes of the member */
+    double
+        foundation[6]; /* stiffness per length of springs between the ground and the cross-sections,
+                          along and about the initial axes of the member [N/m^2, N] */
     char name[SCENE_NAME];
 } scene_member;
 
 /* A force as a function of a displacement, or a moment as a function of a rotation. The function is
  * linear between points and extrapolated linearly beyond both ends. */
 typedef struct scene_table {
-    scene_path at,
-        value; /* displacements or rotations in ascending order [m, rad]; forces or moments that do
-                  not decrease and are zero at zero [N, N m]. No points: no table */
+    scene_path at, value; /* displacements or rotations in ascending order [m, rad], and forces or
+                             moments [N, N m], which do not decrease and are zero at zero */
 } scene_table;
 
 /* Spring between two nodes, or between a node and the ground, with the energy 1/2 d^T K d. d is the
- * motion of the frame of q relative to p from the undeformed state. Its six components are the
- * change of distance [m] and the rotation vector [rad], of less than 3 rad. The axes of d rotate
- * with p, and are initially the global axes. */
+ * motion of q relative to p since the undeformed state: displacement [m] and rotation vector [rad],
+ * less than 3 rad. Its axes rotate with p and are initially the global axes. */
 typedef struct scene_spring {
     int p, q;             /* nodes, where p is SCENE_NONE for the ground */
-    double stiffness[36]; /* K, row-major [N/m, N, N m]. If K is not symmetric, the forces K d have
-                             no potential */
-    double damping[36]; /* damping matrix of forces on the rates of d, used in motions [N s/m, N s,
-                           N m s] */
-    double asymmetry;   /* asymmetry of the given K relative to its diagonal if only the symmetric
-                           part is used because the asymmetry is due to rounding, otherwise 0 */
-    double damping_asymmetry; /* asymmetry of the given damping matrix, in the same way */
+    double stiffness[36]; /* K, row-major [N/m, N, N m]. An unsymmetric K has no energy; its forces
+                             are K d */
+    double damping[36];   /* damping matrix: forces per rate of d [N s/m, N s, N m s] */
+    double asymmetry; /* asymmetry of the given K relative to its diagonal if it is only rounding,
+                         so that the symmetric part is used; otherwise 0 */
+    double damping_asymmetry; /* the same for the damping matrix */
     scene_table table[6];     /* tables of the components of d, which act in addition to K */
     char name[SCENE_NAME];
 } scene_spring;
@@ -862,18 +847,18 @@ typedef struct scene_constraint {
     int nodes, *node;    /* [nodes] */
     unsigned components; /* bits 1 << SCENE_UX .. SCENE_RZ */
     double ratio;
-    int master, normal; /* diaphragm (rigid in its plane): leading node, normal axis 0 .. 2 */
+    int master, normal; /* of a diaphragm: leading node, and normal axis 0 .. 2 */
     char name[SCENE_NAME];
 } scene_constraint;
 
-/* A part of the stress-free initial shape of the structure: a mode computed for the perfect
- * structure, or shifts of nodes, between which members retain their shape. */
+/* A part of the stress-free initial shape of the structure: a mode of the perfect structure, or
+ * shifts of nodes. */
 typedef struct scene_imperfection {
-    int analysis, order; /* buckling or modal analysis and the number of its mode from 0, or
-                            SCENE_NONE for shifts */
+    int analysis,
+        order; /* buckling or modal analysis, or SCENE_NONE for shifts, and index of its mode */
     double amplitude;    /* for a mode: largest displacement of a point of a member [m] */
-    double direction[3]; /* direction of the largest displacement; zero if the displacement is
-                            positive along an axis */
+    double direction[3]; /* direction of the largest displacement, which determines the sign of the
+                            mode; zero: not given */
     int nodes, *node;    /* [nodes] */
     double (*shift)[3];  /* [nodes] [m] */
     double factor;       /* factor of the shifts */
@@ -885,8 +870,8 @@ typedef struct scene_imperfection {
 typedef struct scene_driver {
     char name[SCENE_NAME];
     int stations;
-    double *path, *value;    /* values at the stations [m or rad], or NULL if they are unknown and
-                                follow from the condition */
+    double *path, *value;    /* path parameters of the stations, and values [m or rad]; NULL if the
+                                driver is unknown */
     scene_function function; /* function of time, given instead of the stations; no pieces if
                                 stations are given */
     int condition_node,
@@ -897,7 +882,7 @@ typedef struct scene_driver {
                     */
 } scene_driver;
 
-/* Returns 1 if the driver prescribes rotations. */
+/* Returns 1 if the driver prescribes a rotation. */
 int scene_driver_turns(const scene *, int driver);
 
 typedef enum scene_load_kind {
@@ -916,15 +901,16 @@ typedef enum scene_load_kind {
 /* Axes of a load: global axes, or those of the undeformed member (y as in scene_member). */
 typedef enum scene_load_axes { SCENE_AXES_FIXED, SCENE_AXES_MEMBER } scene_load_axes;
 
-/* Feedback of a load at a node in a motion. The factor of the load is proportional e + derivative
- * e' + integral (int e dt), limited to the magnitude `limit`. The error e is the reference minus
- * the measured component of a node. The reference is the function of time of the load, or 0 if the
- * load has none. */
+/* Feedback: a load at a node that depends on a measured component. The factor of the load is
+ * proportional e + derivative e' + integral (int e dt), limited to the magnitude `limit`. The error
+ * e is the reference, which is the function of time of the load or 0, minus the measured
+ * component. */
 typedef struct scene_feedback {
     int node, component; /* node and measured component, or SCENE_NONE without feedback */
     int from;            /* node whose component is subtracted, or SCENE_NONE */
-    double proportional, derivative, integral; /* [1/m, s/m, 1/(m s)], or rad for m */
-    double limit;                              /* 0 for no limit */
+    double proportional, derivative,
+        integral; /* [1/m, s/m, 1/(m s)], or with rad instead of m for a rotation */
+    double limit; /* 0 for no limit */
 } scene_feedback;
 
 #define KEY(type, name, dimensions, ...) type name dimensions;
@@ -937,8 +923,7 @@ typedef struct scene_load {
                          at range[0] */
     double last[3];   /* value at range[1] if the load varies linearly */
     int varies;       /* 0 if the load is constant over the range */
-    double range[2];  /* range on a member, as a fraction of the initial length from p. For a
-                         distributed load, 0 and 1 are the whole member, as for gravity. For a force
+    double range[2];  /* range on a member, as a fraction of the initial length from p. For a force
                          or a moment inside a member, both are its position. For loads at nodes, both
                          are 0 */
     int stations;     /* number of stations, or 0 if the factor equals the path parameter */
@@ -949,12 +934,12 @@ typedef struct scene_load {
     char name[SCENE_NAME];
 } scene_load;
 
-/* A load case, to which loads refer by its name. */
+/* A load case. Loads refer to it by its name. */
 typedef struct scene_load_case {
     char name[SCENE_NAME];
 } scene_load_case;
 
-/* A load case of a combination with its factor. Load cases without a term do not act. */
+/* A load case of a combination, with its factor. */
 typedef struct scene_term {
     int load_case;
     double factor;
@@ -966,7 +951,7 @@ typedef struct scene_combination {
     char name[SCENE_NAME];
 } scene_combination;
 
-/* Computed constants of a section, with the description from which they were computed. */
+/* Stored constants of a section, with the description from which they were computed. */
 typedef struct scene_computed {
     int known;
     section_spec of;
@@ -980,7 +965,7 @@ enum {
                       FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA | FEATURE_WARPING
 };
 
-/* Shear theory in stability that a scene requests. */
+/* Shear theory that a scene requests for stability. */
 typedef enum scene_shear {
     SCENE_SHEAR_HARINGX,
     SCENE_SHEAR_ENGESSER,
@@ -1022,8 +1007,8 @@ struct scene {
     int meshes; /* default -n values of verify and converge */
     int mesh[SCENE_MESHES];
     int out_of_memory;
-    /* Target of returned pointers if memory has run out, so that a case can write without
-     * checks. */
+    /* Returned instead of an entry if out of memory, so that a case can write to it without a
+     * check. */
     union {
         scene_node node;
         scene_member member;
@@ -1042,8 +1027,7 @@ int scene_add_attached(scene *s, int body, double x, double y,
 int scene_add_member(scene *s, int p, int q, int profile,
                      const double y_axis[3]); /* profile is the section at both ends */
 /* Computes the stress-free elongation of a member of this length [m] from its pretension or its
- * unstressed length. Returns REFUSED if the section does not determine an elongation for the
- * pretension. */
+ * unstressed length. Returns REFUSED if the elongation cannot be computed for the section. */
 status scene_member_elongation(const scene *s, int member, double length, double *out, fault *f);
 /* Returns 1 if the scene has a temperature load or a member with a stress-free elongation or
  * curvature. Writes the name of the load or member to `owner_name`, which may be NULL. */
@@ -1066,31 +1050,30 @@ void scene_set_table(scene *s, int spring, int component, int points, const doub
 double scene_table_at(const scene_table *, double x, double *slope);
 /* Returns the integral of the table from `from` to `to`. */
 double scene_table_work(const scene_table *, double from, double to);
-/* Releases this component at an end of a member (0 at p, 1 at q), in addition to components
- * released before. scene_validate rejects more than SCENE_RELEASED. */
+/* Releases a further component at an end of a member (0 at p, 1 at q). scene_validate rejects more
+ * than SCENE_RELEASED components. */
 void scene_release_end(scene *s, int member, int end, int component);
 int scene_add_spring(scene *s, int p, int q, const double stiffness[36]);
-/* Adds a constraint without nodes. All nodes that are added to the constraint follow the first
- * node. */
+/* Adds a constraint without nodes. The components of nodes that are added later depend on those of
+ * the first node. */
 int scene_add_constraint(scene *s, unsigned components, double ratio);
 void scene_constrain(scene *s, int constraint, int node);
-/* Adds a diaphragm, to which scene_constrain adds nodes. From then on, these nodes rotate by a
- * sequence of angles: about the normal, then about the two other axes. */
+/* Adds a diaphragm, to which scene_constrain adds nodes. Their rotations become a sequence: about
+ * the normal, then about the two other axes. */
 int scene_add_diaphragm(scene *s, int master, int normal);
 
-/* Adds an imperfection without a mode or shifts. */
+/* Adds an imperfection, whose mode or shifts the caller adds. */
 int scene_add_imperfection(scene *s);
 void scene_shift_node(scene *s, int imperfection, int node, const double shift[3]);
-/* Returns 1 if the analysis uses the perfect structure. Such an analysis computes a mode that is
- * used as an imperfection, the state about which such a mode is computed, or another result about
- * the same state. */
+/* Returns 1 if the analysis uses the perfect structure, because it computes the mode of an
+ * imperfection or a state about which such a mode is computed. */
 int scene_is_perfect(const scene *s, int analysis);
 
 /* Relation of a coordinate of a node (0 .. 5 as in translation and angle), which is `ratio` times
  * another coordinate. */
 typedef struct scene_tie {
-    int node, coordinate; /* the other coordinate, or the coordinate itself if others follow it, or
-                             SCENE_NONE if there is no relation */
+    int node, coordinate; /* the other coordinate, the coordinate itself if others depend on it, or
+                             SCENE_NONE */
     double ratio;
 } scene_tie;
 /* Fills tie[6 nodes]. Returns REFUSED if constraints contradict each other or the supports. */
@@ -1114,10 +1097,10 @@ int scene_add_unknown_driver(scene *s, const char *name, int node, int component
 /* Returns a dead load. A distributed load acts along the whole member. */
 scene_load scene_load_of(scene_load_kind kind, int where, double x, double y, double z);
 int scene_add_load(scene *s, scene_load_kind kind, int where, double x, double y, double z);
-/* Adds a force or a moment inside a member at the position 0 (p) to 1 (q) of the initial length. */
+/* Adds a force or a moment inside a member at a position from 0 (p) to 1 (q). */
 int scene_add_load_within(scene *s, scene_load_kind kind, int member, double place, double x,
                           double y, double z);
-/* Returns a load for completion. The result is never NULL. */
+/* Returns a load, which the caller may change, never NULL. */
 scene_load *scene_load_at(scene *s, int index);
 /* Returns 1 if the load acts on a member, either along it or at a position inside it. */
 int scene_load_along(const scene_load *load);
@@ -1127,11 +1110,11 @@ int scene_load_within(const scene_load *load);
 int scene_load_turns(const scene_load *load);
 const char *scene_heat_word(const scene_load *load);
 int scene_has_feedback(const scene *s);
-/* Returns 1 if the load closes a loop in a harmonic analysis or in damped modes. */
+/* Returns 1 if the feedback of the load is included in this harmonic or modal analysis. */
 int scene_closes_loop(const scene *s, int analysis, int load);
 /* Returns 1 if the load is not zero on its whole range. */
 int scene_load_acts(const scene_load *load);
-/* Returns 1 if the load can make a tangent unsymmetric. A load that is zero cannot. */
+/* Returns 1 if the load can make a tangent unsymmetric. */
 int scene_load_unsymmetric(const scene_load *load);
 /* Sets the factor of the load, which is piecewise linear in the path parameter. */
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[]);
@@ -1140,21 +1123,19 @@ int scene_add_combination(scene *s, const char *name);
 /* Adds a load case to a combination. */
 void scene_add_term(scene *s, int combination, int load_case, double factor);
 /* Returns the number of the load case or combination that acts in the analysis or in the analysis
- * that it follows. Returns 0 if the scene has no load cases, if all load cases and combinations act
- * one after the other (scene_solves_all), or if the analysis is about the structure without
- * loads. */
+ * that it follows. Returns 0 if the scene has no load cases, if the analysis solves all load cases
+ * (scene_solves_all), or if it is about the structure without loads. */
 int scene_acting_of(const scene *s, int analysis);
 /* Returns 1 for a linear analysis that solves every load case and combination. */
 int scene_solves_all(const scene *s, int analysis);
-/* Returns the number of the i-th load case or combination that a quantity uses, with i from 0.
- * Returns 0 if there are no more, or if all loads act. */
+/* Returns the number of the i-th load case or combination of a quantity, starting at 0. Returns 0
+ * after the last, or if all loads act. */
 int scene_acting_in(const scene *s, const scene_quantity *q, int i);
-/* Returns the factor of the entries of a load case while the load case or combination of this
- * number acts. */
+/* Returns the factor of a load case while the load case or combination with this number acts. */
 double scene_acting_factor(const scene *s, int number, int load_case);
 /* Returns text such as "combination ULS" or "case dead", or "" for 0. */
 scene_words scene_acting_called(const scene *s, int number);
-/* Return an entry of a list for completion. The result is never NULL. */
+/* Return an entry of a list, which the caller may change, never NULL. */
 scene_node *scene_node_at(scene *s, int index);
 scene_member *scene_member_at(scene *s, int index);
 void scene_hold(scene *s, int node, int first,
@@ -1165,15 +1146,15 @@ void scene_drive(scene *s, int node, int component,
 /* Computes the unit vectors along the support axes of the node, in columns. Returns 0 if the
  * support axes are those of the scene. */
 int scene_node_axes(const scene_node *n, double R[9]);
-/* Returns the coordinate of a component. For a rotation sequence, the coordinate is the angle about
- * the corresponding axis, if there is one. */
+/* Returns the coordinate of a component. For a rotation sequence, this is the angle about the axis
+ * of the component. */
 int scene_node_coordinate(const scene_node *n, int component);
-/* Adds a fork support, which has guides on both sides of the web with the fixed normal n = web x
- * axis. For any bending, the web remains between the guides: R web . n = 0, so R = exp(n t_1)
- * exp(web t_2). For bending in the plane of axis and web, the cross-section does not rotate about
- * its present axis R axis, and the moment of the fork is along this axis. (The moment of a fixed
- * SCENE_RX is along the fixed x axis.) `axis` and `web` are perpendicular directions of any length
- * in the undeformed cross-section. Translations are fixed separately. */
+/* Adds a fork support, whose guides on both sides of the web have the fixed normal n = web x axis.
+ * The web remains between the guides: R web . n = 0, so R = exp(n t_1) exp(web t_2). For bending in
+ * the plane of axis and web, the cross-section does not rotate about its current axis R axis, and
+ * the moment of the fork is along this axis. (The moment of a fixed SCENE_RX is along the fixed x
+ * axis.) `axis` and `web` are perpendicular directions of any length in the undeformed
+ * cross-section. Translations are fixed separately. */
 void scene_fork(scene *s, int node, const double axis[3], const double web[3]);
 /* Adds a rigid body to the node. The centre of mass may be offset from the node. */
 void scene_set_body(scene *s, int node, scene_body body);
@@ -1181,10 +1162,9 @@ void scene_set_body(scene *s, int node, scene_body body);
 int scene_has_body(const scene_node *n);
 /* Returns 1 if any part of the scene has a mass. */
 int scene_has_mass(const scene *s);
-/* Finds rotations of a node that all members at the node release and that no other entry resists.
- * Such rotations are undefined and therefore fixed. Returns 0 if there are no such rotations,
- * SCENE_IDLE_AXIS for the rotation about `axis`, which rotates with the node, or SCENE_IDLE_ALL for
- * all rotations. */
+/* Finds rotations of a node that all its members release and that no other entry resists. They are
+ * undefined and are therefore fixed. Returns 0 if there are no such rotations, SCENE_IDLE_AXIS for
+ * the rotation about `axis`, which rotates with the node, or SCENE_IDLE_ALL for all rotations. */
 enum { SCENE_IDLE_AXIS = 1, SCENE_IDLE_ALL };
 int scene_idle_turn(const scene *s, int node, double axis[3]);
 /* Returns the convention of moments on which a quantity depends, or NULL if the quantity does not
@@ -1204,14 +1184,12 @@ void scene_meshes(scene *s, int count, const int mesh[]);
 /* Sets meshes of `first`, 2 `first`, 4 `first`, ... elements, up to `last`. */
 void scene_meshes_doubled(scene *s, int first, int last);
 
-/* Computes the constants of section i, which are cached until the description of the section
+/* Computes the constants of section i. They are stored until the description of the section
  * changes. Not thread-safe. */
 status scene_constants(const scene *s, int i, section *out, fault *f);
 
-/* Makes the ends of pieces of functions of time equal if the ends differ only by rounding. Ends
- * that differ from the end of a motion only by rounding become equal to that end. Otherwise a
- * motion would make a step between such times, and the rates of that step would be rounding
- * errors. */
+/* Makes ends of pieces and of motions equal if they differ only by rounding. Otherwise a motion
+ * would make a step between two such times. */
 void scene_join_instants(scene *s);
 /* Checks the scene. Returns REFUSED with the cause, for example indices out of range, members of
  * zero length, contradictory supports, unused drivers, or names that are not unique. */
@@ -1235,7 +1213,7 @@ along_path_words along_path_end(const scene *, int acting);
 /* Returns REFUSED if a value is not proportional to the path parameter from 0 to 1. */
 status along_path_proportional(const scene *, int acting, fault *);
 
-/* Changes of a scene that must not change its results, used for checks without reference values. */
+/* Changes of a scene that must not change its results. */
 
 typedef enum scene_edit_kind {
     SCENE_EDIT_NONE,
@@ -1250,7 +1228,7 @@ typedef struct scene_edit {
     double amount; /* fraction of the length from 0 to 1, or number of units in 1 m */
 } scene_edit;
 
-/* Changes the scene. Returns REFUSED if the change is not possible for a member. */
+/* Changes the scene. Returns REFUSED if the change is not possible. */
 status scene_edit_apply(scene *s, const scene_edit *edit, fault *f);
 
 /* Names of entries of a scene, which are given by the user or made from the index. */
@@ -1288,33 +1266,31 @@ scene_words scene_name(const scene *s, scene_list list, int index);
 scene_words scene_called(const scene *s, scene_list list, int index);
 
 /* Tables of the keys of entries of a scene. The row of a key contains its name in files, the
- * position of its value, its unit and its range. The rows are used to read, check, describe and
- * write files, to change units, to reverse members, and to compare scenes. */
+ * position of its value, its unit and its range. Files are read, checked and written by these
+ * tables. */
 
 typedef enum entry_kind {
-    ENTRY_TEXT,   /* any text */
-    ENTRY_NAME,   /* name of another entry: int, its index or SCENE_NONE */
-    ENTRY_WORD,   /* one of `words`, or a parameter with such choices: an int, or a double that is
-                     unchanged if the key is missing */
-    ENTRY_FLAG,   /* one of `words`, of which odd indices mean 1: int */
-    ENTRY_WORDS,  /* one or several of `words`: unsigned, with one bit for each word */
-    ENTRY_NUMBER, /* an expression: double */
-    ENTRY_WHOLE,  /* an integer: int */
-    ENTRY_VECTOR, /* a list of `count` expressions: double[] */
+    ENTRY_TEXT,      /* any text */
+    ENTRY_NAME,      /* name of another entry: int, its index or SCENE_NONE */
+    ENTRY_WORD,      /* one of `words`, or a parameter with such choices: int */
+    ENTRY_FLAG,      /* one of `words`; those with an odd index mean 1: int */
+    ENTRY_WORDS,     /* one or several of `words`: unsigned, with one bit for each word */
+    ENTRY_NUMBER,    /* an expression: double */
+    ENTRY_WHOLE,     /* an integer: int */
+    ENTRY_VECTOR,    /* a list of `count` expressions: double[] */
     ENTRY_DIRECTION, /* a direction, which rotates with the instance of a part */
     ENTRY_POSITION,  /* a position, which moves with the instance of a part */
     ENTRY_NUMBERS,   /* a list of any length, or a range: scene_path */
     ENTRY_FORMS,     /* several forms, which the summary describes */
-    ENTRY_MAP,       /* a map with the keys `below`, whose values are members of the same struct */
-    ENTRY_ENTRIES,   /* entries with names, each of which has a map with the keys `below` */
+    ENTRY_MAP,       /* a map with the keys `below`; its values are members of the same struct */
+    ENTRY_ENTRIES,   /* named entries, each a map with the keys `below` */
     ENTRY_LIST,      /* a list of maps with the keys `below` */
-    ENTRY_NAMES, /* user-defined names, each with one value that the first key of `below` describes
-                  */
-    ENTRY_LATER  /* rejected, with the summary as the replacement, or NULL if the key is not
-                    implemented */
+    ENTRY_NAMES,     /* user-defined names; the first key of `below` describes their values  */
+    ENTRY_LATER      /* rejected; the summary states the replacement and is NULL if the key is not
+                        implemented */
 } entry_kind;
 
-/* How the components in a word change if the axes are rotated. */
+/* How a component that a word names changes if the axes are rotated. */
 typedef enum entry_turns {
     ENTRY_FIXED,
     ENTRY_COMPONENT, /* in the same way as a displacement or a rotation along the axes */
@@ -1336,21 +1312,20 @@ typedef struct entry_field {
     int count;
     const char *words; /* "a|b|c" */
     const struct entry_field *below;
-    /* For a number, the powers of length and force in its unit determine its scaling. For other
-     * kinds, the unit is only information. */
+    /* Unit. For numbers, it determines how they change with the units of length and force. */
     const char *unit, *summary;
     /* Default of an optional key: the value as written in a file, or a description. */
     const char *usual, *left_out;
     /* Position of the value in the struct of the entry (ENTRY_IN). If the size is 0, special
-     * functions read and write the value. For a map, position of the int that selects the member of
-     * a group. */
+     * functions read and write the value. For a map in a group: position of the int that states
+     * which map of the group is given. */
     size_t at, size;
-    int first, falls; /* value of the first word, or of the map, which decreases by 1 for each
-                         following word */
+    int first,
+        falls; /* value of the first word or of the map; 1 if the values of the words decrease */
     double
         otherwise; /* numeric default if `usual` does not state it, or NAN if there is no default */
     double least, most; /* range of a number; no limits if both are 0 */
-    const char *range;  /* description of the range, or NULL if derived from least and most */
+    const char *range;  /* the range in words, or NULL if `least` and `most` describe it */
     scene_list of;      /* NAME: the list to which it refers */
     size_t zeros;       /* position of the unsigned whose bit `zero` records that zero was given
                            explicitly */
@@ -1358,9 +1333,9 @@ typedef struct entry_field {
     int always;         /* 1 if the key is written even if its value is the default */
     entry_turns turns;
     const struct quantity_type
-        *type; /* kind of quantity of a map, with its summary, keys and value */
-    const char
-        *mirrors; /* signs of the numbers if the ends of the member are exchanged, such as "++-" */
+        *type;           /* quantity type of a map, which contains its summary and keys */
+    const char *mirrors; /* signs by which the numbers change if the ends of the member are
+                            exchanged, such as "++-" */
 } entry_field;
 
 #define ENTRY_IN(type, member) .at = offsetof(type, member), .size = sizeof(((type *)0)->member)
@@ -1379,7 +1354,7 @@ const entry_field *entry_below(const entry_field *);
 const char *entry_summary(const entry_field *);
 /* Returns the default of a numeric key. */
 double entry_usual(const entry_field *);
-/* Returns the int of the word with this index. */
+/* entry_value returns the int of the word with this index. */
 int entry_value(const entry_field *, int index);
 int entry_index(const entry_field *, int value);
 int entry_word(const entry_field *, const char *word);
@@ -1393,8 +1368,7 @@ int entry_in_range(const entry_field *, double value);
 status entry_check(const scene *s, const entry_field *table, const void *entry, fault *f);
 
 typedef enum entry_base { ENTRY_LENGTH, ENTRY_FORCE } entry_base;
-/* Returns the power of length or force in a unit. Seconds and angles do not change. The powers are
- * -4 and 1 for "kg/m^3". */
+/* Returns the power of length or force in a unit: for "kg/m^3", -4 and 1. */
 int entry_power(const char *unit, entry_base);
 /* Scales all numbers with a unit for a change of unit: one former unit is `times` new units. */
 void entry_scale(const entry_field *table, void *entry, entry_base, double times);
@@ -1404,10 +1378,8 @@ void entry_mirror(const entry_field *table, void *entry);
  * write. */
 int entry_same(const entry_field *table, const void *a, const void *b);
 
-/* Column of an analysis in the table of the entries of a scene that affect each kind of analysis.
- * Analyses reject entries only according to this table. `beamwork explain inputs` prints the table,
- * and a test checks every cell. Eigenvalues and compliances about a loaded state have separate
- * columns. */
+/* Columns of the table of inputs, which states which entries of a scene each kind of analysis uses
+ * or rejects. `beamwork explain inputs` prints the table. */
 typedef enum scene_column {
     SCENE_OF_LINEAR,
     SCENE_OF_STATIC,
@@ -1432,18 +1404,18 @@ typedef enum scene_column {
 typedef enum scene_part {
     SCENE_PART_USED = 'u',
     SCENE_PART_STATE = 's', /* used, but rejected about a state with an unsymmetric tangent */
-    /* Used in rotating axes, and about a path with an unsymmetric tangent, where stability depends
-     * on inertia. Otherwise without effect. */
+    /* Used if stability depends on inertia: in rotating axes, and about a path with an unsymmetric
+     * tangent. Otherwise without effect. */
     SCENE_PART_INERTIA = 'i',
-    SCENE_PART_NONE = '-',   /* without effect by the nature of the analysis */
+    SCENE_PART_NONE = '-',   /* without effect in this analysis */
     SCENE_PART_REFUSED = 'x' /* rejected for this analysis only; the message names the entry */
 } scene_part;
 
 typedef struct scene_input {
-    const char *name;                   /* "loads that follow" */
+    const char *name;                   /* such as "loads that follow" */
     const char part[SCENE_COLUMNS + 1]; /* a scene_part for each column */
     const char
-        *why; /* reason for the rejection, and the remedy, or NULL if the entry is never rejected */
+        *why; /* reason of the rejection and remedy, or NULL if the entry is never rejected */
     /* Returns 1 if the scene or this analysis has the entry, and sets `owner_name` to the name of
      * the entry, such as "load p". */
     int (*stands)(const scene *, int analysis, char *owner_name, int size);
@@ -1455,11 +1427,10 @@ extern const scene_input scene_inputs[];
 extern const char *const scene_column_name[SCENE_COLUMNS];
 
 scene_column scene_column_of(const scene *, int analysis);
-/* Returns 1 for an analysis about a state whose tangent may be unsymmetric, so that stability
- * depends on the masses. */
+/* Returns 1 if the tangent of the state may be unsymmetric, so that stability depends on the
+ * masses. */
 int scene_inputs_flutter(const scene *, int analysis);
-/* Returns REFUSED if the analysis cannot include an entry of the scene that other analyses can
- * include. */
+/* Returns REFUSED if the analysis rejects an entry of the scene. */
 status scene_inputs_check(const scene *, int analysis, fault *);
 
 /* Makes room for an entry of `list` (the address of its pointer) and sets the entry to zero.
@@ -1475,7 +1446,7 @@ void meaning_member(FILE *to, const scene *s, int member);
 /* Writes the position, such as " at the end" or " at 0.5 of the length". `before` is the side at a
  * discontinuity. */
 void meaning_place(FILE *to, double where, int before);
-/* Returns 'x' for SCENE_UX and SCENE_RX. */
+/* Returns 'x', 'y' or 'z', the axis of the component. */
 char meaning_axis(int component);
 /* Returns "force along" or "moment about". */
 const char *meaning_load(int component);
@@ -1490,7 +1461,7 @@ typedef struct scene_omission {
     const char *word;
 } scene_omission;
 
-/* All words in the order in which they are written. The last entry is NULL. */
+/* All words, in the order in which they are written. A NULL word ends the table. */
 extern const scene_omission scene_omissions[];
 
 enum { SCENE_OMISSION_WORDS = 100 };
@@ -1500,9 +1471,8 @@ void scene_omission_words(unsigned omits, char words[SCENE_OMISSION_WORDS]);
 /* Returns the word of scene files, such as "haringx". */
 const char *scene_shear_word(scene_shear theory);
 
-/* Values of one state of a structure that a quantity can read. Each kind of quantity has a file in
- * cases/quantities, which the build finds. The members below `path` belong to the kinds that
- * request them (scene_quantity_kind). A value of NAN is unknown, which the analysis reports. */
+/* Values of a state of a structure that quantities can read. The functions below `path` are only
+ * for the kinds of quantities named there. NAN: unknown. */
 typedef struct quantity_state {
     /* displacement [m] or component of the rotation vector [rad], or NAN if the direction of the
      * rotation is undefined */
@@ -1520,7 +1490,7 @@ typedef struct quantity_state {
     /* rotation or displacement of an end of a member (0 at p, 1 at q) relative to its node, for a
      * released component */
     double (*released)(const struct quantity_state *, int member, int end, int component);
-    double path; /* parameter, load factor or time */
+    double path; /* path parameter, load factor or time */
     /* for SCENE_REACTION, SCENE_INTERNAL, SCENE_STRESS and SCENE_DEFLECTION */
     double (*reaction)(const struct quantity_state *, int node, int component);
     double (*internal)(const struct quantity_state *, const scene_internal *);
@@ -1528,11 +1498,11 @@ typedef struct quantity_state {
     double (*deflection)(const struct quantity_state *, const scene_deflection *);
     /* for SCENE_BALANCE */
     double (*balance)(const struct quantity_state *, scene_balance);
-    /* for SCENE_COMPLIANCE_ENTRY and SCENE_STIFFNESS_ENTRY: only in the column of the entry */
+    /* for SCENE_COMPLIANCE_ENTRY and SCENE_STIFFNESS_ENTRY; only for the column of the entry */
     double (*compliance)(const struct quantity_state *, int row, int column);
 } quantity_state;
 
-/* Eigenvalue of the requested mode. */
+/* Eigenvalue of a mode. */
 typedef struct quantity_eigenvalue {
     double value; /* load factor for SCENE_CRITICAL_FACTOR, angular frequency [rad/s] for
                      SCENE_FREQUENCY and SCENE_DAMPING_RATIO */
@@ -1541,37 +1511,35 @@ typedef struct quantity_eigenvalue {
 
 typedef struct quantity_type {
     const char *key, *summary;
-    /* SCENE_READING for quantities that depend only on nodes; otherwise the kind that an analysis
-     * computes, with the struct of that kind. Several files may have the same kind. */
+    /* Kind of value. Several types may have the same kind; SCENE_READING depends only on nodes. */
     scene_quantity_kind kind;
     const entry_field *field; /* keys of the map below the key of the quantity */
-    unsigned analyses;        /* bits 1 << kind for all kinds of analysis that have the quantity */
+    unsigned analyses;        /* bits 1 << kind of the analyses that support the quantity */
     int between; /* 1 if extremes, crossings and means of a motion include times between stations */
-    /* Returns the default unit of the value. The powers of length and force in the unit determine
-     * scaling. */
+    /* Returns the default unit of the value, which determines its conversion to other units. */
     const char *(*unit)(const scene *, const scene_quantity *);
     /* Writes a description of the quantity. If names_analysis is 1, the description includes the
      * analysis. */
     void (*meaning)(FILE *, const scene *, const scene_quantity *);
     int names_analysis;
-    /* Reads the extracted value, without factor and offset, from a state or from an eigenvalue.
-     * *part is the part of the value to which the error of the quantity refers. */
+    /* Return the value, without factor and offset, of a state or of an eigenvalue. *part is the
+     * part of the value to which the error of the quantity refers. */
     double (*read)(const scene_quantity *, const quantity_state *);
     double (*eigenvalue)(const scene_quantity *, const quantity_eigenvalue *, double *part);
-    /* The following functions are NULL for most kinds. `turns` sets *out to the i-th rotation
-     * component that the quantity needs and returns 1, or returns 0 if there are no more
-     * components. `complete` completes the data read from a file, and returns an error message for
-     * *key, or NULL. `check` returns REFUSED for errors that the table does not cover. */
+    /* The following functions may be NULL. `turns` sets *out to the i-th rotation component that
+     * the quantity needs and returns 1, or returns 0 if there are no more components. `complete`
+     * completes the data read from a file, and returns an error message for *key, or NULL. `check`
+     * returns REFUSED for errors that the key table cannot detect. */
     int (*turns)(const scene *, const scene_quantity *, int i, scene_component *out);
     const char *(*complete)(const scene *, scene_quantity *, const char **key);
     status (*check)(const scene *, const scene_quantity *, fault *);
 } quantity_type;
 
 const quantity_type *quantity_type_of(const scene_quantity *q);
-/* Starts a quantity of this kind, which the caller completes. */
+/* Initialises a quantity of this type, which the caller completes. */
 void quantity_type_begin(const quantity_type *, scene_quantity *q);
 
-/* Keys that are common to most kinds, for the start and the end of their tables. */
+/* Keys that are common to most quantity types. */
 #define QUANTITY_ANALYSIS                                                                          \
     {"analysis",                                                                                   \
      ENTRY_NAME,                                                                                   \
@@ -1662,31 +1630,30 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
 #define QUANTITY_ALL_STATES                                                                        \
     (1u << SCENE_STATIC | 1u << SCENE_MOTION | 1u << SCENE_CONTINUATION | 1u << SCENE_ROTATION)
 
-/* Converts all lengths to another unit, with x > 0 units in 1 m. Newtons and seconds do not change,
- * so masses are divided by x. Quantities are reported in their former units. Returns REFUSED if x
- * is not positive, or if a driver prescribes both lengths and angles. */
+/* Converts all lengths to another unit, with x units in 1 m. Newtons and seconds do not change, so
+ * masses are divided by x. Quantities are reported in their former units. Returns REFUSED if x is
+ * not positive, or if a driver prescribes both lengths and angles. */
 status scene_change_unit(scene *s, double x, fault *f);
 /* Converts all forces to another unit, with y units in 1 N, and masses accordingly. Metres and
  * seconds do not change. Quantities are reported in their former units. */
 void scene_change_force(scene *s, double y);
 /* Returns 1 if the numbers suggest units other than SI, and writes these units and the reason.
- * Otherwise returns 0. Scenes without dimensions are not checked. */
+ * Otherwise returns 0. Dimensionless scenes are not checked. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT]);
 
-/* Warping of an end of a member for which the scene specifies none. */
+/* Warping condition of a member end for which the scene specifies none. */
 enum { SCENE_WARP_BY_SUPPORT = -3 };
 
-/* Sets the warping of every end that is SCENE_WARP_BY_SUPPORT.
+/* Sets the warping condition of every end that has SCENE_WARP_BY_SUPPORT.
  *
  * Warping is restrained if all six components of the node are fixed or prescribed, or if the node
  * is part of a rigid body to which members or springs are joined at other nodes. Warping is free if
  * a rotation is released at the end, or if the node has a fork support, is free, or has only a
  * mass.
  *
- * If exactly two members meet at a node with a fork support, with only a mass or without supports,
- * and continue in one line with the same section and axes, both ends share the warping coordinate,
- * because a node does not interrupt a beam. This rule does not apply to released ends or if the
- * scene specifies the warping. */
+ * If exactly two members meet at a node that has a fork support or no supports, and continue in one
+ * line with the same section and axes, both ends share the warping coordinate. This rule does not
+ * apply to released ends. */
 void scene_warping_by_supports(scene *s);
 
 #endif

@@ -1,11 +1,10 @@
-/* Internal declarations of scene/. */
+/* Declarations for the sources in cases/scene. */
 #ifndef BEAMWORK_CASES_SCENE_SCENE_IMPL_H
 #define BEAMWORK_CASES_SCENE_SCENE_IMPL_H
 
 #include "cases/scene/scene.h"
 
-/* Relative tolerance of a limit: the accuracy that engineers require of a model. A biased limit
- * within this tolerance is still detected by its uncertainty. */
+/* Default relative tolerance of the limit of mesh refinement. */
 #define SCENE_TOLERANCE 1e-3
 
 /* Returns the first component whose table has a slope discontinuity at zero, where the stiffness of
@@ -24,18 +23,17 @@ status scene_validate_functions(const scene *s, fault *f);
  * cause and the remedy in f. */
 status scene_validate_node(const scene *s, int i, fault *f);
 
-/* Checks that the geometry, motion and loads of a scene restricted to a plane are all in that
- * plane. Returns REFUSED with the entry and the remedy in f. */
+/* Checks that the geometry, motions and loads of a plane scene are in its plane. Returns REFUSED
+ * with the entry and the remedy in f. */
 status scene_validate_plane(const scene *s, fault *f);
 
-/* Checks the released ends of one member. Each released component must exist and be released once.
- * The releases must not separate an end completely, or leave the member free to move between its
- * ends. */
+/* Checks the released ends of one member. Releases must not separate an end completely or leave the
+ * member free to move. */
 status scene_validate_release(const scene *s, int member, fault *f);
 /* Checks that a member, a support or a spring resists the rotations of a node. */
 status scene_validate_turns(const scene *s, int node, fault *f);
 
-/* Returns REFUSED if a constraint contains a node twice, a supported component or a body, or if
+/* Returns REFUSED for invalid constraints, for example if a constraint contains a node twice or if
  * constraints form a loop. */
 status scene_validate_constraints(const scene *s, fault *f);
 

@@ -6,8 +6,8 @@
 
 #include "elements/math/dense.h"
 
-/* Sets A to `given`. If the asymmetry of `given` is only rounding, sets A to its symmetric part and
- * returns the asymmetry relative to the diagonal. Otherwise returns 0. */
+/* Copies `given` to A and returns 0. If the matrix is unsymmetric only due to rounding, copies its
+ * symmetric part and returns the asymmetry relative to the diagonal. */
 static double take_matrix(const double given[36], double A[36])
 {
     memcpy(A, given, 36 * sizeof *A);
@@ -64,14 +64,14 @@ int scene_add_spring(scene *s, int p, int q, const double stiffness[36])
 void scene_set_table(scene *s, int spring, int component, int points, const double at[],
                      const double value[])
 {
-    if (spring < 0) /* out of memory */
+    if (spring < 0)
         return;
     scene_table *t = &s->spring[spring].table[component];
     t->at = (scene_path){points, scene_copy(s, points, at)};
     t->value = (scene_path){points, scene_copy(s, points, value)};
 }
 
-/* Returns the index i of the segment that contains x, between points i and i + 1. */
+/* Returns i such that x is between points i and i + 1. */
 static int line_of(const scene_table *t, double x)
 {
     int i = 0;
@@ -88,7 +88,7 @@ double scene_table_at(const scene_table *t, double x, double *slope)
     const int i = line_of(t, x);
     const double *at = t->at.value + i, *value = t->value.value + i;
     *slope = (value[1] - value[0]) / (at[1] - at[0]);
-    /* measured from the nearer point, so that the value is exact at both points */
+    /* interpolates from the nearer point, so that the values at both points are exact */
     return fabs(x - at[0]) <= fabs(x - at[1]) ? value[0] + *slope * (x - at[0])
                                               : value[1] + *slope * (x - at[1]);
 }

@@ -2,8 +2,7 @@
 
 #include <math.h>
 
-/* A number and its power of length. For a unit change by x, the number is multiplied by x raised to
- * this power. */
+/* A number and the power of length in its unit. */
 typedef struct scaled {
     double *number;
     int power;
@@ -23,7 +22,6 @@ static void scale_vector(double v[3], double factor)
         v[i] *= factor;
 }
 
-/* Scales the constants of a section that the key table does not describe. */
 static void scale_constants(section *c, double x)
 {
     const scaled list[] = {{&c->young, -2},     {&c->shear_modulus, -2}, {&c->density, -4},
@@ -35,7 +33,7 @@ static void scale_constants(section *c, double x)
         c->stiffness[i] *= pow(x, power);
         c->mass[i] *= pow(x, power - 2);
     }
-    for (int i = 0; i < 9; i++) { /* order y, z, omega */
+    for (int i = 0; i < 9; i++) { /* in the order y, z, omega */
         const int power = 2 + (i / 3 == 2) + (i % 3 == 2);
         c->D[i] *= pow(x, power);
         c->F[i] *= pow(x, -power);
@@ -52,8 +50,8 @@ static void scale_section(section_spec *spec, double x)
     scale_constants(&spec->constants, x);
 }
 
-/* Returns 1 if the driver prescribes translations or a translation determines it, 0 for angles
- * only, and -1 for both. */
+/* Returns 1 if the value of the driver is a length, 0 if it is an angle, and -1 if it prescribes
+ * both. */
 static int is_length(const scene *s, int driver)
 {
     int lengths = 0, angles = 0;
@@ -95,7 +93,6 @@ static void scale_spring(scene_spring *p, double x)
     }
 }
 
-/* Scales gains and references that involve lengths. */
 static void scale_feedback(scene_load *load, double times)
 {
     scene_feedback *b = &load->feedback;
@@ -116,7 +113,6 @@ static void scale_load(scene_load *load, entry_base base, double times)
     scale_vector(load->last, factor);
 }
 
-/* Scales the extracted value and the values with which it is compared. */
 static void scale_extract(const scene *s, scene_quantity *q, entry_base base, double times)
 {
     const int power = entry_power(quantity_type_of(q)->unit(s, q), base);
@@ -124,7 +120,6 @@ static void scale_extract(const scene *s, scene_quantity *q, entry_base base, do
     q->passing.level *= pow(times, power);
 }
 
-/* Scales all members that the tables of entries list. */
 static void scale_entries(scene *s, entry_base base, double times)
 {
     for (int i = 0; i < s->sections; i++)
@@ -151,8 +146,7 @@ static void scale_entries(scene *s, entry_base base, double times)
     }
 }
 
-/* Scales steps along the control coordinate, which are lengths. Steps of arc length are
- * dimensionless. */
+/* Steps of the control coordinate are lengths, whereas steps of arc length are dimensionless. */
 static void scale_steps(scene_analysis *a, double x)
 {
     if (a->kind != SCENE_CONTINUATION || a->of.continuation.control.by_arc)
@@ -161,8 +155,7 @@ static void scale_steps(scene_analysis *a, double x)
     a->of.continuation.control.step_max *= x;
 }
 
-/* Returns 1 if the stations of the quantity are coordinates [m], as for a continuation or an
- * analysis that follows a continuation. */
+/* Returns 1 if the stations are lengths: for a continuation, or an analysis that follows one. */
 static int stations_are_lengths(const scene *s, const scene_quantity *q)
 {
     if (q->analysis < 0 || q->analysis >= s->analyses)
@@ -249,8 +242,8 @@ static double longest(const scene *s)
     return most;
 }
 
-/* The bounds are satisfied by structures in SI units. For example, waves travel faster than 30 m/s
- * in solids stiffer and heavier than foam, and not faster than 30 km/s in any solid. */
+/* Structures in SI units satisfy the bounds. For example, the wave speed in solids is between 30
+ * m/s and 30 km/s. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT])
 {
     static const double soft[2] = {1e3, 1e6}, stiff = 1e8, wide = 15, slow = 30, fast = 3e4;

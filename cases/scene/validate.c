@@ -153,7 +153,7 @@ static int is_used(const scene *s, int driver)
     return 0;
 }
 
-/* Returns 1 if the known driver of the condition prescribes the coordinate of the condition. */
+/* Returns 1 if the driver of the condition prescribes its coordinate. */
 static int is_conditioned(const scene *s, const scene_driver *d)
 {
     const scene_node *n = &s->node[d->condition_node];
@@ -199,7 +199,6 @@ static status check_driver(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Checks the range of the member on which a load acts. */
 static status check_range(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
@@ -238,7 +237,7 @@ static status check_range(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Checks a temperature, which has no direction, and no position except its range. */
+/* A temperature has no direction, and no position except its range. */
 static status check_temperature(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
@@ -273,7 +272,6 @@ static status check_temperature(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Rejects settings that a kind of load cannot have. */
 static status check_load_kind(const scene *s, int i, fault *f)
 {
     const scene_load *load = &s->load[i];
@@ -390,7 +388,6 @@ static status check_load(const scene *s, int i, fault *f)
     return check_load_kind(s, i, f);
 }
 
-/* Checks for numbers that are not finite or out of range. */
 static status check_numbers(const scene *s, fault *f)
 {
     const struct {

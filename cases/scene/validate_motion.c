@@ -47,8 +47,7 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
     return STATUS_OK;
 }
 
-/* Checks an analysis that continues a motion and therefore uses the time and the rates of that
- * motion. */
+/* Checks an analysis that continues a motion. */
 static status check_resumed(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_path *before = scene_path_of(&s->analysis[a->follows]);
@@ -108,7 +107,7 @@ static double along_table(int stations, const double at[], const double value[],
     return value[k - 1] + part * (value[k] - value[k - 1]);
 }
 
-/* Checks that a driver starts at the present value and continues without a jump in velocity. */
+/* Checks that a driver starts at its current value and velocity. */
 static status check_driver(const scene *s, int d, int i, fault *f)
 {
     const scene_driver *driver = &s->driver[d];
@@ -156,7 +155,7 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Checks that a temperature does not jump, because strains would jump with it. */
+/* Rejects a temperature with a jump, which would be a jump of strains. */
 static status check_temperature(const scene *s, int l, int i, fault *f)
 {
     const scene_load *load = &s->load[l];
@@ -224,8 +223,6 @@ static status check_load(const scene *s, int l, int i, fault *f)
     return load->kind == SCENE_TEMPERATURE ? check_temperature(s, l, i, f) : STATUS_OK;
 }
 
-/* Checks a transient analysis. Returns REFUSED with the cause in f. The nodes, members, drivers and
- * loads must be valid. */
 static status scene_validate_motion(const scene *s, int i, fault *f)
 {
     const scene_motion *m = scene_motion_of(&s->analysis[i]);
@@ -348,8 +345,7 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
     return STATUS_OK;
 }
 
-/* Checks small motions in rotating axes. Coriolis forces couple undamped modes, and masses have
- * velocities in fixed axes that small motions do not contain. */
+/* Checks small motions in rotating axes. Undamped modes would omit Coriolis forces. */
 static status check_about_rotation(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_words owner_name = scene_called(s, SCENE_ANALYSES, i),
@@ -399,7 +395,6 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
                          : "");
 }
 
-/* Returns 1 if a quantity belongs to this analysis. */
 static int is_requested(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++)
@@ -408,7 +403,7 @@ static int is_requested(const scene *s, int analysis)
     return 0;
 }
 
-/* Checks small motions about an instant of a motion. The rates at the instant cause forces that
+/* Checks small motions about an instant of a motion. Velocities of the motion cause forces that
  * only damped modes include. */
 static status check_about_motion(const scene *s, const scene_analysis *a, int i, fault *f)
 {
@@ -441,7 +436,6 @@ static status check_about_motion(const scene *s, const scene_analysis *a, int i,
     return STATUS_OK;
 }
 
-/* Checks that the instant lies within the motion. */
 static status check_instant(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const double time = scene_instant_of(s, i);
@@ -562,7 +556,7 @@ status scene_spectrum_stations(const scene *s, const scene_quantity *q, int *fir
     return STATUS_OK;
 }
 
-/* Rejects a window that begins in the motion that this motion continues. */
+/* Rejects a time window that begins before the motion. */
 static status check_begin(const scene *s, const scene_quantity *q, fault *f)
 {
     const double from = q->passing.from, begin = scene_motion_begin(s, q->analysis);
@@ -602,7 +596,7 @@ static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
     return scene_spectrum_stations(s, q, &first, &count, f);
 }
 
-/* Rejects a station of an analysis of one state, and names the state. */
+/* Rejects a station for an analysis that has only one state. */
 static status refuse_station(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_analysis *a = &s->analysis[q->analysis];
@@ -628,7 +622,7 @@ static status refuse_station(const scene *s, const scene_quantity *q, fault *f)
                      q->name, owner_name.text, scene_name(s, SCENE_ANALYSES, about).text);
 }
 
-/* Checks the stations or the window of a quantity. */
+/* Checks the stations or the time window of a quantity. */
 static status check_passing(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_analysis *a = &s->analysis[q->analysis];
@@ -659,8 +653,7 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
     return check_begin(s, q, f);
 }
 
-/* Returns the analysis whose stations are the points of the curve. Sets *points to 1 if the curve
- * has further points between the stations. */
+/* Returns the analysis whose stations are the points of the curve. */
 static int path_of_curve(const scene *s, const scene_quantity *q, int *points)
 {
     const scene_analysis *a = &s->analysis[q->analysis];

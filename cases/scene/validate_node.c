@@ -6,8 +6,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Returns 1 if a straight member at the node is along the direction, if a curved member ends at the
- * node, or if no member ends there. */
+/* Returns 1 if a straight member at the node is parallel to the direction. Also returns 1 if a
+ * curved member or no member ends there. */
 static int has_member_along(const scene *s, int node, const double direction[3])
 {
     int ends = 0, along = 0;
@@ -55,7 +55,7 @@ static status check_fork(const scene *s, int i, fault *f)
 static int is_inertia(const double I[6])
 {
     const double half = (I[0] + I[1] + I[2]) / 2;
-    /* all principal minors of int x x^T dm = (trace/2) 1 - I must be nonnegative */
+    /* int x x^T dm = (trace/2) 1 - I must be positive semidefinite */
     const double A[3] = {half - I[0], half - I[1], half - I[2]}, xy = -I[3], yz = -I[4], zx = -I[5],
                  small = 1e-9 * half;
     const double determinant =
@@ -65,7 +65,6 @@ static int is_inertia(const double I[6])
            A[2] * A[0] - zx * zx >= -small * half && determinant >= -small * half * half;
 }
 
-/* Returns 1 if a node, at which a member or a spring ends, is part of this body. */
 static int is_at(const scene *s, int end, int body)
 {
     return end >= 0 && end < s->nodes && (end == body || s->node[end].attached == body);
@@ -152,8 +151,7 @@ status scene_validate_node(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Largest deviation from the plane, relative to the magnitude, of directions and positions that are
- * treated as in the plane. */
+/* Relative deviation up to which directions and positions are treated as in the plane. */
 static const double within = 1e-9;
 
 static int is_across(const scene *s, const double v[3])
@@ -193,7 +191,6 @@ static int is_out(const scene *s, const double place[3])
     return fabs(place[n] - s->node[0].position[n]) > within * size_of(s);
 }
 
-/* Computes axis of rotation k of a node. */
 static void axis_of(const scene_node *n, int k, double axis[3])
 {
     memset(axis, 0, 3 * sizeof *axis);
@@ -248,8 +245,8 @@ static status check_node(const scene *s, int i, fault *f)
     return check_turns(s, i, f);
 }
 
-/* Computes the axes at the start of a member, with x along the chord. For a member in the plane,
- * either y or z is normal to the plane at every point. */
+/* Computes the axes at the start of a member, with x along the chord. For a member in the plane, y
+ * or z is normal to the plane. */
 static void axes_of(const scene *s, int member, double R[9])
 {
     const scene_member *m = &s->member[member];
@@ -330,8 +327,7 @@ static status check_load(const scene *s, int i, fault *f)
     return is_across(s, at) ? refuse(s, owner_name, "it acts outside the plane", f) : STATUS_OK;
 }
 
-/* Checks the axis of rotation. An axis in the plane or normal to it causes forces in the plane,
- * whereas an oblique axis also causes forces out of the plane. */
+/* Rejects an oblique rotation axis, which causes forces out of the plane. */
 static status check_frame(const scene *s, int i, fault *f)
 {
     const scene_rotating_frame *r = scene_rotating_frame_of(&s->analysis[i]);

@@ -48,8 +48,8 @@ status scene_validate_release(const scene *s, int member, fault *f)
     return STATUS_OK;
 }
 
-/* Adds to P the identity minus the projection on the span of `count` axes, which represents the
- * resisted rotations. */
+/* Adds to P the projection on the complement of the span of `count` axes. P represents the
+ * rotations that are resisted. */
 static void add_kept(int count, double (*axis)[3], double P[9])
 {
     double basis[3][3];
@@ -97,8 +97,8 @@ static void add_supports(const scene_node *n, double P[9])
     add_kept(count, axis, P);
 }
 
-/* Adds to P the rotations that the end of a straight member does not release. For a curved member,
- * whose axes are not known yet, all rotations are resisted. */
+/* Adds to P the rotations that the end of a straight member does not release. A curved member,
+ * whose axes are not yet known, is treated as if it resisted all rotations. */
 static void add_end(const scene_member *m, const scene *s, int end, double P[9])
 {
     const scene_release *r = &m->release[end];
@@ -145,8 +145,7 @@ static int loose_axis(const double P[9], double axis[3])
     return 1;
 }
 
-/* Returns 1 if the body extends beyond the node, so that forces on its other nodes also resist its
- * rotation. */
+/* Returns 1 if the body has other nodes, at which forces can also resist its rotation. */
 static int is_wide(const scene *s, int node)
 {
     int wide = s->node[node].attached != SCENE_NONE;
@@ -193,8 +192,8 @@ static loose loose_at(const scene *s, int node, double axis[3])
     return vec3_norm(axis) > 0 ? LOOSE_AXIS : largest > 1e-9 ? LOOSE_PLANE : LOOSE_ALL;
 }
 
-/* Returns 1 if a load measures a rotation of the node that is undefined: one with a component along
- * the axis, or any one if the axis is 0. */
+/* Returns 1 if the feedback of a load measures an undefined rotation of the node: one about the
+ * axis, or any if the axis is zero. */
 static int is_measured(const scene *s, int node, const double axis[3])
 {
     int measured = 0;
@@ -254,7 +253,7 @@ int scene_idle_turn(const scene *s, int node, double axis[3])
         return what == LOOSE_AXIS && n->angle[0] == SCENE_FREE ? SCENE_IDLE_AXIS : 0;
     if (what == LOOSE_ALL)
         return free_angles(n) == 7 ? SCENE_IDLE_ALL : 0;
-    for (int k = 0; k < 3; k++) /* for a node of a plane frame, the other angles are fixed */
+    for (int k = 0; k < 3; k++) /* in a plane scene, the other angles are fixed */
         if (free_angles(n) == 1 << k)
             return SCENE_IDLE_AXIS;
     return free_angles(n) == 7 ? SCENE_IDLE_AXIS : 0;
@@ -279,7 +278,7 @@ status scene_validate_turns(const scene *s, int node, fault *f)
                            scene_called(s, SCENE_NODES, node).text);
 }
 
-/* Largest difference of equal directions. Directions contain the round-off of positions. */
+/* Largest difference of directions that are treated as equal. */
 static const double round_off = 1e-9;
 
 static int is_held(const scene_node *n)
@@ -403,7 +402,6 @@ static int runs_on(const scene *s, member_end first, member_end second)
             return 0;
     }
     const int along = sense_of(x[0], x[1]), across = sense_of(y[0], y[1]);
-    /* the sign of the third axis follows from the others */
     const int sign[2] = {across, along * across};
     return along == (first.end != second.end ? 1 : -1) && across != 0 && profile[0] == profile[1] &&
            is_symmetric(s, profile[0], sign);

@@ -49,8 +49,6 @@ static void place_mass(scene *s, scene_mass mass)
             s->analysis[i].of.motion.mass = mass;
 }
 
-/* Sets the mass of members if the case has a parameter for it. Otherwise the scene specifies the
- * mass. */
 static void choose_mass(const case_type *c, const double value[], scene *s)
 {
     const parameter_type *p;
@@ -68,7 +66,6 @@ status case_build(const case_type *c, const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Entries in the order of the enumeration. */
 const parameter_type hexapod_parameters[] = {
     {"base_radius", "m", 0.40, 1e-3, 1e3, NULL, "radius of the crank pivots"},
     {"crank_length", "m", 0.20, 1e-3, 1e3, NULL, "length of a crank, pointing inwards"},
@@ -106,8 +103,8 @@ static int add_crank(const double value[], scene *s, double azimuth, int angle)
     const int crank = scene_add_node(s, pivot * cos(azimuth), pivot * sin(azimuth), 0);
     scene_hold(s, crank, SCENE_UX, SCENE_UZ);
     scene_node *n = scene_node_at(s, crank);
-    n->rotation =
-        SCENE_ROTATION_SEQUENCE; /* about the horizontal tangent; a positive angle lifts the tip */
+    n->rotation = SCENE_ROTATION_SEQUENCE; /* about the horizontal tangent of the base circle; a
+                                              positive angle lifts the tip */
     n->axis[0][0] = -sin(azimuth);
     n->axis[0][1] = cos(azimuth);
     n->angle[0] = angle;
@@ -211,8 +208,8 @@ static void to_global(const double centre[3], const double axes[9], const double
                     axes[3 * i + 2] * local[2];
 }
 
-/* Adds a sheet. The direction of its elements matters for formulations that are not symmetric in
- * their two nodes. */
+/* Adds a sheet. Results of formulations that are not symmetric in their two nodes depend on the
+ * direction of its members. */
 static void add_sheet(const double value[], scene *s, int profile, int body, const double end[3],
                       int fold, const double normal[3], int side)
 {

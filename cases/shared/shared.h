@@ -7,8 +7,7 @@
 
 /* The spherical flexure joint of N section 4.2. The joint consists of a base, three folded sheets,
  * an intermediate body, three more folded sheets, and an end effector. All fold lines pass through
- * the centre of the joint. The geometry is reconstructed from N Table 1 and the published
- * stiffnesses. */
+ * the centre of the joint. Its geometry is derived from N Table 1 and the published stiffnesses. */
 
 /* The first parameters of every case with such joints, in this order. */
 enum {
@@ -32,8 +31,8 @@ extern const parameter_type joint_parameters[];
 
 #define JOINT_DEGREE 0.017453292519943295
 
-/* Sets the section and the physics that all joints of a scene share. Sets *profile to the index of
- * the section. Rejects sheets that would extend through the centre. */
+/* Sets the section and the omitted physics, for all joints of a scene. Sets *profile to the index
+ * of the section. Rejects sheets that would extend through the centre. */
 status joint_prepare(const double value[], scene *s, int *profile, fault *f);
 
 /* Adds one joint between two bodies (nodes of the scene). `centre` is in [m]. The columns of
@@ -73,8 +72,8 @@ int hexapod_platform(const double value[], scene *s);
 status hexapod_add(const double value[], scene *s, int angle, int platform, int *profile,
                    hexapod_leg legs[HEXAPOD_LEGS], fault *f);
 
-/* The clamped sheet flexure that several scenes share (N section 4.1), along x, with its width
- * along z and its thickness along y. */
+/* The clamped sheet flexure of N section 4.1, along x, with its width along z and its thickness
+ * along y. */
 
 /* The first parameters of every case with this sheet, in this order. */
 enum {
@@ -106,15 +105,13 @@ void sheet_section(double width, double thickness, double young, double poisson,
  * remains free. Sets *root and *tip. Rejects a tip deflection that is too large for the length. */
 status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f);
 
-/* Adds the compliance of the tip at the end of a static path, with the prescribed motion replaced
- * by its reactions. The quantities are the entries C_<response>_<load> whose rows and columns are
- * listed. */
+/* Adds the compliance of the tip at the end of a static path, with its prescribed motion released.
+ * The quantities C_<response>_<load> are the entries whose rows and columns are listed. */
 void sheet_add_compliance(scene *s, int analysis, const int (*entries)[2], int count);
 
-/* Closed-form solution of a clamped-free sheet flexure (N section 3.5, Eq. 54). The solution was
- * derived by hand for the state of sheet_cantilever, where the tip is displaced along y and not
- * rotated. The solution uses one Hellinger-Reissner interpolation for the whole sheet and is
- * therefore a prediction with a model error. */
+/* Closed-form solution of a clamped-free sheet flexure (N section 3.5, Eq. 54). In the state of
+ * sheet_cantilever, the tip is displaced along y and not rotated. One Hellinger-Reissner
+ * interpolation represents the whole sheet, so the solution is approximate. */
 
 extern const char sheet_prediction_source[];
 
@@ -132,9 +129,8 @@ sheet_prediction sheet_prediction_of(const section *c, double length, double def
 /* The first parameters of every case with a transient analysis, in this order. */
 enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETERS };
 #define TIMED_INTEGRATORS "alpha|conserving|radau|explicit"
-/* Entries whose defaults are suitable for the evaluation of meshes: error-controlled steps whose
- * time-integration error is far below the error of the meshes. Each case specifies its
- * tolerance. */
+/* Rows of these parameters. The defaults are error-controlled steps whose error is far below that
+ * of the meshes. Each case specifies its tolerance. */
 #define TIMED_HOW(step, rule, tolerance)                                                           \
     [TIMED_INTEGRATOR] =                                                                           \
         {"integrator", "", SCENE_RADAU, 0, 0, TIMED_INTEGRATORS, "time-integration method"},       \
@@ -151,8 +147,8 @@ enum { TIMED_TIME, TIMED_INTEGRATOR, TIMED_STEP, TIMED_TOLERANCE, TIMED_PARAMETE
 /* Adds a motion that ends at the time of observation. `follows` is SCENE_NONE or a static path, and
  * `start` contains the initial velocities. */
 int timed_add(scene *s, const double value[], int follows, scene_start start);
-/* Adds those of the coordinates x, y and z of a node whose name is not NULL. `size` is the
- * reference length [m] for errors of coordinates that are smaller. */
+/* Adds the displacements of a node along x, y and z whose names are not NULL. Errors are relative
+ * to at least `size` [m]. */
 void timed_places(scene *s, int motion, int node, double size, const char *const name[3]);
 
 /* Adds a driver that moves from 0 to `end` [m or rad] within this time [s] and is then constant.

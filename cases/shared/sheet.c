@@ -64,7 +64,7 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
     scene_omit(s, (value[SHEET_SHEAR] == 0 ? FEATURE_SHEAR : 0) |
                       (value[SHEET_TRAPEZE] == 0 ? FEATURE_TRAPEZE : 0) |
                       (value[SHEET_WAGNER] == 0 ? FEATURE_WAGNER_TORQUE : 0));
-    /* a strongly bent, very wide sheet converges only on fine meshes */
+    /* a strongly bent and very wide sheet requires fine meshes */
     const int meshes[] = {1, 2, 3, 4, 8, 16, 32, 64, 128, 256},
               is_narrow = length >= 10 * value[SHEET_WIDTH];
     scene_meshes(s, is_narrow ? 10 : 8, meshes);
@@ -243,8 +243,6 @@ static double compliance_zz(const section *s, const plane *p, double X, double Y
         for (int i = 0; i < 3; i++)
             for (int j = 0; j < 3; j++)
                 K[LOCAL * i + j] -= K[LOCAL * i + 3] * K[LOCAL * 3 + j] / WW;
-    /* phi_x = theta'_x/cos, yp = u_z/l, yq = yp + theta'_y + phi_x sin, where theta' is in the axes
-     * of the chord */
     const double T[3][3] = {
         {0, 1, sine / cosine}, {1 / l, 0, 0}, {1 / l, 0, cosine + sine * sine / cosine}};
     for (int i = 0; i < 3; i++)

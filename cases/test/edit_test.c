@@ -1,5 +1,4 @@
-/* Edits of a scene, such as reversing or splitting members: some fields must change their sign,
- * side or position, and all others must not change. */
+/* Tests edits of a scene, such as reversed or split members. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +7,6 @@
 #include "cases/scene/scene.h"
 #include "cases/test/refuse.h"
 
-/* Makes a member with warping names, divisions, and a follower load in the axes of the member. */
 static void make(scene *s)
 {
     const double path[] = {0, 1, 2}, factor[] = {0, 3, 4};
@@ -65,8 +63,7 @@ static void reversed(void)
     scene_free(&s);
 }
 
-/* In the stiffness and mass matrices of a section, entries that couple a resultant along or about z
- * with one along or about x or y must change sign. Other entries must not change. */
+/* In the matrices of a section, only entries that couple z with x or y change sign. */
 static void reversed_section(void)
 {
     scene s;
@@ -110,8 +107,7 @@ static const struct {
     {SCENE_MEMBER_MOMENT, 0.625, 0.625, 0, {0.375, 0.375, 1}, {-1}, {0.5, 0.5, 1, 1}},
 };
 
-/* Checks the load on a member. If the expected range starts with -1, the member must have no
- * load. */
+/* Checks the load on a member. expected[0] = -1: no load. */
 static void is_on(const scene *s, int member, const double expected[4], const char *what)
 {
     int found = 0;
@@ -286,8 +282,7 @@ static void in_millimetres(void)
     scene_free(&s);
 }
 
-/* A position stays on its side of a discontinuity. In the reversed member, this is the opposite
- * side. If the member is split at the position, the side determines the half. */
+/* Checks the side of a position at a discontinuity in a reversed member and in a split member. */
 static void sides(void)
 {
     static const struct {
@@ -423,8 +418,6 @@ static void entry_tests(void)
     is_mirrored();
 }
 
-/* Returns a function of time made of pieces, each until the given time. */
-
 static scene_function pieces(int count, const double until[], const char *const text[])
 {
     scene_function f = {0, NULL, 0};
@@ -496,7 +489,7 @@ static void check_joints(void)
     check_joint("t^2", "2*t - 1", 2, -1);
     check_joint("t^2", "2*t - 1.1", 2, 0);
     check_joint("t^2", "t", 2, 1);
-    check_joint("t^2", "t", 1, -1); /* the boundary is at `end`, so no piece follows */
+    check_joint("t^2", "t", 1, -1); /* the discontinuity is at `end`, so it does not matter */
     check_joint("t^2", "7", 0.5, -1);
 }
 

@@ -1,5 +1,4 @@
-/* Formulas of time: values, derivatives compared with finite differences, points without
- * derivatives, and rejected text with the position of the error. */
+/* Tests formulas: values, derivatives, points without derivatives, and invalid text. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <signal.h>
@@ -122,7 +121,7 @@ static void check_edges(void)
     check_edge("exp(1000*t)", 1, 0, 0, 0);
     check_edge("asin(t)", 1, 1, 0, 0);
     check_edge("sqrt(t - 2)", 1, 0, 0, 0);
-    /* the derivatives of constants are zero, even if those of the function are not finite */
+    /* a constant has the derivative zero, even where its function has no finite derivative */
     check_edge("t*sqrt(0)", 1, 1, 1, 1);
     check_edge("t + asin(1)", 1, 1, 1, 1);
 }
@@ -214,8 +213,7 @@ static void constants_tests(void)
     constants_follow();
 }
 
-/* Data of one kind of analysis or quantity cannot be read as those of another kind: the program
- * aborts. */
+/* Reads data of one kind from an analysis or quantity of another kind, which must abort. */
 
 typedef void kinds_reader(const void *analysis_or_quantity);
 

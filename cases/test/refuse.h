@@ -43,8 +43,8 @@ static inline void refuse_one_line(const char *what, const fault *f)
     gsl_test(strchr(f->text, ';') == NULL, "%s: says what to do: %s", what, f->text);
 }
 
-/* Checks that the scene is rejected with the cause at the start of the message, and that the scene
- * from which it was made is accepted. */
+/* Checks that the changed scene is rejected with this message, and that the unchanged scene is
+ * accepted. */
 static inline void refuse_scene(const refusal *r)
 {
     scene s;

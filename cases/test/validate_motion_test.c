@@ -4,7 +4,6 @@
 
 #include "cases/test/refuse.h"
 
-/* Adds a motion from the end of the static path, where the driver is at 1 m. */
 static scene_motion *moves_from(scene *s, int follows)
 {
     const double station[] = {0.5, 2};
@@ -21,8 +20,6 @@ static scene_motion *moves(scene *s)
     return moves_from(s, 0);
 }
 
-/* Drives the tip by a function of time. From 1 s on, another function applies, unless `then` is
- * NULL. */
 static void drives(scene *s, const char *first, const char *then)
 {
     moves(s);
@@ -287,8 +284,7 @@ static void validate_motion_tests(void)
     accepts(weighs_at_a_node, "a mass at a node only");
 }
 
-/* Rejected nodes. Every rejection must state the cause and the remedy in one line. Each invalid
- * scene has a single error, and the scene from which it was made is accepted. */
+/* Rejected nodes. */
 
 static const double x_axis[3] = {1, 0, 0}, zero[3] = {0, 0, 0};
 
@@ -407,10 +403,9 @@ static void validate_node_tests(void)
     refuse_all(sizeof node_refusals / sizeof node_refusals[0], node_refusals);
 }
 
-/* Rejected analyses and quantities. Every rejection must state the cause and the remedy in one
- * line. Each invalid scene has a single error, and the scene from which it was made is accepted. */
+/* Rejected analyses and quantities. */
 
-/* Replaces the analyses by a continuation: a path with an unknown load factor. */
+/* Replaces the analyses by a continuation. */
 static void driven(scene *s)
 {
     const double station[] = {0, 1};

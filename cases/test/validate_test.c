@@ -1,6 +1,4 @@
-/* Rejected springs, members, motions and loads. Every rejection must state the cause and the remedy
- * in one line. Each invalid scene has a single error, and the scene from which it was made is
- * accepted. */
+/* Rejected springs, members, motions and loads. */
 #include <math.h>
 
 #include "cases/scene/scene.h"
@@ -73,7 +71,6 @@ static void load(scene *s)
     s->load[0].vector[2] = NAN;
 }
 
-/* Adds a load along part of the member. */
 static scene_load *spread(scene *s, double from, double to)
 {
     s->load[0] = scene_load_of(SCENE_DISTRIBUTED, 0, 0, 1, 0);
