@@ -55,7 +55,6 @@ const char *bw_result_unit(const bw_result *r, int quantity)
     return q != NULL ? q->unit : NULL;
 }
 
-/* Returns the index of the quantity with this name; -1: none. */
 static int index_of(const bw_result *r, const char *name)
 {
     for (int i = 0; name != NULL && i < bw_result_quantities(r); i++)
@@ -105,8 +104,6 @@ size_t bw_result_curve(const bw_result *r, const char *quantity, const double **
         *y = points > 0 ? found->curve.value : NULL;
     return (size_t)points;
 }
-
-/* Number arrays of a result, filled on request. */
 
 /* Returns the index of a numeric field of a type; -1: none. */
 static int field_of(const record_type *type, const char *name, const schema_field **out)

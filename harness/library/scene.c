@@ -44,7 +44,6 @@ bw_status bw_scene_case(const char *name, bw_scene **out, char **why)
     return call_end(&c, find(name, out, &c.fault));
 }
 
-/* Writes all errors as JSON. */
 static void report(const mistakes *m, call *c)
 {
     document_text t;
@@ -185,7 +184,8 @@ static status list_of(const char *name, char **json, fault *f)
     *json = NULL;
     TRY(list_subject_find(name, &what, f));
     TRY(text_begin(&t, f));
-    known_read(NULL, &deviations, NULL); /* the file of reference values may be missing */
+    known_read(NULL, &deviations, NULL); /* not an error, because the file of reference values may
+                                          * be missing */
     const status outcome = text_end(&t, list_write_list(t.to, &what, &deviations, f), json, f);
     truths_free(&deviations);
     return outcome;
@@ -248,7 +248,6 @@ static status contestants_parse(const char *names, formulation list[CONTESTANTS_
     return STATUS_OK;
 }
 
-/* Returns the default number of processes. */
 static int contestants_jobs(void)
 {
     const long processors = sysconf(_SC_NPROCESSORS_ONLN);

@@ -39,7 +39,7 @@ static status read_options(const char *json, solution_request *out, int *stop, f
     return outcome;
 }
 
-/* Reads the reference values of the result. A case may have none. */
+/* Reads the reference values for the result. A case may have none. */
 static status read_truths(bw_result *r, const double parameter[], fault *f)
 {
     const scene_file *file = source_file(r->from);
@@ -91,7 +91,7 @@ static status compare(bw_result *r, fault *f)
     return bad ? fault_set(f, STATUS_FAULT, "out of memory for errors") : STATUS_OK;
 }
 
-/* Fills the result. *solved: status of the solution, with its message in f. */
+/* Fills the result. *solved: status of the solution, whose message is in f. */
 static status fill(bw_result *r, const bw_scene *from, const char *name, solution_request *what,
                    solution_choice *why, status *solved, fault *f)
 {
@@ -434,8 +434,6 @@ static status source_known(source *s, const truths **out, fault *f)
     known_release();
     return outcome;
 }
-
-/* Functions that do not need a scene. */
 
 const char *bw_version(void)
 {

@@ -30,7 +30,6 @@ static void cycle(void)
     bw_free_text(why);
 }
 
-/* Runs one cycle with reference values and a static path. */
 static void big_cycle(void)
 {
     char *json = NULL;

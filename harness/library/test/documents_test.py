@@ -26,7 +26,7 @@ class Library:
         return out
 
     def made(self, name, *arguments):
-        """Returns the object that the call creates, also if a solution did not converge."""
+        """Returns the object that the call creates, even if the solution did not converge."""
         out, why = ctypes.c_void_p(), ctypes.c_void_p()
         status = getattr(self.calls, name)(*arguments, ctypes.byref(out), ctypes.byref(why))
         line = self.text(why) if why.value is not None else ""

@@ -233,7 +233,6 @@ static void library_tests(void)
     not_converged();
 }
 
-/* A tip mass on an arm that falls from rest. */
 static const char falling[] =
     "beamwork: 1\n"
     "sections:\n"

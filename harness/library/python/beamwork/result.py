@@ -45,14 +45,14 @@ MOTION = ("time", "step", "iterations", "rejected", "error", "kinetic", "strain"
 
 
 class _Errors(dict[str, float]):
-    """Relative errors of quantities. A missing one raises KeyError with the reason."""
+    """Relative errors of quantities. For a quantity without an error, raises KeyError with the reason."""
 
     def __missing__(self, name: object) -> float:
         raise KeyError(f"no error of {name!r}: this run has no reference value of it; 'beamwork truth CASE' lists those of a case")
 
 
 class _Memory:
-    """Memory of a result for numpy. An array that uses it keeps the result alive."""
+    """Memory of a result, for numpy arrays. The result exists as long as an array uses it."""
 
     def __init__(self, owner: Owned, array: Any, *shape: int) -> None:
         self.owner = owner
@@ -65,13 +65,13 @@ class _Memory:
 class Result:
     """Results of one run. `result["k_drive"]` is a value [SI]; curves: `result.curve(name)`.
 
-    values: {quantity: value}; errors: {quantity: relative error against its reference value}; units.
-    at: {quantity: position of its value}: for a motion the time [s], for example of a largest value.
-    curves: names of the quantities that are curves.
-    case, formulation, elements, parameters, cell (status, unknowns, counted work, times).
-    document: all data, in the form of `beamwork solve --format json` (read at the first use).
+    values: {quantity: value}; errors: {quantity: error relative to its reference value}; units: {quantity: unit}. at:
+    {quantity: position of its value}: for a motion the time [s], for example of a largest value, otherwise the path
+    parameter. curves: names of the quantities that are curves. case, formulation, elements, parameters, cell (status,
+    unknowns, counted work, times). document: all data, in the form of `beamwork solve --format json` (read at the first
+    use).
 
-    The memory belongs to the library. It is freed when neither the result nor an array of its curves exists any more.
+    The memory belongs to the library. It is freed when the result and all arrays of its curves have been deleted.
     Several threads may use a result. A result cannot be pickled, but result.document can."""
 
     def __init__(self, handle: Owned) -> None:
@@ -178,12 +178,12 @@ class Result:
 
     @property
     def parameters(self) -> dict[str, Any]:
-        """Returns {name: value}."""
+        """Returns the parameters of the run as {name: value}."""
         return dict(self.document["parameters"])
 
     @property
     def cell(self) -> dict[str, Any]:
-        """Returns status, unknowns, work and times [s]."""
+        """Returns status, unknowns, counted work and times [s] of the run."""
         return dict(self.document["cell"])
 
     @property
@@ -237,7 +237,7 @@ class Result:
                         "at": self.at.get(name)} for name, value in self.values.items()).frame()
 
     def close(self) -> None:
-        """Releases the memory of the library. Arrays of curves keep their memory."""
+        """Releases the library's memory, except that of arrays that still exist."""
         self._handle = None
 
     def __enter__(self) -> Result:

@@ -92,7 +92,7 @@ class Scene:
 
     @classmethod
     def open(cls, path: str | os.PathLike[str]) -> Scene:
-        """Reads a scene file in its present state."""
+        """Reads a scene file in its current state."""
         raw = required(path, "path")
         return cls._made(os.fspath(path), lambda: owned_by("scene", "scene_open", raw),
                          ("file", os.fspath(path)))
@@ -125,7 +125,7 @@ class Scene:
             raise AttributeError(f"a scene has no {key!r}; it has: {', '.join(ENTRIES)}")
 
     def _ready(self) -> Owned:
-        """Returns the library's scene with its present entries and with all values that were set."""
+        """Returns the library's scene with its current entries and with all values that were set."""
         lines: Sequence[str] = ()
         text = ""
         if self._make is None:
@@ -209,7 +209,7 @@ class Scene:
         raises KeyboardInterrupt when the current iteration or, in a motion, the current step is complete."""
         name = utf8(formulation, "formulation")
         count = 0 if elements is None else arguments.whole(elements, "elements")
-        arguments.options(options)  # checks them here
+        arguments.options(options)
         with self._lock:
             try:
                 handle = self._ready()

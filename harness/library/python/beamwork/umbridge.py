@@ -1,9 +1,9 @@
 """python -m beamwork.umbridge SCENE serves a scene as a model of UM-Bridge (https://um-bridge.org, protocol 1.0).
 
-Programs for uncertainty quantification and optimisation, in any language, can then call it:
+Programs for uncertainty quantification and optimisation, in any language, can then call the model:
 
-    model = umbridge.HTTPModel("http://localhost:4242", "forward")
-    model([[0.5e-3, 210e9]], {"elements": 4})       # [[drive_force]]
+model = umbridge.HTTPModel("http://localhost:4242", "forward") model([[0.5e-3, 210e9]], {"elements": 4}) #
+[[drive_force]]
 
 The model `forward` has one input vector, the parameters of the scene, and one output vector, its quantities, all in SI
 units. The member `config` of a request may contain "formulation", "elements" and other parameters. Gradients are not
@@ -26,7 +26,7 @@ SUPPORT = {"Evaluate": True, "Gradient": False, "ApplyJacobian": False, "ApplyHe
 
 
 class Invalid(Exception):
-    """Raised for a request that is not answered. kind: the error type of UM-Bridge; status: of HTTP."""
+    """Raised for a request that cannot be answered. kind: error type of UM-Bridge; status: HTTP status."""
 
     def __init__(self, kind: str, words: str, status: int = 400) -> None:
         super().__init__(words)
@@ -126,7 +126,7 @@ def server(model: Model, port: int = 4242, host: str = "localhost") -> Threading
                 self.respond(why.status, {"error": {"type": why.kind, "message": str(why)}})
 
         def log_message(self, *_: Any) -> None:
-            """Prints nothing: clients report errors."""
+            """Prints nothing, because the response already reports an error to the client."""
 
     return ThreadingHTTPServer((host, port), Handler)
 

@@ -19,7 +19,7 @@ from .program import Case, Given, Progress, run
 from .records import Convergence, Document, Records, Verdicts
 
 
-_TEXTS = ("case", "point", "parameters", "formulation", "quantity", "unit", "x_unit")  # even "1"
+_TEXTS = ("case", "point", "parameters", "formulation", "quantity", "unit", "x_unit")  # columns that are texts even if they look like a number
 
 
 def _number(text: str) -> Any:
@@ -110,7 +110,8 @@ def bench(*cases: str, formulations: tuple[str, ...] = (), progress: Progress | 
 
 
 def stress(*formulations: str, progress: Progress | None = None, **options: Any) -> Document:
-    """Runs formulations at extremes; returns the tables `outcomes`, `formulations`, ..."""
+    """Solves problems at extreme parameters with the formulations; returns the tables `outcomes`, `formulations`,
+    ..."""
     text, code = run("stress", formulations=formulations, progress=progress, format="json", **options)
     return Document(json.loads(text), code)
 
@@ -125,14 +126,14 @@ def motion(case: Case = None, *formulations: str, progress: Progress | None = No
 
 
 def element_test(*formulations: str, **options: Any) -> Document:
-    """Checks formulations against the interface; returns the tables `claims`, `measured`, ... `passed`: the
+    """Checks formulations against the interface; returns the tables `claims`, `measured`, ... `passed` is True if the
     requirements are satisfied."""
     text, code = run("element-test", formulations=formulations, format="json", **options)
     return Document(json.loads(text), code)
 
 
 def merge(*folders: str | os.PathLike[str], of: str = "verify", **options: Any) -> Verdicts | Records:
-    """Merges the batches of shards. of: "verify" (returns Verdicts) or "sweep" (returns Records)."""
+    """Merges the batches of a run in shards. of: "verify" (returns Verdicts) or "sweep" (returns Records)."""
     if of == "sweep":
         return _rows(run("merge", *folders, format="csv", **options)[0])
     with tempfile.TemporaryDirectory() as place:

@@ -1,4 +1,4 @@
-"""Writes a scene of dicts and lists as the text of a scene file. All bits of its numbers are preserved."""
+"""Writes a scene of dicts and lists as the text of a scene file. The numbers keep all bits."""
 from __future__ import annotations
 
 import math
@@ -19,7 +19,7 @@ _DEEPEST = 40
 
 
 def number(value: float, where: str) -> str:
-    """Returns a float or an integer with the smallest number of digits that give the same bits when they are read."""
+    """Returns a float or an integer with the fewest digits that give the same bits when they are read."""
     if not math.isfinite(value):
         raise Refused(f"{where} is {value}: a finite number is expected")
     return repr(value)
@@ -62,8 +62,8 @@ def written(value: Any, where: str, depth: int = 0) -> str:
 
 
 def name(key: Any, where: str) -> str:
-    """Returns a key in the form in which it is written. from_, for_ and is_, which are Python keywords without the _,
-    lose the _."""
+    """Returns a key as it is written to the file. from_, for_ and is_ lose the _, because they are Python keywords
+    without it."""
     if not isinstance(key, str) or not key:
         raise Refused(f"{where}: the key {key!r} is not a name")
     return quoted(key[:-1] if key in ("from_", "for_", "is_") else key, where)

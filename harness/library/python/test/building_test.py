@@ -14,7 +14,6 @@ from harness.library.python.test.module import ModuleTest, bw, leaf
 
 
 def written(scene):
-    """Returns the text of the scene file without its header."""
     return bw.scene.scene_text({}, scene._entries)[0]  # pylint: disable=protected-access
 
 
@@ -149,7 +148,6 @@ class Building(ModuleTest):
 
 
 def swing():
-    """Returns the scene of a tip mass on an arm that a driver rotates by 30 degrees."""
     scene = bw.Scene("swing")
     scene.sections["tube"] = {"tube": {"diameter": 20e-3, "thickness": 1e-3}, "young": 70e9,
                               "shear_modulus": 26e9, "density": 2700}

@@ -49,7 +49,6 @@ class Doors(ModuleTest):
         return str(path)
 
     def asked(self, code, door):
-        """Returns the output of a separate Python process, which must end successfully."""
         path = self.folder / "asked.py"
         path.write_text(code, encoding="utf-8")
         done = subprocess.run([sys.executable, path, door], env=environment(**SETTINGS), text=True,

@@ -22,7 +22,6 @@ CASE = "sheet_cantilever"
 
 
 def solved_here(elements):
-    """Solves a case in other processes, each of which loads the module itself."""
     return bw.Scene.case(CASE).solve("sheet_third", elements)["C_zz"]
 
 
@@ -130,7 +129,7 @@ class Arguments(ModuleTest):
         error = self.one_line(bw.NotConverged, "converge", scene.solve, "beamw_first", 1)
         self.assertIsInstance(error.result, bw.Result)
         self.assertEqual(error.result.cell["status"], "not_converged")
-        again = pickle.loads(pickle.dumps(error))  # as a process pool transfers it
+        again = pickle.loads(pickle.dumps(error))  # a process pool transfers exceptions in this way
         self.assertEqual((type(again), str(again), again.result),
                          (bw.NotConverged, str(error), None))
 
@@ -308,7 +307,6 @@ class Arena(ctypes.Structure):
 
 
 def in_use():
-    """Returns the number of bytes allocated by the library and by Python."""
     gc.collect()
     ask = ctypes.CDLL(None).mallinfo2
     ask.restype = Arena

@@ -32,7 +32,6 @@ def python(code, **options):
 
 
 def leaf(scene=None, **changes):
-    """Returns a leaf spring with a force at its tip, built from dicts."""
     scene = bw.Scene("leaf") if scene is None else scene
     scene.sections["leaf"] = {"rectangle": {"width": 50e-3, "thickness": 0.5e-3, **changes},
                               "young": 210e9, "shear_modulus": 81e9}

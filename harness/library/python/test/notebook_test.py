@@ -19,7 +19,6 @@ NEEDS = [name for name in ("nbclient", "nbformat", "ipykernel", "matplotlib")
 
 
 def words_of(cell):
-    """Returns everything that a cell has displayed, as text and HTML."""
     shown = []
     for output in cell["outputs"]:
         shown.append(output.get("text", ""))

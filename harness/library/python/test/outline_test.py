@@ -11,13 +11,11 @@ MATERIAL = {"young": 210e9, "shear_modulus": 81e9}
 
 
 def rectangle(width, height):
-    """Returns a rectangle with its width along z and its height along y."""
     y, z = height / 2, width / 2
     return [[-y, -z], [y, -z], [y, z], [-y, z]]
 
 
 def channel(depth, flange, t):
-    """Returns the outline of a `channel` given by its mid-lines, with flanges towards -y."""
     out, inner = depth / 2 + t / 2, depth / 2 - t / 2
     return [[t / 2, -out], [t / 2, out], [-flange, out], [-flange, inner], [-t / 2, inner],
             [-t / 2, -inner], [-flange, -inner], [-flange, -out]]

@@ -32,7 +32,6 @@ class Served(ModuleTest):
         cls.addClassCleanup(cls.server.shutdown)
 
     def ask(self, path, **content):
-        """Returns (status, response) of a request."""
         request = urllib.request.Request(f"{self.url}/{path}", json.dumps(content).encode() if content else None)
         try:
             with urllib.request.urlopen(request, timeout=60) as found:

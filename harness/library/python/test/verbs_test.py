@@ -21,7 +21,6 @@ CLOCKS = re.compile(r"clock|seconds.*|spent|round_.*|keep_all_.*|repeats|kept|no
 
 
 def timeless(data):
-    """Returns the data without times."""
     if isinstance(data, dict):
         return {k: timeless(v) for k, v in data.items() if not CLOCKS.fullmatch(k)}
     return [timeless(one) for one in data] if isinstance(data, list) else data
@@ -46,7 +45,7 @@ class Verbs(ModuleTest):
         self.assertGreater(len(ours), 0)
 
     def same_rows(self, ours, theirs):
-        """Checks that the numbers of our records are bit for bit those of a CSV file."""
+        """Checks that the numbers of `ours`, records of the module, are bit for bit those of a CSV file."""
         self.assertGreater(len(ours), 0)
         self.assertEqual(len(ours), len(theirs))
         for mine, one in zip(timeless(list(ours)), timeless(theirs)):
