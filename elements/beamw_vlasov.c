@@ -1,4 +1,4 @@
-/* BEAMW with Phi = 0 (Vlasov's theory), whatever the shear rigidities of the section. */
+/* BEAMW with Phi = 0 (Vlasov's theory), for any shear rigidities of the section. */
 #include "elements/beamw/variants.h"
 
 static status prepare(const element_request *request, element_data *out, fault *f)

@@ -34,10 +34,9 @@ static int stage_count(const double value[])
     return FEWEST + (int)value[OPTION_STAGES];
 }
 
-/* Returns the orders of convergence. The order in statics holds even under dead forces along
- * members. Under other loads along members, the order is 4 at large rotations. For frequencies see
- * field/field.h. In linear buckling, the inner unknowns are those of the stress-free element
- * (elements/collocation/prestress.c). */
+/* The order in statics also holds under dead forces along members. Under other loads along members,
+ * the order is 4 at large rotations. For frequencies see field/field.h. In linear buckling, the
+ * inner unknowns are those of the stress-free element (elements/collocation/prestress.c). */
 static element_order order(element_analysis analysis, const double value[])
 {
     const int collocated = 2 * stage_count(value);
@@ -46,14 +45,11 @@ static element_order order(element_analysis analysis, const double value[])
     return (element_order){2, analysis == ELEMENT_STATICS ? collocated : 4};
 }
 
-/* Returns the number of inner unknowns: F (3) and x (3 for each inner node). */
 static int inner_count(const double value[])
 {
     return 3 * stage_count(value);
 }
 
-/* Returns the number of values stored for the update: the corrections of the unknowns and their
- * derivatives with respect to the strains. */
 static int memory_count(const double value[])
 {
     return inner_count(value) * (1 + OUTER);
@@ -118,7 +114,6 @@ static void stress_many(int count, const element_data *const data[], const doubl
     REAL_CHOSEN(exact_lanes_stages_stress)(count, data, e, inner, out, outcome);
 }
 
-/* Evaluates consecutive elements of one kind that request the same outputs together. */
 static void along(int count, const element_data *const data[], const node_state x[],
                   along_output out[], status outcome[])
 {
@@ -145,7 +140,7 @@ static void geometric(const element_data *data, const double sigma[], double G[]
 {
     double own[OUTER][OUTER * OUTER];
     memset(G, 0, OUTER * OUTER * sizeof *G);
-    if (!data->prestressed) /* the prestress was not requested at preparation */
+    if (!data->prestressed) /* the prestress was not requested when the element was prepared */
         exact_prestress_derivatives(&data->stages, own);
     for (int k = 0; k < OUTER; k++) {
         const double *Q = data->prestressed ? data->prestress[k] : own[k];
@@ -175,8 +170,8 @@ static double update(const element_data *data, const double de[], const double m
             change -= memory[i * (OUTER + 1) + j] * de[j] / s->line.l0;
         inner[i] += change;
         if (i < 3)
-            force = fmax(force, fabs(inner[i])); /* because forces are divided by a scale, whereas
-                                                    rotations are not */
+            force =
+                fmax(force, fabs(inner[i])); /* forces are divided by a scale, rotations are not */
         largest = larger(largest, fabs(change) / (i < 3 ? force : 1));
     }
     return largest;

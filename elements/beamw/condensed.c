@@ -19,7 +19,7 @@ static void add_term(element_data *d, const term *t, double scale)
     beamw_variants_add_product(d->Q[t->mode - 1], t->c * scale, a, b);
 }
 
-/* Coefficients of the bilinear part of J Eq. 66, multiplied by l0. */
+/* Coefficients of the quadratic part of J Eq. 66, multiplied by l0. */
 static const term eq66[] = {
     {1, 3, 3, 2 / 30.0},  {1, 3, 4, 1 / 30.0},  {1, 4, 4, 2 / 30.0},  {1, 5, 5, 2 / 30.0},
     {1, 5, 6, 1 / 30.0},  {1, 6, 6, 2 / 30.0},  {2, 4, 5, 1},         {2, 3, 6, -1},
@@ -59,7 +59,6 @@ void beamw_modified_printed(const section *c, unsigned features, element_data *d
 
 enum { N = BEAMW_MODIFIED_VARIABLES, Z = BEAMW_STRAINS };
 
-/* Adds c (a b^T + b a^T) to Q. */
 static void add_product(double Q[N * N], double c, const double a[N], const double b[N])
 {
     for (int i = 0; i < N; i++)
@@ -74,9 +73,8 @@ typedef struct point_fields {
     double rotation[3][N], rate[3][N], shear_y[N], shear_z[N], extension[N];
 } point_fields;
 
-/* Computes the fields at x. The rotation is the mean rotation rate times x - 1/2, plus the
- * contributions of antisymmetric bending and nonuniform twist. The shear strain at the shear centre
- * is constant. */
+/* The rotation is the mean rotation rate times x - 1/2, plus the contributions of antisymmetric
+ * bending and nonuniform twist. The shear strain at the shear centre is constant. */
 static void fields_at(const section *c, double l, double x, const beamw_twist *t,
                       const beamw_stiffness_fields *s, point_fields *out)
 {

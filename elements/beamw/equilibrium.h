@@ -29,7 +29,6 @@ typedef struct beamw_internal {
     real reach[3]; /* sum of the absolute values of the terms of h that are linear in e */
 } beamw_internal;
 
-/* Returns row r of D at z. */
 static inline const real *beamw_internal_inside(const beamw_internal *s, int r)
 {
     return s->D + BEAMW_INTERNAL_Y * r + BEAMW_INTERNAL_Z;
@@ -88,7 +87,6 @@ static inline void beamw_internal_linear(const beamw_condensed *d, beamw_interna
     }
 }
 
-/* Computes u, h and D for y, but does not add the effect of z to the columns of e. */
 static inline void beamw_internal_evaluate(const beamw_condensed *d, beamw_internal *s)
 {
     enum { Y = BEAMW_INTERNAL_Y, Z = BEAMW_INTERNAL_Z };
@@ -108,9 +106,9 @@ static inline void beamw_internal_evaluate(const beamw_condensed *d, beamw_inter
         for (int i = 1; i < Z; i++)
             quadratic[r] += s->D[Y * r + i] * s->y[i];
     }
-    beamw_internal_along(s, s->y + Z, quadratic); /* products of e and z ... */
+    beamw_internal_along(s, s->y + Z, quadratic); /* products of e and z, then of z with itself */
     beamw_internal_add_own(d, s->y, s);
-    beamw_internal_along(s, s->y + Z, quadratic); /* ... and of z with itself */
+    beamw_internal_along(s, s->y + Z, quadratic);
     beamw_internal_add_half(d, quadratic, s);
 }
 
@@ -187,8 +185,8 @@ static inline void beamw_hessian_evaluate(const beamw_condensed *d, const beamw_
 }
 
 /* Computes A^-1 by cofactors, whose accuracy does not depend on the units of rows and columns.
- * Returns the lanes in which the determinant of A is below -1/10. G and X are minus the identity if
- * there is no stress or no flexibility. */
+ * Returns the lanes in which the determinant of A is below -1/10. G and X are -I if there is no
+ * stress or no flexibility. */
 static inline real_truth beamw_hessian_invert(const real A[9], real inverse[9])
 {
     for (int i = 0; i < 3; i++) {
@@ -258,10 +256,10 @@ static inline int beamw_hessian_pivoted(const beamw_condensed *d, const beamw_he
 /* The stress function of condensed internal modes (variants.h) for one element or several in
  * lanes. */
 
-enum { BEAMW_EQUILIBRIUM_MOST = 30 }; /* maximum number of iterations */
+enum { BEAMW_EQUILIBRIUM_MOST = 30 };
 
-/* Computes the step of Newton's method, dz and dq, which the caller subtracts. dz and dq are NaN if
- * the Hessian is singular. */
+/* Computes the step of Newton's method, which the caller subtracts. dz and dq are NaN if the
+ * Hessian is singular. */
 static inline void beamw_equilibrium_step(const beamw_condensed *d, const beamw_internal *s,
                                           real dz[3], real dq[3])
 {
@@ -313,8 +311,7 @@ static inline real_truth beamw_equilibrium_solve(const beamw_condensed *d, beamw
             s->q[i] -= real_choose(left, dq[i], real_of(0));
         }
         beamw_internal_move(d, dz, s);
-        good &= change <= DBL_MAX; /* holds even for converged lanes, which are evaluated again with
-                                      unchanged z */
+        good &= change <= DBL_MAX; /* true for converged lanes, whose z does not change */
         left &= good & (change > close_enough * close_enough * size);
     }
     return good & (left == 0);
@@ -445,7 +442,6 @@ static inline real beamw_equilibrium_energy(const beamw_condensed *d, const beam
     return sum;
 }
 
-/* Computes sigma = d energy/de. */
 static inline void beamw_equilibrium_forces(const beamw_condensed *d, const beamw_internal *s,
                                             real sigma[BEAMW_STRAINS])
 {

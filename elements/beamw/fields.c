@@ -90,7 +90,6 @@ beamw_twist_shapes beamw_twist_at(const beamw_twist *t, double x)
     return s;
 }
 
-/* Computes the edges of the panels of an element. Returns the number of panels. */
 static int panels_of(const beamw_twist *t, double edge[2 * LAYER_PANELS + 2])
 {
     int panels = 1;
@@ -100,7 +99,7 @@ static int panels_of(const beamw_twist *t, double edge[2 * LAYER_PANELS + 2])
             edge[i] = (double)i / panels;
         return panels;
     }
-    /* boundary layers at the ends, polynomials between them */
+    /* panels in the boundary layers at the ends, and one panel between them */
     panels = 2 * LAYER_PANELS + 1;
     for (int i = 0; i <= LAYER_PANELS; i++) {
         edge[i] = i * panel_decay / t->lambda;
@@ -176,7 +175,6 @@ static void split(const section *c, double l, beamw_stiffness_shear kind, const 
     dense_lu_solve(3, 3, A, pivot, M);
 }
 
-/* Computes K, where 1/2 h^T K h is the energy. */
 static void series(const section *c, double l, beamw_stiffness_shear kind,
                    const double stiffness[3], const double M[9], double K[9])
 {

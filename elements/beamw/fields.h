@@ -18,7 +18,7 @@ typedef struct beamw_twist {
     double uneven;   /* [N m^3] stiffness of hg_w, the even part of the warping */
     double opposite; /* [N/m] stiffness of A = (e7 - e8)/2, the odd part */
     double lambda;   /* 0 for the cubic function */
-    double excess;   /* the value lambda/2 coth(lambda/2) - 1 */
+    double excess;   /* lambda/2 coth(lambda/2) - 1 */
     double soft;     /* 1 + r */
     double lag[2];   /* G It (f_yw, f_zw) [m]: ratio by which the part of kx above its mean reduces
                         the shear strains */

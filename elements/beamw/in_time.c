@@ -50,7 +50,6 @@ static void skew(double size, const double v[3], double A[9])
     A[7] += size * v[0];
 }
 
-/* Adds size a~ b~ to A. */
 static void add_crossed(double size, const double a[3], const double b[3], double A[9])
 {
     const double dot = vec3_dot(a, b);
@@ -59,7 +58,6 @@ static void add_crossed(double size, const double a[3], const double b[3], doubl
             A[3 * i + j] += size * (b[i] * a[j] - (i == j ? dot : 0));
 }
 
-/* Adds a block [3 x 3] to an element matrix. */
 static void add_block(double size, const double B[9], int first, int column, double A[N * N])
 {
     for (int i = 0; i < 3; i++)
@@ -111,7 +109,6 @@ static void set_modes(moving_line *c)
         c->second[j] += dense_dot(N, c->J + N * j, c->out->acceleration);
 }
 
-/* A mass at a quadrature point. */
 typedef struct line_point {
     double mass, part[NODES], shift; /* shift is 1 for a position, 0 for a direction */
     int axes, axis[AXES];            /* axes k for which m_k has functionals at the point */
@@ -120,8 +117,8 @@ typedef struct line_point {
     double F[3];        /* mass times acceleration */
 } line_point;
 
-/* Sets the functionals of a vector a that is fixed to the section and rotated by chi. The
- * functionals of a position also include nu. */
+/* Sets the functionals of a vector a that is fixed to the section. The functionals of a position
+ * also include nu. */
 static void set_functionals(const moving_line *c, int g, const double a[3], line_point *p)
 {
     static const int other[AXES][2] = {{1, 2}, {2, 0}, {0, 1}},
@@ -206,7 +203,6 @@ static void add_turn(double size, const double v[3], int node, row T[3])
             T[i].of[turns[node] + j] += A[3 * i + j];
 }
 
-/* Adds mass T^T U to A. */
 static void add_product(double mass, const row T[3], const row U[3], row A[N])
 {
     for (int i = 0; i < N; i++) {
@@ -320,8 +316,6 @@ static void add_curvature(moving_line *c)
         c->out->K[i] += H[i];
 }
 
-/* Adds the moment of inertia about n_X, with a component w . n_X that is linear between the
- * nodes. */
 static void add_twist(moving_line *c, double polar)
 {
     inertia_output *out = c->out;
@@ -370,7 +364,6 @@ static void add_mass(moving_line *c, double mass, const double a[3], int place)
     }
 }
 
-/* Adds rotary inertia, either from unit vectors of the section or from section matrices. */
 static void add_rotary(moving_line *c)
 {
     static const double unit[AXES][3] = {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

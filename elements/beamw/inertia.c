@@ -14,8 +14,8 @@ enum { NU_Y, NU_Z, CHI_X, CHI_Y, CHI_Z, PSI }; /* PSI: warping amplitude */
 
 /* State of the element, and sums over the points for the second derivatives. */
 typedef struct beamw_inertia_state {
-    double vector[2][3][3]; /* unit vectors, by node and direction */
-    double mean[3][3];      /* m_k */
+    double vector[2][3][3];
+    double mean[3][3]; /* m_k */
     double e[8], J[8 * N];
     double s[8];       /* sums of F . m_k times the functionals, conjugate to the strains */
     double turn[6][8]; /* derivatives of F . m_k with respect to the rotations of p and q */
@@ -26,7 +26,7 @@ typedef struct beamw_inertia_state {
 
 /* The functionals at a point: their values and gradients. */
 typedef struct beamw_inertia_values {
-    double x, mass; /* position and weight of a point */
+    double x, mass;
     const double (*field)[8];
     double value[BEAMW_FIELDS], gradient[BEAMW_FIELDS][N];
 } beamw_inertia_values;
@@ -194,7 +194,6 @@ static const beamw_inertia_vector position = {POSITION, 2, {{1, NU_Y, 1}, {2, NU
                                                  {2, 2, {{0, CHI_Y, 1}, {1, CHI_X, -1}}}},
                                   warping = {NOTHING, 1, {{0, PSI, 1}}};
 
-/* Collects the second derivatives of F . m_k (field . e). */
 static void gather_curvature(beamw_inertia_state *c, const double F[3],
                              const beamw_inertia_values *at, const beamw_inertia_vector *y)
 {
@@ -244,7 +243,7 @@ static void add_twist(const beamw_inertia_state *c, const beamw_inertia_values *
             c->out->M[N * i + j] += mass * row[i] * row[j];
 }
 
-/* Adds size times a vector of the field to y, and size times the gradient of that vector to T. */
+/* Adds size times a vector of the field to y and size times its gradient to T. */
 static void add_part(const beamw_inertia_state *c, const beamw_inertia_values *at,
                      const beamw_inertia_vector *part, double size, moving_vector *y,
                      double T[3 * N], double fixed[2][3])

@@ -7,7 +7,6 @@
 
 enum { N = MODES_COORDINATES };
 
-/* The chord and its rate of change. */
 typedef struct chord {
     double n[3], l, turns[3], grows; /* time derivatives n' and l' */
 } chord;
@@ -35,7 +34,7 @@ static void axis_of(const node_state *x, const double w[3], int k, double v[3], 
 }
 
 /* Computes the gradient of c n . v, where v is an axis of the node whose rotations begin at
- * `rotation`. */
+ * coordinate `rotation`. */
 static void bending(const chord *d, double c, const node_state *x, int k, int rotation,
                     const double rate[N], double row[N])
 {

@@ -18,7 +18,7 @@ static inline void beamw_modified_stress_of(const element_data *d, const real x[
         y[d->spring[t].i] += d->spring[t].c * x[d->spring[t].j];
 }
 
-/* Computes C for the conjugate stresses S ebar. */
+/* Computes C from D and the conjugate stresses S ebar. */
 static inline void beamw_modified_stress_stiffness(const element_data *d, const real D[],
                                                    const real conjugate[BEAMW_STRAINS], real C[])
 {
@@ -67,7 +67,6 @@ static inline void beamw_modified_stress_strains(const element_data *d, const re
     }
 }
 
-/* Computes the outputs of element_type.stress. */
 static inline void beamw_modified_stress_evaluate(const element_data *d,
                                                   const real e[BEAMW_STRAINS], stress_real *out)
 {

@@ -14,7 +14,7 @@ typedef struct beamw_quadratic_term {
     double c;
     short row, i, j;
     short to, mirrored; /* positions of c y_j and c y_i in the derivatives of the rows, row-major.
-                           For i = j, `mirrored` is a position after the end, which is not used */
+                           For i = j, `mirrored` is an unused position after the end */
     short entry;        /* position in a matrix of second derivatives */
 } beamw_quadratic_term;
 
@@ -41,13 +41,13 @@ enum {
 };
 
 struct element_data {
-    double l0;                                        /* [m] */
-    double S[8 * 8];                                  /* [N/m] */
-    double Q[BEAMW_MODIFIED][8 * 8];                  /* [1/m], symmetric */
-    int terms;                                        /* number of nonzero terms in Q ... */
-    beamw_quadratic_term term[BEAMW_QUADRATIC_TERMS]; /* nonzero terms of Q, where `entry` is a
-                                                         position in [8 x 8] with i <= j */
-    int springs;                                      /* number of nonzero terms in S */
+    double l0;                       /* [m] */
+    double S[8 * 8];                 /* [N/m] */
+    double Q[BEAMW_MODIFIED][8 * 8]; /* [1/m], symmetric */
+    int terms;                       /* number of nonzero terms in Q ... */
+    beamw_quadratic_term
+        term[BEAMW_QUADRATIC_TERMS]; /* `entry` is a position in [8 x 8] with i <= j */
+    int springs;                     /* number of nonzero terms in S */
     struct {
         double c;
         short i, j;

@@ -168,7 +168,7 @@ static void turn_of(const exact_along_frame *at, double turn[3 * X])
         }
 }
 
-/* Computes B [4 x 4], where M : R(u) = u . B u for unit quaternions u. */
+/* Computes B, where M : R(u) = u . B u for unit quaternions u. */
 static void quadratic_of(const double M[9], double B[4][4])
 {
     B[0][0] = M[0] + M[4] + M[8];
@@ -243,7 +243,7 @@ void exact_along_finish(const exact_stages *s, const exact_along *a, const exact
         second_of(at, M, out->H);
 }
 
-/* Eliminates the unknowns. Returns 0, or the number of the pivot that fails. */
+/* Returns 0, or the number of the pivot that fails. */
 static int eliminate(int stages, exact_collocated *w)
 {
     exact_blocks_eliminate(stages, stages + 4, stages + 1, w->A, w->V, w->d);

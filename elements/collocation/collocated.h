@@ -39,7 +39,7 @@ int exact_variables_eliminate(int stages, int columns, double A[][9], double S[]
 void exact_variables_change(const exact_stages *s, int i, const double change[], double x[3],
                             double slope[3]);
 
-/* Stresses of collocation elements: derivatives of the energy for the present values of the
+/* Stresses of collocation elements: derivatives of the energy for the current values of the
  * unknowns, which are then eliminated. Several elements are evaluated in lanes (real.h). */
 
 /* Solution columns for the blocks 2 X, v and (a_p, a_q, 1), and for the rotation of loads along the
@@ -184,7 +184,6 @@ static inline void exact_collocated_write(int stages, const exact_stages *s, exa
         }
 }
 
-/* Evaluates the stresses of `run` elements with `stages` points. */
 static inline __attribute__((always_inline)) void
 exact_collocated_run(int stages, const exact_stages *s, int run, const double *const e[],
                      const double *const inner[], stress_output out[], status outcome[])
@@ -253,8 +252,7 @@ static inline void exact_loaded_write(int stages, const exact_stages *s, const e
             out->second[3 * i + j] =
                 unit * exact_collocated_entry(stages, w, TURN + i, TURN + j, lane);
     }
-    for (int i = 0; i < stages && out->followed != NULL;
-         i++) { /* F is the first variable, but is stored in the last block */
+    for (int i = 0; i < stages && out->followed != NULL; i++) {
         double *rows = &out->followed[(i < stages - 1 ? i + 1 : 0) * 9];
         for (int j = 0; j < 9; j++)
             rows[j] = -real_lane(&w->X[3][i][j], lane);
@@ -262,7 +260,6 @@ static inline void exact_loaded_write(int stages, const exact_stages *s, const e
     exact_along_finish(s, a, at, moved, out);
 }
 
-/* Evaluates the stresses of `run` elements with `stages` points, under loads along them. */
 static inline __attribute__((always_inline)) void
 exact_loaded_run(int stages, const exact_stages *s, const exact_along *a, int run,
                  const node_state x[], along_output out[], status outcome[])

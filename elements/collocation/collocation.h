@@ -45,7 +45,7 @@ typedef struct exact_stages {
     double rest_x[EXACT_STAGES_NODES][3], rest_kappa[EXACT_STAGES_MAX][3], rest_v[3];
     double rest_axis[EXACT_STAGES_MAX]
                     [3]; /* R (e_x + g) at the points of the stress-free element */
-    int warps;           /* 0 without warping energy */
+    int warps;
     double S[EXACT_WARPING_MAX * EXACT_WARPING_MAX];
 } exact_stages;
 
@@ -68,7 +68,7 @@ typedef struct exact_along {
     double half[ELEMENT_ALONG_POINTS]; /* weights of half of int q [m] */
 } exact_along;
 
-/* The frame G of an element in its present state, and g in the axes of G. */
+/* The frame G of an element in its current state, and g in the axes of G. */
 typedef struct exact_along_frame {
     double q[2][4], u[4], size; /* quaternions of the nodes, their mean, and its length */
     /* g [N], and missed [N m] with columns in axes of G */

@@ -39,7 +39,7 @@ static void linear_states(const exact_stages *s, double change[], double Z[])
         change[(m + i) * OUTER + i] = 1;
     if (!s->c.warping)
         for (int i = n - 2; i < n; i++)
-            hessian[i * (n + 1)] = 1; /* there are no warping amplitudes */
+            hessian[i * (n + 1)] = 1; /* without warping */
     dense_lu(n, hessian, pivot);
     dense_lu_solve(n, OUTER, hessian, pivot, change);
 }

@@ -88,7 +88,7 @@ static inline void exact_milenkovic_add_hessian(const exact_milenkovic_form *f, 
     const real level = 2 * (f->s[1] * wy - f->p[1] * once + f->q[1] * twice - q * wy);
     const real bent = 4 * (f->s[2] * wy - f->p[2] * once + f->q[2] * twice);
     const real turn = f->s[1] - f->q[1] * t - q, along = f->q[1] * xw;
-    for (int i = 0; i < 3; i++) { /* the gradient of t is 2 x, and `slope` is conjugate to it */
+    for (int i = 0; i < 3; i++) { /* the gradient of t is 2 x */
         slope[i] = 2 * (f->q[1] * (w[i] * xy + y[i] * xw - 2 * x[i] * wy) - f->p[1] * yw[i]) +
                    (0.5 * bent) * x[i];
         across[i] = 2 * (turn * w[i] - f->p[1] * wx[i] + along * x[i]);
@@ -261,7 +261,6 @@ static inline void exact_stage_add_mixed(const exact_stage_material *m, int coup
                 m->kN[3 * i] * A[j] + m->kN[3 * i + 1] * A[3 + j] + m->kN[3 * i + 2] * A[6 + j];
 }
 
-/* Adds kN^T A to out. */
 static inline void exact_stage_add_mixed_transposed(const exact_stage_material *m, int coupled,
                                                     const real A[9], real out[9])
 {

@@ -186,7 +186,6 @@ static inline void exact_sums_couple(int stages, const exact_stages *s, exact_st
     }
 }
 
-/* Fills column l of the blocks of x and 2 X. */
 static inline void exact_sums_column(int stages, const exact_stages *s, int l,
                                      const exact_stage_terms t[],
                                      real through[][EXACT_STAGES_MAX][3], real A[][9])
@@ -219,7 +218,7 @@ static inline void exact_sums_column(int stages, const exact_stages *s, int l,
     }
 }
 
-/* Fills the blocks that couple variable k (x or 2 X) with F and with (a_p, a_q, 1). */
+/* Fills the blocks that couple x or 2 X with F and with (a_p, a_q, 1). */
 static inline void exact_sums_border(int stages, const exact_stages *s, int k,
                                      const exact_stage_terms t[], real A[][9])
 {
@@ -361,7 +360,7 @@ static inline void exact_sums_gather(int stages, const exact_stages *s, exact_st
         for (int i = 0; i < 2; i++)
             for (int j = 0; j < 2; j++)
                 E[3 * i + j] = real_of(s->S[(stages + i) * (stages + 2) + stages + j]);
-    else if (s->c.warping) /* the amplitudes have no effect */
+    else if (s->c.warping) /* without warping energy, the amplitudes have no effect */
         for (int i = 0; i < 2; i++)
             E[4 * i] = real_of(s->c.GJ);
 }

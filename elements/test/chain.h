@@ -1,6 +1,5 @@
-/* A straight cantilever of equal elements along x, solved with dense matrices independently of the
- * harness. The chain serves to compare one formulation with reference values. The root is clamped
- * with warping restrained. */
+/* A straight cantilever of equal elements along x, solved with dense matrices, independently of the
+ * harness. The root is clamped with warping restrained. */
 #ifndef BEAMWORK_TEST_CHAIN_H
 #define BEAMWORK_TEST_CHAIN_H
 
@@ -40,8 +39,6 @@ typedef struct chain {
 
 enum { CHAIN_MOST = ELEMENT_MAX_COORDINATES };
 
-/* Prepares the elements and places the nodes. Returns 0, or -1 if the element rejects the
- * request. */
 static int chain_start(chain *c, const element_type *type, const double option[], const section *s,
                        double length, int elements, unsigned features)
 {
@@ -105,7 +102,6 @@ static void chain_linearise(const chain *c, int i, chain_linearised *w, double K
     dense_add_transpose_mul(m, n, 1, w->J, w->sigma, force);
 }
 
-/* Assembles K [n x n] and the residual force [n] of all coordinates except those of the root. */
 static void chain_assemble(const chain *c, chain_linearised *w, double *K, double *force,
                            int *failures)
 {
@@ -193,7 +189,6 @@ static double chain_solve(chain *c, const double step[7], const double load[7])
     return failures > 0 ? INFINITY : size;
 }
 
-/* Computes the compliance of the tip [6 x 6] with no component prescribed, for spatial moments. */
 static inline void chain_compliance(chain *c, double C[36])
 {
     const int n = NODE_COORDINATES * (c->nodes - 1), tip = n - NODE_COORDINATES;

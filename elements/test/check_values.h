@@ -1,6 +1,6 @@
 /* Values of one element in one state, computed by an independent prototype in mm, kN and rad: E =
- * 210, G = 80, l0 = 300. The section is unsymmetric and branched, with five points and four walls.
- * The 14 coordinates are in the order of elements/element.h. */
+ * 210, G = 80, l0 = 300, with an unsymmetric open section. The 14 coordinates are in the order of
+ * elements/element.h. */
 #ifndef BEAMWORK_TEST_CHECK_VALUES_H
 #define BEAMWORK_TEST_CHECK_VALUES_H
 

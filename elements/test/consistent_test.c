@@ -1,6 +1,5 @@
 /* Tests beamw_consistent with uniform strains of any size, and its derivatives at large rotations.
- * To second order, the strains must agree with J Eq. 66 without shear, and with those of the sheet
- * element that is consistent with shear. */
+ * To second order, the strains without shear agree with J Eq. 66. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -80,7 +79,7 @@ static void modified(const pair_subject *s, const node_state x[2], double ebar[S
     }
 }
 
-/* Sets local coordinates of size `small`, after a rotation of the whole element. The elongation is
+/* Displaces the nodes by amounts of size `small` and rotates the whole element. The elongation is
  * of size small^2, as N assumes. */
 static void state(double l0, double small, int planar, node_state x[2])
 {
@@ -105,8 +104,8 @@ static void state(double l0, double small, int planar, node_state x[2])
     }
 }
 
-/* Halving the state must reduce the difference between the strains of two elements by a factor of
- * eight, because the strains are equal to second order. */
+/* If strains are equal to second order, halving the displacements divides their difference by
+ * eight. */
 static void equal_to_second_order(const char *what, const pair_subject *a, const pair_subject *b,
                                   double l0, int planar, int strains)
 {
@@ -154,8 +153,7 @@ static void same_element(void)
     }
 }
 
-/* A helix with extension and shear must give e = (gamma, kappa) times lengths, for strains of any
- * size. */
+/* A helix with extension and shear must give exactly the strains gamma and kappa, of any size. */
 static void uniform_strains(double size)
 {
     const double l0 = 1.7, gamma[3] = {0.11 * size, -0.23 * size, 0.31 * size},
@@ -192,8 +190,7 @@ static void uniform_strains(double size)
         gsl_test_abs(e[k], expected[k], 1e-14 * l0, "uniform strains, turn %.2f: e%d", t, k + 1);
 }
 
-/* Pure bending of an element by less than half a revolution involves only bending energy. A
- * cantilever must therefore roll up exactly with any number of elements. */
+/* In pure bending, a cantilever must roll up exactly with any number of elements. */
 static void pure_bending(void)
 {
     const double l0 = 1.3, turn = 2.9;
@@ -313,8 +310,7 @@ static void consistent_tests(void)
 }
 
 /* With hyperbolic twist functions, one element of beamw_consistent must be exact in linear theory
- * for any coupling of the strains. The twist functions and quadrature points are accurate from zero
- * Saint-Venant torsion to thin boundary layers. */
+ * for any coupling of the strains. */
 
 extern const element_type element_beamw_consistent;
 
@@ -421,8 +417,6 @@ static double third_order(const section *c, double l0, beamw_twist_kind torsion,
     return energy;
 }
 
-/* Computes the displacement of the middle node of two halves in linear equilibrium between
- * displaced ends. */
 static void middle_of(const section *c, double l0, beamw_twist_kind torsion, const double p[7],
                       const double q[7], double out[7])
 {

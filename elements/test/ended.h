@@ -1,4 +1,4 @@
-/* Calls a function in a separate process, for tests of functions that end the program. */
+/* Tests of functions that end the process. */
 #ifndef BEAMWORK_ENDED_H
 #define BEAMWORK_ENDED_H
 
@@ -6,8 +6,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Returns the signal that ends a process which calls the function, or otherwise the exit status of
- * the process, which is 0 if the function returns. */
+/* Calls the function in a child process. Returns the signal that ended this process, or its exit
+ * status, which is 0 if the function returns. */
 static inline int ended_by(void (*call)(const void *), const void *given)
 {
     int how = -1;

@@ -16,13 +16,12 @@ enum { MOST = ELEMENT_MAX_COORDINATES, STRAINS = ELEMENT_MAX_STRAINS };
 static section steel(double width, double height)
 {
     section_spec spec = section_spec_rectangle(200e9, 200e9 / 2.6, width, height);
-    spec.given.Iw =
-        pow(width * height, 3) / 144; /* value of a thin rectangle, as in the expected values */
+    spec.given.Iw = pow(width * height, 3) / 144; /* thin rectangle, as in the expected values */
     spec.shear_factor[0] = spec.shear_factor[1] = 13.0 / 15.3; /* 10 (1 + nu)/(12 + 11 nu) */
     return sections_computed(&spec);
 }
 
-/* Returns a section with these products of modulus and constant, which determine the behaviour. */
+/* Returns a section with these stiffnesses. */
 static section products(double EA, double GA, double GJ, double EI)
 {
     section c;
@@ -60,8 +59,8 @@ static void derivatives(const element_type *type, const double option[], double 
     gsl_test(!(asymmetry < 1e-15), "%s: H is symmetric (%.1e)", type->name, asymmetry);
 }
 
-/* Solves the Simo-Reissner cantilever with L = 1, EI = 10 and a dead transverse force of 10 at the
- * tip. u[2] is the displacement of the tip. */
+/* Computes the tip displacement u[2] of a Simo-Reissner cantilever: L = 1, EI = 10, transverse dead
+ * force 10. */
 static void shear_elastica(const element_type *type, const double option[], double GA, int n,
                            double u[2])
 {
@@ -78,7 +77,6 @@ static void shear_elastica(const element_type *type, const double option[], doub
     u[1] = c.x[c.nodes - 1].u[1];
 }
 
-/* Checks the value of the finer mesh, and the order of convergence of both meshes. */
 static void check_order(const element_type *type, const char *what, const double value[2],
                         double exact, double error, double order)
 {
@@ -206,12 +204,11 @@ static void exact_tests(void)
     collocation();
 }
 
-/* Properties that hold exactly for one element, and values of an independent prototype. */
+/* Exact properties of one element, and values of an independent prototype. */
 
 extern const element_type element_beamw_first, element_beamw, element_beamw_vlasov,
     element_beamw_consistent;
 
-/* Returns the section of the prototype. `unit` is 1 for mm and kN. */
 static section check_section(void)
 {
     static const double point[5][2] = {{0, 0}, {50, 0}, {50, 80}, {20, 80}, {50, 100}};

@@ -1,6 +1,4 @@
-/* Loads on the displacement field between the nodes (elements/field): forces and derivatives in any
- * state, resultants in rigid motions, work along closed paths, and fixed-end forces of the uniform
- * beam. */
+/* Tests loads on the displacement field between the nodes (elements/field). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -105,8 +103,7 @@ static void derivatives(const displacement_field *f, int kind, const char *name)
                  nodes_asymmetry(n, K));
 }
 
-/* In a state that is rotated as a whole, the nodal forces must have the same resultant force and
- * moment as the loads. */
+/* After a rigid rotation, nodal forces and loads must have the same resultant. */
 static void resultants(const displacement_field *f, int kind, const char *name)
 {
     double d[N], none[N] = {0}, F[N], force[3] = {0}, moment[3] = {0}, expected[2][3] = {{0}};
@@ -310,8 +307,8 @@ static void field_inner_tests(void)
         }
 }
 
-/* Compares the coefficients of the third-order sheet element's potential with values computed with
- * 120 digits, and checks the limits of the stress functions. */
+/* Compares coefficients of the potential of the third-order sheet element with values computed with
+ * 120 digits. */
 
 extern const element_type element_sheet_second, element_sheet_third, element_sheet_third_printed;
 
@@ -439,9 +436,8 @@ static void stiffness_at_rest(const element_type *type, const section *c, unsign
     free(d);
 }
 
-/* In the undeformed state, the third-order element must equal the second-order element with shear
- * only in the width direction (N Eq. 50). The only difference is the hyperbolic twist, which tends
- * to the cubic twist for lambda -> 0. */
+/* In the undeformed state, the third-order element differs from the second-order element only by
+ * the hyperbolic twist, which tends to the cubic twist for lambda -> 0. */
 static void second_order_limit(void)
 {
     section c = {.young = 3.1,

@@ -35,11 +35,8 @@ section_spec sections_of(double A, double Iy, double Iz, double It);
  * vector and the warping amplitude [rad/m]. */
 
 void nodes_straight(int nodes, double length, node_state x[]);
-/* Rotates R further, by a rotation vector in fixed axes. */
 void nodes_turn(double R[9], const double turn[3]);
-/* Moves every node by `times` its increments in d. */
 void nodes_move(int nodes, double times, const double d[], node_state x[]);
-/* Places the nodes of a straight element of this length and moves them by d. */
 void nodes_place(int nodes, double length, const double d[], node_state x[]);
 /* Sets random increments that are uniform in (-size/2, size/2), for displacements relative to the
  * length, in radians for rotations, and times 1/length for warping. */

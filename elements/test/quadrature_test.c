@@ -1,7 +1,5 @@
-/* The points of the Gauss rule must be the roots of the Legendre polynomials, and its weights must
- * follow from the slopes of the polynomials at these roots, to the last digit. The rule must
- * integrate monomials up to its degree exactly. Threads and forked processes that request tables
- * simultaneously must receive the same tables. */
+/* Tests the points and weights of Gauss rules, also when threads and forked processes request
+ * tables simultaneously. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>

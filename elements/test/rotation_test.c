@@ -20,7 +20,6 @@
 
 enum { MANY = 11, S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES, INNER = 24 };
 
-/* All outputs of one element, and a mask of the requested outputs. */
 typedef struct answers {
     double e[S], J[S * X], H[X * X], energy, sigma[S], C[S * S], residual, memory[INNER * S];
     status outcome;
@@ -57,8 +56,6 @@ static element_data *batch_prepare(const element_type *type, const double option
     return d;
 }
 
-/* Sets up alternating kinds in runs of 5, 1, 3 and 2 elements. One element is in a state that
- * cannot be evaluated. */
 static void batch_set_up(batch *b, unsigned features)
 {
     static const int kind_of[MANY] = {0, 0, 0, 0, 0, 1, 0, 0, 0, 1, 1};
@@ -167,7 +164,7 @@ static void one_angle(double angle)
         minus[i] = -q[i];
     const double allowed = fabs(fabs(shorter) - PI) < 1e-15
                                ? 2 * PI + 1
-                               : 8 * eps; /* at pi, both senses of rotation are equally short */
+                               : 8 * eps; /* at pi, the sense of rotation is arbitrary */
     rotation_log(q, phi);
     gsl_test(!(largest_difference(3, phi, expected) < allowed), "angle %g: its vector", angle);
     rotation_log(minus, phi);
@@ -244,8 +241,7 @@ static void rotation_tests(void)
     triads();
 }
 
-/* Compares points along an arc of constant curvature with the integral of its tangent. Transverse
- * deflections must be accurate to all digits, for any rotation of the arc. */
+/* Compares points along an arc of constant curvature with the integral of its tangent. */
 
 enum { POINTS = 16 };
 
@@ -325,8 +321,6 @@ typedef struct whole {
     status outcome;
 } whole;
 
-/* Computes the equations of one element from strains and stresses, with the functions of
- * elements/math/dense.h. */
 static void alone_of(const batch *b, int k, const double e[], int tangent, whole *out)
 {
     const int n = b->strains, columns = NODE_COORDINATES * b->nodes;
@@ -350,8 +344,7 @@ static void alone_of(const batch *b, int k, const double e[], int tangent, whole
         dense_add_congruence(n, columns, out->J, out->C, out->K, work);
 }
 
-/* Returns 1 if the numbers differ. The sign of zero is ignored, because the sign of an empty sum is
- * arbitrary. */
+/* Ignores the sign of zero, because the sign of an empty sum is arbitrary. */
 static int differs(const whole *a, const whole *b)
 {
     const double *p = a->J, *q = b->J;
@@ -425,7 +418,7 @@ typedef void strains_function(int count, const element_data *const data[], const
 typedef void stresses_function(int count, const element_data *const data[], const double *const e[],
                                const double *const inner[], stress_output out[], status outcome[]);
 
-/* Functions that a family exports in addition to those that its types select for the processor. */
+/* All versions of the functions of each family; its types select one for the processor. */
 static const struct {
     const element_type *type;
     strains_function *strain;

@@ -1,6 +1,4 @@
-/* Compares the section constants of two descriptions of the same shape. A rectangle is compared
- * with a wall of the same thickness at any angle, and walls with thickness terms with integrals
- * over their areas. */
+/* Compares the section constants of a rectangle with those of a wall of the same size. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -9,8 +7,6 @@
 #include "elements/math/scalar.h"
 #include "elements/test/kit.h"
 
-/* Returns one wall of length h and thickness t with its middle at (y, z), rotated by `angle` from
- * the y axis. */
 static section wall_section(double h, double t, double y, double z, double angle)
 {
     section_spec spec = sections_steel(SECTION_WALLS);
@@ -36,8 +32,7 @@ static section rectangle(double width, double height, double ky, double kz)
     return sections_computed(&spec);
 }
 
-/* If no shear factors are given, a wall has the shear and warping shear of the rectangle. The long
- * side of the wall is along y; that of a wide rectangle is along z. */
+/* Without given shear factors, a wall has the same constants as a rectangle. */
 static void rectangle_is_a_wall(double h, double t)
 {
     const section wall = wall_section(h, t, 0, 0, 0), wide = rectangle(h, t, 0, 0),
@@ -293,8 +288,7 @@ static void box(void)
     gsl_test_rel(c.F[4], square / (c.Iy * c.Iy), 1e-13, "box: shear along the webs");
 }
 
-/* The constants of a regular polygon must tend to those of a thin circular ring, with errors of
- * order 1/n^2. */
+/* The constants of a regular polygon tend to those of a thin ring, with errors of order 1/n^2. */
 static void ring(void)
 {
     enum { N = 32 };
@@ -341,8 +335,6 @@ static void tube_closed_forms(void)
     gsl_test_rel(c.F[0], PI / 8 * up / (c.Iz * c.Iz), 1e-13, "tube: shear");
 }
 
-/* Returns two cells of equal size with a common web. In torsion, the shear flow in the web is zero,
- * and Bredt's formula holds for the outer walls. */
 static section_spec two_cells(int swapped, double skew)
 {
     static const double point[6][2] = {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {1, 1}, {0, 1}};
@@ -394,8 +386,7 @@ static void cells(void)
                      "two cells, other order: shear %d", i);
 }
 
-/* Additional points within walls must not change the constants. The sections are a fin on a box,
- * and walls that are cut in two. */
+/* Additional points within walls do not change the constants. */
 static void points_between(void)
 {
     section_spec one = box_spec();

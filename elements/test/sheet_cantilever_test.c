@@ -1,8 +1,6 @@
 /* Cantilever of N section 4.1: a sheet of 100 x 100 x 2.25 mm whose tip is deflected by 0.15 L
- * without rotation in 15 steps. Warping is restrained. The compliances of the tip are computed with
- * dead forces and spatial moments in place of the prescribed motion. Node p of every element is
- * towards the root. The expected values are those of an independent prototype of the same
- * equations. */
+ * without rotation in 15 steps. Warping is restrained. Node p of every element is towards the root.
+ * The expected values are those of an independent prototype of the same equations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -55,13 +53,11 @@ static void element_terms(const cantilever *c, int i, double K[NODAL * NODAL], d
     dense_add_congruence(N, NODAL, J, C, K, work);
 }
 
-/* Returns the row of coordinate a of element i. It is negative for coordinates of the root. */
 static int row_of(const cantilever *c, int i, int a)
 {
     return NODE * (i - 1) + (c->reversed ? (a + NODE) % NODAL : a);
 }
 
-/* Assembles K(7n x 7n) and the internal forces of nodes 1 to n. The root is fixed. */
 static void assemble(const cantilever *c, double *K, double *force)
 {
     const int size = NODE * c->n;
@@ -82,7 +78,6 @@ static void assemble(const cantilever *c, double *K, double *force)
     }
 }
 
-/* Replaces the row of a fixed coordinate by its prescribed motion. */
 static void hold(int size, double *K, double *right, int coordinate, double motion)
 {
     for (int j = 0; j < size; j++)
@@ -124,7 +119,6 @@ static void advance(cantilever *c, const double *dx)
     }
 }
 
-/* Solves for the next deflection by Newton's method. Returns the number of iterations. */
 static int step(cantilever *c, double deflection, double *K, double *right)
 {
     const int size = NODE * c->n, tip = NODE * (c->n - 1);
@@ -251,8 +245,6 @@ static void sheet_cantilever_tests(void)
     gsl_test_rel(C_zz, 2.6633e-8, 3e-5, "sheet_third, reversed: C_zz");
 }
 
-/* Sheet elements compared with the published equations and with finite differences. */
-
 extern const element_type element_sheet_second, element_sheet_second_consistent,
     element_sheet_third, element_sheet_third_printed;
 
@@ -335,7 +327,6 @@ static void printed_equation(void)
         gsl_test_rel(e[i], printed[i], 1e-14, "N Eq. 37, e%d", i + 1);
 }
 
-/* Places the nodes of a deformed element far from its initial position. */
 static void strained(double L, node_state x[2])
 {
     static const double step[2][7] = {{0.013, -0.021, 0.037, 0.713, -0.437, 1.21, 0.83},
@@ -376,8 +367,8 @@ static void derivatives_of_strain(const element_type *type)
     free(data);
 }
 
-/* Compares the derivatives of energy and sigma with finite differences, with every feature and
- * initial curvature. For the third-order element, compares G with finite differences of C. */
+/* Compares the derivatives of energy and sigma with finite differences. For the third-order
+ * element, also compares G with finite differences of C. */
 static void derivatives_of_stress(const element_type *type)
 {
     static const double stencil[4] = {1, -8, 8, -1}, at[4] = {-2, -1, 1, 2};

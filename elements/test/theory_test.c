@@ -1,5 +1,4 @@
-/* The energies of the elements must be those stated in the Markdown files in elements/, such as
- * elements/beamw.md. */
+/* Compares the energies of elements with those in elements/*.md. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -155,8 +154,7 @@ static void theory_tests(void)
     sheets();
 }
 
-/* Elimination inside a collocation element must need no row exchange for matrices with positive
- * pivots, and must be correct for all other matrices. */
+/* Tests the elimination inside collocation elements, with and without row exchange. */
 
 extern const element_type element_collocation;
 
@@ -197,7 +195,6 @@ static status stress(const exact_stages *s, const double e[], const double inner
     return outcome;
 }
 
-/* Compares eliminations of the same equations with and without row exchange. */
 static void both(int stages, unsigned features)
 {
     const exact_stages s = strip(stages, features);
@@ -239,8 +236,7 @@ static void both(int stages, unsigned features)
     gsl_test(!(following < 1e-7), "%d stages: unknowns follow alike (%.1e)", stages, following);
 }
 
-/* A straight element under more compression than its inner nodes can carry between fixed ends. The
- * compression is chosen to make the first non-positive pivot as small as possible. */
+/* A straight element under a compression at which it would buckle between fixed ends. */
 static void compressed(int stages)
 {
     const exact_stages s = strip(stages, FEATURE_SHEAR | FEATURE_LARGE);
@@ -348,7 +344,6 @@ typedef struct amplitude {
     double lambda, p[WARPING_MOST], layer[2];
 } amplitude;
 
-/* Returns the derivative of the given order of the polynomial. */
 static double polynomial(const amplitude *a, double x, int order)
 {
     double sum = 0;

@@ -1,6 +1,5 @@
-/* The constant c of the Wagner torque, whose energy per length is E c kx^4, for sections of walls.
- * The constant is compared with closed forms and with a least-squares result: the part of y^2 + z^2
- * over the area that remains after axial and bending strains are removed. */
+/* Compares the constant c of the Wagner torque, whose energy per length is E c kx^4, with closed
+ * forms and with a least-squares result. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -133,9 +132,8 @@ static void over_the_area(const wagner_shape *s, int thick, double angle)
                  "%s ten times larger", s->name);
 }
 
-/* A section that is symmetric under a rotation by pi and a section without symmetry behave
- * differently in the two directions of twist. A section with mirror symmetry about any axis and
- * walls that meet in one point behave the same in both directions. */
+/* Sections with an axis of symmetry, and walls that meet in one point, behave equally in both
+ * directions of twist; other sections do not. */
 static void one_sided(const wagner_shape *s, double angle)
 {
     const section_spec spec = spec_of(s, 0, 1, angle);
@@ -329,8 +327,8 @@ static void rectangle(void)
                  1e-12, "lying and standing");
 }
 
-/* The integrals over the walls of the stresses due to resultants must equal these resultants.
- * Simpson's rule is exact, because all stresses are at most quadratic along a wall. */
+/* The stresses, integrated over the walls, equal the resultants. Simpson's rule is exact, because
+ * all stresses are at most quadratic along a wall. */
 static void integrated(const char *name, const section_spec *spec)
 {
     static const double by[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -445,7 +443,6 @@ static void stress_tests(void)
              "given constants are refused (%s)", f.text);
 }
 
-/* Returns a doubly symmetric I-section with its web along z. */
 static section_spec i_shape(double depth, double flange, double thickness)
 {
     const double b = flange / 2, h = depth / 2,
