@@ -128,9 +128,10 @@ typedef struct import_left {
                       * none */
 } import_left;
 
-/* Adds a series for each program to every point that has series in the file. A nonzero flag
- * means that verdicts on these series affect the exit status. FAULT: the file is missing, damaged
- * or not such a file. REFUSED: the file has no imported values, or the run already has them. */
+/* Adds a series for each program to every point that has series in the file. A nonzero flag means
+ * that verdicts on these series affect the exit status. FAULT: the file is missing, damaged or not
+ * a file of imported values. REFUSED: the file has no imported values, or the run already has them.
+ * */
 status import_store_read(const char *path, int gates, sweep *s, import_left *left, fault *f);
 
 #endif

@@ -228,8 +228,8 @@ static status check_component(const scene *s, const scene_quantity *q, fault *f)
     return STATUS_OK;
 }
 
-/* Requires that a linear step is about the end of the path. CalculiX loses the state after such a
- * step, so it must be the last step. */
+/* Requires that a linear step is about the end of the path. CalculiX loses the state after a linear
+ * step, so this step must be the last one. */
 static status check_last(const scene *s, const scene_quantity *q, fault *f)
 {
     const int about = s->analysis[q->analysis].follows;

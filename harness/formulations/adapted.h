@@ -82,8 +82,9 @@ status absolute_stress(const element_data *d, const double e[], const double inn
 /* Requires force_many. */
 void absolute_stress_many(int count, const element_data *const data[], const double *const e[],
                           const double *const inner[], stress_output out[], status outcome[]);
-/* The history of the completed type contains the values of the given type, then, for each node, its
- * initial position (3), q0 (4), and q in the last accepted state (4), which determines the sign. */
+/* The history of the completed type starts with the values of the given type. Then follow, for each
+ * node, its initial position (3), q0 (4), and q in the last accepted state (4), which determines
+ * the sign of q. */
 void absolute_begin(const element_data *d, const node_state x[], double history[]);
 void absolute_commit(const element_data *d, const node_state x[], double history[]);
 

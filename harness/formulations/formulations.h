@@ -57,8 +57,8 @@ status assignment_set(const assignment_list *, const char *text, double value[],
  * parameters keep their values. "" sets nothing. */
 status assignment_parse(const assignment_list *, const char *text, double value[], int any[],
                         fault *f);
-/* Writes the parameters in the same form. Only values that differ from their defaults are written,
- * in the order of the tables. */
+/* Writes the parameters in the form that assignment_parse reads. Only values that differ from their
+ * defaults are written, in the order of the tables. */
 void assignment_text(const assignment_list *, const double value[], char *text, int size);
 
 /* Reads a number of any size, or the name of a choice, which gives its index. Returns 0 if the text
@@ -199,7 +199,7 @@ status parameters_set(const case_type *c, const char *assignment, double value[]
 /* Reads "NAME=VALUE;NAME=VALUE". Other parameters keep their defaults. A value "*" is skipped and
  * marked in any[] (may be NULL). "*" alone marks all parameters of the original source. */
 status parameters_parse(const case_type *c, const char *text, double value[], int any[], fault *f);
-/* Writes the parameters in the same form. Default values are omitted. */
+/* Writes the parameters in the form that parameters_parse reads. Default values are omitted. */
 void parameters_text(const case_type *c, const double value[], char *text, int size);
 /* Like parameters_text, but writes only parameters of the original source. Programs that compute
  * reference values are called with these parameters. */

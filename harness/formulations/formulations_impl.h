@@ -32,7 +32,7 @@ typedef enum child_event {
 
 enum { PROCESS_PROTOCOL = 1, HANDSHAKE_MOST = 65536 };
 
-/* The answer to a prepare request of a process with damping: C, then V, or V alone. */
+/* The answer of a process with damping to a prepare request: C, then V, or V alone. */
 enum damping_answer { DAMPING_NONE, DAMPING_AFTER_C, DAMPING_ONLY };
 
 typedef struct handshake {

@@ -184,8 +184,8 @@ static status list_of(const char *name, char **json, fault *f)
     *json = NULL;
     TRY(list_subject_find(name, &what, f));
     TRY(text_begin(&t, f));
-    known_read(NULL, &deviations, NULL); /* not an error, because the file of reference values may
-                                          * be missing */
+    known_read(NULL, &deviations, NULL); /* not an error: scenes can be used without the file of
+                                          * reference values */
     const status outcome = text_end(&t, list_write_list(t.to, &what, &deviations, f), json, f);
     truths_free(&deviations);
     return outcome;

@@ -204,8 +204,8 @@ int coordinates_held_turn(const model *m, int node)
 }
 
 /* Adds the coordinates of a released end after all others, rotations first. The position of a ball
- * joint depends on the rotation of its body only if the end is eccentric to the body, or if the
- * body moves on an arm, which its first angle swings. */
+ * joint depends on the rotation of its body only in two cases: the end is eccentric to the body, or
+ * the first angle of the body moves the body on an arm. */
 static void index_release(const model *m, int node, mesh_element *el)
 {
     const mesh_vertex *v = &m->mesh.vertex[el->vertex[node]];

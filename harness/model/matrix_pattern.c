@@ -98,8 +98,8 @@ static size_t collect_nodes(const model *m, const mesh_pattern *p, const int nod
     return count;
 }
 
-/* Collects the pairs of nodes that a tension load connects, and the pairs of a coordinate on which
- * a load acts and a coordinate that the load measures. */
+/* Collects two kinds of pairs: nodes that a tension load connects, and coordinates of a load with
+ * the coordinates that the load measures. */
 static size_t collect_loads(const model *m, const mesh_pattern *p, size_t count, int row[],
                             int column[])
 {

@@ -389,8 +389,8 @@ static void add_warps(model *m, int *named)
                           at_end = i + 1 == m->mesh.first_element[member + 1] && k == last;
                 if (!warps)
                     el->warp[k] = NONE;
-                else if (nothing_warps) /* the amplitude is kept even if no warping occurs, because
-                                           a separate amplitude has no effect */
+                else if (nothing_warps) /* the amplitude is kept even if no section warps: if it is
+                                         * not shared, it has no effect */
                     el->warp[k] = m->mesh.warps++;
                 else if (at_start || at_end)
                     el->warp[k] = end_warp(m, at_start ? sm->warp_p : sm->warp_q, named);
@@ -463,8 +463,9 @@ static void add_scalars(model *m, int (*named)[2])
 }
 
 /* Returns the weight of a node near the end of n equal lengths. The weighted sums integrate cubics
- * exactly. With these weights, lumped masses have the same order of convergence as distributed
- * masses in slender bending (Gregory's rule for n >= 6, closed Newton-Cotes rules for n < 6). */
+ * exactly. In slender bending, lumped masses with these weights therefore have the same order of
+ * convergence as distributed masses. The rules are Gregory's for n >= 6 and the closed Newton-Cotes
+ * rules for n < 6. */
 static double weight_of(int n, int node)
 {
     static const double closed[][3] = {{0.5, 0, 0},
@@ -477,9 +478,9 @@ static double weight_of(int n, int node)
     return from_end < 3 ? closed[(n < most ? n : most) - 1][from_end] : 1;
 }
 
-/* Sets `couple` at an end of the element after node i. Together with the masses at the nodes beyond
- * node i, it has the inertia force of all mass beyond the node for an acceleration that varies
- * linearly, and the moment of this mass for a uniform acceleration. */
+/* Sets `couple` at an end of the element after node i, for the masses at the nodes beyond node i.
+ * Together they have the inertia force of all mass beyond the node for a linear acceleration, and
+ * its moment for a uniform acceleration. */
 static void set_end(mesh_element *el, int end, int n, int i, double beyond, double first)
 {
     const double length = n - i;

@@ -1,9 +1,4 @@
-/* model/: a scene meshed with one formulation.
- *
- * Sections, in this order: model and its coordinates; matrix patterns; centre lines; division;
- * mesh; discrete elements; description of the division; eliminate; assemble; features; kinematics;
- * metric; missing; state; movable; loads put on nodes; sections that change; release; spring;
- * supports; turns; warping of ends. */
+/* model/: a scene meshed with one formulation. */
 #ifndef BEAMWORK_MODEL_H
 #define BEAMWORK_MODEL_H
 
@@ -142,8 +137,8 @@ status assemble_pattern_at_rest(const model *, assemble_patterns *, int damped, 
                                 const sparse **out, fault *f);
 /* Returns 0 if a load, a spring or a support may make tangents unsymmetric. */
 int assemble_symmetric(const model *);
-/* Sets *out to the free x free pattern for motions. The pattern is always unsymmetric, because
- * rotating masses have unsymmetric tangents. */
+/* Sets *out to the free x free pattern for motions. The pattern is always unsymmetric, because the
+ * inertia of rotating masses has unsymmetric tangents. */
 status assemble_pattern_in_time(const model *, assemble_patterns *, const sparse **out, fault *f);
 
 /* Centre lines of all members in a state, for pictures and other programs. Between two vertices of
@@ -350,9 +345,9 @@ static inline const model_mesh *model_mesh_of(const model *m)
     return (const model_mesh *)m;
 }
 
-/* Return data of an element: its type, number of nodes, number of coordinates of the nodes (7
- * each, and the additional unknowns), number of strains, number of internal unknowns, and number of
- * doubles that its type stores in a linearisation. */
+/* Return data of an element: its type and numbers. The numbers are those of nodes, coordinates of
+ * the nodes (7 each, and the additional unknowns), strains, internal unknowns, and doubles that its
+ * type stores in a linearisation. */
 static inline const element_type *model_type(const model *m)
 {
     return model_mesh_of(m)->type;
@@ -604,9 +599,9 @@ void dashpots_node_force(const model *, const model_state *, const double rate[]
                          double F[6]);
 /* Adds the damping of all springs, and `more` [s] times their stiffness, to C. */
 void dashpots_matrix(const model *, const model_state *, double more, sparse *C);
-/* Computes the deformations of a spring, their derivatives J[6 x columns] with respect to its
- * coordinates and, for the stresses of the dashpot, force[columns] and the geometric stiffness
- * K[columns x columns]. */
+/* The first function computes the deformations of a spring and their derivatives J[6 x columns]
+ * with respect to its coordinates. The second function computes, for the stresses of the dashpot,
+ * force[columns] and the geometric stiffness K[columns x columns]. */
 void dashpots_strains(const model *, const model_state *, int spring, double d[], double J[]);
 void dashpots_stressed(const model *, const model_state *, int spring, const double sigma[],
                        double force[], double K[]);
@@ -675,8 +670,9 @@ unsigned features_omitted(const scene *);
 /* Returns physics, not omitted, that the analyses of the scene need but that a section given by its
  * constants does not define. A constant that is given as zero is defined. */
 unsigned features_not_given(const scene *, int section);
-/* Returns 1 for a section of walls whose bimoment causes torsion, which no formulation models, if
- * the analyses have stresses and neither warping nor the Wagner torque is omitted. */
+/* Returns 1 if a section of walls has a bimoment that causes torsion and the analyses depend on it.
+ * No formulation models this effect. Returns 0 without stresses, or if warping or the Wagner torque
+ * is omitted. */
 int features_one_sided(const scene *, int section);
 /* Like features_needed, but with the shear theory of the type in stability instead of the requested
  * theory. */
@@ -738,9 +734,9 @@ int kinematics_coordinate(const model *, int node, int component);
 /* Largest number of coordinates on which a vertex depends: coordinates of a body and of a released
  * end. */
 enum { KINEMATICS_MOST = 6 + SCENE_RELEASED };
-/* Computes the Jacobian T[6 x m] of the six spatial increments of a vertex with respect to the m
- * coordinates on which it depends (row-major, leading dimension m), and the indices of these
- * coordinates, index[m]. Returns m <= size; m is 6 for a node. */
+/* Computes the Jacobian T[6 x m] (row-major) of the six spatial increments of a vertex with respect
+ * to the m coordinates on which it depends. index[m]: indices of these coordinates. Returns m <=
+ * size; m is 6 for a node. */
 int kinematics_node_jacobian(const model *, const model_state *, int node, int size, int index[],
                              double T[]);
 /* Computes the current vector [m] from the body of a vertex to the vertex. */
@@ -910,8 +906,9 @@ static inline const mesh_release *release_of(const model *m, int vertex)
  * component; 0: the component is not released. For three released rotations, this is the rotation
  * vector, which is NAN beyond 3 rad. */
 double release_value(const model *, const model_state *, int member, int end, int component);
-/* Returns the same value for small motions x about the undeformed state `rest`, without the part
- * that is the scalar product of `node` and the rotation of the node. */
+/* Like release_value, but for small motions x about the undeformed state `rest`, and without the
+ * contribution of the node's rotation. This contribution is the scalar product of `node` and the
+ * rotation. */
 double release_linear_value(const model *, const model_state *rest, const double x[], int member,
                             int end, int component, double node[3]);
 /* Changes the released coordinates of the end by dx. Returns the largest change [1, rad]. */

@@ -65,9 +65,9 @@ void release_follow(const model *, model_state *);
 /* Transforms force[6] from the frame of the end to the frame of its node. own[]: forces on the
  * released coordinates. */
 void release_force(const model *, const model_state *, int vertex, double force[6], double own[]);
-/* Transforms K in the same way. The six coordinates of the end start at `at`, and the released
- * coordinates start at `own`. force[6]: as in release_force, which must be called first; NULL:
- * second derivatives are omitted. */
+/* Transforms K to the frame of the node, as release_force does for the force. The six coordinates
+ * of the end start at `at`, and the released coordinates start at `own`. force[6]: as in
+ * release_force, which must be called first; NULL: second derivatives are omitted. */
 void release_matrix(const model *, const model_state *, int vertex, int n, int at, int own,
                     double force[6], double K[]);
 

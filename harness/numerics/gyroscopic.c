@@ -16,8 +16,8 @@ static const double good_residual = 1e-8, acceptable_residual = 1e-5;
  * then a rounding error of the largest mass. */
 static const double no_digits = 1e-7;
 /* K counts as nearly singular if the smallest eigenvalue of (K, M) is below near_zero times the
- * others, or below near_zero times the square of the rate of G. The shift is then away_from_zero
- * times these values. */
+ * other eigenvalues, or below near_zero times the square of the rate of G. The shift is then
+ * away_from_zero times these values. */
 static const double near_zero = 1e-4, away_from_zero = 1e-2;
 /* If all pairs have been found, any other frequency is at least this number times the last
  * frequency found. */

@@ -62,8 +62,8 @@ typedef struct factor_counts {
 #define FACTOR_SYMMETRIC_WITHIN 1e-11
 /* Makes a symbolic analysis, once, with an order that reduces fill-in (AMD). A symmetric matrix is
  * factored as LDL^T without pivoting; the signs of D give the inertia. An unsymmetric matrix is
- * factored by KLU. A matrix with by_numbers is factored by KLU, or as LDL^T of its upper triangle
- * with bitwise the same result as a matrix of which only this triangle is stored. */
+ * factored by KLU. A matrix with by_numbers is factored by KLU or as LDL^T of its upper triangle.
+ * The LDL^T is then bit-for-bit that of a matrix of which only this triangle is stored. */
 status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f);
 /* Like factor_alloc, for a matrix with the same pattern as `of`. A symmetric matrix uses the order
  * of `of`, which must outlive the new factor. The two must not be factored at the same time. */
@@ -155,9 +155,9 @@ typedef struct eigen_result {
 
 /* Solves the problem. REFUSED: K is not positive definite. NOT_CONVERGED: one of the sides did not
  * converge; the values found on both sides are kept. A value counts as zero and is not returned if
- * it is within the rounding error of the largest value or of its quadratic form, or in large
- * problems if it is below 1e-9 of the largest value. `error` gives the accuracy of a value. A value
- * without significant digits is not returned. */
+ * it is within the rounding error of the largest value or of its quadratic form. In large problems,
+ * values below 1e-9 of the largest value are also not returned. `error` gives the accuracy of a
+ * value. A value without significant digits is not returned. */
 status eigen_solve(const eigen_problem *problem, eigen_result *out, fault *f);
 void eigen_free(eigen_result *r);
 

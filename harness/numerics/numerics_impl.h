@@ -302,8 +302,8 @@ typedef struct triangular_factors {
     const int *begin, *row;
     const double *value, *D; /* L: [begin[n]]; [n] */
     int runs;                /* number of runs of all columns */
-    /* runs; each column of a run except the last has one more entry than the next column, in the
-     * row of this next column, and otherwise the same rows */
+    /* runs; each column of a run has the rows of the next column of the run and one more: the row
+     * with the index of the next column */
     const triangular_run *run;
 } triangular_factors;
 

@@ -439,8 +439,8 @@ typedef struct lone {
     char where[NAME];
 } lone;
 
-/* Returns 1 if the name of cell `next` - 1 or `next` of the run starts with the first `length`
- * characters of `name`. */
+/* Returns 1 if the name of cell number `next` - 1 or `next` of the run starts with the first
+ * `length` characters of `name`. */
 static int is_beside(const stored_results *r, int next, const char *name, size_t length)
 {
     for (int i = next - 1; i <= next; i++)

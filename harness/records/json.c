@@ -7,7 +7,7 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-/* Converts numbers. A missing value becomes null, because JSON has no NaN. */
+/* Converts numbers to JSON. A missing value becomes null, because JSON has no NaN. */
 static json_t *json_record_numbers(int count, const double value[]);
 
 enum { DUMP = JSON_INDENT(1) | JSON_REAL_PRECISION(17) };

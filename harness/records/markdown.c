@@ -178,7 +178,7 @@ static void write_overview(FILE *to, const overview *o)
     write_legend(to, o);
 }
 
-/* Returns 1 if a cell was computed at the point. */
+/* Returns 1 if at least one mesh of a formulation was run at the point. */
 static int is_run(const sweep *s, int point)
 {
     for (int i = 0; i < s->seriess; i++)

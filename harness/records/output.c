@@ -67,8 +67,8 @@ static int empty_once(int folder)
     return entries;
 }
 
-/* Removes a file, or a folder with its contents. Repeats the removal, because the removal of
- * entries may reveal others. */
+/* Removes a file, or a folder with its contents. Repeats the removal, because a listing that
+ * changes during the removal may omit entries. */
 static void remove_all(int at, const char *name)
 {
     if (unlinkat(at, name, 0) == 0 || errno == ENOENT)

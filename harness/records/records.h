@@ -1,9 +1,4 @@
-/* records/: results files and other formats of results, comparison of runs.
- *
- * Sections, in this order: assumptions; stored runs; comparison; csv; schema; lines of CSV; digest;
- * positions of records; followed modes; gather; JSON; JUnit; paths; output; HDF5 files; kept (one
- * file for all experiments); markdown; output folders; reach; rows; hash; store; system folder;
- * columns. */
+/* records/: results files and other formats of results; comparison of runs. */
 #ifndef BEAMWORK_RECORDS_H
 #define BEAMWORK_RECORDS_H
 
@@ -655,8 +650,8 @@ status store_close(store *, const char *path, const environment *e, fault *f);
 /* Writes the whole file under a temporary name and renames it. After FAULT, no file remains. */
 status store_write(const char *path, const char *experiment, const sweep *s, const evaluation *j,
                    const environment *e, fault *f);
-/* Writes the first cell of a sweep in the same way, without verdicts. Its shapes are also written
- * for VTK. */
+/* Writes the first cell of a sweep, without verdicts, in the same way as store_write. Its shapes
+ * are also written for VTK. */
 status store_write_solution(const char *path, const sweep *s, const environment *e, fault *f);
 
 /* Writes the program, the commit and the time as attributes of a group. */
@@ -682,7 +677,8 @@ typedef struct table_column {
 } table_column;
 
 /* Reads the table and returns the number of rows. Each row has `size` bytes. The caller frees the
- * rows. Returns -1 if the table or a column of this kind is missing, or if out of memory. */
+ * rows. Returns -1 if the table or a column of this kind is missing, or if memory is insufficient.
+ * */
 int table_reader_rows(hid_t at, const char *name, int columns, const table_column column[],
                       size_t size, void **rows);
 

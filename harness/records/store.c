@@ -392,7 +392,7 @@ static void put_sections(record_file *r, hid_t at, const scene *sc)
         char name[16];
         section c;
         if (scene_constants(sc, i, &c, NULL) != STATUS_OK)
-            continue; /* no cell of this scene has a solution */
+            continue; /* no run of this scene has a solution */
         outline_of(&sc->section[i], &c, &o);
         const hsize_t size[3] = {(hsize_t)o.walls, 4, 2};
         snprintf(name, sizeof name, "%d", i);

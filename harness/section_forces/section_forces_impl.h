@@ -11,12 +11,12 @@ enum { FIXED_POINT_MAX = 160 };
 typedef int (*fixed_point_map)(void *context, const double x[], double out[]);
 
 /* Non-uniform torsion between two sections whose bimoments and warping amplitudes are known. The
- * equations are EIw a' = B, B' = -M_w, M_s = K k + M_w, k = a + F_w M_w + f, with the torque M_s
- * about the shear centre, the twist rate k, the amplitude a, the torque M_w due to restrained
- * warping, the torsional stiffness K, the flexibility F_w of warping in shear, and the contribution
- * f of transverse forces. Two of the four end values determine a solution. The solution with (B_p,
- * a_q) is used near p, and the solution with (a_p, B_q) near q, with weights that vary along the
- * element. Both are well posed for any K >= 0. */
+ * equations are EIw a' = B, B' = -M_w, M_s = K k + M_w, k = a + F_w M_w + f. M_s is the torque
+ * about the shear centre, k the twist rate, a the warping amplitude, B the bimoment, and M_w the
+ * torque due to restrained warping. K is the torsional stiffness, F_w the flexibility of warping in
+ * shear, and f the contribution of transverse forces. Two of the four end values determine a
+ * solution. The solution with (B_p, a_q) is used near p, and the solution with (a_p, B_q) near q,
+ * with weights that vary along the element. Both are well posed for any K >= 0. */
 
 typedef struct span_torsion {
     double EIw;                         /* 0: the section does not warp */

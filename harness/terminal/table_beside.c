@@ -96,7 +96,8 @@ static void write_limit(FILE *to, const block *b, const beside_column *c)
     fprintf(to, "%*s", COLUMN, text);
 }
 
-/* Prints the uncertainty in percent, relative to the same value as the error. */
+/* Prints the uncertainty of the limit: in percent of the value to which errors are relative or,
+ * without a reference value, in the unit of the quantity. */
 static void write_uncertainty(FILE *to, const block *b, const beside_column *c)
 {
     const double own = c->shown.fit.limit_uncertainty;

@@ -59,7 +59,7 @@ def siblings(formulation, vibrates):
 
 
 def newton_of(formulation):
-    """Returns the same formulation with the other form of Newton's method, for runs that do not converge."""
+    """Returns the formulation with the other form of Newton's method, which is used if a run does not converge."""
     separator = "," if ":" in formulation else ":"
     return f"{formulation}{separator}newton=displacement", "unknowns of Newton's method"
 

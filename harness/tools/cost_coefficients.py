@@ -1,10 +1,10 @@
 """Fits cost coefficients of counted work to measured times (`make lab L=cost-coefficients`).
 
 The defaults of every case run several times in one process, with the formulations alternating; the shortest time of a
-run counts. Cost coefficients are fitted by non-negative least squares of relative errors; large
-errors count less. Their accuracy is measured on runs that were not used in the fit: the cases are in five groups, and
-each group is predicted from the other four. The noise is the smallest ratio of two costs from which nine of ten pairs
-of measured times of two formulations of a case are in the same order.
+run counts. Cost coefficients are fitted by non-negative least squares of relative errors; large errors count less.
+Their accuracy is measured on runs that were not used in the fit: the cases are in five groups, and each group is
+predicted from the other four. The noise is the smallest ratio of two costs from which nine of ten pairs of formulations
+have measured times in the order of their costs.
 """
 import argparse
 import collections

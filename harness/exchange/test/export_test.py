@@ -66,8 +66,8 @@ class Decks(ExportTest):
             self.assertAlmostEqual(float(off), -100 * twice / area, delta=1e-2, msg=section)
 
     def test_walls_are_where_the_section_says(self):
-        """For a channel with its y axis along x and its z axis along z, the web must be at the distance b^2 tf/A from
-        the centroid."""
+        """For a channel with its y axis along x and its z axis along z, the distance of the web from the centroid must
+        be b^2 tf/A."""
         section = next(iter(WALLS))
         scene = self.scene(cantilever(1.0).replace(RECTANGLE, section))
         nodes, elements = mesh_of(self.deck(scene, "-n", "1"))

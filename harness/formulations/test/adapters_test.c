@@ -317,7 +317,7 @@ static void adapters_tests(void)
 }
 
 /* For types that evaluate many elements in one call, finite differences must be bit-for-bit equal
- * to those of the type with one element per call, even for states that fail. */
+ * to those with one element per call, even for states that fail. */
 
 enum { ELEMENTS = 5, GATHER_M = ELEMENT_MAX_STRAINS, GATHER_N = ELEMENT_MAX_COORDINATES };
 

@@ -1,5 +1,5 @@
 """Malicious or faulty processes. Each of them must lead to one line that names the formulation and the failure, in
-`solve` and in every cell of `verify`, and no process may remain."""
+`solve` and in every run of `verify`. No process may remain."""
 import json
 import textwrap
 

@@ -318,8 +318,8 @@ static void middles(const element_type *type)
     scene_free(&s);
 }
 
-/* Returns the section at one end of a member. Its flanges are on one side of the web, and at the
- * other end of the member they are on the opposite side, so the section between is a channel. */
+/* Returns a section of three walls with its web along z. The flanges end at y = upper and y = lower
+ * [m]. */
 static section_spec flanges(double upper, double lower)
 {
     const double point[][2] = {{upper, 0.05}, {0, 0.05}, {0, -0.05}, {lower, -0.05}},

@@ -220,7 +220,7 @@ static void eigen_beam_tests(void)
 }
 
 /* If the iteration has found one copy of a repeated eigenvalue, the inertia shows that copies are
- * missing, and they must be found in the space orthogonal to that copy. */
+ * missing. They must be found in the space orthogonal to the first copy. */
 static void test_missed_copies(void)
 {
     enum { COPIES = 3, MASSES = 40, N = COPIES * MASSES };
@@ -497,8 +497,8 @@ static void test_both_signs(void)
     matrices_free(&A);
 }
 
-/* Two strings are coupled only by A, which multiplies the displacements of one string by the slopes
- * of the other, so every value is double and occurs with both signs. */
+/* Two strings are coupled only by A. A multiplies the displacements of one string by the slopes of
+ * the other, so every value is double and occurs with both signs. */
 static void test_coupled_strings(int masses)
 {
     enum { WANTED = 3 };

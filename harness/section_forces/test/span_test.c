@@ -1,7 +1,7 @@
-/* A rod is integrated from one end as an initial value problem (GSL, 1e-13), which gives the frames
- * and forces at both ends and the values between them. Values between the ends, computed only from
- * those at the ends, must agree with the integrated values. The rods have bending, shear, warping
- * and loads. */
+/* A rod is integrated from one end as an initial value problem (GSL, 1e-13). The solution gives the
+ * frames and forces at both ends and the values between them. Values between the ends, computed
+ * only from those at the ends, must agree with the integrated values. The rods have bending, shear,
+ * warping and loads. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <gsl/gsl_test.h>
