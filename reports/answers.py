@@ -28,12 +28,12 @@ LEVELS = tuple(data.REACH)
 
 @dataclass
 class Way:
-    """The coarsest mesh for which a formulation is within a level on that mesh and on all finer meshes."""
+    """The coarsest mesh of a formulation for which it and all finer meshes are within a level."""
     key: str
     n: int
     cost: float  # cost of counted work, with the cost coefficients of the reference machine [s]
     clock: object  # data.Clock: measured time
-    error: float  # error with the largest magnitude among the requested quantities on the mesh
+    error: float  # error of the requested quantities on the mesh that has the largest magnitude
     worst: object  # data.Verdict: the worst verdict on the requested quantities
     defects: list  # the verdicts other than pass
     priced: bool = True  # True if the formulation has separate cost coefficients, False for general ones
@@ -68,7 +68,6 @@ class Answer:
 
 
 def judged(point):
-    """Returns the quantities of a point that have a reference value, in the order of the case."""
     names = []
     for series in point.series:
         for v in series.verdicts:
@@ -141,7 +140,6 @@ def way(series, quantities, level):
 
 
 def words_of(v):
-    """Describes a verdict other than pass."""
     if v.verdict in words.OWN_LIMITS:
         return "with a different limit"
     return {"low order": "of low order", "undecided": "with an undecided limit"}.get(
@@ -149,7 +147,6 @@ def words_of(v):
 
 
 def defect_words(w):
-    """Describes the worst verdict of a Way."""
     return words_of(w.worst)
 
 
@@ -158,7 +155,6 @@ def by_cost(w):
 
 
 def answer(point, quantity, level):
-    """Returns the Answer of a point, according to the rule at the start of this file."""
     quantities = judged(point) if quantity == ALL else [quantity]
     out, sound = Answer(quantity, level), []
     for series in point.series:
@@ -182,13 +178,13 @@ def answer(point, quantity, level):
 
 
 def faster(a, b):
-    """Returns True if all rounds of clock a were faster than all rounds of clock b. Returns False for single runs."""
+    """Returns True if each round of clock a was faster than every round of clock b. Returns False for single runs."""
     return a.repeats > 1 and b.repeats > 1 and a.most < b.least
 
 
 def differ(a, b):
-    """Returns True if two clocks differ by more than their noise, that is, if all rounds of one clock are below all
-    rounds of the other or, for single runs, if the times differ by a factor of two."""
+    """Returns True if two times differ significantly: each round of one is below every round of the other or, for
+    single runs, they differ by a factor of two."""
     if a.repeats > 1 and b.repeats > 1:
         return a.most < b.least or b.most < a.least
     return max(a.least, b.least) > 2 * min(a.least, b.least)
@@ -209,7 +205,8 @@ def front(point, quantity):
 
 
 def failures(point):
-    """Returns [(series, mesh, reason, quantities without a value)] of the runs that failed or lack a value."""
+    """Returns [(series, mesh, reason, quantities without a value)] of the runs that failed or have no value of a
+    quantity."""
     out = []
     for series in point.series:
         for mesh in series.meshes if not series.missing else []:
@@ -232,7 +229,7 @@ def savings(point):
 
 @dataclass
 class CaseLine:
-    """A case at its default parameters, with the answer for all its quantities together at each level."""
+    """A case at its default parameters, with the answer at each level for all its quantities together."""
 
     case: object  # data.Case
     quantities: list  # the quantities with a reference value
@@ -250,5 +247,4 @@ def line_of_case(case):
 
 
 def lines_of_cases(cases):
-    """Returns a CaseLine for every case with a reference value at its default parameters."""
     return [found for found in map(line_of_case, cases) if found]

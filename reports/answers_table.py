@@ -27,13 +27,12 @@ ASKED = 4  # number of leading columns that describe the request; the other colu
 
 
 def asked_of(point):
-    """Returns the requests at a point: all quantities together, if there are several, then each quantity alone."""
+    """Returns the requests at a point: all quantities together if there are several, then each quantity alone."""
     names = answers.judged(point)
     return ([answers.ALL] if len(names) > 1 else []) + names
 
 
 def short(value):
-    """Returns a number rounded to three significant digits, or None if it is not finite."""
     return float(f"{value:.3g}") if math.isfinite(value) else None
 
 
@@ -79,8 +78,7 @@ def as_json(found, about):
 
 
 def sentence(answer):
-    """Returns an answer in text form: the formulation with the lowest cost and those that tie with it, then the
-    formulations without a rank, with a verdict other than pass, or with shorter measured times."""
+    """Returns an answer as text."""
     def told(ways):
         return ", ".join(f"{w.key} n = {w.n}" for w in ways)
 
@@ -115,7 +113,6 @@ def as_text(cases, levels, everywhere=False):
 
 
 def tolerance(text):
-    """Converts a tolerance such as 0.3% or 0.003 to a fraction of the value."""
     value = float(text[:-1]) / 100 if text.endswith("%") else float(text)
     if not 0 < value < 1:
         raise argparse.ArgumentTypeError(f"'{text}': give an error such as 0.3% or 0.003")
@@ -168,8 +165,8 @@ def outward(value):
 
 
 def staying(series, quantities):
-    """Returns for each mesh the largest error of this mesh and of all finer meshes, or None if one of these meshes lacks
-    a value."""
+    """Returns for each mesh the largest error of this mesh and of all finer meshes, or None if one of them has no
+    value."""
     out, worst = [], 0.0
     for mesh in reversed(series.meshes):
         worst = max([worst, *(abs(mesh.errors.get(q, math.nan)) for q in quantities)],
@@ -211,7 +208,6 @@ def short_seconds(value):
 
 
 def defect_of(verdicts):
-    """Describes the worst of these verdicts. Returns an empty string if all verdicts are passes."""
     bad = [v for v in verdicts if v.verdict not in answers.SOUND]
     return answers.words_of(answers.words.worst(bad)) if bad else ""
 

@@ -1,4 +1,4 @@
-"""Stationary rotation: frequencies against angular velocity (Campbell diagrams), and a rotating cantilever with a channel
+"""Steady rotation: frequencies against angular velocity (Campbell diagrams), and a rotating cantilever with a channel
 section."""
 import functools
 import math
@@ -143,7 +143,7 @@ def draw_channel(site, look):
 
 
 def channel_rows(look):
-    """Yields (angular velocity [rad/s], deflection w [m], load of PROTOTYPE [N], load of KEY [N], relative error of KEY,
+    """Yields (angular velocity [rad/s], deflection w [m], load [N] of PROTOTYPE and of KEY, relative error of KEY,
     exact load [N])."""
     for speed in SPEEDS[1:]:
         for w in (0.25, 0.5, 1.0):

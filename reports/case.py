@@ -1,5 +1,5 @@
-"""Writes a page for each case with its scene, quantities, cheapest formulations, figures and verdicts, and a page of all
-cases for printing."""
+"""Writes a page for each case with its scene, quantities, formulations of lowest cost, figures and verdicts, and a
+page of all cases for printing."""
 import functools
 import math
 from dataclasses import dataclass
@@ -15,8 +15,8 @@ from reports.verdicts import BY_NAME, UNJUDGED, percent, remarks
 
 @dataclass
 class Drawing:
-    """The drawing of a scene. `figure` and `sections` are Images. `sections` is None if no section has a shape. `counts`
-    is a text with the numbers of parts. `lines` is [(heading, lines)], the description of the scene."""
+    """The drawing of a scene. `figure` and `sections` are Images. `sections` is None if no section has a shape.
+    `counts` describes the numbers of parts. `lines` describes the scene, [(heading, lines)]."""
     figure: object
     sections: object
     counts: str
@@ -100,7 +100,8 @@ class Cell:
 
 
 def away(v):
-    """Describes the relative deviation of a limit from the value of another model. Returns [] if it is unknown."""
+    """Returns a list with the relative deviation of a limit from the value of another model as text, or [] if it is
+    unknown."""
     if not math.isfinite(v.model_error):
         return []
     return [f"{percent(v.model_error)} from the {v.model_truth_kind} value"]
@@ -119,7 +120,7 @@ def cell_of(series, name):
 
 
 def matrix(point):
-    """Returns (series with verdicts, [(quantity, cells)]), with a cell for each of these series."""
+    """Returns (series with verdicts, [(quantity, cells)]), with one cell per series."""
     names = answers.judged(point)
     shown = [s for s in point.series if any(cell_of(s, n).look != "skip" for n in names)]
     return shown, [(name, [cell_of(s, name) for s in shown]) for name in names]
@@ -136,7 +137,7 @@ def tally_of(point):
 
 
 NAVIGATION = [("convergence.html", "to print")]
-MOST_POINTS = 3  # number of first points with a figure; later points have one only with values of other programs
+MOST_POINTS = 3  # number of points with figures; later points have figures only if they have values of other programs
 MOST_PANELS = 6  # largest number of panels in the figure of the other quantities, and in that of model errors
 # Largest number of verdicts on one page. With more verdicts, the other parameter points have separate pages.
 MOST_ROWS = 1500
@@ -163,12 +164,11 @@ def question_of(site, point, quantity, name):
 
 
 def told_of(point, quantity):
-    """Returns True if any error of the quantity exceeds round-off."""
+    """Returns True if an error of the quantity exceeds round-off."""
     return any(e > plots.FLOOR for s in point.series for _, e in plots.finite(s, quantity))
 
 
 def figures_of(site, case, index):
-    """Returns the figures of one parameter point."""
     point = case.points[index]
     name = f"{case.name}_{point.name}"
     quantities = [q for q in answers.judged(point)
@@ -250,7 +250,6 @@ def causes_of(point):
 
 
 def parts_of(site, case, index):
-    """Returns the variables of the template for one parameter point."""
     point = case.points[index]
     names = answers.judged(point)
     noise = [100 * (m.clock.most / m.clock.least - 1) for s in point.series for m in s.meshes
@@ -277,12 +276,12 @@ def rows_of(point):
 
 
 def own_pages(case):
-    """Returns True if the other parameter points of the case have separate pages."""
+    """Returns True if parameter points after the first have separate pages."""
     return sum(rows_of(p) for p in case.points[1:]) > MOST_ROWS
 
 
 def page_of(case, index):
-    """Returns the address of a parameter point: a separate page, or a position on the page of its case."""
+    """Returns the address of a parameter point: its own page, or an anchor on the page of its case."""
     point = case.points[index]
     if index and own_pages(case):
         return f"{case.name}_{point.name}.html"
@@ -290,7 +289,6 @@ def page_of(case, index):
 
 
 def signs_of(parts):
-    """Returns the signs in the matrices of these parts, for the legend."""
     return {cell.sign for part in parts for _, cells in part["cells"] for cell in cells}
 
 

@@ -1,6 +1,5 @@
-"""Certificates: the properties that a paper should report about its element. For each formulation, a certificate contains
-the results of `beamwork element-test` for interface requirements, uniform and linear states, locking and orders of
-convergence."""
+"""Element reports. For each formulation, an element report contains the results of `beamwork element-test`: interface
+requirements, uniform and linear states, locking and orders of convergence."""
 import functools
 import math
 
@@ -32,8 +31,7 @@ def points_of(points, measure):
 
 
 def read(path):
-    """Reads the results of `beamwork element-test`, with the parts of each formulation. Returns None if there are no
-    results."""
+    """Returns the stored results of `beamwork element-test`, or None if there are none."""
     record = experiments.read(path, "element-test")
     if record is None:
         return None
@@ -50,7 +48,7 @@ def stored(site):
 
 
 def shown(site):
-    """Returns the certificates of the formulations in the results."""
+    """Returns the element reports of the formulations in the results."""
     record = stored(site)
     if record is None:
         return []
@@ -63,7 +61,7 @@ def present(site):
 
 
 def names(site):
-    """Returns the formulations that have a certificate, for the pages of formulations."""
+    """Returns the formulations that have an element report."""
     return {c["formulation"] for c in shown(site)}
 
 
@@ -78,14 +76,14 @@ def percent(error):
 
 
 def standing(part):
-    """Returns the worst outcome of the requirements in a group, and the number of requirements that are claimed."""
+    """Returns the worst outcome of the requirements in a group, and the number of checked requirements."""
     made = [c["outcome"] for c in part["claims"] if c["outcome"] != "not claimed"]
     return "broken" if "broken" in made else made[0] if made else "not claimed", len(made)
 
 
 class Certificate:
-    """Certificate of one formulation. `parts` are all groups of checks, `families` the groups without measurements, and
-    `measured` the other groups by name. `claims` is the number of claimed requirements."""
+    """Element report of one formulation. `parts` are all groups of checks, `families` those without measurements, and
+    `measured` the others by name. `claims` is the number of checked requirements."""
 
     def __init__(self, record):
         self.key, self.summary, self.source = (record[k]
@@ -112,7 +110,7 @@ def curve(site, panel, certificate, one, line, columns):
 
 
 def draw(site, certificate):
-    """Draws the errors of locking tests against thickness / length, and those of convergence tests against the number of
+    """Draws errors of locking tests over thickness / length, and errors of convergence tests over the number of
     elements."""
     chart = Chart(2, (330, 200), apart=True)
     thin = chart.panel("locking", "thickness / length", "relative error")

@@ -1,5 +1,4 @@
-"""Charts of curves in panels, written directly in SVG. Most figures of the report are such charts, because matplotlib
-takes much longer to draw them.
+"""Charts of curves in panels, written directly in SVG. They are much faster than charts of matplotlib.
 
 A chart has panels in rows. A panel contains curves with markers, levels, labels and shaded areas, in data coordinates.
 Sizes in the picture are in pixels. The attributes of a curve (colour, marker, line, formulation) are those that
@@ -92,7 +91,7 @@ class Axis:
 INK = "currentColor"
 DASHES = {"-": "", "--": "4.4 1.9", ":": "1.2 2", "-.": "7.7 1.9 1.2 1.9", "none": "none"}
 WIDTH = 1.5  # default line width of a curve
-LETTER = 6.7  # mean width in pixels of a letter at a font size of 11 pixels
+LETTER = 6.7  # mean width of a letter at a font size of 11 pixels [pixels]
 
 
 @functools.lru_cache(None)
@@ -154,7 +153,6 @@ class Panel:
         self.words.append((x, y, words))
 
     def cross(self, x, color, gid):
-        """Adds a cross on the upper edge."""
         self.x.take([x])
         self.crosses.append((x, color, gid))
 
@@ -179,24 +177,19 @@ class Chart:
         return self.panels[-1]
 
     def image(self, site, name):
-        """Returns the Image of the chart for the page. Also writes the figure for papers, if such figures are
-        requested."""
+        """Returns the Image of the chart for the page. Also writes a figure for papers if --figures is given."""
         image = Writer(self, site, name).image()
         site.paper.chart(self, name)
         return image
 
 
 class Writer:
-    """Writes one chart as SVG."""
-
     def __init__(self, chart, site, name):
         self.chart, self.name, self.said, self.told = chart, name, site.said, {}
         self.keys, self.labels = {}, {}
 
     @staticmethod
     def marker(look):
-        """Returns the identifier of a marker and stores its definition in MARKERS, so that a page contains it only
-        once."""
         size, hollow = look.get("markersize", 4.5) / 0.75, look.get("hollow", False)
         marker, ink = look["marker"], colour(look["color"])
         filled = MarkerStyle(marker).is_filled() and not hollow
@@ -308,7 +301,6 @@ class Writer:
         return f'<text x="{number(x)}" y="{number(y)}"{more}>{escape(words)}</text>'
 
     def entry(self, words, wide, x, y):
-        """Returns an entry of the legend."""
         look = self.labels[words]
         of = (look.get("gid") or "").split("|")
         whose = f' data-l="{escape(of[1])}"' if of[0] == "f" else ""

@@ -10,7 +10,7 @@ from reports.site import ROOT
 from reports.verdicts import count_verdicts
 
 NAVIGATION = [("checks.html", "checks"), ("environment.html", "environment")]
-# Formulations whose limits are exact.
+# Formulations that converge to the exact beam theory.
 CONSISTENT = ("beamw_consistent", "collocation", "geometrically_exact")
 
 
@@ -21,8 +21,8 @@ def stored(site, name):
 
 
 def noticed(cases):
-    """Returns the smallest detected faults in these cases, from the two committed tables. Returns None if a table is
-    missing, as in an installed copy, or [] if there are no rows for these cases."""
+    """Returns the smallest faults that are detected in these cases. Returns None if a table is missing, as in an
+    installed copy, or [] if there are no rows for these cases."""
     paths = [ROOT / "harness" / name for name in ("blind_spots.csv", "planted_faults.csv")]
     if not all(path.is_file() for path in paths):
         return None
@@ -60,8 +60,8 @@ def counted(cases):
 
 
 def coverage(rows):
-    """Returns [(number of series whose limit is within its uncertainty of the reference value, number of series)] if the
-    0, 1, ... finest meshes are omitted."""
+    """Returns [(number of series whose limit is within its uncertainty of the reference value, number of series)]
+    without the finest mesh, the two finest meshes and so on, starting with all meshes."""
     sums = {}
     for row in rows:
         covered, series = sums.get(row["left_out"], (0, 0))
@@ -74,8 +74,7 @@ def of_formulation(rows, key):
 
 
 def coverages(cases):
-    """Returns the coverages on the page: of each consistent formulation, of all consistent formulations together, of all
-    formulations, of each other formulation, and of each case."""
+    """Returns the coverages by formulation, by groups of formulations, and by case."""
     rows = [row for case in cases for row in case.coverages]
     names = sorted({row["formulation"] for row in rows})
     by_case = [
@@ -109,10 +108,10 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_environment, site)]
 
 
-# Page of the programs and the machine of the results, the measurement of times, and the detection of injected delays.
+# Page about the programs and the machine of the results, and about the measurement of times.
 
 OUTCOME = ("outcome", "sentence")  # attributes of the run that the first page shows
-# (make command, files that the command writes next to the results, contribution of the command to the report)
+# (make command, files that the command writes next to the results, what it adds to the report)
 ADDS = (
     ("lab L=bench-check", ("bench_check.json", ), "injected delays that the times must show"),
     ("lab L=bench-mechanisms", ("mechanisms_joint.h5", "mechanisms_hexapod.h5"),
@@ -123,7 +122,7 @@ ADDS = (
     ("lab L=faults", ("faults.json", ), "injected faults"),
     ("lab L=fuzz", ("fuzz.json", ), "random bytes as input"),
 )
-# (make command, experiment whose group the command writes to the results, contribution of the command to the report)
+# (make command, experiment whose group the command writes to the results, what it adds to the report)
 GROUPS = (
     ("bench", "bench", "times with their noise"),
     ("lab L=certificates", "element-test", "interface requirements and features of each formulation"),
@@ -139,7 +138,7 @@ def planted(site):
 
 
 def more(site):
-    """Returns [(command, contribution to the report)] of the commands whose results are missing."""
+    """Returns [(command, what it adds to the report)] for the commands whose results are missing."""
     here = pathlib.Path(site.results).parent
     groups = [(command, what) for command, name, what in GROUPS
               if not experiments.holds(site.results, name)]

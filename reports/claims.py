@@ -62,7 +62,6 @@ def draw_column(axes, series, style):
 
 
 def column_figure(site, point):
-    """Returns the figure of the column, or None if one of the two formulations was not run."""
     found = {s.key: s for s in point.series}
     if not all(key in found and plots.finite(found[key], COLUMN_QUANTITY) for key in COLUMN_PAIR):
         return None
@@ -91,7 +90,7 @@ def column_section(site, case):
 NAVIGATION = [("claims.html", "claims"), ("papers.html", "papers")]
 PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"  # parameters of sheet_cantilever for the model of reference/peers.csv
 SECTIONS = ("printed constants", "section_data=printed"), (
-    "shear flow", "")  # two sets of section constants for J Table 2; neither reproduces all four entries of the table
+    "shear flow", "")  # neither set of section constants reproduces all four entries of J Table 2
 TARGET = 0.01, 2e-4  # bounds on the errors of C_xx and C_zz and on the solution time [s] in the case of other programs
 
 
@@ -202,8 +201,8 @@ def baseline(site):
 
 
 def row_of(look, claim, fast, slow):
-    """Returns a row that compares the times of two runs, or None if one is missing. `claim` is an entry of CLAIMS. `fast`
-    and `slow` are (formulation, elements per sheet)."""
+    """Returns a row that compares the times of two runs, or None if one is missing. `fast` and `slow` are
+    (formulation, elements per sheet)."""
     name, quantity, paper, published = claim
     third, second = look.mesh(name, "", *fast), look.mesh(name, "", *slow)
     if third is None or second is None or not math.isfinite(second.seconds):
@@ -235,7 +234,6 @@ CLAIMS = (("spherical_joint", "support_stiffness_max", "N 4.2: 68 % less time", 
 
 
 def headlines(site):
-    """Returns (rows on the two claims about time, [(case, level, answers.Answer)] for all quantities together)."""
     look, dense = Lookup(site.cases), Lookup(baseline(site))
     rows, soonest = [], []
     for claim in CLAIMS:
@@ -252,17 +250,17 @@ def headlines(site):
 
 
 def both(mesh):
-    """Returns the errors of C_xx and C_zz, the two quantities of the case for which other programs were run."""
+    """Returns the errors of C_xx and C_zz, the quantities for which results of other programs exist."""
     return [mesh.errors.get(q, math.nan) for q in ("C_xx", "C_zz")]
 
 
 def peers_point(site):
-    """Returns the parameter point for which other programs were run, or None."""
+    """Returns the parameter point with results of other programs, or None."""
     return Lookup(site.cases).points.get(("sheet_cantilever", canonical(PEERS)))
 
 
 def peers(site):
-    """Returns (rows, figure or None, cheapest answers.Way or None) of the case for which other programs were run. The
+    """Returns (rows, figure or None, cheapest answers.Way or None) of the case with results of other programs. The
     rows are sorted by the number of unknowns."""
     point = peers_point(site)
     ours, out = [], []
@@ -298,8 +296,8 @@ def write(site):
 
 
 def peers_section(site, case):
-    """Returns a section for the page of the case with a link to the results of other programs, if the case was run with
-    the parameters of these programs."""
+    """Returns a section with a link to the results of other programs for the page of the case, or nothing if its
+    parameters differ."""
     if case.name != "sheet_cantilever" or peers_point(site) is None:
         return []
     return [(
@@ -316,7 +314,7 @@ def tasks(site):
     return [functools.partial(write, site), functools.partial(write_papers, site)]
 
 
-# The papers compared with the computed values, figure by figure (reference/papers.csv) and equation by equation
+# Comparison of the papers with computed values: figures and tables (reference/papers.csv) and equations
 # (reference/equations.csv).
 
 TABLE = ROOT / "reference" / "papers.csv"
@@ -335,7 +333,7 @@ def read(path=TABLE):
 
 
 def measured(look, truths, row):
-    """Describes the computed value of a row. Returns '' if the row names no run or the run has no value."""
+    """Describes the computed value of a row. Returns '' if there is no value."""
     if not row["elements"]:
         return ""
     cell = row["case"], row["parameters"], row["formulation"], int(row["elements"]), row["quantity"]

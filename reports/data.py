@@ -90,7 +90,7 @@ def read_meshes(group):
         units.setdefault(row["point"], {})[name] = row["unit"]
         if math.isfinite(row["prediction"]):
             mesh.predictions[name] = row["prediction"]
-    for row in rows(group, "verdicts"):  # includes points without a run
+    for row in rows(group, "verdicts"):  # these include points without a run
         units.setdefault(row["point"], {}).setdefault(row["quantity"], row["unit"])
     x, value = group["curve_x"][()], group["curve_value"][()]
     for row in rows(group, "curves"):
@@ -123,7 +123,7 @@ def mark(series, declared):
 
 
 def read_assumptions(group):
-    """Returns {point: [(kind, assumption about a section)]}."""
+    """Returns the assumptions about sections, {point: [(kind, text)]}."""
     found = {}
     for row in rows(group, "assumptions") if "assumptions" in group else []:
         found.setdefault(row["point"], []).append((row["kind"], row["text"]))
@@ -159,8 +159,8 @@ def read_points(group, meshes, units, noise):
 
 
 def read_words(group, points):
-    """Stores in each point its scene and the meanings of its quantities. Returns the rows on the parameters of the
-    case."""
+    """Stores in each point its scene and the descriptions of its quantities. Returns the rows that describe the
+    parameters of the case."""
     if "scenes" not in group:
         return []
     scenes = {row["point"]: row["scene"] for row in rows(group, "scenes")}
@@ -307,8 +307,7 @@ def read_truth_counts(path):
         raise Unreadable(f"{path}: cannot be read ({why}); 'make all' packs it") from why
 
 
-# Values of other programs (`beamwork import`), which are shown together with those of beamwork. They are stored in
-# Point.others, so they are not counted as formulations.
+# Values of other programs (`beamwork import`). They are stored in Point.others and not counted as formulations.
 
 
 def truths_of(point):
@@ -317,8 +316,8 @@ def truths_of(point):
 
 
 def with_errors(series, truths):
-    """Returns the series of another program with errors relative to the reference values of beamwork. If the series is
-    not a beam model, they are stored as model errors."""
+    """Returns the series of another program with errors relative to the reference values of beamwork. If the series
+    belongs to another model than a beam, they are stored as model errors."""
     for mesh in series.meshes:
         into = mesh.errors if series.model == "beam" else mesh.model_errors
         for quantity, value in mesh.values.items():
@@ -342,12 +341,11 @@ def add_beside(cases, path):
 
 
 def beside_named(point, key):
-    """Returns the series of another program with this name, or None."""
     return next((s for s in point.others if s.key == key), None)
 
 
 def style_beside(index):
-    """Returns the style of values measured elsewhere: grey, hollow, dotted."""
+    """Returns the style of values of other programs: grey, hollow, dotted."""
     return {
         "color": "currentColor", "marker": "sDv^<>ph"[index % 8], "hollow": True,
         "linestyle": (0, (1, 1)), "linewidth": 1, "markersize": 6, "alpha": 0.85 - 0.08 * (index % 8)

@@ -19,7 +19,6 @@ def slug(title):
 
 
 def headings():
-    """Returns the titles of the sections of the errata."""
     text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
     return [line[3:].strip() for line in text.splitlines() if line.startswith("## ")]
 
@@ -33,10 +32,10 @@ def link_of(proof, titles):
 
 
 def predictions(rows):
-    """Compares the observed limits with the predicted limits. Returns None if no limit was predicted. Otherwise, `met`,
-    `missed` and `open` are the numbers of predictions that agree, that disagree, and that are undecided because the
-    observed limit is too uncertain. `least` and `largest` are the smallest and the largest relative distance of the
-    limits that agree or, if none agrees, of those that disagree. `farthest` is the row with the largest distance."""
+    """Compares the observed limits with the predicted limits. Returns None if no limit was predicted. Otherwise,
+    `met`, `missed` and `open` are the numbers of predictions that agree, that disagree, and that the uncertainty of
+    the observed limit leaves open. `least` and `largest` are the smallest and largest relative distances of the
+    limits that agree or, if there are none, of those that disagree. `farthest` is the row with the largest distance."""
     told = [r for r in rows if math.isfinite(met(r.verdict))]
     if not told:
         return None
@@ -82,7 +81,7 @@ def line(rule, rows, titles):
 
 
 def unexplained(rows):
-    """Returns [((formulation, verdict), number)] of the counted verdicts that differ from the expected verdicts."""
+    """Returns [((formulation, verdict), number)] for the counted verdicts that are not as expected."""
     found = {}
     for r in rows:
         if not r.verdict.as_expected and r.standing == verdicts.OWN:
@@ -92,7 +91,6 @@ def unexplained(rows):
 
 
 def contents(cases, rules):
-    """Returns the variables of the template."""
     rows, titles = list(verdicts.rows(cases)), headings()
     of_rule = {rule["rule"]: [] for rule in rules}
     for row in rows:
@@ -132,11 +130,11 @@ def tasks(site):
     return [functools.partial(page, site) for page in pages]
 
 
-# Experiments on the causes of known deviations, which `make lab L=causes` writes next to the results.
+# Experiments on the causes of known deviations, from a file next to the results.
 
 
 def verdict_of(study):
-    """Returns the conclusion of the experiments on one verdict in text form, for the heading of its table."""
+    """Returns the conclusion of the experiments on one verdict as text."""
     gone = [e for e in study["experiments"] if e["gone"]]
     if any(e["kind"] == "finer" for e in gone):
         return "the meshes of the verdict are too coarse"

@@ -18,9 +18,9 @@ from reports.sweep import answers, gather, maps
 # the error over one axis.
 
 MOST_DOTS = 400  # largest number of scattered points that are drawn individually
-SLICES, WORDS = 4, 6  # largest numbers of maps side by side over a third axis with numbers, and over one with words
+SLICES, WORDS = 4, 6  # largest number of maps side by side over a third axis: with numbers, and with words
 NARROW = 170  # width of one of several maps side by side, in pixels
-TOLD = 0.01  # smallest share of the points that a formulation listed first must win
+TOLD = 0.01  # smallest share of points that a formulation in the first list must win
 FLOOR = 1e-12  # smallest drawn error
 
 
@@ -53,7 +53,7 @@ def slices_of(part):
 
 
 def counted(state, look):
-    """Returns the alternative text of a map: the share of its fields in each state."""
+    """Returns the alternative text of a map: the fraction of cells in each state."""
     drawn = state[state != maps.EMPTY]
     said = [f"{look.words[k]}: {answers.percent((drawn == k).sum() / drawn.size)}"
             for k in [*(k for k in look.words if k >= 0), maps.UNKNOWN] if (drawn == k).any()]
@@ -61,9 +61,8 @@ def counted(state, look):
 
 
 class Validity:
-    """Maps of the smallest number of elements. `order` contains the formulations in the order of the answers. `axes`
-    are the horizontal axis, the vertical axis and the axis of maps side by side. `rows` is [(formulation or empty,
-    [(Image, alt)])]. `used` are the states that are drawn."""
+    """Maps of the smallest number of elements. `axes` are the horizontal axis, the vertical axis and the axis of maps
+    side by side. `rows` is [(formulation or empty, [(Image, alt)])]. `used` are the states that are drawn."""
 
     def __init__(self, sweep, found, order, q=-1):
         self.sweep, self.found, self.q = sweep, found, q
@@ -183,7 +182,7 @@ class Winners:
 
 
 def curves(site, sweep, found, q=-1):
-    """Draws curves of the largest error in each part of one axis, with a panel for each mesh. q is the index of the
+    """Draws curves of the largest error in each part of one axis, with a panel for each mesh. `q` is the index of the
     quantity."""
     part = found.parts[0]
     x = np.where(part.low == part.high, part.low, (part.low + part.high) / 2)
@@ -204,8 +203,8 @@ def curves(site, sweep, found, q=-1):
     return chart.image(site, f"sweep_errors{q if q >= 0 else ''}")
 
 
-# Data of the runs of a sweep for maps over axes that the reader selects. The data are in a separate script next to the
-# page, which assets/sweep.js loads when the reader makes a selection.
+# Data for maps over axes that the reader selects. They are in a separate script, which assets/sweep.js loads when the
+# reader makes a selection.
 #
 # The states of cells are letters or signs (SPECIAL), each followed by its number of repetitions if there are several. The
 # last axis varies fastest.
@@ -234,7 +233,7 @@ def levels_of(tolerance):
 
 def classes(worst, points, levels):
     """Returns the class of the largest error in each cell. `levels` are the upper ends of the classes in percent."""
-    found = np.searchsorted(levels, 100 * worst.astype(float) * (1 - 1e-6))  # single precision
+    found = np.searchsorted(levels, 100 * worst.astype(float) * (1 - 1e-6))  # errors are stored in single precision
     found = np.where(np.isinf(worst), len(levels) + 1, found)
     return np.where(points == 0, maps.EMPTY, np.where(worst < 0, maps.UNKNOWN, found))
 
@@ -262,8 +261,7 @@ def look(fill, sign, words):
 
 
 def axis_of(part):
-    """Returns the data of an axis for maps: its name and range, the names of its parts, the boundaries between them, its
-    slices as a third axis, and possible positions of ticks in units of parts."""
+    """Returns the data of an axis for maps."""
     low, high = part.low[0], part.high[-1]
     return {"name": part.axis.name, "range": [float(f"{low:.6g}"), float(f"{high:.6g}")],
             "cuts": part.cuts.tolist(), "words": bool(part.axis.words), "title": maps.title_of(part), "names":
@@ -274,7 +272,6 @@ def axis_of(part):
 
 
 def cells_of(sweep, found, order):
-    """Returns the data of the cells. `order` contains the formulations in the order of the answers."""
     elements = maps.Look(sweep.meshes)
     asked = range(len(sweep.quantities) + 1)
     keys, levels = range(len(sweep.keys)), levels_of(sweep.tolerance)
@@ -295,7 +292,6 @@ def cells_of(sweep, found, order):
 
 
 def write_cells(site, name, sweep, found, order):
-    """Writes the data to the file of this name next to the pages."""
     text = json.dumps(cells_of(sweep, found, order), separators=(",", ":"), ensure_ascii=False)
     path = os.path.join(site.folder, name)
     with open(f"{path}.part", "w", encoding="utf-8") as out:
@@ -308,7 +304,6 @@ MOST_WORST, MOST_CURVES = 20, 12  # largest numbers of listed points and of quan
 
 
 def navigation(site):
-    """Returns [(file, title)] for the bar."""
     return [(site.page_of(sweep), f"sweep of {pathlib.PurePath(sweep.name).stem}")
             for sweep in site.sweeps]
 
@@ -336,7 +331,6 @@ def solving(sweep, row):
 
 
 def worst_rows(sweep):
-    """Returns [(Worst, description of the point, command or empty)]. Points without a solution come first."""
     rows = sorted(sweep.worst, key=lambda r: -abs(r.error) if r.quantity else -math.inf)
     rows = rows[:MOST_WORST]
     wanted = {row.point for row in rows}
@@ -359,7 +353,7 @@ def curves_of(site, sweep, found):
 
 
 def glance(site, sweep):
-    """Returns the variables of the template for the first sentences, on this page and on the first page."""
+    """Returns the variables of the first sentences about the sweep, which this page and the first page contain."""
     found = gather.of_sweep(sweep)
     made = answers.of_sweep(sweep, found)
     return {"sweep": sweep, "found": found, "answers": made, "groups": answers.together(made),

@@ -9,7 +9,7 @@ from reports import data
 class Kind:
     name: str  # name in the results
     sign: str  # sign that is used if there is no room for the name
-    look: str  # class in the style sheet
+    look: str  # class of the style sheet
     meaning: str
 
 
@@ -153,7 +153,6 @@ def rows_of_point(case, point, second_names):
 
 
 def rows(cases):
-    """Yields every verdict of the results."""
     for case in cases:
         second_names = aliases(case)
         for point in case.points:
@@ -171,6 +170,5 @@ def counts(found):
 
 
 def count_verdicts(cases):
-    """Returns {verdict: number} of the counted verdicts, from good to bad."""
     found = counts(rows(cases))[0]
     return dict(sorted(found.items(), key=lambda item: SEVERITY[item[0]]))

@@ -17,7 +17,7 @@ TYPES = {"f8": "Float64", "i8": "Int64", "i4": "Int32", "u1": "UInt8"}
 
 
 class NoSeries(Exception):
-    """Raised, with the reason, if there is nothing to write."""
+    """Raised if there is nothing to write, with the reason."""
 
 
 def array(name, values):

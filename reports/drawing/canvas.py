@@ -1,4 +1,4 @@
-"""A drawing in points (1/72 inch), with shapes and with labels that avoid the shapes and each other."""
+"""A drawing of shapes and labels, in points (1/72 inch). Labels avoid the shapes and each other."""
 import itertools
 
 import numpy as np
@@ -6,12 +6,7 @@ from matplotlib.collections import PolyCollection
 
 from reports.style import plt
 
-# Formats numbers with their units in a short form.
-
-
 def number(value):
-    """Returns a number with four significant digits in text form. The digits of numbers from 1e4 are in groups of
-    three."""
     if 1e4 <= abs(value) < 1e8:
         return f"{float(f'{value:.4g}'):,.0f}".replace(",", "\u202f")
     return f"{value + 0:.4g}"
@@ -35,7 +30,7 @@ STEEL, BODY, ROD, MASS = "#c9d3de", "#e3dcc8", "#a89f86", "#8c8468"
 FONT = 9  # [pt]
 WIDE, HIGH = 0.6, 1.25  # width and height of a letter, relative to the font size
 MOST_FACES = 100  # largest number of faces whose edges labels avoid
-SPACING = 3  # distance of the points that represent a line when labels are placed [pt]
+SPACING = 3  # distance of the points on a line that labels avoid [pt]
 WAYS = [np.array([np.cos(a), np.sin(a)]) for a in np.arange(8) * np.pi / 4]
 
 
@@ -129,7 +124,6 @@ class Canvas:
         self.labels.append((np.asarray(at), text, colour, size, near, towards))
 
     def text(self, at, text, colour=INK, size=FONT, rotation=0):
-        """Adds a label centred at a position."""
         width, height = WIDE * size * len(text), HIGH * size
         c, s = abs(np.cos(np.radians(rotation))), abs(np.sin(np.radians(rotation)))
         half = 0.5 * np.array([c * width + s * height, s * width + c * height])
@@ -167,7 +161,6 @@ class Canvas:
                 *m, t, color=c, fontsize=s, ha="center", va="center", zorder=8))
 
     def finish(self, margin=6):
-        """Returns the figure."""
         self.place_labels()
         self.labels = []
         low, high = self.extent()

@@ -91,7 +91,6 @@ def section(name, said):
 
 
 def offsets(member):
-    """Describes the offsets of the ends of a member."""
     return [f"{member.name} at {node}: {place(offset)} m from it"
             for node, offset in zip(member.ends, member.offset) if offset.any()]
 
@@ -123,7 +122,7 @@ def warping(scene):
 
 
 def shortened(lines):
-    """Returns the lines that are not empty, at most MOST, followed by the number of the other lines."""
+    """Returns at most MOST lines that are not empty, followed by a line with the number of omitted lines."""
     found = [line for line in lines if line]
     return found[:MOST] + [f"and {len(found) - MOST} more"] if len(found) > MOST else found
 

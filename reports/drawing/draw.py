@@ -162,7 +162,6 @@ def sections_drawn(scene):
 
 
 def draw_sections(scene):
-    """Returns the figure of the sections, or None if no section has a known shape."""
     names = sections_drawn(scene)
     if not names:
         return None
@@ -173,7 +172,7 @@ def draw_sections(scene):
 
 
 FAR = 5  # distance, in multiples of the size of the structure, from which an axis is no longer drawn
-MOST_NAMES = 9  # largest number of nodes whose names are drawn
+MOST_NAMES = 9  # names are drawn for at most this number of nodes
 
 
 def skeleton(scene, lines):
@@ -213,8 +212,7 @@ def directions(scene):
 
 
 def put_names(canvas, look, scene):
-    """Draws the names of all nodes or, if there are more than MOST_NAMES, of the nodes with quantities. Draws none if
-    these are also more than MOST_NAMES."""
+    """Draws the names of all nodes or, if these are too many, of the nodes with quantities."""
     asked = [n for n in scene.nodes.values() if n.name in scene.asked]
     named = asked if len(scene.nodes) > MOST_NAMES else list(scene.nodes.values())
     if len(named) > MOST_NAMES:
@@ -224,7 +222,7 @@ def put_names(canvas, look, scene):
 
 
 def near_spin(scene, points):
-    """Returns True if the scene has a rotation axis that is near enough to be drawn."""
+    """Returns True if the rotation axis of the scene is near enough to be drawn."""
     if scene.spin is None:
         return False
     away = np.linalg.norm(scene.spin.centre - points.mean(axis=0))
@@ -232,7 +230,6 @@ def near_spin(scene, points):
 
 
 def compose(scene):
-    """Returns a canvas with the drawn scene."""
     lines = {name: geometry.line_of(scene, m) for name, m in scene.members.items()}
     points = skeleton(scene, lines)
     solid = any(geometry.outline(s) for s in scene.sections.values())
@@ -267,5 +264,4 @@ def compose(scene):
 
 
 def draw(scene):
-    """Returns the figure of a scene."""
     return compose(scene).finish()

@@ -67,7 +67,7 @@ def rectangle(y, z, height, width):
 
 
 def meet(walls):
-    """Returns True if the walls have a common point, so that an open section of these walls does not warp."""
+    """Returns True if the walls have a common point, in which case an open section does not warp."""
     return bool(set.intersection(*({w["from"], w["to"]} for w in walls)))
 
 
@@ -129,7 +129,7 @@ def prism(line, here, there):
 # View of a structure: normal to its plane if the structure is plane, otherwise from above at an angle.
 
 WIDTH, HEIGHT = 400, 230  # largest size of the structure on paper [pt]
-FLAT = 1e-6  # ratio to the whole below which an extent is treated as zero
+FLAT = 1e-6  # ratio to the largest extent below which an extent is treated as zero
 AZIMUTHS, ELEVATIONS = (-72, -64, -56, -48, -40, -32), (18, 24, 31)  # [degrees]
 MOST_POINTS = 60  # largest number of points by which a view is rated
 
@@ -204,6 +204,5 @@ def choose_view(points, shifts, turns, solid):
 
 
 def scaled(view, points):
-    """Returns the view with the largest scale at which these points [n x 3] fit."""
     width, height = np.maximum(np.ptp(View(view.right, view.up)(points), axis=0), 1e-300)
     return View(view.right, view.up, min(WIDTH / width, HEIGHT / height))

@@ -29,7 +29,7 @@ def arc(view, at, axis, radius=RADIUS, begin=-0.35, turn=1.5):
 
 
 def straight(view, at, way, ways, size=ARROW):
-    """Returns an arrow on paper [2 x 2] that points away from the point, or towards it if a member is in the way."""
+    """Returns an arrow on paper [2 x 2] that points away from the point, or towards it if a member is on that side."""
     flat = view(unit(way)) / view.scale
     size = size * max(np.linalg.norm(flat), 0.45)
     flat = unit(flat)
@@ -39,7 +39,7 @@ def straight(view, at, way, ways, size=ARROW):
 
 
 def size(load):
-    """Returns the magnitude of the vector of a load, or both magnitudes if the load varies."""
+    """Returns the magnitude of a load as text, or both magnitudes if the load varies."""
     unit_of = UNITS[load.kind]
     if not load.varies():
         return vector(load.vector, unit_of)
@@ -89,7 +89,6 @@ def point_on(line, places):
 
 
 def put_within(canvas, view, load, line):
-    """Draws a force or a moment at a position along a member."""
     at = point_on(line, load.within[:1])[0]
     fixed = replace(load, vector=in_fixed(load, line, load.vector))
     if load.kind == "moment":
@@ -192,7 +191,6 @@ def put_motions(canvas, view, scene, into):
 
 
 def put_spin(canvas, view, scene, size):
-    """Draws the axis about which the axes of the scene rotate, and the direction of rotation."""
     if scene.spin is None:
         return
     omega, at = scene.spin.omega, scene.spin.centre

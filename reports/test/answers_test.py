@@ -1,4 +1,4 @@
-"""Selection of the best formulations, and its page."""
+"""Tests the selection of formulations of lowest cost, and its page."""
 import csv
 import html
 import json
@@ -14,15 +14,12 @@ from reports.test.browser_test import CHROMIUM, chromium
 from reports.test.results import Site, verdict
 
 
-# The best formulation has the coarsest mesh from which all errors are within a level, ranked by counted work.
-# Formulations that do not pass are never the cheapest. Costs that differ by less than the uncertainty of the cost
-# coefficients tie. Measured times have no influence.
+# Tests of the rules in reports/answers.py.
 def clock(*rounds):
     return data.Clock(0, min(rounds), min(rounds), max(rounds), 5 if len(rounds) > 1 else 1, rounds)
 
 
 def series(key, errors, costs, kind="pass", seconds=None):
-    """Returns a series with one quantity `u` on meshes 1, 2, 4, ..."""
     meshes = [data.Mesh(2**i, "ok", "", clock(*((seconds or {}).get(2**i, (1.0,)))), 8, 4, "", {},
                         errors={"u": e}, cost=c)
               for i, (e, c) in enumerate(zip(errors, costs))]

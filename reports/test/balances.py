@@ -10,8 +10,6 @@ TYPE = np.dtype(KEYS + [(name, "i4" if name in ("iterations", "rejected") else "
 
 
 def rows(formulation, elements, end=2.0, steps=400, drift=1e-5, free=False):
-    """Returns the rows of a motion with equal steps, in which kinetic and strain energy add up to 3 J and the drift grows
-    linearly."""
     out = np.zeros(steps + 1, TYPE)
     t = np.linspace(0, end, steps + 1)
     out["point"], out["formulation"], out["elements"] = b"default", formulation.encode(), elements
@@ -25,7 +23,6 @@ def rows(formulation, elements, end=2.0, steps=400, drift=1e-5, free=False):
 
 
 def add(path, case, *found):
-    """Replaces the table `motion` of a case by these rows."""
     with h5py.File(path, "r+") as file:
         group = file[f"cases/{case}"]
         if "motion" in group:

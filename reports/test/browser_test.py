@@ -1,5 +1,4 @@
-"""The report in a headless browser: there must be no console message, every image must be decoded, and the printable
-report must be printable. Skipped if there is no Chromium."""
+"""Tests the report in a headless browser: no console messages, all images decoded. Skipped without Chromium."""
 import html
 import re
 import shutil
@@ -11,7 +10,7 @@ from harness.tools.kit.program import ProgramTest, drawn, run
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which(
     "google-chrome")
 
-# A document that shows all pages, each in a frame, and into which errors are written.
+# A document with all pages in frames, which collects errors.
 DRIVER = """<!DOCTYPE html><html><head><link rel="icon" href="data:,"></head><body><pre id="out"></pre>{frames}<script>
 addEventListener("load", () => {{
   let out = [];
@@ -26,7 +25,7 @@ addEventListener("load", () => {{
 
 
 def chromium(folder, *arguments, software=False):
-    """Runs Chromium. If `software` is True, the processor renders WebGL."""
+    """Runs Chromium. If `software` is True, WebGL uses no graphics card."""
     graphics = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"
                 ] if software else ["--disable-gpu"]
     return subprocess.run([

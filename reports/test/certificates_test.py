@@ -1,4 +1,4 @@
-"""Certificates of formulations, and formulations whose times are not ranked."""
+"""Tests element reports, and formulations whose times are not ranked."""
 import json
 import math
 import re
@@ -17,8 +17,6 @@ from reports import answers, answers_table, certificates, data, experiments, pro
 
 
 class Site:
-    """The parts of a site that the page uses."""
-
     def __init__(self, folder, keys):
         self.results = folder / "results.h5"
         self.styles = type("Styles", (), {"order": keys})
@@ -91,7 +89,7 @@ class Page(ProgramTest):
         self.assertIn('href="certificates.html#beamw"', self.formulation)
 
 
-# Formulations whose costs are not ranked, and new formulations, are shown and marked everywhere but are never first.
+# Formulations without a rank are shown and marked on all pages but are never first.
 EXAMPLES = ROOT / "elements" / "examples"
 NAMES = {"timoshenko": "by differences", "timoshenko_py": "in another process"}
 
@@ -195,7 +193,7 @@ class Drawn(ProgramTest):
         self.assertIn("whose costs cannot be ranked", page)
 
     def test_results_without_costs(self):
-        """For files that were written before work had costs, the page must state why there is no best formulation."""
+        """Results of earlier versions contain no costs. The page states why there is no formulation of lowest cost."""
         old = self.folder / "old.h5"
         shutil.copy(self.results, old)
         with h5py.File(old, "r+") as file:

@@ -1,4 +1,4 @@
-"""Charts, figures and pictures."""
+"""Tests charts, figures and pictures."""
 import json
 import pathlib
 import re
@@ -21,7 +21,6 @@ from reports.style import Styles, plt
 
 
 def site():
-    """Returns the parts of a site that a chart uses."""
     found = types.SimpleNamespace(said=[], styles=Styles([]), paper=paper.Paper("", []))
     found.points = types.MethodType(Site.points, found)
     return found
@@ -30,7 +29,6 @@ def site():
 class Axes(unittest.TestCase):
 
     def test_part(self):
-        """Decades have equal lengths, and the margin keeps the drawing inside the axes."""
         one = chart.Axis(log=True)
         one.take([1e-3, 1e-1, 1e1, 0, float("nan")])
         one.settle()
@@ -213,7 +211,7 @@ class Figures(unittest.TestCase):
 class Looks(unittest.TestCase):
 
     def test_for_ever(self):
-        """The colour and the marker of a formulation depend only on its name. Options change only the line."""
+        """The colour and the marker of a formulation depend only on its name. Options change only the line style."""
         for keys in (["beamw"], ["another", "beamw"]):
             self.assertEqual(Styles(keys).of("beamw")["color"], "#0072b2")
         self.assertEqual(Styles.of("mine"), Styles.of("mine"))
@@ -258,8 +256,8 @@ class Geometry(unittest.TestCase):
         self.assertEqual(len(shapes.hull(corners)), 12)
 
     def test_chosen(self):
-        """On a path with even steps, the states near the middle and at the end are chosen. On a path that passes through
-        its start again, both extremes are chosen."""
+        """The states near the middle and at the end of a path are selected; if the path returns to its start, both
+        extremes."""
         for moved, wanted in (([0, 0.75, 1.499, 2.25,
                                 3], [0, 2, 4]), ([0, 0.6, 1.2, 1.8, 2.4,
                                                   3], [0, 3, 5]), ([0, -3, -1.5, 0, 1.5,
@@ -282,8 +280,8 @@ class Geometry(unittest.TestCase):
 
 
     def test_view_of_a_plane(self):
-        """A motion in the xy plane must be viewed from above, with x to the right. A motion in space or along z, even a
-        small one, must not be viewed from above."""
+        """A motion in the xy plane is viewed from above, with x to the right; other motions, even small ones, are
+        not."""
         flat = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 1, 0]]], float)
         lifted = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [1, 0, 0.01]]], float)
         for points, wanted in ((flat, (-90, 74)), (flat[..., [0, 2, 1]], (-58, 24)),
@@ -345,8 +343,7 @@ class Campbell(ProgramTest):
             self.assertEqual(growth > 0, first < omega < 2 * first, f"at {omega}")
 
 
-# Pages are small: the common parts of every page, a figure, and the largest page of a case with many formulations and
-# parameter points.
+# Largest sizes of pages and of their parts [bytes].
 FORMULATION = 45_000
 VERDICT = 160  # average size of a row in a table of verdicts
 VALUE = 16  # size of each value of the results in the data of the explorer
@@ -383,8 +380,7 @@ class Sizes(ProgramTest):
             self.assertEqual(len(markers), len(set(markers)), page.name)
 
     def test_verdicts(self):
-        """Verdicts occur once, in short rows, on the pages of cases. The pages of formulations only contain the number
-        of verdicts."""
+        """Only the pages of cases list verdicts, once each and in short rows."""
         rows = 0
         for page in self.site.glob("*.html"):
             text = page.read_text(encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Drawings of scenes: an arrow for each load, a symbol for each support, and labels that avoid each other."""
+"""Tests drawings of scenes: arrows of loads, symbols of supports, and labels."""
 import itertools
 import pathlib
 import tempfile
@@ -18,7 +18,6 @@ LOADED = ROOT / "cases/format/test/good/loaded.yaml"
 
 
 def written():
-    """Returns {name: text} of all cases and examples as scene files."""
     found = {p.stem: ("scene", p.stem) for p in (ROOT / "cases").glob("*.[cy]*")}
     found.update({p.stem: ("scene", "--scene", str(p))
                   for p in (ROOT / "cases" / "examples").glob("*.yaml")})
@@ -26,8 +25,6 @@ def written():
 
 
 class Arrows(Canvas):
-    """A canvas that stores the arrows drawn on it."""
-
     def __init__(self):
         super().__init__()
         self.arrows = []
@@ -79,7 +76,7 @@ class Drawings(unittest.TestCase):
                                 "coupled: rz equal (wheel_2, clutch)"])
 
     def test_loads_on_parts_of_members(self):
-        """Arrows are only on the loaded part and are longer where the load is larger. A load at a position has one arrow."""
+        """Arrows are only on the loaded part and are longer where the load is larger."""
         one = scene.read(run("scene", "--scene", str(LOADED)).stdout)
         self.assertEqual(len(one.loads), 19)
         figure = draw.draw(one)
@@ -104,7 +101,6 @@ class Drawings(unittest.TestCase):
 
     @staticmethod
     def arrows(one, name):
-        """Returns the arrows of a load, on a drawing of x and y in metres."""
         load = next(each for each in one.loads if each.name == name)
         canvas, line = Arrows(), geometry.line_of(one, one.members[load.on])
         only = replace(one, loads=[load])
@@ -161,7 +157,7 @@ analyses: {a: {linear: {}}}
         frame = np.array([[0, 0, 0], [0, 0, 3.0], [4, 0, 3]])
         down, out = [np.array([0, 0, -1.0])], [np.array([0, 1.0, 0])]
         self.assertTrue(geometry.choose_view(frame, down, [], True).face_on)
-        self.assertTrue(geometry.choose_view(frame, [], out, True).face_on)  # a moment about the normal
+        self.assertTrue(geometry.choose_view(frame, [], out, True).face_on)  # a moment about the normal of the plane
         self.assertFalse(geometry.choose_view(frame, out, [], True).face_on)
         self.assertFalse(geometry.choose_view(frame[:2], down, [], True).face_on)  # the section is visible
 

@@ -1,4 +1,4 @@
-"""Motions in the viewer and in films."""
+"""Tests motions in the viewer and in films."""
 import base64
 import contextlib
 import io
@@ -37,7 +37,6 @@ ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {{
 
 
 def filmed(results, target):
-    """Writes a film, with its output suppressed, and returns the exit status."""
     with contextlib.redirect_stdout(io.StringIO()), contextlib.redirect_stderr(io.StringIO()):
         return film.main([str(results), "-o", str(target)])
 
@@ -72,7 +71,7 @@ class Film(ProgramTest):
         self.assertLess(np.ptp(off, axis=(0, 1)).max(), 1.01 * half / shapes.WHOLE)
 
     def test_sections_turn_with_their_frames(self):
-        """Each axis of the last frame must be that of the first frame rotated by the rate times the time."""
+        """The axes of the last frame are those of the first frame, rotated by angular velocity times time."""
         s = shapes.read_file(self.results, CASE)
         angle = 2.0 * (TIMES[-1] - TIMES[0])
         turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0],

@@ -7,13 +7,11 @@ from reports.shapes import FRAME
 
 
 def turned(axes, by):
-    """Returns rotated quaternions [w, x, y, z]."""
     own = Rotation.from_quat(axes[:, [1, 2, 3, 0]])
     return (by * own).as_quat()[:, [3, 0, 1, 2]]
 
 
 def add(path, case, times, rate=1.0):
-    """Appends a frame for each time to the shapes of a case, in which the whole structure rotates about z."""
     with h5py.File(path, "r+") as file:
         g = file[f"cases/{case}/shapes/default"]
         new = {"kind": [FRAME.encode()] * len(times), "analysis": [0] * len(times),

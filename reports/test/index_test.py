@@ -1,4 +1,4 @@
-"""The first page, the bar of links, and pages of formulations."""
+"""Tests the first page, the links, and the pages of formulations."""
 import re
 import sys
 import tempfile
@@ -40,7 +40,6 @@ class Kinds(unittest.TestCase):
 class Agreed(unittest.TestCase):
 
     def tried(self, key, limit, errors):
-        """Returns a series on meshes of 1, 2, 4 ... elements with these errors relative to the agreed value 2."""
         found = series(key, [data.Verdict("u", "no truth", limit=limit, model_truth=2.0,
                                           model_truth_kind="agreement", model_error=limit / 2 - 1)])
         clock = data.Clock(0, 1, 1, 1, 1)
@@ -197,18 +196,17 @@ class Words(unittest.TestCase):
                          [("verdicts", 1), ("new", 2)])
 
 
-# The text recommends a formulation for cases with these verdicts at worst.
+# A formulation may be recommended for cases with these verdicts.
 RIGHT = ("pass", "low order", "undecided", "biased", "biased, as predicted")
 
 
 def texts():
-    """Returns {formulation: text} of all formulations with a text."""
     return {path.stem: path.read_text(encoding="utf-8")
             for path in sorted((ROOT / "elements").glob("*.md")) if path.stem != "README"}
 
 
 def claims(text):
-    """Returns [(True if recommended, named cases)] from the list on when to choose a formulation."""
+    """Returns [(True if recommended, named cases)] from the recommendations in the text."""
     said = dict(formulation.sections(text))[formulation.CHOICE]
     bullets = re.findall(r"^\* \*\*(For|Not for)\*\* (.*)$", said, flags=re.M)
     return [(kind == "For", re.findall(r"`(\w+)`", words)) for kind, words in bullets]

@@ -1,4 +1,4 @@
-"""The page of integrators: lowest costs, orders, maps with letters, and text against data."""
+"""Tests the page of integrators."""
 import json
 import re
 import unittest
@@ -26,7 +26,7 @@ class Answers(unittest.TestCase):
         self.assertEqual({p.stiffening for p in self.every}, {1})
 
     def test_best(self):
-        """Errors are C step^p and costs are c/step, so the lowest cost is known."""
+        """The lowest cost is known, because errors are C step^p and costs are c/step."""
         for level in integrators.LEVELS:
             found = integrators.answer(self.one, level)
             costs = {}

@@ -1,4 +1,4 @@
-"""Motion pages: text against data, energies and momenta plotted as stored, reference values over time."""
+"""Tests pages of motions."""
 import re
 import types
 import unittest
@@ -178,8 +178,7 @@ class Truths(ProgramTest):
             g["value"] = np.arange(6.0)
 
     def test_of_all_instants(self):
-        """Only reference values of the quantity at the default parameters, at any time, must be used. Reference values
-        of other models must not be used."""
+        """Reference values are those at the default parameters; those of other models are not used."""
         found = motion_page.truths_of(self.path, "swing", "x", 9.0)
         self.assertEqual([(t.time, t.value) for t in found], [(1, 0), (2, 1), (9, 2)])
         self.assertEqual(motion_page.truths_of(self.path, "nothing", "x", 9.0), [])

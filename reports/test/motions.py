@@ -11,7 +11,6 @@ FATE_STEPS, STIFFENINGS = (0.05, 0.1, 0.2, 0.4), (1, 1e3, 1e6)
 
 
 def run(integrator, step, worse=1.0, **more):
-    """Returns a run whose error is determined by its order and its step."""
     order, error = CONSTANTS.get(integrator, (2, 30))
     cost = worse * COSTS.get(integrator, 1e-3) / step
     return {"integrator": integrator, "step": step, "tolerance": 0, "status": "ok", "reason": "",
@@ -23,8 +22,7 @@ def run(integrator, step, worse=1.0, **more):
 
 
 def fate(integrator, step, stiffening):
-    """Returns the outcome of a run. `conserving` conserves the energy. With the trapezoidal rule, the energy is
-    bounded at the lowest stiffness. At higher stiffnesses, it grows, or the run stops if the step is large."""
+    """Returns the outcome of a run, which depends on the integrator, the step and the stiffness."""
     if integrator == "conserving":
         return "exact"
     if integrator == "alpha":
@@ -33,7 +31,6 @@ def fate(integrator, step, stiffening):
 
 
 def large_step(integrator, step, stiffening):
-    """Returns a run without an error, with its outcome."""
     what = fate(integrator, step, stiffening)
     stops = what == "stops"
     return run(integrator, step, error=None, order=None, outcome=what, has_reference=False,
@@ -43,7 +40,6 @@ def large_step(integrator, step, stiffening):
 
 
 def reached(runs):
-    """Returns the cheapest run of each integrator at each level."""
     out = []
     for level in LEVELS:
         for scheme in CONSTANTS:
@@ -57,7 +53,6 @@ def reached(runs):
 
 
 def group(case, formulation, runs):
-    """Returns tables of the motions of one structure on one mesh."""
     orders = [{"integrator": s, "nominal": order, "order": order, "order_before": order,
                "floor": 1e-11, "verdict": "pass", "parameters": ""}
               for s, (order, _) in CONSTANTS.items()]
@@ -95,8 +90,7 @@ def record(cases=("pendulum", "free_flight_space"),
 
 
 def integrator_runs():
-    """Returns records for three cases in the form that `make lab L=integrators` writes. One check was possible, and one was
-    not."""
+    """Returns records of three cases in the form that `make lab L=integrators` writes."""
     check = {"case": "elbow", "parameters": "time=3", "formulation": "collocation", "elements": 8,
              "distances": [3e-9, 4e-10], "uncertainty": 1e-10, "steps": 50, "reason": ""}
     refused = {**check, "case": "release", "distances": [None, None], "reason": "no inertia"}

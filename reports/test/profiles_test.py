@@ -1,4 +1,4 @@
-"""Profiles of problems whose results are known by hand, and their description on the first page."""
+"""Tests performance profiles of problems with known results."""
 import math
 import unittest
 
@@ -10,7 +10,6 @@ LEVEL = 0.01
 
 
 def tried(key, quantities, cost=1.0, missing=""):
-    """Returns a formulation with one mesh. `quantities` is {name: (verdict, error, reaches the level)}."""
     found = series(key, [
         data.Verdict(name, kind, truth=1.0, truth_kind="exact", error=error, truth_uncertainty=1e-9,
                      reach={LEVEL: 1} if reached else {})
@@ -22,7 +21,6 @@ def tried(key, quantities, cost=1.0, missing=""):
 
 
 def case(name, *points):
-    """Returns a case with these points, which are lists of series."""
     return data.Case(name, "", "", [data.Point(f"p{i}", str(i), list(s), {})
                                     for i, s in enumerate(points)])
 
@@ -31,8 +29,8 @@ GOOD, POOR = ("pass", 0.0, True), ("pass", 0.0, False)
 
 
 def two():
-    """Returns two cases with two formulations. Formulation a costs less than b (1/2 and 1/4 of its cost) but solves only
-    one of the two problems in the second case."""
+    """Returns two cases with two formulations. Formulation a costs 1/2 or 1/4 of b but solves only one of the two
+    problems in the second case."""
     first = case("first", [tried("a", {"u": GOOD}, 1), tried("b", {"u": GOOD}, 2)])
     second = case("second", [tried("a", {"u": GOOD, "v": POOR}, 1),
                              tried("b", {"u": GOOD, "v": GOOD}, 4)])
@@ -40,7 +38,6 @@ def two():
 
 
 def at(compared, question, factor, offered=False):
-    """Returns {formulation: share within the factor}."""
     places = profiles.places(profiles.FARTHEST[question.unit])
     return {k: s[places.index(factor)] for k, s in compared.profile(question, offered).items()}
 
@@ -141,7 +138,7 @@ class Weights(unittest.TestCase):
         self.assertEqual([compared.profile(question, True)[k][-1] for k in "ab"], [1, 1])
 
     def test_second_names_and_other_truths(self):
-        """A second name is not a separate problem. A quantity whose reference value is not exact is not a problem either."""
+        """Second names, and quantities without an exact reference value, are not problems."""
         names = [tried(k, {"C_xx": GOOD, "C_ux_Fx": GOOD, "f": GOOD}) for k in "ab"]
         for one in names:
             one.meshes[0].values = {"C_xx": 2.0, "C_ux_Fx": 2.0, "f": 3.0}

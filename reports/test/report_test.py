@@ -1,4 +1,4 @@
-"""Reports as a whole, the report of a scene, and pages of cases."""
+"""Tests whole reports, reports of scenes, and pages of cases."""
 import html
 import html.parser
 import json
@@ -15,7 +15,7 @@ from reports.style import Styles
 from reports.test import results
 
 
-# Files that other commands leave next to the results, with some data for every page.
+# Files that other commands write next to the results.
 MESHES = {"parameters": "shear=0", "meshes": [8, 256]}
 EXPERIMENTS = [
     {
@@ -252,11 +252,8 @@ class SceneReport(ProgramTest):
                          [("u", ["a", "b"]), ("w", ["b"])])
 
 
-# Pages of cases: the scene comes first, every quantity is explained, figures have at most eight curves, and errors
-# below the uncertainty of the reference value are marked.
+# Tests of pages of cases.
 class Site:
-    """The parts of a site that a chart uses."""
-
     def __init__(self):
         self.said, self.styles, self.paper = [], Styles([]), paper.Paper("", ())
 
@@ -267,7 +264,6 @@ class Site:
 
 
 def series(key, errors, truth=2.0, uncertainty=2e-6):
-    """Returns a series on meshes of 1, 2, 4 ... elements with these errors."""
     judged = data.Verdict("u", "pass", truth=truth, truth_uncertainty=uncertainty,
                           truth_kind="exact", tolerance=1e-3 * truth)
     meshes = [data.Mesh(2**i, "ok", "", data.Clock(0, 1e-3, 1e-3 * 2**i, 1e-3 * 2**i, 1), 8, 4, "",
@@ -284,8 +280,8 @@ def point(*found):
 class Figures(unittest.TestCase):
 
     def test_below_the_digits(self):
-        """If the reference value is known to 1e-6, two of four markers must be hollow and on the line of this value,
-        and the legend must explain them."""
+        """Markers of errors below the uncertainty of the reference value (1e-6) are hollow, and the legend explains
+        them."""
         site, own = Site(), point(series("beamw", (1e-2, 1e-4, 1e-8, -1e-9)))
         image = plots.errors_figure(site, own, "u", own.series, ("elements",), "f")
         self.assertIn(OPEN, html.unescape(image.markup))
@@ -310,7 +306,7 @@ class Figures(unittest.TestCase):
         shown, further = plots.leading(own, "u")
         self.assertEqual([s.key for s in shown], [*names, "f0:mass=lumped"])
         self.assertEqual([s.key for s in further], ["sheet_third_printed", "f1:mass=lumped"])
-        # f0 is on the front with its first mesh and f11 with its last mesh; of the other series, the most accurate are drawn
+        # f0 and f11 are on the front; of the other series, the most accurate are drawn
         many = point(*[series(f"f{i}", (1e-2, 10.0**-i)) for i in range(12)])
         shown, further = plots.leading(many, "u")
         self.assertEqual(len(shown), MOST_CURVES)

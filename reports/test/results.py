@@ -3,8 +3,6 @@ from reports import data
 
 
 class Site:
-    """The parts of a site that a page uses. `pages` stores the context given to each template."""
-
     def __init__(self, results="", truths="", cases=()):
         self.results, self.truths, self.cases = results, truths, list(cases)
         self.kinds, self.pages = {}, {}

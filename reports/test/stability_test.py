@@ -1,4 +1,4 @@
-"""The pages of stability and of Newton's method, the table of predictions, and results of other programs."""
+"""Tests the pages of stability and of Newton's method, analytic predictions, and results of other programs."""
 import json
 import math
 import random
@@ -121,8 +121,6 @@ DATA = {
 
 
 class NewtonSite(results.Site):
-    """A site that also stores the drawings."""
-
     def __init__(self, folder):
         super().__init__(str(folder / "results.h5"))
         self.images = []
@@ -259,14 +257,13 @@ class Beside(ProgramTest):
         self.assertTrue(data.style_beside(3)["hollow"])
 
 
-# Two runs of verify must give the same best formulations, with the same n and ties, although their times differ.
+# Two runs of `verify` give the same formulations of lowest cost, although their times differ.
 SELECTION = ("elastica/default or c_column/default or spherical_joint/default or "
              "warping_torsion/default or rotating_cantilever/default")
 LEVELS = (*data.REACH, 3e-3, 2e-5)
 
 
 def told(cases):
-    """Returns the answers without times."""
     return [{name: value for name, value in row.items() if name != "seconds"}
             for row in answers_table.rows(cases, LEVELS, everywhere=True)]
 

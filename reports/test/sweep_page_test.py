@@ -1,4 +1,4 @@
-"""Pages of sweeps: their parts, the maps that the reader selects, and the page of a real sweep."""
+"""Tests pages of sweeps."""
 import html
 import json
 import re
@@ -19,8 +19,8 @@ KEYS = ("beamw", "collocation", "sheet_third")
 
 
 def errors(key):
-    """Returns the function of points and elements that gives the errors of a formulation. beamw is within the tolerance
-    for small values on the first axis, collocation everywhere with 2 elements, and sheet_third nowhere."""
+    """Returns the error of a formulation as a function of points and elements. beamw is within the tolerance for
+    small values on the first axis, collocation everywhere with 2 elements, and sheet_third nowhere."""
     level = {"beamw": lambda at, n: np.where(at[:, 0] < 0.55, 0.001, 0.5) / n**0.1,
              "collocation": lambda at, n: np.full(len(at), 0.03 / n**2),
              "sheet_third": lambda at, n: np.full(len(at), 0.3 / n)}
@@ -28,7 +28,6 @@ def errors(key):
 
 
 def text_of(page):
-    """Returns the text of a page without its drawings."""
     plain = re.sub(r"<(svg|style|script).*?</\1>", "", page, flags=re.S)
     return html.unescape(re.sub(r"\s+", " ", re.sub(r"<[^>]*>", "", plain)))
 
@@ -238,7 +237,7 @@ class Chosen(ProgramTest):
         assert done.returncode == 0, done.stderr
 
     def setUp(self):
-        """Uses the folder of the class."""
+        pass
 
     def chosen(self, change, page="index.html"):
         site = self.folder / "site"

@@ -1,4 +1,4 @@
-"""Values that reports compute from a sweep: counts, fields and boxes."""
+"""Tests values that reports compute from a sweep."""
 import itertools
 import unittest
 
@@ -15,7 +15,7 @@ QUANTITIES = (("u", "m"), ("v", "m"))
 
 
 class Counts(ProgramTest):
-    """Every count must agree with the result of a loop over the tables of the file."""
+    """Compares counts with those of loops over the tables of the file."""
 
     def made(self, points=None, axes=(WIDTH, ANGLE), **more):
         draw = np.random.default_rng(7)
@@ -160,8 +160,7 @@ class Counts(ProgramTest):
         self.assertEqual(answers.held(made.first.box), "all 50 points; 50 of all 100 cannot be judged")
 
     def test_a_ratio(self):
-        """The ratio of two axes with one unit must be used if it is more informative than the axes. The counts and the
-        exception of the ratio must be those of the points."""
+        """The ratio of two axes with the same unit is used if it describes the results better than the axes."""
         axes = (("length", "m", "sobol", "linear"), ("width", "m", "sobol", "linear"), ANGLE)
         points = sweeps.scattered(3000, (1, 10), (1, 4), (0, 0.9))
 
@@ -183,8 +182,7 @@ class Counts(ProgramTest):
             self.assertTrue(inside[outlier.point] and not good[outlier.point])
 
     def test_the_quantity_that_decides(self):
-        """The deciding quantity needs more elements than the other quantity. If neither is within the tolerance, no
-        quantity decides."""
+        """The quantity that needs more elements decides; if no quantity is within the tolerance, none decides."""
         def made(errors):
             sweep = stored.read(sweeps.store(self.folder / "d.h5", (WIDTH, ANGLE),
                                              sweeps.grid(WIDTH, ANGLE), {"beamw": errors},
@@ -223,7 +221,6 @@ class Refused(ProgramTest):
 
 
 def lattice_of(*axes):
-    """Returns the lattice of a grid with a few values."""
     out = []
     for name, unit, kind, values in axes:
         axis = stored.Axis(name, unit, kind, len(values), False,
@@ -237,8 +234,7 @@ def lattice_of(*axes):
 class Boxes(unittest.TestCase):
 
     def largest(self, axes, holds):
-        """Returns the largest box and its description, for grid points within the tolerance that are given by their
-        indices."""
+        """Returns the largest box of grid points within the tolerance, and its description."""
         cells = lattice_of(*axes)
         good = np.array([holds(*at) for at in itertools.product(*map(range, cells.shape))], int)
         box = boxes.largest([cells], [(good, 1 - good)])
@@ -311,7 +307,7 @@ class Boxes(unittest.TestCase):
 class Fields(unittest.TestCase):
 
     def state(self, *reached, points=None):
-        """Returns the state of points given by the first mesh within the tolerance: 0, 1, 2, none or without a solution."""
+        """Returns the states of points with known first meshes within the tolerance."""
         look = maps.Look((1, 2, 4))
         reach = np.bincount(reached, minlength=5)
         found = int(maps.states(reach, np.array(points or len(reached)), look))
@@ -334,7 +330,7 @@ class Fields(unittest.TestCase):
         self.assertEqual(len(set(look.fill.values())), len(look.fill))
 
     def test_errors(self):
-        """The upper end of a class is not below any error in the class, but that of the next smaller class is."""
+        """The errors of a class are between the upper end of the next smaller class and its own upper end."""
         levels = sweep_page.levels_of(0.003)
         self.assertIn(0.3, levels)
         for error in (1e-9, 0.0123, 0.01, 0.003, 0.0031, 0.5, 0.99):

@@ -1,4 +1,4 @@
-"""Sweeps of artificial errors, stored in the format of `beamwork sweep`, for tests of their page."""
+"""Sweeps of artificial errors in the format of `beamwork sweep`, for tests."""
 import itertools
 
 import h5py
@@ -21,7 +21,7 @@ STEP = 20_000  # number of points that are written at once
 
 
 def grid(*axes):
-    """Returns the points of a grid. The axes are (name, unit, kind, values or words)."""
+    """Axes are (name, unit, kind, values or words)."""
     values = [range(len(a[3])) if a[2] == "words" else a[3] for a in axes]
     return np.array(list(itertools.product(*values)), float)
 
@@ -47,7 +47,6 @@ def least_of(error, meshes, tolerance):
 
 
 def table_of(rows, columns):
-    """Returns rows of strings and numbers as an array with these named columns."""
     return np.array([tuple(x.encode() if isinstance(x, str) else x for x in row) for row in rows],
                     columns)
 
@@ -100,7 +99,6 @@ def store(path, axes, points, errors, meshes=(1, 2, 4, 8), quantities=(("u", "m"
 
 
 def fill(table, part, points, unit, errors, meshes, q, tolerance, status, kind, doubt):
-    """Fills some points of all tables."""
     f, m = len(errors), len(meshes)
     error = np.zeros((len(points), f, m, q))
     for i, of in enumerate(errors.values()):

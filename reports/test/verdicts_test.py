@@ -1,4 +1,4 @@
-"""Verdicts and their presentation in reports: causes, checks, the list of known deviations and mechanisms."""
+"""Tests verdicts, checks and known deviations in reports."""
 import json
 import re
 import unittest
@@ -11,7 +11,6 @@ from reports.test.results import Site, case, series, verdict
 
 
 def told():
-    """Returns the part of the schema that describes verdicts and the following tables."""
     return run("schema").stdout.split("/cases/CASE/verdicts:")[1]
 
 
@@ -144,8 +143,7 @@ class Checks(ProgramTest):
         self.assertEqual((found["mutants"], found["fuzz"]), (mutants, fuzz))
 
     def test_smallest_faults(self):
-        """The smallest faults are those of the shown cases, undetected faults have a reason, and every constant of a
-        formulation is listed."""
+        """Only faults of the shown cases are listed, and each undetected fault has a reason."""
         self.assertFalse(self.context(case("none"))["noticed"])
         found = self.context(case("elastica"), case("cross_flexure"))["noticed"]
         self.assertEqual({row["case"] for row in found["rows"]}, {"elastica", "cross_flexure"})
@@ -155,7 +153,7 @@ class Checks(ProgramTest):
             self.assertEqual(list(of), found["constants"])
 
     def test_coverages(self):
-        """Coverages are sums over cases. Formulations with biased limits are counted separately."""
+        """The coverage of a group is the sum over its cases."""
         rows = [row("collocation", 0, 4, 4), row("collocation", 1, 3, 2), row("beamw", 0, 5, 1)]
         one = data.Case("one", "", "", [], rows)
         two = data.Case("two", "", "", [], [row("collocation", 0, 6, 5)])
@@ -188,7 +186,7 @@ def known(quantity, kind, error, **more):
 
 
 def sheet(second_name):
-    """Returns results of a corrected form and its misprint, with a second name of one entry that has this value."""
+    """Returns results of a corrected formulation and of its misprint."""
     values = {"C_ux_Fx": 1.5, "C_xx": second_name, "C_zz": 2.0}
     told = known("C_ux_Fx", "wrong limit, as predicted", 0.01, predicted=1.01 * (1 + 1e-6))
     right = [told, known("C_xx", "biased", 4e-4), known("C_zz", "biased", -3e-4)]
@@ -250,8 +248,7 @@ class Deviations(unittest.TestCase):
         self.assertIsNone(found["farthest"])
 
     def test_what_is_left_open(self):
-        """The unexplained part of a limit is its distance from the predicted limit or, if there is none, from the
-        reference value, relative to the reference value."""
+        """The unexplained deviation of a limit is relative to the reference value."""
         there = {"limit": 2.02, "truth": 2.0, "error": 0.01}
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", predicted=2.03, **there)), 0.005)
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", **there)), 0.01)
@@ -311,7 +308,6 @@ class Page(ProgramTest):
             r"\[us\] in an iteration.*\n +sheet_third +1(?: +-?[\d.]+){5}\n"
             r" +dense ([\d.]+) ms \(243 unknowns\): ([\d.]+) times", done.stdout)
         self.assertIsNotNone(parts, done.stdout)
-        # only benchmarks check the values, because on a busy machine differences may be negative
         self.assertTrue(all(float(part) > 0 for part in parts.groups()), done.stdout)
         page = self.page()
         self.assertIn("time here", page)

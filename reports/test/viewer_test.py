@@ -1,4 +1,4 @@
-"""Pages with scripts: the viewer, the explorer and the behaviour of pages."""
+"""Tests pages with scripts, such as the viewer and the explorer."""
 import base64
 import json
 import math
@@ -55,7 +55,7 @@ class Stored(ProgramTest):
         return whole.reshape(len(self.found["states"]), -1, width)
 
     def test_nodes(self):
-        """Nodes have the positions of the results to half a unit of the stored digits."""
+        """The positions of nodes equal those of the results, within half a unit of the last stored digit."""
         half, nodes = self.found["half"], self.numbers("nodes", 3) * self.found["half"]
         for k, of in enumerate(shapes.exaggerations(self.shapes)):
             wanted = self.shapes.nodes[0] + of * (self.shapes.nodes[k] - self.shapes.nodes[0])
@@ -76,7 +76,7 @@ class Stored(ProgramTest):
         self.assertLess(max(nodes | set(self.found["held"])), self.found["ends"])
 
     def test_a_path_has_one_exaggeration(self):
-        """A state near the start of a path must not be exaggerated more than its end."""
+        """All states of a path have the same exaggeration."""
         move = np.array([0, 1e-12, 1e-3])
         s = types.SimpleNamespace(kind=["undeformed", "path", "path"], sections=[np.zeros((1, 4, 2))],
                                   position=np.array([[[0, 0, 0], [1, m, 0]] for m in move], float),
@@ -137,7 +137,7 @@ class Explorer(ProgramTest):
             return stored["w"][text] if isinstance(text, int) else text
 
         def values(columns):
-            """Returns the values. Those of quantities with a reference value are computed from the errors."""
+            """Returns the values, which are computed from errors if there is a reference value."""
             errors, _, truth, *plain = map(told, columns)
             if plain:
                 return plain[0].split()
@@ -195,7 +195,7 @@ class Behaviour(ProgramTest):
         cls.site = drawn(cls.class_folder(), "-k", "elastica or warping_torsion/default")
 
     def done(self, page, action, *options):
-        """Returns the text that the action wrote into `out`, on a page opened from its file."""
+        """Returns the text that the action wrote into `out`."""
         copy = self.site / f"acted_{page}"
         text = (self.site / page).read_text(encoding="utf-8")
         copy.write_text(text.replace("</body>", BEHAVIOUR_ACTION.format(action=action) + "</body>"),

@@ -1,4 +1,4 @@
-"""Series of VTK files: every state must equal that of /VTKHDF, read by VTK if VTK is installed."""
+"""Compares series of VTK files with /VTKHDF."""
 import base64
 import contextlib
 import io
@@ -21,7 +21,6 @@ except ImportError:
 
 
 def written(results, target):
-    """Returns the exit status and the message of the command."""
     told = io.StringIO()
     with contextlib.redirect_stdout(told), contextlib.redirect_stderr(told), mock.patch.object(
             sys, "argv", ["reports", str(results), "unused", "--vtk", str(target)]):
