@@ -64,7 +64,6 @@ def cantilever(force, kind="{linear: {}}"):
 
 
 def hinge():
-    """Returns the scene of two crossed leaves with only one of its stiffnesses."""
     text = (EXAMPLES / "cross_flexure_hinge.yaml").read_text(encoding="utf-8")
     return re.sub(r"^  (k_y: |- {quantity: k_y,).*\n", "", text, flags=re.M)
 
@@ -74,7 +73,6 @@ def numbers(line):
 
 
 def mesh_of(deck):
-    """Returns ({node: position [3]}, node numbers of elements [count, 20]) of a deck."""
     nodes, elements, card, pending = {}, [], "", []
     for line in deck.read_text(encoding="utf-8").splitlines():
         if line.startswith("*"):
@@ -99,7 +97,6 @@ class ExportTest(SceneCase):
         return path
 
     def solved(self, scene, *options):
-        """Returns {quantity: value} computed with solid elements."""
         deck = self.deck(scene, *options)
         done = subprocess.run([CCX, "deck"], cwd=self.folder, capture_output=True, text=True,
                               check=False, env={**os.environ, "OMP_NUM_THREADS": "1"})

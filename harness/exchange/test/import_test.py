@@ -181,7 +181,6 @@ class Import(ProgramTest):
         self.assertEqual(len(elsewhere.stderr.splitlines()), 1, elsewhere.stderr)
 
     def beside(self, text, name, *options):
-        """Runs verify with these imported values."""
         self.read(text)
         given = ["--imported", self.folder / "theirs.h5"] if text else []
         return run("verify", "-k", "elastica and w_over_L and not shear", "-f", "collocation", *given, "-o",

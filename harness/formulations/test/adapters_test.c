@@ -38,7 +38,6 @@ static void start(const element_type *given, const section *c, adapters_subject 
              given->name, f.text);
 }
 
-/* Computes energy, forces [n] and stiffness [n x n] of the nodes. */
 static status assemble(const adapters_subject *s, const node_state x[], double *energy, double F[],
                        double K[])
 {

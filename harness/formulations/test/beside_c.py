@@ -14,7 +14,6 @@ class BesideC(ProgramTest):
         return json.loads(record.read_text(encoding="utf-8"))["verdicts"]
 
     def like_timoshenko(self, element, name, cases):
-        """Requires the verdicts and limits of timoshenko.c. Returns the cases that have passed."""
         there = compile_shared(EXAMPLES / "timoshenko.c", self.folder / "timoshenko.so")
         here = self.verdicts(element, name, cases)
         there = self.verdicts(there, "timoshenko", cases)

@@ -89,7 +89,6 @@ class Path:
         self.strain, self.twist = self.at(twist)[0], twist / self.n
 
     def under(self, torque):
-        """Returns the twist under a torque, by bisection."""
         low, high = self.n * self.twist, 2
         for _ in range(100):
             middle = (low + high) / 2
@@ -115,7 +114,6 @@ class History(ProgramTest):
         return {c["quantity"]: dict(zip(c["curve_x"], c["curve_value"])) for c in record["curves"]}, record
 
     def follows(self, torque, steps, twist_of, n=1, close=2e-6):
-        """Checks that the torques at stations are those of a bar with these accepted steps."""
         path, compared = Path(n), 0
         for at in steps:
             if at in torque:
@@ -299,7 +297,6 @@ const element_type beamwork_element""").replace(".stress = stress,", f""".stress
         self.follows(dict(zip(curve["curve_x"], curve["curve_value"])), curve["curve_x"][1:], lambda at: 0.8 * at, 2)
 
     def faults(self, *changes, file=ROOT / "harness/formulations/test/midpoint.c"):
-        """Returns the violated requirements of the element in C after changes, and its measured values."""
         text = file.read_text(encoding="utf-8")
         for before, after in changes:
             self.assertIn(before, text)

@@ -21,7 +21,6 @@ const element_type beamwork_element = {(unsigned)of()};
 
 
 def public_headers():
-    """Returns element.h and all headers that it includes."""
     out = subprocess.run(["cc", "-I.", "-M", "-xc", "-"], cwd=ROOT, check=True, text=True,
                          input='#include "elements/element.h"\n', stdout=subprocess.PIPE).stdout
     return [word for word in out.split() if word.startswith("elements/")]

@@ -81,7 +81,6 @@ class OwnMass(Speaker):
         self.assertEqual(beam, self.solved(self.python(), "own_mass_py", "deep_beam", 4)[1])
 
     def contract(self, element, code=0):
-        """Returns the outcomes of the checks of inertia, and the violated requirements."""
         out = self.answered("element-test", "own_mass_py", "--element", element, "--format", "json", code=code,
                             env=WITH_MODULES).stdout
         record = json.loads(out)

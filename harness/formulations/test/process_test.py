@@ -132,7 +132,6 @@ class InPython(ProgramTest):
         self.assertIn("hello", done.stderr)
 
     def told(self, before, after, *words, code=1):
-        """Checks that the example with the given change fails with a message that contains the words."""
         done = self.solve(self.example(before, after))
         self.assertEqual(done.returncode, code, done)
         for word in words:
@@ -157,7 +156,6 @@ class InPython(ProgramTest):
                   code=2)
 
     def stress(self, back):
-        """Solves the example with this stress function in place of a constant stiffness."""
         text = (ROOT / "elements/examples/timoshenko.py").read_text(encoding="utf-8")
         text = text.replace("    return np.diag(", "    kind.C = np.diag(").replace(
             "if __name__", f"def stress(kind, e):\n"

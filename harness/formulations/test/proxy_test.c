@@ -78,7 +78,6 @@ static void learn(void)
     served->prepare(&request, kind[head[0]], NULL);
 }
 
-/* Writes the requested outputs of elements: strains e, J and H, or energy, sigma and C. */
 static void evaluate(int64_t what, int64_t count, const int64_t number[], const double body[],
                      double *out[3])
 {

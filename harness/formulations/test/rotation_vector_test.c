@@ -41,7 +41,6 @@ static void strains_of(double d, double s, double g[3])
     memcpy(g, e, 3 * sizeof *g);
 }
 
-/* Checks the shear strain along z, by which the point is rotated too far about y. */
 static void check(double s)
 {
     static const double d[] = {0.02, 0.01};

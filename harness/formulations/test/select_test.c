@@ -32,8 +32,6 @@ static void add_bracket(sample *s, const char *piece, int needed)
     strncat(s->bracketed, piece, LONGEST - 1 - strlen(s->bracketed));
 }
 
-/* Appends a random expression. `around` is the precedence of the enclosing operator: 0 or, 1 and, 2
- * not. */
 static int grow(sample *s, uint64_t *seed, int depth, int around)
 {
     enum { OR, AND, NOT, WORD };
@@ -141,7 +139,6 @@ static status all_met(const char *expression, fault *f)
     return select_all_met(expression, &met, f);
 }
 
-/* Checks which expressions select every text that contains the name of the case. */
 static void covered(void)
 {
     const struct {

@@ -20,7 +20,6 @@ static const char leaf[] =
     "loads:\n"
     "  push: {force: [0, 1, 0], on: tip}\n";
 
-/* Checks the status, and that the message contains the word. Frees the message. */
 static inline void leaf_fails(bw_status got, bw_status expected, char *why, const char *word)
 {
     const int reported = why != NULL && strstr(why, word) != NULL;

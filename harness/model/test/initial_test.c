@@ -154,7 +154,6 @@ static void initial_tests(void)
 
 enum { POINTS = 13, MOST = 60 };
 
-/* Computes the centre line of one element whose tip is displaced and rotated. */
 static void moved(const char *name, const double tip[6], centreline_point out[POINTS])
 {
     const double end = 1;

@@ -163,7 +163,6 @@ static void movable_tests(void)
 
 enum { MOST = TEST_ELEMENT_COORDINATES };
 
-/* Computes the mass matrix of a scene with `mass: lumped`, which is common to all formulations. */
 static void at_nodes(const test_element *s, const node_state x[], double M[])
 {
     const lumped_mass whole = lumped_of(&s->section, s->request.features, s->request.length);

@@ -47,8 +47,6 @@ static void beam_free(beam *b)
     matrices_free(&b->M);
 }
 
-/* Returns the energy from the bending strains, which are the end slopes minus the slope of the
- * chord. */
 static double beam_energy(void *context, const double x[])
 {
     const beam *b = context;

@@ -37,7 +37,6 @@ static inline void strings_free(strings *s)
     matrices_free(&s->M);
 }
 
-/* Returns the energy as a sum of squared elongations, without cancellation. */
 static inline double strings_energy(void *context, const double x[])
 {
     const strings *s = context;

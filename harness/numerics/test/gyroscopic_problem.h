@@ -51,7 +51,6 @@ static inline void gyroscopic_problem_fill(problem *p, double gyroscopic, int ma
     free(B);
 }
 
-/* Returns the upper triangle in sparse form, including zero entries. */
 static inline sparse gyroscopic_problem_upper(int n, const double A[])
 {
     sparse s = {n, 1, calloc((size_t)n + 1, sizeof(int)), NULL, NULL, 0};

@@ -478,8 +478,6 @@ typedef struct triangular_problem {
     double L_value[FILL], D[TRIANGULAR_MOST], y[TRIANGULAR_MOST];
 } triangular_problem;
 
-/* Fills dense blocks with `size` rows, couples each with another random block, and adds a few
- * random entries. */
 static void fill(int n, int size, uint64_t *state, triangular_problem *p)
 {
     int linked[TRIANGULAR_MOST], entries = 0;

@@ -46,8 +46,6 @@ static void fill_path(fields_bench *b)
         b->iteration[i].correction = i + 1;
 }
 
-/* Makes meshes with errors of 0.4, 0.04, .... Each is the coarsest mesh within one of the levels.
- */
 static void make(fields_bench *b)
 {
     memset(b, 0, sizeof *b);

@@ -241,7 +241,6 @@ class Readable(Folder):
 class Gate(Folder):
 
     def altered(self, change):
-        """Runs one case with a changed copy of the reference values. Returns the exit status and the output."""
         pathlib.Path(self.path("t.h5")).write_bytes(pathlib.Path(TRUTHS).read_bytes())
         with h5py.File(self.path("t.h5"), "r+") as file:
             change(file)

@@ -14,7 +14,6 @@
 
 enum { WRITERS = 6, TIMES = 10, KILLS = 60, COUNT = 20000 };
 
-/* Writes `mark` to the group of this name, as an attribute and COUNT times in a data set. */
 static status leave(const char *path, const char *name, double mark)
 {
     static double all[COUNT];

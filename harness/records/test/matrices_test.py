@@ -288,7 +288,6 @@ class StateSpace(Matrices):
         return ((L[0] + s*L[1] + s*s*L[2]) @ numpy.linalg.solve(K + s*C + s*s*M, B) + L[3])*moved
 
     def compare(self, scene, formulation, n=2, within=1e-8):
-        """Compares every response of the scene with that of its state space. Returns the folder and the values."""
         shutil.rmtree(self.folder/formulation.replace(":", "_"), ignore_errors=True)
         folder = self.solve(scene, formulation, "--state-space", n=n)
         if folder is None:

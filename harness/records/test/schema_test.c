@@ -54,7 +54,6 @@ static void parameters_differ(const case_type *type)
                      "%s: parameter %s beside a field", type->name, list[k]->name);
 }
 
-/* Stores a value at the offset of the field. No other field has this value. */
 static void plant(void *record, const schema_field *f, int value)
 {
     char *at = (char *)record + f->offset;

@@ -46,7 +46,6 @@ class Schema(ProgramTest):
                 if (keys or not f["key"]) and (around or not f["said_around"])]
 
     def check_table(self, table, fields):
-        """Checks the names, types and units of the columns, their order, and the offsets of texts."""
         columns = table.dtype.names
         self.assertEqual(list(columns[:len(fields)]), [f["name"] for f in fields])
         for name, attribute in (("unit", "units"), ("summary", "summaries")):

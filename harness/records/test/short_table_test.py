@@ -17,7 +17,6 @@ def names_of(case, rows):
 
 
 def change_rows(file, table, change):
-    """Applies change(case, rows of the case) to a table of every case."""
     for case, group in file["cases"].items():
         rows = group[table][()]
         change(case, rows)
@@ -38,7 +37,6 @@ class ShortTable(ProgramTest):
         cls.row = list(csv.DictReader(cls.text.splitlines()))
 
     def noticed(self, table, change, former=None):
-        """Compares the table with a run to which change(case, rows) was applied. Returns the lines of output."""
         altered(self.old, self.new, lambda file: change_rows(file, table, change))
         done = run("compare", former or self.table, self.new)
         self.assertIn(done.returncode, (0, 1), done)

@@ -29,7 +29,6 @@ def table_of(stored, path):
 
 
 def altered(old, new, change):
-    """Writes a copy with a valid checksum to which change(file) was applied."""
     shutil.copy(old, new)
     with h5py.File(new, "r+") as file:
         change(file)
@@ -39,7 +38,6 @@ def altered(old, new, change):
 
 @contextlib.contextmanager
 def group_of(path, name="sweep"):
-    """Yields the group of an experiment in a file."""
     with h5py.File(path) as file:
         yield file["experiments"][name]
 
@@ -56,7 +54,6 @@ def of_dtype(values):
 
 
 def put_experiment(path, name, record):
-    """Writes an artificial record {attribute or table: value or rows} as an experiment writes it."""
     with h5py.File(path, "a") as file:
         if "schema" not in file.attrs:
             file.attrs.update(schema=numpy.bytes_("beamwork-results"), schema_version=3)

@@ -38,7 +38,6 @@ class Sweeps(ProgramTest):
         return lines, pairs
 
     def check(self, change, lines, *options):
-        """Compares the sweep with a changed copy, in both directions."""
         new = altered_sweep(self.old, self.new, change)
         self.assertEqual(self.compared(int(bool(lines)), new, *options)[0], lines)
         back, _ = self.compared(int(bool(lines)), self.old, *options, old=new)
@@ -183,7 +182,6 @@ class Part(ProgramTest):
         table_of(cls.whole, cls.table)
 
     def compared(self, new, code, *words, old=None):
-        """Compares with the complete run and its short table, in both directions."""
         for before in [old] if old else [self.whole, self.table]:
             for pair in ((before, new), (new, before)):
                 done = run("compare", *pair)
@@ -275,7 +273,6 @@ class Hash(ProgramTest):
         verify("snap_through/default and beamw", cls.old)
 
     def hashes(self, change, code):
-        """Compares the hashes of the run and of a copy to which change(file) was applied."""
         new = altered(self.old, self.folder / "new.h5", change)
         out = self.answered("compare", "--hash", self.old, new, code=code).stdout
         return [line.split()[0] for line in out.splitlines()]

@@ -58,7 +58,6 @@ class BlindSpots(unittest.TestCase):
         return done.returncode == 1
 
     def sample(self, rows):
-        """Returns evenly spaced rows with verdicts at the default point of a built-in case."""
         quick = [r for r in rows if not r["parameters"] and list((ROOT / "cases").glob(r["case"] + ".[cy]*"))
                  and r["noticed"] and "motion" not in r["case"] and not blind_spots.passes(r["noticed"])]
         return quick[::max(1, len(quick) // 6)]

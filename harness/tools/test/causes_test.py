@@ -29,7 +29,6 @@ def source(formulation):
 
 
 def shared():
-    """Returns {name: text} of the declarations shared by the formulations of a family."""
     found = {}
     for header in (ROOT / "elements").glob("*/*.h"):
         text = header.read_text(encoding="utf-8").replace("\\\n", " ")
@@ -38,7 +37,6 @@ def shared():
 
 
 def members(formulation):
-    """Returns {member: value} of the declaration of a formulation, including declarations of its family."""
     body, macros = source(formulation).split(f"element_{formulation} = {{")[1], shared()
     for _ in range(3):  # declarations may refer to others, at most three levels deep
         body = re.sub(r"(?<![.\w])([A-Z]\w+)(?=,)", lambda m: macros.get(m[1], m[1]), body)
@@ -46,7 +44,6 @@ def members(formulation):
 
 
 def words_of_prepare(formulation):
-    """Returns the words of the function prepare of the formulation."""
     body = re.search(r"static status prepare\(.*?\n\}\n", source(formulation), re.S).group(0)
     return re.findall(r"\w+|[^\w\s]", body)
 
@@ -133,8 +130,6 @@ class Choice(unittest.TestCase):
 class Outcome(unittest.TestCase):
 
     def laboratory(self, errors):
-        """Returns a laboratory whose limits have these errors: {changed parameters, or formulation: error of the
-        limit}."""
         made = causes.Laboratory("program", 0)
 
         def series(case, formulation, parameters, meshes):

@@ -20,7 +20,6 @@ TREES = ("cases", "docs", "elements", "harness", "reference", "reports")
 
 
 def files(*endings):
-    """Returns the files of the repository with these endings, without build products and files of the user."""
     top = [path for path in ROOT.iterdir() if path.is_file()]
     below = [path for tree in TREES for path in (ROOT / tree).rglob("*")]
     return [path for path in top + below if path.suffix in endings]

@@ -106,7 +106,6 @@ class Dependencies(Folder):
 
 
 def foreign_imports(path):
-    """Returns the top-level names of the modules that a file imports, without those of Python's library."""
     import ast
     import sys
     names = set()

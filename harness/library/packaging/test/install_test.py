@@ -65,7 +65,6 @@ class Installed(ProgramTest):
         return done.stdout
 
     def flags(self, *options):
-        """Returns the flags that pkg-config reports, adapted to the location of the copied installation."""
         text = self.installed("--define-variable=prefix=" + str(self.root).replace(" ", r"\ "),
                               *options, "beamwork", program="pkg-config",
                               PKG_CONFIG_PATH=str(self.root / "lib" / "pkgconfig"))
@@ -78,7 +77,6 @@ class Installed(ProgramTest):
                        program=command[0])
 
     def check(self, program="./consumer", **changes):
-        """Checks that the values and documents equal those of the program, bit for bit."""
         text = self.installed(program=str(self.folder / program), **changes)
         version, *_ = text.splitlines()
         self.assertIn(version.split()[1], self.installed("--version"))

@@ -207,7 +207,6 @@ ESCAPED = "&lt;script&gt;alert(1)&lt;/script&gt;"
 class Shown(ModuleTest):
 
     def shown(self, thing):
-        """Returns the HTML of an object, after checking that its tags match."""
         html = thing._repr_html_()  # pylint: disable=protected-access
         for tag in ("table", "tr", "td", "th", "caption", "details", "pre"):
             self.assertEqual(html.count(f"<{tag}>") + html.count(f"<{tag} "),
@@ -321,7 +320,6 @@ class Tables(ModuleTest):
 class Drawn(ModuleTest):
 
     def lines(self, figure, axes=0):
-        """Draws the figure. Returns the points of each line in one of its axes."""
         figure.savefig(self.folder / "figure.png")
         self.assertGreater((self.folder / "figure.png").stat().st_size, 1000)
         return [line.get_xydata() for line in figure.axes[axes].get_lines()]

@@ -315,7 +315,6 @@ def in_use():
 
 
 def cycle(built):
-    """Makes an object of every kind that the library must free."""
     scene = bw.Scene.case("sheet_cantilever").set(tip_deflection=0.01)
     result = scene.solve("sheet_third", 1, shapes=3)
     if len(result.curve("C_zz_curve").x) + len(result.steps) + len(result.shapes.kinds) == 0:
@@ -331,7 +330,6 @@ def cycle(built):
 class Leaks(ModuleTest):
 
     def grown(self, work):
-        """Returns by how many bytes the memory in use grows while the work is repeated."""
         for _ in range(50):
             work()
         before = in_use()

@@ -25,7 +25,6 @@ bw = None if sanitized() else importlib.import_module("beamwork")
 
 
 def python(code, **options):
-    """Runs this code in another Python process. Returns the finished process with its output."""
     options = {"env": environment(**SETTINGS), **options}
     return subprocess.run([sys.executable, "-c", code], text=True, check=False,
                           stdout=subprocess.PIPE, stderr=subprocess.PIPE, **options)

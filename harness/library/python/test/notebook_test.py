@@ -83,7 +83,6 @@ class Notebook(ModuleTest):
 
     @staticmethod
     def reply(client, request):
-        """Returns the outcome of a request: ok, or the name of an exception."""
         while True:
             message = client.get_shell_msg(timeout=100)
             if message["parent_header"].get("msg_id") == request:

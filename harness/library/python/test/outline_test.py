@@ -24,7 +24,6 @@ def channel(depth, flange, t):
 class Outline(ModuleTest):
 
     def ours(self, words):
-        """Returns the constants of a section that the program computes from its dimensions."""
         names = ("A", "Iy", "Iz", "It", "Iw", "ys", "zs")
         text = f"""beamwork: 1
 sections:

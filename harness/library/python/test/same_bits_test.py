@@ -13,7 +13,6 @@ PART = {"hexapod_motion": {"time": 0.05}}
 
 
 def bits(value):
-    """Returns a string that differs for different floats. All NaNs have the same string."""
     return "nan" if value is None or math.isnan(value) else float(value).hex()
 
 
