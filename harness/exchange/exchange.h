@@ -13,7 +13,7 @@
 typedef struct axes {
     int own_axis[3]; /* indices 0..2 of the axes of beamwork that are x, y, z of the other program
                       */
-    int sign[3];     /* 1 or -1 */
+    int sign[3];     /* signs of these axes: 1 or -1 */
 } axes;
 
 extern const axes axes_same;
@@ -27,7 +27,7 @@ const scene_quantity *axes_quantity(const axes *a, const scene *s, const scene_q
 
 /* A scene as an input deck of CalculiX 2.20. Members are solids, and ends are rigid faces. */
 
-enum { DECK_MOST_ELEMENTS = 400 }; /* largest number of elements along a member */
+enum { DECK_MOST_ELEMENTS = 400 };
 
 typedef struct deck_request {
     const scene *scene;

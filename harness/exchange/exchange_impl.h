@@ -41,8 +41,8 @@ enum { BRICK_ALONG, BRICK_Y, BRICK_Z };
 /* Nodes are on a lattice with two steps per element. Numbering starts at the first corner. Numbers
  * of positions without a node are not used. */
 typedef struct brick {
-    int elements[3];               /* number of elements along x, y and z of the member */
-    int first_node, first_element; /* numbers, starting at 1 */
+    int elements[3]; /* number of elements along x, y and z of the member */
+    int first_node, first_element;
     /* centre of the first face [m]; the columns of `axes` are the axes x, y, z */
     double origin[3], axes[9];
     double length;

@@ -205,7 +205,7 @@ status export_support_check(const scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Returns REFUSED: a deck of solids cannot evaluate the quantity. */
+/* Returns REFUSED with the message that a deck of solids cannot evaluate the quantity. */
 
 static status refuse(const scene_quantity *q, const char *why, fault *f)
 {

@@ -33,7 +33,7 @@ typedef struct map_reader {
 typedef struct wanted {
     const document_node *key, *of, *where;
     const char *file, *under;
-    int column, abscissa; /* indices starting at 0; abscissa -1: none */
+    int column, abscissa; /* indices from 0; abscissa -1: there is none */
     int rows;
     double minus, times;
     int seen;

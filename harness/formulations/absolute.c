@@ -274,7 +274,7 @@ static status stress_at(const absolute_place *at, stress_output *out)
 {
     double F[N] = {0};
     if (at->history == NULL)
-        return STATUS_FAULT; /* the caller gives no history */
+        return STATUS_FAULT; /* an element with a history cannot be evaluated without it */
     if (out->residual != NULL)
         *out->residual = 0;
     if (out->energy != NULL)

@@ -11,8 +11,8 @@
 struct element_data {
     const element_type *given;
     int nodes, strains; /* numbers of nodes and strains of the completed type */
-    int history;        /* number of history values of the given type */
-    int scalars;        /* number of additional unknowns of a node */
+    int history;
+    int scalars;
     double length;
     double place[ELEMENT_MAX_NODES]; /* positions of the nodes, from 0 to 1 */
     field_mass mass;                 /* used if the type has no `inertia` */
@@ -72,7 +72,7 @@ void relative_geometric(const element_data *d, const double sigma[], double G[])
 enum { ABSOLUTE_NODE = 8, ABSOLUTE_KEPT = 11, ABSOLUTE_NODES = 7 };
 enum { ABSOLUTE_MOST = ABSOLUTE_NODE * ABSOLUTE_NODES };
 _Static_assert((int)ABSOLUTE_MOST <= (int)ELEMENT_MAX_STRAINS, "too many strains");
-/* Returns 1 if a type is completed in this way. */
+/* Returns 1 if a type is completed in this way (absolute.c). */
 int absolute_is(const element_type *given, const double options[]);
 /* Returns the function for the number of strains of an element with this number of nodes. */
 int (*absolute_strains(int nodes))(const double options[]);

@@ -196,7 +196,6 @@ void gather_run(int count, int nodes, size_t size, gather_element *element,
     free(g.answer);
 }
 
-/* State at which finite differences are computed. */
 typedef struct difference_place {
     const element_data *data;
     const node_state *x;
@@ -314,7 +313,7 @@ static void curvature(const difference_place *at, double H[])
     for (int j = 0; j < n; j++) {
         stencil_first(forces_at, at, n, j, column);
         for (int i = 0; i < n;
-             i++) { /* symmetric part, which is the derivative in the exponential chart */
+             i++) { /* the symmetric part is the derivative in the exponential chart */
             const double half = column[i] * per_unit(d, j) / 2;
             H[i * n + j] += half;
             H[j * n + i] += half;

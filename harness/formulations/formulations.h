@@ -89,8 +89,6 @@ double chart_unit(int c, int nodes, double length);
 void chart_dexp(const double psi[3], double T[9]);
 void chart_dexp_inverse(const double psi[3], double T[9]);
 
-/* Program, machine and libraries that computed a result. */
-
 typedef struct environment {
     const char *version,
         *released /* version of the program, and its date in the form 2026-11-21 */, *commit,
@@ -167,16 +165,12 @@ status formulations_add(const element_type *t, const char *from, fault *f);
 /* Returns the value of --element that loaded the type; NULL: the type was not loaded. */
 const char *formulations_element(const element_type *t);
 
-/* Formulations in separate processes, loaded with --element 'exec:COMMAND'. */
-
 enum { PROCESS_MOST = 16 };
 
 /* Returns 1 if another process computes this type. */
 int process_serves(const element_type *);
 /* Sets the time limit [s] of an answer, which is initially 120; 0: no limit. */
 void process_limit(int seconds);
-
-/* Damping matrices of formulations. */
 
 /* largest error of a scaled damping matrix: the difference of opposite entries, or the size of a
  * negative eigenvalue */
@@ -270,7 +264,6 @@ status select_all_met(const char *expression, const select_words *, fault *);
 /* Central finite differences of sixth order, for functions whose arguments are of the order of one.
  * */
 
-/* largest number of values of a function */
 enum { STENCIL_MOST = ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES };
 
 /* Step size h in units of the argument. The truncation error is h^6/140 times the seventh

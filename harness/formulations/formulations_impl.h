@@ -111,7 +111,6 @@ status channel_ask(channel *, enum channel_request what, int mask, int elements,
 void channel_note(channel *, status outcome, const fault *why);
 /* Sets the formulation name for later messages. */
 status channel_call(channel *, const char *name, fault *);
-/* Ends the process and frees the memory of the channel. */
 void channel_end(channel *);
 /* Marks the channel as broken, for a reason that the caller gives. Returns FAULT. */
 status channel_break(channel *, const char *why, fault *);
@@ -123,8 +122,8 @@ status channel_break(channel *, const char *why, fault *);
 typedef struct gather {
     int answered;    /* 0: states are gathered; 1: their answers are returned in the same order */
     int count, next; /* number of states, and number of answers that have been returned */
-    int nodes;       /* number of nodes of a state */
-    size_t size;     /* number of doubles in an answer */
+    int nodes;
+    size_t size;
     const element_data **data; /* [count] data of the type that is completed */
     const double **history;    /* [count] histories of the elements */
     node_state *x;             /* [count x nodes] */
@@ -154,7 +153,6 @@ const double *gather_next(gather *, const element_data *own, const node_state x[
 /* Computes the forces with the functions of the type. together: the gathered answers are returned,
  * or zeros while states are gathered; NULL: the functions are called. */
 status forces_of(const element_data *d, gather *together, const node_state x[], force_output *out);
-/* Returns the number of doubles in a gathered answer. */
 size_t forces_size(const element_data *d);
 /* Computes the answers of states first .. first + count - 1, including everything that the type
  * computes. Requires force_many. */

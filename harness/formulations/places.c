@@ -215,7 +215,7 @@ void places_motion(const element_data *d, const double e[], double B[])
     }
 }
 
-/* Numbers in a gathered answer, in this order. */
+/* Positions of the values in a gathered answer. */
 enum { OUTCOME, ENERGY, FORCES };
 
 status forces_of(const element_data *d, gather *together, const node_state x[], force_output *out)

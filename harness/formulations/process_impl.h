@@ -1,4 +1,3 @@
-/* Internal declarations for formulations in another process. */
 #ifndef BEAMWORK_PROCESS_IMPL_H
 #define BEAMWORK_PROCESS_IMPL_H
 
@@ -32,7 +31,6 @@ void frames_serve(process *p);
 void frames_serve_inertia(process *p);
 /* Sets the functions of the history of the type if it has one (process_frames.c). */
 void frames_serve_history(process *p);
-/* Sets the damping function of the type (process_frames.c). */
 void frames_serve_damping(process *p);
 /* Sets the function of the type for the motion of sections (process_frames.c). */
 void frames_serve_line(process *p);

@@ -236,7 +236,6 @@ static int tangent_at(const void *context, int i, double si, int j, double sj, d
     return (int)tangent_of(&there, values);
 }
 
-/* The tangent at e, or its derivative along e. */
 typedef struct tangents {
     relative_many all;
     double *C;

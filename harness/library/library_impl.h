@@ -26,7 +26,6 @@ typedef struct call {
  * default locale, with rounding to nearest and without traps. The library handles the errors of
  * GSL. */
 void call_begin(call *, char **why);
-/* Restores the settings of the host, and sets *why. */
 bw_status call_end(call *, status outcome);
 
 /* Formulations and number of processes of a call. */
@@ -38,7 +37,6 @@ enum { CONTESTANTS_MOST = 64 };
 /* Reads the reference values of a case and the known deviations; type NULL: only the known
  * deviations. */
 status known_read(const case_type *type, truths *out, fault *f);
-/* Reads the reference values of all cases. */
 status known_read_all(truths *out, fault *f);
 
 /* Locks HDF5 without changing its error handling. known_hold and known_release enclose the reading
@@ -87,8 +85,6 @@ status source_new(const case_type *type, scene_file *file, char *name, source **
 void source_release(source *); /* NULL: does nothing */
 const case_type *source_case(const source *);
 const scene_file *source_file(const source *); /* returns NULL for a built-in case */
-
-/* Contents of a bw_result. */
 
 enum { RESULT_COLUMNS = 32 };
 

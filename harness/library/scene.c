@@ -387,7 +387,8 @@ static status verify_prepare(verify_trial *v, const char *names, const char *opt
         {"jobs", OPTION_WHOLE, &r->jobs, 1, WORKERS_MOST},
         {"time_limit", OPTION_WHOLE, &r->time_limit, 0, LONGEST},
         {"refine", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS},
-        {"doublings", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS}, /* name in version 0.2 */
+        {"doublings", OPTION_WHOLE, &r->doublings, 0, DOUBLINGS}, /* former name of "refine", which
+                                                                   * version 0.2 used */
         {"shapes", OPTION_WHOLE, &r->shapes, 0, PICTURES},
         {"stop", OPTION_FILE, &r->stop, 1, INT_MAX},
         {"tolerance", OPTION_SHARE, &r->tolerance, 0, 0},

@@ -26,7 +26,8 @@ static status read_options(const char *json, solution_request *out, int *stop, f
 {
     const call_option table[] = {
         {"all_dofs", OPTION_SWITCH, &out->keep_all, 0, 1},
-        {"keep_all", OPTION_SWITCH, &out->keep_all, 0, 1}, /* name in version 0.2 */
+        {"keep_all", OPTION_SWITCH, &out->keep_all, 0, 1}, /* former name of "all_dofs", which
+                                                            * version 0.2 used */
         {"steps", OPTION_WHOLE, &out->steps, 1, STEPS_MOST},
         {"shapes", OPTION_WHOLE, &out->shapes, 0, SHAPES_ALL},
         {"threads", OPTION_WHOLE, &out->threads, 1, THREAD_POOL_MOST},
@@ -72,7 +73,7 @@ static double error_of(const subject *s)
                : NAN;
 }
 
-/* Sets the errors from the records of the quantities. */
+/* Computes the errors of the quantities from their records. */
 static status compare(bw_result *r, fault *f)
 {
     const gathering g = {&r->sweep, NULL, r->truths};

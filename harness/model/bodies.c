@@ -150,7 +150,7 @@ static const mesh_discrete *numbered(const model *m, int spring)
     return &m->mesh.discrete[m->mesh.discretes - m->mesh.springs + spring];
 }
 
-/* Adds the dashpot forces, damping x rate, to sigma. */
+/* Adds the dashpot forces (damping times rate) to sigma. */
 static void damp(const scene_spring *p, const double rate[], double sigma[])
 {
     double more[SPRING_STRAINS];

@@ -247,7 +247,6 @@ unsigned features_needed_by_quantity(const scene *s, int quantity)
     return features_needed(s) & (moves ? ~0U : ~inertia);
 }
 
-/* Finds the features that elements with this section require. */
 status features_of_section(const model *m, int index, unsigned *features, fault *f)
 {
     (void)f;

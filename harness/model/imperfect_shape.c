@@ -52,7 +52,6 @@ static void move_nodes(const double increment[], model_imperfect *p)
     }
 }
 
-/* Moves nodes by the shifts given in the scene. */
 static void add_shifts(const scene *s, scene_node node[])
 {
     for (int i = 0; i < s->imperfections; i++) {

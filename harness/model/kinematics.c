@@ -1,4 +1,3 @@
-/* Frames of vertices and their effect on elements. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>
@@ -412,7 +411,6 @@ const double *kinematics_strains(const model_state *s)
     return s->e;
 }
 
-/* Allocates a state with a block of `size` doubles. */
 static status block_alloc(size_t size, model_state **out, fault *f)
 {
     model_state *s = *out = calloc(1, sizeof *s);

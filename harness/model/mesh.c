@@ -574,7 +574,6 @@ static status allocate(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the sections of all elements, before kinds are assigned. */
 static status profiles(model *m, fault *f)
 {
     int sections;

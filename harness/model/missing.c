@@ -15,7 +15,6 @@
  * half-waves. Above this limit, neglecting shear changes the model instead of approximating it. */
 static const double largest_phi = 0.01;
 
-/* Box around members that are connected. */
 typedef struct box {
     double low[3], high[3];
 } box;

@@ -89,7 +89,6 @@ static status allocate(model *m, fault *f)
     return kinematics_state_alloc(m, &m->rest, f);
 }
 
-/* Returns 1 if an analysis depends on rates. */
 static int has_rates(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)

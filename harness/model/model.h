@@ -32,7 +32,7 @@ typedef struct model_request {
     const element_type *type;
     const double *options; /* values of the formulation's options; NULL: their defaults */
     int elements;          /* number of elements per piece of a member */
-    int keep_all;          /* 1: no coordinates are eliminated (same results, more work) */
+    int keep_all;          /* 1: no coordinates are eliminated (same results at a higher cost) */
     /* physics of the scene that is omitted in addition to the physics that the type does not
      * support */
     unsigned omit;
@@ -97,7 +97,7 @@ const char *model_trouble(const model *);
 typedef struct model_state model_state;
 
 const char *model_formulation(const model *);
-const double *model_options(const model *); /* returns all options of the formulation */
+const double *model_options(const model *);
 unsigned model_leaves(const model *);
 /* Fills the shape of a mode or state, for identification and pictures: displacement (3), rotation
  * (3) and warping of every vertex, in order along the members. Returns the number of vertices. u:
@@ -242,7 +242,7 @@ typedef struct mesh_warp {
     int scalar; /* 1: an additional unknown */
 } mesh_warp;
 
-typedef double mesh_triad[9]; /* columns nX nY nZ */
+typedef double mesh_triad[9];
 
 typedef struct mesh_element {
     int kind, member;
@@ -295,7 +295,6 @@ typedef struct spring_rates {
     const double *known, *from;
 } spring_rates;
 
-/* Data that identical elements share. */
 typedef struct mesh_kind {
     int section;
     double length, curvature[3], strain[3];
@@ -370,7 +369,6 @@ static inline int model_own_coordinates(const model *m)
 {
     return model_mesh_of(m)->coordinates;
 }
-/* Returns the number of additional unknowns of a node. */
 static inline int model_scalars(const model *m)
 {
     return model_mesh_of(m)->scalars;
@@ -462,7 +460,6 @@ static inline int model_next_joined(const model *m, int vertex)
     return mesh->joined == NULL || vertex >= model_scene(m)->nodes ? NONE
                                                                    : mesh->joined[2 * vertex + 1];
 }
-/* Returns the coordinate of a driver; NONE: none. */
 static inline int model_driver_coordinate(const model *m, int driver)
 {
     return model_mesh_of(m)->driver_coordinate[driver];
@@ -631,9 +628,9 @@ void eliminate_matrix(const model *m, const model_state *s, const mesh_element *
 
 /* An entry of an element's matrix that a pattern stores. */
 typedef struct mesh_entry {
-    short local;  /* row * columns + column in the element's matrix */
-    short column; /* column in the element's matrix */
-    int offset;   /* offset in the pattern from the start of its column */
+    short local; /* row * columns + column in the element's matrix */
+    short column;
+    int offset; /* offset in the pattern from the start of its column */
 } mesh_entry;
 
 /* Entries of elements that have the same relative positions in the columns of a pattern. */
@@ -661,8 +658,6 @@ void assemble_discrete(const mesh_element *el, const double K[], sparse *out);
 void assemble_vector(const mesh_element *el, const double local[], double out[]);
 /* Subtracts a value from an entry. Has no effect if the entry is not stored. */
 void assemble_subtract(sparse *a, int row, int column, double value);
-
-/* Returns the features that a scene requires (FEATURE_* bits). */
 
 unsigned features_needed(const scene *);
 /* Returns the physics that the scene omits although it has an effect. */
@@ -692,8 +687,6 @@ unsigned features_needed_by_quantity(const scene *, int quantity);
 /* returns 1 if the shear centre differs from the centroid */
 int features_eccentric(const section *c);
 status features_of_section(const model *m, int section, unsigned *features, fault *f);
-
-/* States of a model, and the motion of its nodes. */
 
 status kinematics_state_alloc(const model *, model_state **, fault *); /* undeformed, path = 0 */
 /* Creates a state that contains only the path and the members that kinematics_component and
@@ -780,8 +773,6 @@ void kinematics_follow(const model *m, model_state *s);
 void kinematics_local(const model *m, const model_state *s, const mesh_element *el,
                       const double dx[], double local[]);
 
-/* Distance between two states. */
-
 /* Sets the weights [free + driven] for the square of an increment, which is the mean over the
  * bodies of (displacement/size)^2 + rotation^2. */
 void metric_of(const model *, double weight[]);
@@ -828,7 +819,7 @@ int lacks_of(const scene *, const element_type *, char *words, int size);
 
 struct model_state {
     double path;
-    size_t size; /* number of doubles in `block` */
+    size_t size;
     double *block;
     double *u; /* [vertices x 3] displacement */
     double *q; /* [vertices x 4] orientation */

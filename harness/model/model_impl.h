@@ -98,8 +98,6 @@ status member_arc_of(const scene *s, int member, double axes_angle, member_arc *
 /* Computes the position, and the triad without the bow, at the arc length s [m]. */
 void member_arc_at(const member_arc *a, double s, double position[3], double R[9]);
 
-/* Members of a model that only harness/model uses. */
-
 /* A tracked rotation vector of a node's frame. The vector is relative to the frame of another node
  * (NONE: to the fixed frame). */
 typedef struct mesh_turn {
@@ -110,7 +108,7 @@ struct model {
     model_mesh mesh; /* public part; must be the first member */
     const scene *scene;
     const model_imperfect *imperfect; /* NULL: perfect */
-    const element_type *given;        /* type as defined in its file */
+    const element_type *given;        /* type before it is completed */
     element_type completed; /* copy of the type to which adapters have added missing functions */
     double options[ELEMENT_MAX_OPTIONS];
     int keep_all;

@@ -219,7 +219,6 @@ void supports_rigid(const double position[3], double length, double G[SUPPORTS_N
     }
 }
 
-/* Finds the motions that the supports of a node allow. */
 static void free_motions(const model *m, int node, movable *out)
 {
     int index[SUPPORTS_N], columns = 0;

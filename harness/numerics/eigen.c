@@ -218,7 +218,6 @@ static void drop_lost(candidates *p, int count, eigen_side *out)
     }
 }
 
-/* Stores the first `wanted` candidates in the result. */
 static status store_results(candidates *p, int wanted, eigen_side *out, eigen_result *r, fault *f)
 {
     const size_t n = (size_t)p->n;

@@ -50,13 +50,13 @@ const sparse *by_numbers_upper(const by_numbers *);
 typedef struct matrix_factor matrix_factor;
 
 typedef struct factor_counts {
-    long entries;        /* number of nonzero entries of the factors */
-    double flops;        /* number of floating-point operations of one numeric factorisation */
-    long factorisations; /* number of numeric factorisations so far */
+    long entries; /* number of nonzero entries of the factors */
+    double flops; /* number of floating-point operations of one numeric factorisation */
+    long factorisations;
     int negative_pivots; /* number of negative pivots of a symmetric matrix; otherwise -1 */
     double asymmetry;    /* largest |a_ij - a_ji|/sqrt|a_ii a_jj| of a matrix with by_numbers */
-    int determinant;     /* sign of the determinant */
-    double condition;    /* inexpensive estimate of the condition number, max|d|/min|d| */
+    int determinant;
+    double condition; /* inexpensive estimate of the condition number, max|d|/min|d| */
 } factor_counts;
 
 #define FACTOR_SYMMETRIC_WITHIN 1e-11
@@ -115,8 +115,8 @@ typedef double eigen_form(void *context, const double x[]);
 typedef void eigen_product(void *context, const double x[], double y[]);
 
 typedef struct eigen_problem {
-    const sparse *K, *A;     /* same pattern */
-    matrix_factor *K_factor; /* after factor_numeric */
+    const sparse *K, *A;     /* both have the same pattern */
+    matrix_factor *K_factor; /* factor of K after factor_numeric */
     double sign;             /* +1: A; -1: -A */
     int largest;             /* number of requested eigenvalues mu on the most positive side */
     int smallest;            /* number of requested eigenvalues mu on the most negative side */
@@ -275,7 +275,6 @@ static inline void phases_start(phases *p)
         p->last = clock_processor_seconds();
 }
 
-/* Adds the time since the last reading to part k. */
 static inline void phases_lap(phases *p, newton_phase k)
 {
     if (!p->running)
@@ -334,8 +333,6 @@ void thread_pool_run(thread_pool *t, int count, thread_pool_work *work, void *co
  * and the order of sums does not change. slot: less than THREAD_POOL_SLOTS; 0 if t is NULL. */
 void thread_pool_relay(thread_pool *t, int pieces, thread_pool_fill *fill, thread_pool_take *take,
                        void *context);
-
-/* Matrices as lists of entries. */
 
 typedef enum matrix_kind { MATRIX_GENERAL, MATRIX_SYMMETRIC, MATRIX_SKEW } matrix_kind;
 

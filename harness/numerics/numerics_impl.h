@@ -52,8 +52,6 @@ double *candidates_products(const candidates *p);
  * needs one solution. */
 void candidates_evaluate(candidates *p, int i, double *residual, double *error);
 
-/* Proof that no eigenvalue is missing among the candidates. */
-
 /* Sets *missing to the number of eigenvalues that are missing among the candidates and are clearly
  * larger than the candidate of rank `wanted` (counted from 1). Requires wanted <= count.
  * NOT_CONVERGED: the inertia counts fewer eigenvalues than were found, or cannot be computed. */
@@ -205,7 +203,7 @@ gyroscopic_index gyroscopic_index_of(const ritz *, const subspace *, double shif
 typedef struct lanczos_problem {
     const sparse *K, *A;
     matrix_factor *K_factor;
-    double sign;      /* sign s of the problem */
+    double sign;
     int known;        /* number of eigenvectors that are removed from the problem */
     const double *X;  /* [known x n] these eigenvectors, K-orthonormal */
     const double *KX; /* [known x n] K times each of these eigenvectors */
@@ -275,8 +273,8 @@ typedef struct triangular_pattern {
 typedef struct triangular_groups {
     int groups;
     int *first_of_group, *run_of_group;
-    triangular_run *run;        /* [run_of_group[groups]] */
-    int columns;                /* number of runs of all columns */
+    triangular_run *run; /* [run_of_group[groups]] */
+    int columns;
     triangular_run *of_columns; /* [columns] runs of all columns */
 } triangular_groups;
 
@@ -301,7 +299,7 @@ typedef struct triangular_factors {
      * */
     const int *begin, *row;
     const double *value, *D; /* L: [begin[n]]; [n] */
-    int runs;                /* number of runs of all columns */
+    int runs;
     /* runs; each column of a run has the rows of the next column of the run and one more: the row
      * with the index of the next column */
     const triangular_run *run;

@@ -154,7 +154,6 @@ static void wait_a_moment(int *spins)
         sched_yield();
 }
 
-/* Fills pieces as long as there are any. */
 static void follow(relay *r)
 {
     int spins = 0;

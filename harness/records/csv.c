@@ -179,7 +179,6 @@ enum { NAME = 96, TITLE = 300 };
 static const char undeformed[] = "undeformed";
 static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ_0123456789-+";
 
-/* Content of a table. */
 typedef struct contents {
     const char *title;
     const scene *scene;

@@ -185,7 +185,6 @@ void json_part_free(json_part *part)
     *part = (json_part){.verdicts = 0};
 }
 
-/* Lists the assumptions of all points. */
 static json_t *assumptions_of(const sweep *s)
 {
     json_t *all = json_array();

@@ -17,7 +17,6 @@ hid_t kept_group(record_file *r, const char *name)
     return own;
 }
 
-/* Returns 1 if the file starts with the HDF5 signature. */
 static int is_hdf5(const char *path)
 {
     static const unsigned char signature[8] = {0x89, 'H', 'D', 'F', '\r', '\n', 0x1a, '\n'};

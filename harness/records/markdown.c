@@ -215,7 +215,6 @@ static void write_omitted(FILE *to, const sweep *s)
         fprintf(to, "\n</details>\n");
 }
 
-/* Writes the assumptions about the sections of the points. */
 static void write_assumed(FILE *to, const sweep *s)
 {
     int lines = 0;

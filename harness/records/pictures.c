@@ -8,7 +8,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-enum { RING = 24 }; /* number of sides of a tube */
+enum { RING = 24 };
 
 /* Adds the corners of a wall with thickness t and a mid-line from a to b. */
 static void add_wall(outline *out, const double a[2], const double b[2], double t)

@@ -34,7 +34,7 @@ typedef struct assumption {
     char text[ASSUMPTION_TEXT]; /* text of the assumption, with the name of the section */
 } assumption;
 
-const char *assumptions_kind(int kind); /* returns the name of a kind, such as "not known" */
+const char *assumptions_kind(int kind);
 /* Sets *out to assumption number `index` of the point. Returns 0 if there is no such assumption. */
 int assumptions_at(const sweep_point *p, int index, assumption *out);
 /* Writes all assumptions as "kind: text", separated by semicolons. If the capacity of `out` is too
@@ -100,9 +100,9 @@ typedef struct result_error {
 typedef struct result_series {
     char *name;
     int meshes, limits;
-    result_mesh *mesh;        /* [meshes] ascending by elements */
-    long work[RESULTS_WORKS]; /* sums over the meshes */
-    int errors;               /* number of values with an error on all meshes */
+    result_mesh *mesh; /* [meshes] ascending by elements */
+    long work[RESULTS_WORKS];
+    int errors; /* number of values with an error on all meshes */
     /* sum of log10(max(|error|, RESULTS_FLOOR)) over these values, which depends on every error
      * above RESULTS_FLOOR, but not on rounding below it */
     double decades;
@@ -238,8 +238,8 @@ typedef struct subject {
     int index;
     int group; /* step of an iteration, or first point of a curve */
     const verdict *verdict;
-    const truth *truth, *model_truth; /* reference values of the quantity */
-    const void *owner;                /* record that contains this record */
+    const truth *truth, *model_truth;
+    const void *owner; /* record that contains this record */
 } subject;
 
 /* Parts of the context to which the offset of a field may refer. */
@@ -333,7 +333,7 @@ enum { DIGEST_TEXT = 65 }; /* 64 hexadecimal digits and the terminating zero */
 
 typedef struct digest {
     uint32_t state[8];
-    uint64_t length; /* number of bytes so far */
+    uint64_t length;
     unsigned char block[64];
 } digest;
 
@@ -360,13 +360,11 @@ enum { STATUSES = STATUS_NO_VALUE + 1 };
 const char *fields_keys_word_of_status(int status);
 const char *fields_keys_word_of_moments(int convention);
 
-/* Returns the quantity with index s->index. */
 const scene_quantity *fields_keys_quantity(const subject *s);
 const cell_result *fields_keys_cell(const subject *s);
 
 /* Modes that are followed over a parameter, as CSV and JSON. */
 
-/* Writes a row for each value and each mode. */
 void follow_record_csv(FILE *to, const char *parameter, const follow_curves *);
 /* Writes the columns of each mode, the crossings and the veerings. */
 status follow_record_json(FILE *to, const char *parameter, const follow_curves *, fault *);
@@ -436,7 +434,7 @@ status json_convergence_write(FILE *to, const sweep *s, const truths *t, double 
 /* Converts a record. keys: KEY_AROUND if the context does not identify the record, otherwise 0. */
 json_t *json_record(const record_type *type, const subject *s, int keys);
 void json_record_add(json_t *list, const record_type *type, const subject *s, int keys);
-json_t *json_record_type(const record_type *type); /* describes the fields of a record */
+json_t *json_record_type(const record_type *type);
 
 /* Writes verdicts for continuous integration as JUnit XML. Values and tolerances are properties. */
 
@@ -495,7 +493,6 @@ status output_open_whole(const char *path, output *out, fault *f);
 status output_close(output *out, fault *f);
 /* Closes the output if `written` is OK, otherwise discards it. */
 status output_finish(output *out, status written, fault *f);
-/* Flushes standard output. FAULT: the output cannot be written. */
 status output_flush(fault *f);
 /* Checks an output before any computation. REFUSED: the name is invalid, or the target does not
  * support this form. FAULT: the output cannot be written. *where: location of the output, for
@@ -641,7 +638,7 @@ typedef struct store {
 /* Opens the store. The arguments must exist as long as the file is open. */
 status store_open(const char *experiment, const sweep *s, const evaluation *j, store *out,
                   fault *f);
-/* Adds a case. All its series must have been evaluated. */
+/* Adds a case. All its series must already have been evaluated. */
 void store_case(store *, const case_type *);
 /* Adds the remaining cases and the description of the run. The file is written under a temporary
  * name and renamed. After FAULT, no file remains. path NULL: nothing is written. */

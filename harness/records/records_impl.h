@@ -47,10 +47,8 @@ extern const record_type record_omission; /* omissions at a value (only in the C
 
 extern const schema_field names_of_quantity[]; /* name and unit of the quantity */
 
-/* Describes the physics that the scene omits. */
 void fields_keys_omitted(const subject *s, field_value *out);
 
-/* Describes the assumptions on the sections of the scene. */
 void fields_keys_assumed(const subject *s, field_value *out);
 
 void gather_case(const gathering *g, const record_type *type, const case_type *of, subjects *out);
@@ -66,7 +64,6 @@ void record_ascii(record_file *r, hid_t at, const char *name, const char *text);
 /* Creates a data set text[count]. */
 void record_texts(record_file *r, hid_t at, const char *name, int count, const char *const text[]);
 
-/* Creates a subfolder of the output folder. */
 status output_folder_below(const output_folder *, const char *name, fault *f);
 
 /* Records as rows of a typed, compressed table. Its attributes give the units and the summaries of

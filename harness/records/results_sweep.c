@@ -23,7 +23,6 @@ typedef struct name_row {
     char name[NAME];
 } name_row;
 
-/* Arrays indexed by point. */
 typedef enum sweep_column {
     POINT,
     REFERENCE,

@@ -200,8 +200,6 @@ int place_same(const file_place *a, const file_place *b)
     return !is_free || strcmp(place_leaf(a->path), place_leaf(b->path)) == 0;
 }
 
-/* Functions for the selection of a stored run. */
-
 enum { NAME = 2048 };
 
 int results_part_has(const char *lines, const char *text)

@@ -244,7 +244,6 @@ static void put_outcome(record_file *r, hid_t at, const sweep *s, const evaluati
     record_text(r, at, "sentence", sentence);
 }
 
-/* Adds the remaining cases and the description of the run. */
 static void finish(store *to, const environment *e)
 {
     const sweep *s = to->sweep;

@@ -272,7 +272,6 @@ static void write_missing(FILE *to, const sweep *s)
     }
 }
 
-/* Writes the physics that formulations omitted. */
 static void write_omissions(FILE *to, const sweep *s)
 {
     for (int i = 0; i < s->seriess; i++) {

@@ -119,7 +119,6 @@ static double length_at(const motion_record *r, int of)
     return sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/* Writes the integrator and its parameters. */
 static void method(FILE *to, const scene_motion *how)
 {
     char name[SCENE_NAME];

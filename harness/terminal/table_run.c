@@ -190,7 +190,6 @@ void table_run_end(FILE *to, screen look, const char *sentence)
 
 enum { WIDEST_WORD = 24, NARROWEST_WORD = 5, HEAD_LINES = 12 };
 
-/* A name in the header, divided into lines. */
 typedef struct head {
     int lines, width;
     char line[HEAD_LINES][WIDEST_WORD + 1];
@@ -199,7 +198,7 @@ typedef struct head {
 /* The columns from `from` to `to` - 1. */
 typedef struct overview_block {
     int from, to;
-    int name;   /* width of the column of case names */
+    int name;
     head *head; /* [columns] */
 } overview_block;
 

@@ -106,7 +106,6 @@ static void count_steps(const counters *c, char text[FAULT_TEXT])
         snprintf(text, FAULT_TEXT, " in %ld load step%s", c->steps, plural);
 }
 
-/* Explains why curves end early. */
 static void unfinished_curves(FILE *to, const sweep_point *p, const solve_result *r)
 {
     for (int i = 0; i < r->quantities; i++) {

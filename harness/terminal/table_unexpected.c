@@ -239,7 +239,6 @@ static int path_of(const scene *s, int quantity)
     return kind == SCENE_STATIC || kind == SCENE_ROTATION ? path : SCENE_NONE;
 }
 
-/* Returns 1 if both curves have the same abscissae. */
 static int beside(const scene *s, const solve_result *r, int a, int b)
 {
     const curve *p = curve_of(s, r, a), *q = curve_of(s, r, b);
@@ -346,7 +345,6 @@ static int is_given(const sweep *s, int quantity, int reference)
     return 1;
 }
 
-/* Prints the absolute value of an error in percent. */
 static void write_percent(FILE *to, double error)
 {
     char text[ROUNDING_TEXT];

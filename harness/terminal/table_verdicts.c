@@ -8,7 +8,6 @@
 
 enum { NAME = 23, LIMIT = 16, UNCERTAINTY = 7, ORDER = 5, MOST_RULES = 16 };
 
-/* The part of the table for one point. */
 typedef struct verdicts_block {
     FILE *to;
     const sweep *s;

@@ -8,7 +8,6 @@
 
 enum { PARAGRAPH_WIDTH = 100 /* columns */ };
 
-/* Returns the number of columns of a text. */
 int paragraph_columns(const char *text);
 /* Writes the text in lines of at most PARAGRAPH_WIDTH columns, indents continuation lines, and ends
  * the last line. A word that is longer than a line is not divided. at: number of columns already

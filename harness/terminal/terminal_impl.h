@@ -13,7 +13,6 @@
 void table_percent(FILE *to, double error);
 /* Prints a value with the digits that its uncertainty allows (harness/study/study.h). */
 void table_known(FILE *to, int width, double value, double uncertainty);
-/* Prints a value with the given number of digits. */
 void table_digits(FILE *to, int width, double value, int digits);
 /* Prints "case: parameters", with the parameters that differ from their defaults. */
 void table_point(FILE *to, const sweep_point *p);
@@ -46,7 +45,6 @@ void table_stability_meshes(FILE *to, const sweep *s);
  * start of a motion. */
 void table_motion(FILE *to, const scene *, const solve_result *);
 void table_path_steps(FILE *to, const solve_result *r);
-/* Prints the critical points and branch jumps of continued paths. */
 void table_path_events(FILE *to, const solve_result *r);
 /* Prints the matrices of nodes at the last station that was reached. */
 void table_path_matrices(FILE *to, const scene *s, const solve_result *r);

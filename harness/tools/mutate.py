@@ -140,7 +140,6 @@ class Reader:
         return not (text == "[" and self.is_size(at))
 
     def operand(self, at):
-        """Returns True if an operand ends at a token."""
         kind, text = self.tokens[at][:2]
         return kind in ("number", "text") or (kind == "word" and text not in NO_TYPES) or \
             text in (")", "]")

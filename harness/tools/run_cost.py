@@ -130,7 +130,6 @@ def spread(predicted, cost):
 
 
 def validate(cells):
-    """Predicts each run with a fit that excludes its case."""
     cases, out = sorted({c["case"] for c in cells}), np.zeros(len(cells))
     for fold in range(FOLDS):
         left = set(cases[fold::FOLDS])

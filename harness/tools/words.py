@@ -188,7 +188,6 @@ def hits(name, text):
 
 
 def tracked():
-    """Returns the names of the files to be checked."""
     listed = subprocess.run(["git", "-C", str(ROOT), "ls-files"], check=True, capture_output=True,
                             text=True).stdout.splitlines()
     return [name for name in listed if not SKIPPED.search(name) and (ROOT / name).exists()]

@@ -51,14 +51,13 @@ typedef struct question {
 /* Returns 1 if the type declares everything that the scene requires. The type must not reject such
  * a scene. */
 int ask_offered(const scene *, const element_type *);
-/* Asks a question with the default options of the formulation. */
+/* Asks a question with the default options of the formulation, and fills the answer. */
 void ask(const question *, answer *);
 /* Asks a question with a scene of the test and given options (NULL: the defaults). */
 void ask_scene(const scene *, const element_type *, const double option[], int elements, answer *);
 /* Returns the value of a quantity; NAN: there is no quantity with this name. */
 double answer_of(const answer *, const char *quantity);
 
-/* Outcomes of the questions of a test for a formulation. */
 typedef struct ask_tally {
     int count[ASK_OUTCOMES];
     int values;               /* number of values in all answers */

@@ -76,13 +76,11 @@ class ProgramTest(unittest.TestCase):
         return pathlib.Path(folder.name)
 
     def answered(self, *arguments, code=0, **options):
-        """Returns the finished process, whose exit status must be `code`."""
         done = run(*arguments, **options)
         self.assertEqual(done.returncode, code, f"{arguments}\n{(done.stdout or '')[-4000:]}\n{done.stderr}")
         return done
 
     def record(self, *arguments, **options):
-        """Returns the output of a command with --format json."""
         return json.loads(self.answered(*arguments, "--format", "json", **options).stdout)
 
     def values_of(self, scene, *options):

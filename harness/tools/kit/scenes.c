@@ -23,7 +23,6 @@ static void free_scenes(void)
         scene_file_free(known.file[--known.count]);
 }
 
-/* Ends the test program because the scene cannot be read. */
 static void end(const char *path, const char *why)
 {
     gsl_test(1, "%s: %s", path, why);

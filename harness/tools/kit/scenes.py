@@ -1,4 +1,4 @@
-"""Scenes that several tests write."""
+"""Scenes for tests, as text."""
 import pathlib
 import re
 
