@@ -16,7 +16,7 @@ G = E / mpf("2.6")
 A, IY, IZ, IT, IW = mpf("1856e-6"), mpf("4167339e-12"), mpf("1045547e-12"), mpf("39595e-12"), mpf(
     "44398819e-18")
 YS, WAGNER_Y = mpf("41.012e-3"), mpf(
-    "-84948392e-15")  # zs = 0 and int z (y^2 + z^2) dA = 0, because y is an axis of symmetry
+    "-84948392e-15")  # y is an axis of symmetry, so zs = 0 and int z (y^2 + z^2) dA = 0
 POINTS = {"centroid": (0, 0), "shear_centre": (YS, 0), "leg": (0, YS)}
 HALF_WAVES, LOADS = 12, 3
 

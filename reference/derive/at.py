@@ -15,7 +15,7 @@ SIZES = ("height", "width", "web_thickness", "flange_thickness")  # dimensions o
 
 
 class NotDerivable(Exception):
-    """Raised with a line for the user if no program derives the values."""
+    """Raised if no program derives the values. The text is the reason."""
 
 
 def numbers(given):
@@ -100,8 +100,8 @@ def sheet_case(case, function):
 
 
 def cantilever(family, *names):
-    """Returns the solver of a case whose rows the function `family` of cantilevers.py yields. That function takes a tuple
-    of values for each of the parameters `names`."""
+    """Returns a solver that calls `family`, a function of cantilevers.py, with a tuple of one value for each
+    parameter in `names`."""
 
     def solve(given):
         from reference.derive import cantilevers

@@ -60,7 +60,7 @@ class Beam:
 
 class Scaled:
     """Dimensionless beam. Lengths are in units of the length of the network."""
-    carries = False  # True for a beam with loads along it, which has additional states
+    carries = False  # True for a beam with loads along it, which add states
 
     @property
     def states(self):
@@ -143,7 +143,6 @@ def rotation(q):
 
 
 def product(a, b):
-    """Returns the quaternion product a o b."""
     return np.array([
         a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
         a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
@@ -153,7 +152,6 @@ def product(a, b):
 
 
 def quaternion(R):
-    """Returns the quaternion of a rotation matrix."""
     trace = R[0, 0] + R[1, 1] + R[2, 2]
     squares = [1 + trace] + [1 + 2 * R[i, i] - trace for i in range(3)]
     skew = [R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]]
@@ -168,7 +166,6 @@ def quaternion(R):
 
 
 def exponential(v):
-    """Returns the quaternion of a rotation vector."""
     angle = np.linalg.norm(v)
     return np.concatenate([[np.cos(angle / 2)], np.sinc(angle / (2 * np.pi)) / 2 * np.asarray(v)])
 

@@ -15,7 +15,6 @@ EI, EA = E * WIDTH * THICK ** 3 / 12, E * WIDTH * THICK
 
 
 def curvature(F, e, u):
-    """Returns t' at the point where sin t = sin e - u^2."""
     return u * sqrt(2 * F / EI * (1 + F / EA * (sin(e) - u ** 2 / 2)))
 
 
@@ -47,7 +46,8 @@ def stress(travel):
 
 
 def moment(travel, place):
-    """Returns the moment at the distance `place` from the clamp, a fraction of the length below one half."""
+    """Returns the moment at a distance from the clamp. `place` is this distance divided by the length, less than one
+    half."""
     F, e = solved(travel)
     u = findroot(lambda low: integral(F, e, low, lambda sine: 1) / LENGTH - (mpf(1) / 2 - place),
                  sqrt(sin(e)) * (1 - 2 * place))

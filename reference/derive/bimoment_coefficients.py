@@ -2,9 +2,8 @@
 digits and prints 17 of them.
 
 The coefficients are computed directly from the definitions, with L = GJ = 1 and EIw = 1/lambda^2. The bimoment is the
-hyperbolic function of App. B, with its factor 1/lambda^4 restored. Every integrand is a sum of polynomials times exp(k
-lambda x), which is integrated term by term. Integration by parts is not used, so the results can verify the form that
-uses it.
+hyperbolic function of App. B, with its factor 1/lambda^4 restored. Every integrand is a sum of polynomials times
+exp(k lambda x), which is integrated term by term. The results verify the form that follows from integration by parts.
 
 usage: bimoment_coefficients.py > elements/test/bimoment_values.h
 """

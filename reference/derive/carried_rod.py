@@ -17,7 +17,6 @@ def cross(a, b):
 
 
 def turned(angle, axis, v):
-    """Returns v rotated about the axis, computed by Rodrigues' formula."""
     once = cross(axis, v)
     return v + sin(angle) * once + (1 - cos(angle)) * cross(axis, once)
 

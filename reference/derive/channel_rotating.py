@@ -105,8 +105,7 @@ class Turning:
 
 
 def advance(t, at, w):
-    """Solves at the next deflection between `at` and w [m] and returns this deflection. If a step does not converge, it
-    is halved."""
+    """Makes one step from the deflection `at` towards w [m], halved until it converges. Returns the new deflection."""
     step, before = 0.025 if at < 0.4 else 0.05, (t.z.copy(), t.load)
     while step > 1e-3:
         to = min(at + step, w)

@@ -154,7 +154,7 @@ def length_of(case, given):
 
 
 def other_sizes():
-    """Yields rows for a deep channel and for a channel with a thin web."""
+    """Yields the rows of a deep channel and for a channel with a thin web."""
     for given in ({"length": 4, "height": "0.9", "width": "0.3"}, {"web_thickness": "0.01"}):
         s, l = channel_data(**given), length_of("c_column", given)
         yield "c_column", _text(**given), "buckling_load", buckling_load(s, l, True, False), "N"
@@ -181,7 +181,7 @@ def branched():
 
 
 def loaded(s, at):
-    """Yields (quantity, value, unit) of a column under an axial load. `at` contains all parameters."""
+    """Yields (quantity, value, unit) of a column under an axial load. `at` contains the values of all parameters."""
     l, shear, haringx = at["length"], at["shear"], at["shear_stability"] == "haringx"
     yield "buckling_load", buckling_load(s, l, shear, haringx), "N"
     for i, value in enumerate(

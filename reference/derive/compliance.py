@@ -7,7 +7,7 @@ def name_of(i, j):
 
 
 def entry_of(name):
-    """Returns (row, column) of the entry C_MOTION_LOAD. C_xx and C_zz are the compliances for forces along x and z."""
+    """Returns (row, column) of the entry named C_MOTION_LOAD."""
     if name in ("C_xx", "C_zz"):
         return (i := "xyz".index(name[-1])), i
     motion, load = name.split("_")[1:]

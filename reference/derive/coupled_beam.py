@@ -39,8 +39,7 @@ def stiffness(coupling, helix):
 
 
 def mass(coupling):
-    """Returns the mass matrix int rho [1, -x~; x~, -x~ x~] dA of a slice from its moments of inertia about the centre of
-    mass."""
+    """Returns the mass matrix int rho [1, -x~; x~, -x~ x~] dA per length of beam."""
     y, z = (coupling * c for c in CENTRE)
     x = matrix([[0, -z, y], [z, 0, 0], [-y, 0, 0]])
     out, turned = matrix(6, 6), -MASS * x * x
@@ -73,7 +72,7 @@ def displacement(coupling, weight, row):
             x, (mpf(1000), 0, mpf(50), mpf(10), 0, 0))
         return (at_section(x, unit).T * F * here)[0]
 
-    return quad(density, [0, 1])  # the integrand is a polynomial
+    return quad(density, [0, 1])
 
 
 def helix(coupling, turn):

@@ -15,10 +15,10 @@ from reference.derive import defaults
 from reference.derive.network import Network, clamped
 from reference.derive.sheets import parameters, sheet
 
-# Uncertainty of a position, in lengths of a leaf. Eight networks (4 to 10 intervals, 12 to 20 nodes) give positions at
-# angle=0.01 that differ by 6e-18 m, half of this value.
+# Uncertainty of a position, relative to the length of a leaf. Eight networks (4 to 10 intervals, 12 to 20 nodes) give
+# positions at angle=0.01 that differ by 6e-18 m, half of this value.
 ROUND_OFF = 2.2e-16
-RELATIVE = 1e-9  # relative uncertainty; the high axial stiffness of a leaf magnifies the round-off
+RELATIVE = 1e-9  # relative uncertainty; the high axial stiffness of a leaf increases round-off errors
 DEFAULTS = defaults.values("cross_flexure")
 SIZES = ("length", "width", "thickness", "young", "poisson")
 TILTS_FREE = ("first", "last", "between")
@@ -71,7 +71,7 @@ def quantities(given, form=lambda beam: beam):
     value = {**DEFAULTS, **given}
     convention, rotation = value["moment_convention"], value["rotation"]
     net, arm, turned = hinge(given, form=form)
-    net.solve((0.5, 1.0), tolerance=1e-10)  # tolerance for the round-off due to the axial stiffness of the leaves
+    net.solve((0.5, 1.0), tolerance=1e-10)  # above the round-off due to the axial stiffness of the leaves
     C = compliance(net, arm, turned, rotation in TILTS_FREE, convention)
     yield "moment", net.force * net.length * arm.load[5], "N m", RELATIVE
     for i, name in enumerate(("shift_x", "shift_y")):

@@ -17,13 +17,11 @@ def _table():
 
 
 def texts(case):
-    """Returns {parameter: text}, where the text is a number as written or the word of a choice. Returns {} if there is no
-    such case."""
+    """Returns {parameter: number or word as written}, or {} if there is no such case."""
     return dict(_table().get(case, {}))
 
 
 def value(text):
-    """Converts text to an integer or a number, or returns the text if it is a word."""
     try:
         return float(text) if not text.lstrip("-").isdigit() else int(text)
     except ValueError:

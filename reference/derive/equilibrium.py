@@ -131,8 +131,6 @@ class Vibration:
 
 
 def twist_rate(q, slope, by, fields):
-    """Returns the change [fields] of the x component of 2 vec(q* o q'), where q' is `slope` and `by` [4, fields] is the
-    change of q'."""
     conjugate = np.array([1, -1, -1, -1])
     rate = 2 * product(q * conjugate, by)[1]
     rate[3:7] += [2 * product(e * conjugate, slope)[1] for e in np.eye(4)]

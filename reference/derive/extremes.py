@@ -13,11 +13,11 @@ from reference.derive.beam import Beam
 TABLES = "extremes"
 mp.dps = 40
 EQUAL_WIDTH = mpf("0.223203587801597"
-                  )  # width of the channel column whose lowest bending and torsion frequencies are equal
+                  )  # width of the channel column at which its lowest bending and torsion frequencies are equal
 
 
 def decimal(value):
-    """Returns the value with 15 digits as text, as the program rounds parameters."""
+    """Returns the value with 15 digits as text, to which the program rounds parameters."""
     return "%.15g" % float(value)
 
 
@@ -112,8 +112,8 @@ def lateral():
 
 
 def twisted():
-    """Yields the torque of the sheet with restrained warping and no axial force, GJ phi/L divided by 1 -
-    tanh(kL/2)/(kL/2) with k^2 = GJ/EIw. Then yields the moment and the shortening of a strip with the Wagner torque."""
+    """Yields the torque of the sheet with restrained warping and no axial force, (GJ phi/L)/(1 - tanh(kL/2)/(kL/2))
+    with k^2 = GJ/EIw. Then yields the moment and the shortening of a strip with the Wagner torque."""
     beam = sheets.sheet(**{**defaults.values("sheet_wagner"), "wagner": 0})
     half = math.sqrt(beam.GJ / beam.EIw) * beam.length / 2
     for angle in (0.1, 0.5, 1, 1.3, 1.4, 1.5):
@@ -132,7 +132,7 @@ def turns():
 
 
 def released():
-    """Yields rows for the Euler-Bernoulli cantilever released from rest: for several axial stiffnesses, and with several
+    """Yields the rows of an Euler-Bernoulli cantilever released from rest, for several axial stiffnesses and several
     bodies at its tip."""
     tip = release.bernoulli("0.25", release.bernoulli_modes())
     for axial in ("1e9", "1e12", "1200", "120000", "12000000"):
@@ -146,8 +146,8 @@ def released():
 
 
 def steady():
-    """Yields rows for a body that rotates steadily at 2 rad/s about a principal axis with a moment of inertia of 3 kg
-    m^2."""
+    """Yields the rows of a body that rotates steadily at 2 rad/s about a principal axis with a moment of inertia of 3
+    kg m^2."""
     at = f"spin=steady;time={{}};{rigid_body.ANY}"
     yield "rigid_body", at.format("*"), "w_z", mpf(2), "rad/s"
     yield "rigid_body", at.format("*"), "energy", mpf(6), "J"

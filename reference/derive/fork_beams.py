@@ -24,9 +24,9 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 RELATIVE = 2e-10
-EA = 1e6  # axial stiffness of the case, where EI and GJ of the weak axis are 1 and the length is 1
+EA = 1e6  # axial stiffness, where the weak EI, GJ and the length are 1
 THETA, MY, FIRST = 0, 1, 2  # indices of theta, My and the first of the fields v, phi, chi, m_x, m_z, a, B
-                            # of every solution
+                            # number of fields of a solution
 FIELDS = 7
 
 
@@ -71,7 +71,7 @@ def _middle(theta, P, q, ratio, K, tolerance=1e-13):
 
 
 def _rotation_at_fork(P, distributed, ratio, K, near):
-    """Returns theta(0) of the plane state, computed by the secant method from the value for a neighbouring load."""
+    """Returns theta(0) of the plane state, computed by the secant method, starting from a value for another load."""
 
     def turn(theta):
         return _middle(theta, P, P if distributed else 0.0, ratio, K)[0]
@@ -87,7 +87,7 @@ def _rotation_at_fork(P, distributed, ratio, K, near):
 
 
 def critical_load(distributed, ratio, K, bracket, steps=12):
-    """Returns P L^2/sqrt(EI GJ). The determinant changes its sign in the bracket, but not below it."""
+    """Returns P L^2/sqrt(EI GJ). The determinant must change its sign in the bracket but not below it."""
     slope = (1 / 24 if distributed else 1 / 16) / ratio
     turns = {0.0: 0.0}
 

@@ -34,7 +34,7 @@ def along(angle):
 
 
 def tip(clamp, M0, F, intervals):
-    """Returns the position of the end of the crank and the moment there."""
+    """Returns the position of the end of the crank and the moment at this end."""
 
     def slope(Y):
         e = np.array([np.cos(Y[:, 0]), np.sin(Y[:, 0])])

@@ -2,7 +2,7 @@
 from mpmath import mpf
 
 ANY = "integrator=*;step=*;tolerance=*"
-ROUND_OFF = 1e-12  # relative round-off after hundreds of steps
+ROUND_OFF = 1e-12  # relative round-off of a run with hundreds of steps
 PLANE_TIMES = {"": ("2.5", "5", "10"), "load=step;": ("2.5", "5", "7.5", "10")}
 SPACE_TIMES = ("5", "7", "7.5", "9", "10")
 

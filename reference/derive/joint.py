@@ -67,7 +67,7 @@ def turned(given):
     tilt, steps = value["tilt"], value["steps"]
 
     def vector(level):
-        """Returns the rotation vector at a level. Levels below 1 lead from the undeformed state to the first azimuth."""
+        """Returns the rotation vector at a level. From level 0 to 1, the joint is tilted at the first azimuth."""
         azimuth = 2 * math.pi * max(level - 1, 0) / steps
         return min(level, 1.0) * tilt * np.array([math.cos(azimuth), math.sin(azimuth), 0.0])
 

@@ -52,7 +52,6 @@ class Frame:
         return self.coordinates(b.x, b.R, self.net.numbers)
 
     def advanced(self, arc):
-        """Returns the state of the frame at this distance along the arc."""
         one = copy.deepcopy(self)
         way, origin = self.way, self.origin
         one.net.extra = [(one.net.bodies[self.node], lambda level, x, R, force, moment, numbers:
@@ -75,14 +74,13 @@ class Frame:
         return (1 - self.net.bodies[self.node].x[1]) * LENGTH
 
     def determinant(self, size):
-        """Returns the determinant divided by exp(size)."""
         sign, logarithm = np.linalg.slogdet(self.net.system(0.0)[0].toarray())
         return sign * np.exp(logarithm - size)
 
 
 def path(frame, least):
-    """Returns states along the path, at most 400. The path ends when the force, after it was negative, increases beyond
-    `least` [N]."""
+    """Returns at most 400 states along the path, which ends when the force has been negative and then exceeds `least`
+    [N]."""
     points = [frame, frame.advanced(STEP)]
     points[1].turned(frame)
     while len(points) < 400 and not (points[-1].force > points[-2].force > least and

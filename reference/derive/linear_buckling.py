@@ -12,10 +12,10 @@ from reference.derive import defaults
 
 mp.dps = 40
 TERMS = 160
-LEG_TERMS = 64  # 7^64/64! = 1e-35
+LEG_TERMS = 64  # truncation error 7^64/64! = 1e-35
 
-# m(x) as coefficients of powers of x, where x is measured from the end with zero moment, and x at the other end of the
-# beam or half beam
+# coefficients of m(x) in powers of x, measured from the end without moment, and x at the other end of the beam or
+# half beam
 LOADS = {
     "tip": ([0, 1], 1), "distributed": ([0, 0, mpf(1) / 2], 1),
     "mid": ([0, mpf(1) / 2], mpf(1) / 2), "mid_distributed": ([0, mpf(1) / 2,
@@ -163,7 +163,8 @@ FRAMES = ({}, {"angle": "1"}, {"angle": "2.5"}, {"leg": "0.6", "poisson": "0"}, 
 
 
 def frame_rows():
-    """Yields rows for thin strips with GJ = G b t^3/3. The second factor lies between 1.4 pi and 2 pi for every angle."""
+    """Yields the rows of frames of thin strips with GJ = G b t^3/3. The second factor is between 1.4 pi and 2 pi for
+    every angle."""
     for given in FRAMES:
         value = defaults.decimals("right_angle_frame", given)
         E, nu, b, t, length, angle = (value[k] for k in ("young", "poisson", "depth", "thickness",

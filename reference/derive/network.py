@@ -47,7 +47,7 @@ class LineLoad:
 class Loaded(Scaled):
     """A scaled beam with loads along it. The level is that of the network."""
     carries = True
-    stays = False  # True in linear analysis, where the loads remain at their undeformed positions
+    stays = False  # True in linear analysis: loads remain at their undeformed positions
 
     def __init__(self, beam, loads):
         self.__dict__.update(beam.__dict__)
@@ -121,7 +121,7 @@ class Member:
 
     def linearise(self):
         """Computes Y = base + A y_start + B p for the changes in each interval. `base` includes the residual of the
-        present values."""
+        current values."""
         m, n1, n = self.y.shape
         columns = self.y.reshape(-1, n).T
         f, fy, fp = self.beam.slope_and_derivatives(
@@ -202,8 +202,8 @@ class Network:
         return at, at + len(self.numbers)
 
     def _body_rows(self, level, conditions, b, put):
-        """Puts the derivatives of the conditions of a body, computed by complex steps. Returns the values of the
-        conditions. put(i, column, value) receives the index i of the condition."""
+        """Returns the values of the conditions of a body. Passes their derivatives to put(i, column, value), where i
+        is the index of the condition."""
         columns = list(range(b.at, b.at + BODY)) + self._places_of_numbers
         on = [] if b.on is None else list(range(b.on.at, b.on.at + 6))
         R = b.R
@@ -357,7 +357,7 @@ class Network:
         self.numbers = self.numbers + step[len(step) - len(self.numbers):]
 
     def iterate(self, level):
-        """Makes one step of Newton's method. Returns its largest change relative to the values."""
+        """Makes one step of Newton's method. Returns the largest relative change."""
         matrix, right = self.system(level)
         step = splu(matrix).solve(right)
         self._advance(step)

@@ -28,8 +28,7 @@ from reference.derive.scene_text import Refused, number, only  # noqa: E402
 TABLES = "examples"
 SOURCE = "reference/derive/of_scene.py"
 GRIDS = ((4, 13), (6, 14), (10, 15), (16, 16))  # (number of intervals, nodes of each interval)
-AGREEMENT, ROUND_OFF, NOTHING = 1e-10, 1e-11, 1e-13  # relative difference of grids; round-off relative to a value;
-                                                     # and round-off relative to the scale of a value
+AGREEMENT, ROUND_OFF, NOTHING = 1e-10, 1e-11, 1e-13  # relative difference of grids; round-off relative to a value; round-off relative to the scale of a value
 KINDS = ("displacement", "reaction", "stiffness", "compliance", "motion", "internal", "frequency")
 RESULTANTS = ("N", "Qy", "Qz", "Mx", "My", "Mz")
 
@@ -58,7 +57,6 @@ class Question:
             raise Refused(f"{name}: a curve is not supported by the deriving program")
 
     def _end(self):
-        """Returns the end of the member, 0 or 1, or None for a position inside it."""
         return {"from": 0, "to": 1, "0": 0, "1": 1}.get(self.of.get("end", self.of.get("where")))
 
     def of_resultants(self, rows):
@@ -227,7 +225,7 @@ def moments_of(scene, question):
 EXAMPLES = ("cross_flexure_hinge", "folded_leaf_stage", "leaf_spring_guide", "channel_portal")
 PROGRAM = os.environ.get("BEAMWORK",
                          str(pathlib.Path(__file__).resolve().parents[2] / "build" / "beamwork"))
-PREDICTED = EXAMPLES[:3]  # examples with derived limits of sheet_third, which is rigid in shear along y
+PREDICTED = EXAMPLES[:3]  # examples for which limits of sheet_third, which is rigid in shear along y, are derived
 LIMIT = 1e-9  # relative uncertainty of these limits
 KNOWN = {"leaf_spring_guide": ("k_drive", "k_support")}  # quantities with closed forms
 

@@ -20,7 +20,6 @@ COUNT, HIGHEST, STEP = 6, 60, mpf("0.5")  # [Hz]
 
 
 def body(arm):
-    """Returns (m, y, J) of both masses together."""
     m = HEAVY + LIGHT
     return m, arm * (HEAVY - LIGHT) / m, HEAVY * LIGHT / m * (2 * arm) ** 2
 

@@ -103,7 +103,6 @@ def move(rod, mesh, load, held, times):
 
 
 def ends(moved):
-    """Returns the positions of both ends: [times, (x, y) of the first, (x, y) of the last]."""
     q = moved[0]
     return np.concatenate([q[:, :2, 0], q[:, :2, -1]], axis=1)
 
@@ -119,7 +118,6 @@ THROWN = Rod((0, 8), float(np.arctan2(-8, 6)), 10, 1e4, 1e4, 100, 1, 10)
 
 @cache
 def flight(times=FLIGHT_TIMES):
-    """Returns rows (A_x, A_y, B_x, B_y) for the smooth load, and the difference between the meshes."""
     fine, coarse = (ends(
         move(THROWN, Mesh(THROWN, *mesh), _thrown, (), [float(t) for t in times]))
                     for mesh in MESHES)
@@ -142,7 +140,6 @@ def behind_step(elements, degree):
 
 @cache
 def swing(times=SWING_TIMES):
-    """Returns rows (pin_x, pin_y, tip_x, tip_y) of the rubber pendulum, and the difference between the meshes."""
     radius, young, density = 0.02, 5e6, 1100
     A = np.pi * radius**2
     I = A * radius**2 / 4  # noqa: E741

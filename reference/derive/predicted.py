@@ -39,8 +39,8 @@ def as_printed(name):
 
 
 def shear_elastica():
-    """Yields predictions for shear_elastica. GA = 10 is omitted for the beams of J, whose path ends before the full load,
-    and for sheet_second_consistent, which right_angle() treats."""
+    """Yields predictions for shear_elastica. GA = 10 is omitted for the beams of J, whose path ends before the full
+    load, and for sheet_second_consistent, whose value right_angle() yields."""
     for name in JONKER + SHEETS:
         stiffnesses = (500, 50, 10) if name in ("sheet_second", "sheet_third") else (500, 50)
         for row in cantilevers.shear_elastica(stiffnesses, form=as_printed(name)):
@@ -64,7 +64,6 @@ def geradin_cardona():
 
 
 def bend_45():
-    """Yields predictions for arcs, which only the sheet elements support."""
     for name in SHEETS:
         for row in cantilevers.bend_45(form=as_printed(name)):
             yield name, *row[:5], RELATIVE
@@ -152,7 +151,7 @@ def hexapods():
 
 
 def channel_rows(name, given, deflections, points, relative):
-    """Yields rows of a channel. Without shear, beamw_vlasov equals beamw."""
+    """Yields the rows of a channel. Without shear, beamw_vlasov and beamw have the same limit."""
     rigid = {**defaults.values("c_cantilever"), **given}["shear"] == 0
     names = (name, "beamw_vlasov") if name == "beamw" and rigid else (name,)
     for w, values in zip(deflections, points):

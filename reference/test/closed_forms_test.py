@@ -14,7 +14,7 @@ from reference.derive.section import section  # noqa: E402
 class Sections(unittest.TestCase):
 
     def test_channel_of_table_1(self):
-        """Closed forms, in m, for J Table 1 and the shear rigidities."""
+        """Compares the constants of J Table 1 and the shear rigidities with closed forms."""
         s = column.channel_data()
         for got, value in ((s.A, "0.054"), (s.Iy, "3.78e-3"), (s.Iz, "2.16e-3"), (s.It, "1.62e-5"),
                            (s.ys, mpf(16) / 35), (s.Iw, mpf(243) / 175 * mpf("1e-4"))):
@@ -43,8 +43,8 @@ class Sections(unittest.TestCase):
 class Torsion(unittest.TestCase):
 
     def test_rectangles(self):
-        """The constant must agree with the series in which tanh x = 1 - 2/(exp 2x + 1). The terms 1 have the sum 31/32
-        zeta(5), and the other terms decrease rapidly."""
+        """Compares the constant with the series in which tanh x = 1 - 2/(exp 2x + 1), whose constant terms have the
+        sum 31/32 zeta(5)."""
         for w, t in ((1, 1), (2, 1), (mpf("0.05"), mpf("0.0005"))):
             rest = sum(mpf(2) / n ** 5 / (exp(n * pi * w / t) + 1) for n in range(1, 40, 2))
             value = w * t ** 3 / mpf(3) * (1 - 192 / pi ** 5 * t / w * (31 * zeta(5) / 32 - rest))
@@ -59,7 +59,7 @@ class Buckling(unittest.TestCase):
                         mpf(10) ** -25)
 
     def test_warping_vanishes(self):
-        """For K -> inf, the load must approach that of the narrow strip from above in proportion to 1/sqrt(K)."""
+        """For K -> inf, the difference from the load of the narrow strip is proportional to 1/sqrt(K)."""
         limit = linear_buckling.lateral_load("tip", 0, "4.0")
         near = [linear_buckling.lateral_load("tip", K, g) for K, g in ((100, "5.0"), (400, "4.45"))]
         self.assertTrue(0.4 < (near[1] - limit) / (near[0] - limit) < 0.5)
@@ -88,8 +88,8 @@ class Buckling(unittest.TestCase):
 class Rotating(unittest.TestCase):
 
     def test_slender_limit_by_power_series(self):
-        """The slender limit must agree with the power series of w'''' - Omega^2 (T w')' = omega^2 w with T = R (1 - X) +
-        (1 - X^2)/2, w(0) = w'(0) = 0, w''(1) = w'''(1) = 0."""
+        """Compares the slender limit with the power series of w'''' - Omega^2 (T w')' = omega^2 w with T = R (1 - X)
+        + (1 - X^2)/2, w(0) = w'(0) = 0, w''(1) = w'''(1) = 0."""
 
         def determinant(omega, Omega, R):
             tall = []
@@ -136,8 +136,7 @@ class Rotating(unittest.TestCase):
                         (rotating.flap(Omega, 1e6) ** 2 - Omega ** 2) - 1)), 1e-7)
 
     def test_body_at_the_end(self):
-        """At rest, the frequencies satisfy the characteristic equation. Without a body, they are those of the beam alone.
-        For a point mass, the flap frequencies determine the lag frequencies."""
+        """At rest, the frequencies satisfy the characteristic equation."""
         for m, c, g in ((1.0, 0.2, 0.3), (0.1, -0.5, 0.3), (10.0, 0.0, 0.0)):
             rest = np.array([float(w) for w in tip_body.at_rest(m, c, g)])
             self.assertLess(np.max(np.abs(tip_body.flap(0, m, c, g) / rest - 1)), 1e-11)

@@ -56,7 +56,7 @@ class Modes(unittest.TestCase):
             exponential(np.array([-0.2, 0.5, 0.1])))
 
     def measured(self):
-        """Returns the gradient with columns r^p, phi^p, r^q, phi^q from central differences."""
+        """Returns the gradient by central differences, with columns r^p, phi^p, r^q, phi^q."""
         columns = []
         for k in range(12):
             values = []
@@ -99,8 +99,8 @@ class Modes(unittest.TestCase):
         self.assertGreater(np.max(np.abs(printed6 - measured[5])), 0.1)
 
     def test_rotation_about_the_shear_centre(self):
-        """A twist of the end about an axis at (ys, zs) moves the centroid. The signs of all terms must be opposite to
-        those printed in J Eq. 60."""
+        """A twist of the end about the axis at (ys, zs) moves the centroid. All terms have signs opposite to those
+        printed in J Eq. 60."""
         angle, ys, zs = 1e-6, 0.4, -0.3
         moved = np.array([0, 0, 0, self.l0, zs * angle, -ys * angle])
         e = self.modes(moved, np.eye(3), rotation(exponential(np.array([angle, 0, 0]))))
@@ -174,7 +174,7 @@ class Modified(unittest.TestCase):
         e3, e4 = e[3] - ys * e[2], e[4] + ys * e[2]
         w = lambda x: N["12"](x) * e3 + N["14"](x) * e4 - ys * (N["13"](x) * e[2] + N["12"](x) * e[
             7] - N["14"](x) * e[8]) + ys * e[2] * x  # noqa: E731
-        # the chord passes through the centroids, so w_s(1) = ys phi(1), which is the last term
+        # the chord connects the centroids, so w_s(1) = ys phi(1)
         return integral(slope(w) ** 2) / 2
 
     def test_shear_and_eccentricity_are_missing(self):

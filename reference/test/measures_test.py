@@ -28,7 +28,6 @@ def turned(axis, angle):
 
 
 def ends(h):
-    """Returns r^q - r^p, R^p and R^q of a piece of length h."""
     turns = [rotation(exponential(KAPPA * h * (x - 0.5))) for x in X]
     r = h * sum(w * R @ (np.array([1.0, 0, 0]) + GAMMA) for w, R in zip(WEIGHT, turns))
     return r, rotation(exponential(-KAPPA * h / 2)), rotation(exponential(KAPPA * h / 2))
@@ -52,7 +51,6 @@ def extrapolated(measured, h):
 
 
 def jonker_modes(h):
-    """Returns e1 .. e8 of J Eq. 7."""
     r, Rp, Rq = ends(h)
     (_, yp, zp), (_, yq, zq), l = Rp.T, Rq.T, np.linalg.norm(r)
     n = r / l
@@ -62,7 +60,6 @@ def jonker_modes(h):
 
 
 def eq66(e, h):
-    """Returns J Eq. 66 as printed."""
     _, e2, e3, e4, e5, e6, e7, e8 = e
     tw = e2 - (e7 + e8) / 2
     bending = (2 * e3 ** 2 + e3 * e4 + 2 * e4 ** 2 + 2 * e5 ** 2 + e5 * e6 + 2 * e6 ** 2) / 30
@@ -111,7 +108,7 @@ def nijenhuis_modes(h, sheared):
 
 
 def measured(e, h, centre):
-    """Returns the measures that the stiffness of a short element multiplies, in the order of predicted_beam.py."""
+    """Returns the strain measures of a short element, in the order of predicted_beam.py."""
     k, gy, gz = e[1] / h ** 2, (e[4] - e[5]) / (2 * h), (e[3] - e[2]) / (2 * h)
     warping = k - (e[6] + e[7]) / (2 * h ** 2)
     bending = [(e[2] + e[3]) / h ** 2, (e[4] + e[5]) / h ** 2]
@@ -170,7 +167,7 @@ class Measures(unittest.TestCase):
             self.assert_limit(modes, limit, (0, 0), 0.1, 1e-5)
 
     def test_energy_of_a_short_element(self):
-        """The energy per length e^T S e/(2 h) with the printed stiffness must tend to that of the measures."""
+        """The energy per length e^T S e/(2 h) with the printed stiffness tends to that of the measures."""
         def energy(h):
             e, at_centre = eq66(jonker_modes(h), h), np.eye(8)
             at_centre[2:6, 1] = np.array([-YS, YS, -ZS, ZS]) / h

@@ -43,7 +43,7 @@ class Release(unittest.TestCase):
         thick = release.timoshenko_modes(3)[0]
         thin = np.array([float(x**2) for x in release.bernoulli_modes(3)]) * np.sqrt(
             release.EI / (release.DENSITY * release.AREA))
-        # shear deformation and rotary inertia lower the first frequency by 1.3 % and higher frequencies by more
+        # shear deformation and rotary inertia reduce the first frequency by 1.3 % and higher frequencies more
         lower = 1 - thick / thin
         self.assertTrue(0.005 < lower[0] < 0.02 and lower[0] < lower[1] < lower[2], lower)
 
@@ -100,7 +100,7 @@ class Space(unittest.TestCase):
         U, S = rng.standard_normal((6, mesh.nodes)), rng.standard_normal((6, mesh.points))
         step = 1e-3
         dU, dS = (step * d for d in mesh.rates(U, S, 0))
-        # for a quadratic form, the central difference is exactly the rate
+        # the central difference of a quadratic form is exact
         change = mesh.energy(U + dU, S + dS) - mesh.energy(U - dU, S - dS)
         parts = mesh.energy(U + dU, S) - mesh.energy(U - dU, S)
         self.assertGreater(abs(parts), 1e-3)

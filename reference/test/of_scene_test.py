@@ -1,4 +1,4 @@
-"""Scenes solved as networks, and values of tables at new points."""
+"""Tests scenes solved as networks, and values of cases at new parameter points."""
 import csv
 import math
 import pathlib
@@ -10,8 +10,7 @@ from reference.derive import at, of_scene, scene_text
 from reference.derive.scene_text import Refused
 
 
-# Scenes solved as networks are compared with stored reference values of cases, closed forms, and equivalent
-# descriptions.
+# Compares scenes solved as networks with stored reference values, closed forms and equivalent scenes.
 TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 BAR = """beamwork: 1
 sections:
@@ -72,7 +71,6 @@ def values(text):
 
 
 def stored(case, **given):
-    """Returns {quantity: value} of the exact rows with exactly these parameters."""
     with open(TABLES / f"{case}.csv", newline="", encoding="utf-8") as table:
         return {
             row["quantity"]: float(row["value"])
@@ -170,7 +168,7 @@ class Scenes(unittest.TestCase):
             self.assertLessEqual(abs(found["Q"][0] - at_tip), found["Q"][1] + 1e-12, load)
 
     def test_parts_in_other_words(self):
-        """At large bending, loads on parts of a member are equivalent to loads on members that are cut explicitly."""
+        """A load on a part of a member is equivalent to a load on a separate member."""
         whole = ("distributed: [0, 3, 0.5], on: beam, from: 0.25, to: 0.75, to_value: [1, 9, 0], follower: KIND, axes: member"
                  "}\n  b: {force: [2, 5, 1], on: beam, where: 0.25, at: [0, 0.1, 0.2], follower: KIND"
                  "}\n  c: {moment: [0.3, 0.2, 1], on: beam, where: 0.75, follower: KIND, axes: member")
@@ -226,8 +224,7 @@ class Scenes(unittest.TestCase):
         self.close(found["M"], 3 * (1 + found["u"][0]))
 
     def test_releases(self):
-        """A bar that rotates at a hinge, a bar that slides, a cantilever propped by a hinge and by a ball joint, and a
-        universal joint, whose second axis rotates with the first."""
+        """Compares members with hinges, sliding ends, ball joints and universal joints with closed forms."""
         motion = "motions:\n  push: {path: [0, 1], value: [0, 0.6]}\n"
         found = values(
             bar("force: [0, 0, 0], on: tip", {"u": tip("ux"), "t": tip("rz")},
@@ -273,8 +270,7 @@ class Scenes(unittest.TestCase):
             self.close(found[name], scale * value)
 
     def test_frequencies(self):
-        """The frequencies of bending in both planes and of twist must agree with closed forms, and also that of bending
-        with a point mass at the tip."""
+        """Compares frequencies of bending and torsion with closed forms."""
         asked = {f"f{i}": f"frequency: {{analysis: path, which: {i}}}, unit: Hz" for i in range(4)}
         text = bar("force: [0, 0, 1], on: tip", asked, path="modal: {}").replace(
             "shear_modulus: 1}", "shear_modulus: 1, density: 1e-8}").replace("It: 1", "It: 0.36")
@@ -347,8 +343,7 @@ class Refusals(unittest.TestCase):
         self.refused("version", "beamwork: 2\n")
 
     def test_path_dependent_turn(self):
-        """A node with one rotation component fixed as an increment, which rotates about the other two axes, must be
-        rejected."""
+        """Rejects a node that rotates about two axes while one spatial rotation component is fixed."""
         self.refused(
             "'rx' means depend",
             bar("force: [0, 1, 0.5], on: tip", {"w": tip("uy")}, tip=", hold: [rx]").replace(
@@ -365,7 +360,6 @@ CHEAP = {
 
 
 def exact_rows(case):
-    """Returns {parameters: {quantity: row}} in the order of the table."""
     points = {}
     with open(AT_TABLES / f"{case}.csv", newline="", encoding="utf-8") as table:
         for row in csv.DictReader(table):

@@ -1,4 +1,4 @@
-"""Tables of papers and their equations, and the programs that derive values."""
+"""Tests the tables of papers and equations, and the programs that derive values."""
 import ast
 import csv
 import fnmatch
@@ -127,7 +127,7 @@ class Equations(unittest.TestCase):
             self.assertTrue(defines(ROOT / path, name), r)
             text = (ROOT / path).read_text(encoding="utf-8")
             self.assertTrue(r["by"] in text, r)
-            if path.endswith(".c"):  # the function is called, not only defined
+            if path.endswith(".c"):  # the function must be called, not only defined
                 self.assertGreater(len(re.findall(rf"\b{name}\(", text)), 1, r)
             else:
                 self.assertTrue(name.split(".")[1].startswith("test_"), r)
@@ -138,12 +138,11 @@ class Equations(unittest.TestCase):
         self.assertFalse(defines(REFERENCE / "test/papers_test.py", "Papers.test_files_and_functions"))
 
 
-# `make truths` must run exactly the programs that derive exact rows, and every row must be stored.
+# `make truths` runs exactly the programs that derive exact rows, and every row is stored.
 class Programs(unittest.TestCase):
 
     def test_each_takes_no_more_than_whether_all_are_wanted(self):
-        """Every function rows() must have the expected parameters, because a function with this name is run as a deriving
-        program."""
+        """Checks the parameters of every function rows(), because each is run as a deriving program."""
         for name in rederive.programs([]):
             module = rederive.importlib.import_module(f"reference.derive.{name}")
             wanted = ["everything"] if rederive.is_solid(name) else []

@@ -1,5 +1,4 @@
-"""Predicted limits of printed elements: the beam model compared with exact values, and closed forms compared with the
-beam model."""
+"""Tests predicted limits of printed elements."""
 import copy
 import pathlib
 import sys
@@ -20,7 +19,7 @@ from reference.derive.predicted_column import compression, critical, pinned_squa
 
 
 def planar(name, GA):
-    """Returns the network of shear_elastica, whose level is the fraction of the load."""
+    """Returns the network of shear_elastica, whose level is the load factor."""
     beam = Printed(Beam(1.0, EA=1e9, EIy=10.0, EIz=10.0, GJ=10.0, fy=1 / GA, fz=1 / GA), name)
     net = Network(1.0, 10.0, intervals=6)
     root = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0)))
@@ -45,7 +44,7 @@ class Machinery(unittest.TestCase):
         self.assertGreater(len(rows), 60)
 
     def test_other_intervals_and_nodes(self):
-        """Results with other intervals and nodes must agree within the stated uncertainty of the rows."""
+        """Results with other intervals and nodes agree within the uncertainty of the rows."""
 
         def finer(*arguments, intervals=4, **options):
             return Network(*arguments, **{**options, "intervals": intervals + 3, "nodes": 17})
@@ -62,8 +61,8 @@ class Machinery(unittest.TestCase):
                 self.assertLess(abs(one[3] / two[3] - 1), one[5], one[:3])
 
     def test_amplitude_between_the_nodes(self):
-        """Without J Eq. 66, the twist rate equals the warping amplitude, so the frequency with `interpolated` equals that
-        without this option. With J Eq. 66, the frequencies differ."""
+        """Without J Eq. 66, the twist rate equals the warping amplitude, so the option `interpolated` does not change
+        the frequency."""
         for name, least, most in (("beamw_first", 0, 1e-10), ("beamw", 2e-7, 3e-7)):
             form = predicted.as_printed(name)
             nodes, between = (equilibrium.sheet_frequencies(3, {}, form, one)[2] for one in (0, 1))

@@ -104,8 +104,7 @@ class DeepBeam(unittest.TestCase):
             self.assertLess(abs(float(exact) * discrete / value - 1), 2e-5)
 
     def test_bending_asks_for_another_shear_factor_and_a_mesh(self):
-        """The shear factor that would reproduce each value increases with the mode, so no single factor reproduces all
-        values."""
+        """The shear factor that reproduces a value increases with the mode, so no factor reproduces all values."""
         needed = []
         for half_waves, value in zip((1, 2, 3), self.published(1, 5, 8)):
             low, high = 0.8, 0.9

@@ -16,13 +16,12 @@ from reference.derive.solids import channel, deck, sheet
 from reference.derive.solids.deck import BRICK, graded, spin, turned
 
 
-# Solids: meshes fill their volume, tangents are derivatives of the resultant, and known limits are reached.
+# Tests of solids.
 TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 needs_ccx = unittest.skipUnless(deck.available(), f"{deck.PROGRAM} is not installed")
 
 
 def volume(grid):
-    """Returns the volume of bricks whose edges are along the axes."""
     low, high = (
         grid.nodes[grid.elements[:, BRICK.index(corner)]] for corner in ((0, 0, 0), (2, 2, 2))
     )
@@ -127,7 +126,7 @@ def fork(place, along):
 
 
 def network_load(bracket, ratio, K):
-    """Returns the critical dead force in the middle of a beam on two forks, computed with two members."""
+    """Returns the critical dead force in the middle of a beam on two fork supports."""
     beam = Beam(0.5, EA=fork_beams.EA, EIy=ratio, EIz=1.0, GJ=1.0, EIw=1 / K if K else 0.0)
     net = Network(1.0, 1.0, intervals=3, nodes=14)
     first = net.body((0, 0, 0), fork((0, 0, 0), False))

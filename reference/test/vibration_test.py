@@ -1,5 +1,5 @@
-"""Compares frequencies from transfer matrices with those of the Ritz method, which misses no frequency, and with closed
-forms."""
+"""Compares frequencies from transfer matrices with those of the Ritz method, which finds every frequency, and with
+closed forms."""
 import pathlib
 import sys
 import unittest
@@ -122,7 +122,7 @@ class OffCentreMasses(unittest.TestCase):
 class TransferMatrices(unittest.TestCase):
 
     def test_cantilever_with_a_mass(self):
-        """The frequencies of an Euler-Bernoulli cantilever with a mass must satisfy the determinant of tip_body.py."""
+        """The frequencies of an Euler-Bernoulli cantilever with a mass are zeros of the determinant of tip_body.py."""
 
         def end(f):
             t, o = bending(mpf(1), f, mpf(1), mpf(1)), f
