@@ -126,8 +126,7 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
 }
 
 /* Names the inertia that a motion requires but the type does not have. Returns 0 if none is
- * missing.
- * */
+ * missing. */
 static int mass_lacks(const scene *s, const element_type *type, char *words, int size)
 {
     for (int i = 0; i < s->analyses && !type->spreads; i++)

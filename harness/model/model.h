@@ -242,7 +242,7 @@ typedef struct mesh_warp {
     int scalar; /* 1: an additional unknown */
 } mesh_warp;
 
-typedef double mesh_triad[9];
+typedef double mesh_triad[9]; /* the columns are the unit vectors nX, nY, nZ */
 
 typedef struct mesh_element {
     int kind, member;

@@ -218,8 +218,7 @@ static void take_column(int k, int i, int is_complex, int second, const double *
 
 /* Stores one of each set lambda, -lambda, conj lambda, -conj lambda of eigenvalues beta/(re + i im)
  * [n]. Their columns of z (right) and w (left) contain real and imaginary parts. c[2 k]: work
- * space.
- * */
+ * space. */
 static void take_general(const subspace *b, const double re[], const double im[],
                          const double beta[], const double *z, const double *w, double complex c[],
                          ritz *r)

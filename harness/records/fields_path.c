@@ -389,8 +389,7 @@ static void get_theory(const subject *s, field_value *out)
 }
 
 /* Gives an order of convergence of analysis offset/2. Even offset: lowest order; odd: highest
- * order.
- * */
+ * order. */
 static void get_order(const subject *s, field_value *out)
 {
     const size_t i = out->of->offset;

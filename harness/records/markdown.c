@@ -8,8 +8,7 @@
 
 enum {
     MOST_ROWS = 50
-}; /* limits the length of comments on pull requests; JSON contains all rows
-    * */
+}; /* limits the length of comments on pull requests; JSON contains all rows */
 
 /* Writes a cell of a table. Escapes vertical bars, and replaces line ends by spaces, because both
  * would break the table. */

@@ -233,8 +233,7 @@ static int fixed_words(const sweep_file *s, char word[MOST_WORDS][WORD])
 }
 
 /* Writes to out[size] all parameters of a point that the file contains, in the order of their
- * names.
- * */
+ * names. */
 static void point_text(const sweep_file *s, int which, char *out, size_t size)
 {
     char word[MOST_WORDS][WORD];

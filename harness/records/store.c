@@ -403,8 +403,7 @@ static void put_sections(record_file *r, hid_t at, const scene *sc)
 }
 
 /* Stores the outlines at the far ends of tapered members, each with the index of its member as
- * name.
- * */
+ * name. */
 static void put_far_ends(record_file *r, hid_t at, const scene *sc)
 {
     if (!scene_tapers(sc))
