@@ -9,7 +9,7 @@ from reports import experiments
 from reports.data import Unreadable
 
 INTEGRATOR_RUNS = "integrators.json"
-KEPT = 1e-11  # fraction of the largest energy; the energy is conserved if the drift is smaller
+KEPT = 1e-11  # largest energy-balance error, relative to the largest energy, of a run that conserves energy
 ORDER = ("alpha", "hht", "trapezoidal", "conserving", "radau", "explicit")  # order in legends and tables
 KEYS = ("case", "parameters", "formulation", "elements")  # columns that identify a problem
 NONE_WANTED = "none is wanted"  # reason stored if no reference is requested
@@ -38,7 +38,6 @@ class Run:
 
     @property
     def setting(self):
-        """Returns the tolerance if a tolerance controls the steps, otherwise the step."""
         return f"tolerance {self.tolerance:.2g}" if self.tolerance else f"step {self.step:.3g} s"
 
     @property
@@ -47,7 +46,6 @@ class Run:
 
     @property
     def keeps(self):
-        """Returns True if the run conserves energy to round-off."""
         return self.energy <= KEPT
 
 
@@ -81,7 +79,7 @@ class Problem:
     formulation: str
     elements: int
     stiffening: float
-    reference: str  # reason why there is no reference, or an empty string if there is a reference
+    reference: str  # reason why there is no reference, or an empty string
     uncertainty: float
     runs: list
     ladders: list
@@ -102,7 +100,6 @@ class Problem:
         return ordered({r.scheme for r in self.runs})
 
     def ladder(self, scheme):
-        """Returns the Ladder of a scheme, or None."""
         return next((one for one in self.ladders if one.scheme == scheme), None)
 
 
@@ -145,8 +142,8 @@ def stiffening_in(parameters):
 
 
 def problem_of(tables, key):
-    """Returns the Problem of a case, set of parameters, formulation and mesh. The problem contains the runs with errors,
-    then those of which only the outcome is known."""
+    """Returns the Problem of a case, set of parameters, formulation and mesh. Its runs are those with errors, then
+    those of which only the outcome is known."""
     def own(name):
         return tables[name].get(key, [])
 
@@ -169,8 +166,8 @@ def problems_of(found):
 
 @dataclass(frozen=True)
 class Check:
-    """Difference between the reference of a problem and `explicit` at two tolerances. `reason` states why the difference
-    is unknown."""
+    """Difference between the reference of a problem and runs of `explicit` with two tolerances. `reason` states why
+    the difference is unknown."""
 
     name: str
     formulation: str
@@ -245,8 +242,8 @@ FACTORS = [10**(i / 12) for i in range(25)]  # factors of profiles, from 1 to 10
 
 @dataclass(frozen=True)
 class Answer:
-    """Answer for one problem. `ways` are sorted with the cheapest first. `ties` are schemes whose costs differ from the
-    lowest by less than the scatter of costs."""
+    """Answer for one problem. `ways` are sorted by cost. `ties` are schemes whose costs differ from the lowest by
+    less than the scatter of costs."""
 
     level: float
     ways: tuple
@@ -258,7 +255,6 @@ class Answer:
 
 
 def answer(problem, level, noise=1.0):
-    """Returns the Answer of one problem."""
     ways = tuple(problem.reached.get(level, ()))
     ties = tuple(w.scheme for w in ways[1:] if w.cost <= noise * ways[0].cost)
     return Answer(level, ways, ties)
@@ -274,10 +270,10 @@ def by_case(problems):
 
 @dataclass(frozen=True)
 class Summary:
-    """Summary of a case over all formulations. `wins` is [(scheme, number of problems in which it has the lowest cost or
-    ties)]. `reached` is the number of problems in which any scheme reaches the level, and `count` that of all problems.
-    `best` are the Ways of the scheme with the most wins. `keeping` is [(scheme, cost relative to the lowest cost)] of
-    the cheapest Way in each problem that conserves energy to round-off."""
+    """Summary of a case over all formulations. `wins` is [(scheme, number of problems in which it has the lowest cost
+    or ties)]. `reached` is the number of problems in which a scheme reaches the level, and `count` that of all
+    problems. `best` are the Ways of the scheme with the most wins. `keeping` is [(scheme, cost relative to the lowest
+    cost)] of the cheapest Way in each problem that conserves energy to round-off."""
 
     wins: tuple
     reached: int
@@ -336,7 +332,7 @@ def doubt(problem, way):
 
 
 def wins(problems, level, noise=1.0):
-    """Returns ({scheme: number of problems in which it has the lowest cost or ties}, number of problems in which any
+    """Returns ({scheme: number of problems in which it has the lowest cost or ties}, number of problems in which a
     scheme reaches the level)."""
     count, reached = {}, 0
     for problem in problems:

@@ -25,8 +25,8 @@ def level_words(level):
 
 
 def soonest(problems, level, noise):
-    """Returns text such as `within 1 % alpha in 2 of 3`. Integrators that have the lowest cost less than half as often as
-    the first are omitted. For a single problem, the text includes the step."""
+    """Returns text such as `within 1 % alpha in 2 of 3`. It omits integrators that have the lowest cost in less than
+    half as many problems as the first. For a single problem, it includes the step."""
     count, reached = integrators.wins(problems, level, noise)
     if not reached:
         return f"within {level_words(level)} none"
@@ -43,7 +43,6 @@ def soonest(problems, level, noise):
 
 
 def trust(problems, noise):
-    """Returns text on the evidence for the answers, from the runs of lowest cost."""
     best = [(p, found.best) for p in problems
             for found in (integrators.answer(p, level, noise) for level in integrators.LEVELS)
             if found.best]
@@ -65,7 +64,6 @@ def trust(problems, noise):
 
 
 def first(problems, noise):
-    """Returns the first sentences of the page."""
     told = integrators.judged(problems)
     if not told:
         return "No run of these results has a time error."
@@ -76,7 +74,7 @@ def first(problems, noise):
 
 
 def chosen(ways):
-    """Returns text such as `tolerance 1e-05` or `step 0.01 to 0.02 s`, whichever most of the ways use."""
+    """Returns text such as `tolerance 1e-05` or `step 0.01 to 0.02 s`, the setting that most of the ways use."""
     by_tolerance = [w.run.tolerance for w in ways if w.run.tolerance]
     if 2 * len(by_tolerance) >= len(ways):
         return f"tolerance {between(by_tolerance, '{:.2g}')}"
@@ -100,8 +98,8 @@ def drift(ways):
 
 
 def stability(problems):
-    """Returns one sentence on a map. It lists the schemes that are bounded everywhere and, for each other scheme, the
-    smallest step at which its energy grows or it stops."""
+    """Returns one sentence on a map: the schemes whose energy is bounded everywhere and, for each other scheme, the
+    smallest step with growing energy or failure."""
     bad, every = {}, {}
     for problem in problems:
         for run in problem.runs:
@@ -118,7 +116,6 @@ def stability(problems):
 
 
 def iterations(rows):
-    """Returns one sentence on how iterations change between the smallest and the largest stiffness."""
     change = [found[max(found)] - found[min(found)] for found in rows.values()]
     if not change:
         return ""
@@ -127,7 +124,6 @@ def iterations(rows):
 
 
 def verdicts(rows):
-    """Returns one sentence on the verdicts."""
     off = sum(not row["as_expected"] for row in rows)
     if not rows:
         return ""
@@ -144,7 +140,7 @@ SLOPES = (2, 5)  # orders with a reference line
 
 
 def slope_lines(panel, runs):
-    """Draws dotted lines whose slopes are the orders in SLOPES, starting from the upper left run."""
+    """Draws dotted lines whose slopes are the orders in SLOPES, starting at the upper left run."""
     costs = [r.cost for r in runs]
     low, high = min(costs), max(costs)
     errors = [max(abs(r.error), FLOOR) for r in runs]

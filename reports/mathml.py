@@ -81,7 +81,6 @@ class Parser:
         return row(parts) if parts else "<mrow></mrow>"
 
     def words(self):
-        """Returns the characters between braces."""
         self.take("{")
         found = ""
         while self.peek() != "}":

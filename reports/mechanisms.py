@@ -1,5 +1,5 @@
-"""The joint and the hexapod, compared with N sections 4.2 and 4.3: curves, relative times, growth of the time with the
-number of elements, parts of an iteration, and the dense baseline.
+"""The joint and the hexapod, compared with N sections 4.2 and 4.3: curves, times and their parts, and the published
+dense algorithm.
 
 The times are measured by `make lab L=bench-mechanisms`, which writes its files to the folder of the results."""
 import functools
@@ -61,8 +61,7 @@ def value_of(site, key, n, parameters):
 
 
 def comparison(site, cells):
-    """Returns the published rows together with those of beamwork. The published second-order element has no Wagner
-    torque."""
+    """Returns the published rows with those of beamwork. The published second-order element has no Wagner torque."""
     at = {(c.key, c.n): c for c in cells if c.case == "spherical_joint"}
     first = at.get(("sheet_third", 1))
     rows = []

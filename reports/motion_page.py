@@ -36,7 +36,6 @@ class Motion:
 
     @property
     def steps(self):
-        """Returns the lengths of the steps [s]."""
         return self.columns["step"][1:]
 
     @property
@@ -50,7 +49,6 @@ class Motion:
 
     @property
     def drift(self):
-        """Returns the energy-balance error over time, relative to its scale."""
         return self.columns["drift"] / (self.scale or 1)
 
     def momentum(self, which):
@@ -182,7 +180,7 @@ def sentence(motion, how):
 
 
 def between(values, form):
-    """Returns `smallest to largest`, or one value if the smallest and the largest value have equal texts."""
+    """Returns `smallest to largest`, or one value if both have the same text."""
     least, most = form.format(min(values)), form.format(max(values))
     return least if least == most else f"{least} to {most}"
 
@@ -193,7 +191,7 @@ def whenever(meaning):
 
 
 def spread(motions):
-    """Describes the ranges of energy drift and of iterations over the motions of all formulations. Returns an empty
+    """Describes the ranges of the energy-balance error and of the iterations over all formulations. Returns an empty
     string if there is only one motion."""
     if len(motions) < 2:
         return ""
@@ -229,7 +227,7 @@ def fitting(values, unit):
 WIDE, HALF = (640, 200), (300, 170)
 MOST_POINTS = 150  # largest number of points of a curve
 MOST_CURVES = 7  # largest number of curves of formulations; together with the reference value, style.MOST
-FLOOR = 1e-17  # smallest drawn drift
+FLOOR = 1e-17  # smallest drawn energy-balance error
 # column: name, colour and line
 ENERGIES = {"kinetic": ("kinetic", 0, "-"), "strain": ("strain", 1, "-"),
             "work": ("work", 2, "--"), "dissipated": ("dissipated", 3, "-."),
@@ -307,7 +305,7 @@ def compared(site, panel, motion, x, y, what):
 
 
 def draw_drifts(site, motions, name):
-    """Draws the magnitude of the energy drift of the leading formulations."""
+    """Draws the magnitude of the energy-balance error of the leading formulations."""
     chart = Chart(1, WIDE)
     panel = chart.panel("", "time [s]", "drift of energy", xlog=False)
     for motion in leading(motions):
@@ -337,7 +335,7 @@ def draw_steps(site, motions, name):
 
 def over_time(case, quantity):
     """Returns {formulation: (times, values, elements, whole)} of the finest meshes. The values are the curve of the
-    quantity if `whole` is True, otherwise its values at points that differ only in `time`."""
+    quantity if `whole` is True, otherwise values at points that differ only in `time`."""
     out, end = {}, end_of(case)
     for series in case.points[0].series:
         curves = [m for m in series.meshes if quantity in m.curves and
@@ -408,7 +406,6 @@ def file_of(case):
 
 
 def leader(motions):
-    """Returns the motion whose energies and momenta are drawn."""
     return leading(motions)[0]
 
 

@@ -49,8 +49,8 @@ def groups(pages):
 
 
 def group_of(name, found, cases):
-    """Returns the Group of a page, or None. Pages of single cases, formulations and motions belong to the groups that
-    contain the page of all of them."""
+    """Returns the Group of a page, or None. The page of one case, formulation or motion belongs to the group that
+    contains the page of all of them."""
     if name.startswith("formulation_"):
         name = "formulations.html"
     elif name.startswith("motion_"):

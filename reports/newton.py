@@ -30,7 +30,8 @@ def largest(values, iterations):
 
 
 def singles(data):
-    """Returns [(case, [(formulation, unit, {form: result of largest()}, largest tried value)])]."""
+    """Returns the largest steps of each case and formulation, [(case, [(formulation, unit, {form: result of
+    largest()}, largest tried value)])]."""
     cases = {}
     for s in data["singles"]:
         row = (f"{s['formulation']}, n = {s['elements']}", s["unit"], {
@@ -42,14 +43,14 @@ def singles(data):
 
 
 def farther(data):
-    """Returns three numbers of comparisons: all, those in which the mixed form converges for larger steps than the
-    displacement form, and those in which it converges only for smaller steps."""
+    """Returns the number of comparisons, and the numbers of those in which the mixed form converges for larger and
+    only for smaller steps than the displacement form."""
     best = [[largest(s["values"], s[form])[0] or 0 for form in FORMS] for s in data["singles"]]
     return len(best), sum(m > d for m, d in best), sum(m < d for m, d in best)
 
 
 def contests(data):
-    """Returns [(case, [(formulation, numbers of first steps, {form: results})])]."""
+    """Returns the comparisons of cost, [(case, [(formulation, numbers of first steps, {form: results})])]."""
     cases = {}
     for c in data["contests"]:
         row = (f"{c['formulation']}, n = {c['elements']}", c["first_steps"], {

@@ -44,7 +44,7 @@ PAGES = (
 
 ALONE = ("sweep_page", "glossary")  # pages that can be written for a sweep without other results
 _tasks = [
-]  # tasks of the present run, which the processes of the pool inherit, so that no record is copied
+]  # tasks of the current run; processes of the pool inherit them, so that records are not copied
 
 
 def _run(index):

@@ -40,12 +40,11 @@ class Paper:
             os.makedirs(self.folder, exist_ok=True)
 
     def wants(self, name):
-        """Returns True if the figure of this name is written."""
+        """Returns True if the figure with this name is requested."""
         case = next((c for c in self.cases if name.startswith(c)), None)
         return self.formats and self.only in (None, case)
 
     def chart(self, chart, name):
-        """Writes a chart (chart.Chart)."""
         if self.wants(name):
             figure = figure_of(chart, self.sized)
             self.figure(figure, name)
@@ -138,7 +137,7 @@ def legend_of(panels):
 
 
 def draw(axes, panel):
-    """Draws a panel (chart.Panel) whose axes have their final limits."""
+    """Draws a panel (chart.Panel). Its axes must have their final limits."""
     scale(axes.xaxis, panel.x, axes.set_xscale, axes.set_xlim)
     scale(axes.yaxis, panel.y, axes.set_yscale, axes.set_ylim)
     if panel.shares:
@@ -177,7 +176,6 @@ def ink(colour):
 
 
 def curve(axes, x, y, look):
-    """Draws a curve with the attributes of a chart."""
     marks = look.get("marks")
     every = {"-end": [len(x) - 1], "-start": [0], "-mid": list(range(1, len(x) - 1))}.get(look.get("where"), marks)
     known = {name: look[name] for name in ("linewidth", "alpha", "markersize", "zorder") if look.get(name)}

@@ -135,8 +135,8 @@ def draw_convergence(site, look, parameters):
 
 
 def draw_snap(site, look, case):
-    """Draws the path of beamw_consistent on its finest mesh, with its critical points. Returns (Image, [Event]) or
-    None."""
+    """Draws the path of beamw_consistent on its finest mesh. Returns (Image, critical points [Event]), or None
+    without a path."""
     point = look.points.get((case, ""))
     series = next((s for s in point.series if s.key == "beamw_consistent"), None) if point else None
     if series is None or "curve" not in series.meshes[-1].curves:
@@ -216,7 +216,6 @@ def model_points(site, parameters):
 
 
 def continued(site, case):
-    """Returns True if the case has a path of beamw_consistent at its default parameters."""
     found = site.case(case)
     return found is not None and any("curve" in m.curves for s in found.points[0].series
                                      if s.key == "beamw_consistent" for m in s.meshes[-1:])

@@ -14,7 +14,7 @@ from reports.shapes import CLAMPED, FRAME, bodies, distance, exaggeration, read,
 
 NAVIGATION = [("pictures.html", "pictures")]
 FLAT = 0.02  # ratio of extent to size below which a structure is treated as plane
-FAR, NEARLY = 0.45, 0.9  # fractions of the largest distance, slightly below one half and one
+FAR, NEARLY = 0.45, 0.9  # fractions of the largest distance from the start
 
 MEMBER, BODY, SUPPORT = np.array([0.52, 0.71, 0.87]), np.array([0.93, 0.80, 0.62]), "#1c2430"
 LIGHT = np.array([0.35, -0.55, 0.76])
@@ -39,7 +39,7 @@ class View:
 
 
 def best_view(s, states):
-    """Returns the view from the side, or from higher up if the displacements are then significantly more visible."""
+    """Returns the view from the side, or from higher up if displacements are then much more visible."""
 
     def seen(view):
         return max((float(np.linalg.norm(view.flat(s.position[k] - s.position[0]), axis=1).max())
@@ -159,9 +159,9 @@ def title_of(s, state, scale):
 
 
 def chosen(s):
-    """Returns the states to choose the picture from: the undeformed state, two states of a path or motion, and up to
-    MOST_MODES linear solutions, buckling modes and vibration modes each. The two states are the first one at a distance
-    of FAR from the start, and the last one that is farthest from it (to the fraction NEARLY)."""
+    """Returns the states that can be selected: the undeformed state, two states of a path or motion, and up to
+    MOST_MODES of each kind of mode and of linear solutions. The two states are the first at FAR times the largest
+    distance from the start and the last at NEARLY times this distance."""
     path = [k for k, kind in enumerate(s.kind) if kind in ("path", FRAME)]
     out = [0]
     if path:
@@ -177,7 +177,6 @@ def chosen(s):
 
 
 def draw(site, case, s):
-    """Writes the files of the still picture and of the model that can be rotated."""
     worth = chosen(s)
     first = worth[min(1, len(worth) - 1)]
     start = max((k for k in worth if s.kind[k] in ("path", FRAME)), default=first)
@@ -203,7 +202,6 @@ def caption(s):
 
 
 def markup(case, s):
-    """Returns the viewer element with the still picture in it, for the pages of cases."""
     name = html.escape(case.name)
     image = f'<img src="picture_{name}.svg" alt="{name}, undeformed and deformed" loading="lazy">'
     place = shapes.markup(case.name, image, f"{case.name} in space")

@@ -1,5 +1,4 @@
-"""Error figures of cases and the parts that they share: axes, selection of the formulations, and markers below the
-uncertainty of the reference value."""
+"""Error figures of cases, and their common parts."""
 import math
 
 import numpy as np
@@ -9,14 +8,13 @@ from reports import answers, data, style, verdicts
 from reports.chart import Chart
 
 FLOOR = 1e-13  # errors below this value are round-off
-NEARLY = 1e-10  # values with smaller errors are treated as equal to the reference value
+NEARLY = 1e-10  # smaller errors are treated as zero
 CEILING = 1e3  # larger errors are not drawn
 MOST_CURVES = style.MOST  # largest number of formulations in a figure
 OPEN = "open: below the reference value's own digits"
 
 
 def log_axis(axis, whole=False):
-    """Sets a few ticks: whole numbers if `whole` is True, otherwise powers of ten."""
     low, high = axis.get_view_interval()
     decades = math.log10(high / low) if low > 0 else 6
     if whole and decades < 0.7:
@@ -103,8 +101,8 @@ def leading(point, quantity):
 
 
 def telling(point, quantities):
-    """Returns the first of these quantities for which most formulations differ from the reference value on their
-    coarsest mesh. Returns the first quantity if no quantity meets this condition."""
+    """Returns the first quantity for which most formulations have an error on their coarsest mesh, or otherwise the
+    first quantity."""
     def tells(quantity):
         least = max(digits_of(point, quantity) or 0, NEARLY)
         first = [pairs[0][1] for pairs in (finite(s, quantity) for s in point.series) if pairs]
@@ -155,8 +153,8 @@ def draw_series(site, panel, point, series, quantity, where, errors="errors", to
 
 
 def slope_triangle(panel, shown, quantity):
-    """Draws a line below the last points of the most accurate formulation. Its slope is the order of this formulation,
-    rounded to an integer."""
+    """Draws a line below the last points of the most accurate formulation. Its slope is the rounded order of this
+    formulation."""
     best = None
     for series in shown:
         pairs, v = finite(series, quantity), answers.verdict_of(series, quantity)
@@ -247,7 +245,7 @@ def draw_times(site, panel, point, shown, quantity):
 
 
 def shown_in_all(point, quantities, errors="errors"):
-    """Returns at most MOST_CURVES series: those drawn for most of these quantities."""
+    """Returns at most MOST_CURVES series: those that are drawn for most of these quantities."""
     if errors != "errors":
         own = [s for s in point.series if any(finite(s, q, errors) for q in quantities)]
         plain = [s for s in own if ":" not in s.key and verdicts.corrected(s.key) is None]

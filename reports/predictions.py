@@ -14,7 +14,6 @@ def tasks(site):
 
 
 def truths_of(point):
-    """Returns {quantity: reference value}."""
     return {v.quantity: v.truth for s in point.series for v in s.verdicts if math.isfinite(v.truth)}
 
 

@@ -32,7 +32,7 @@ class Problem:
 
 
 def contestants(cases):
-    """Returns the keys of formulations that were run and have a rank, without options and misprints if possible."""
+    """Returns the keys of ranked formulations, without options and misprints if possible."""
     keys = {s.key for c in cases for p in c.points for s in p.series
             if not s.missing and not s.unranked}
     plain = {k for k in keys if ":" not in k and verdicts.corrected(k) is None}
@@ -87,8 +87,8 @@ def no_defect(verdict, level):
 
 
 def solved(problem, key, level, forbids=defect):
-    """Returns the data.Mesh with which a formulation solves the problem, or None. `forbids` is a function of verdict and
-    level that returns True for a known defect. With a known defect, the problem is not solved."""
+    """Returns the data.Mesh with which a formulation solves the problem, or None. A problem is not solved if
+    forbids(verdict, level) is True."""
     if key not in problem.tries:
         return None
     series, verdict = problem.tries[key]
@@ -184,7 +184,6 @@ class TrustRow:
 
     @property
     def share(self):
-        """Returns the share of passes among the verdicts."""
         return self.counts["pass"] / self.judged if self.judged else math.nan
 
 
@@ -236,8 +235,8 @@ def trust_table(cases, found, keys):
 
 
 def trust_order(row):
-    """Returns the sort key of a row: the share of solved problems, then the share of passes, largest first. Formulations
-    that are not compared (options, uncorrected misprints) come last."""
+    """Returns the sort key of a row: first the share of solved problems, then the share of passes, in descending
+    order. Formulations that are not compared (options, uncorrected misprints) come last."""
     solved = row.solved if math.isfinite(row.solved) else -1
     return -round(solved, 6), -round(row.share, 6), row.key
 

@@ -81,7 +81,7 @@ def profile(found, keys, question, offered=False):
 
 
 def read_at(curves, at, factor):
-    """Returns [(share within the factor, formulation)], the largest share first. `factor` is one of the factors in `at`."""
+    """Returns [(share within the factor, formulation)], the largest share first. `at` must contain the factor."""
     i = at.index(factor)
     return sorted(((values[i], key) for key, values in curves.items()), reverse=True)
 
@@ -126,8 +126,8 @@ def xlabel(picture):
 
 
 def marks_of(site, key, at, shares, marked):
-    """Returns the arguments of plot() for a curve whose markers show the share at their factor and the share solved at
-    any cost."""
+    """Returns the arguments of plot() for a curve. Tooltips of its markers show the share at their factor and at any
+    cost."""
     rows = [(f"{x:g}", f"{100 * share:.1f} %", f"{100 * shares[-1]:.1f} %")
             for x, share in list(zip(at, shares))[marked]]
     return site.points(key, ("factor", "solved", "at any cost"), rows)
@@ -153,10 +153,10 @@ class Fixed(Axis):
         self.given = ticks
 
     def take(self, values):
-        """Ignores the values, because the limits are prescribed."""
+        pass
 
     def settle(self):
-        """Does nothing, because the limits are prescribed."""
+        pass
 
     def ticks(self):
         return self.given
@@ -212,12 +212,12 @@ def write_table(site, compared, name="profiles.csv"):
 # The page of profiles, winners and reliability.
 
 NAVIGATION = [("profiles.html", "profiles")]
-NEAR = {to_the_best: 2, to_the_smallest: 10}  # factor at which the text next to a figure reads the leading curve
+NEAR = {to_the_best: 2, to_the_smallest: 10}  # factor for which the text next to a figure gives the share of the leading curve
 READINGS = (defect, no_defect, any_defect)
 
 
 def panel(site, compared, picture, level, name=None, size=(250, 175)):
-    """Returns the figure of a level, with the leading curve at the factor NEAR as an example of how to read it."""
+    """Returns the figure of a level, with the share of the leading curve at the factor NEAR."""
     curves = compared.profile(picture.question(level), picture.offered)
     at = places(FARTHEST[picture.unit])
     factor = NEAR[picture.unit]

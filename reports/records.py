@@ -101,7 +101,6 @@ class Verdict:
 
 @dataclass
 class Series:
-    """One formulation at one parameter point."""
     key: str
     summary: str
     source: str
@@ -117,7 +116,7 @@ class Series:
 
     @property
     def marks(self):
-        """Returns the remarks that follow the name of the series everywhere."""
+        """Returns the remarks that follow the name of the series on all pages."""
         return "; ".join(filter(None, (self.unranked, "new, without effect on the exit status" if self.is_new else "")))
 
     @property
@@ -130,7 +129,6 @@ class Series:
 
 @dataclass
 class Point:
-    """One parameter point of a case."""
     name: str
     parameters: str
     series: list

@@ -19,7 +19,7 @@ from reports.data import text
 SYMBOL = 0.03  # largest half side, relative to the size, of a rectangle that represents a section known only by its constants
 THIN = 0.2  # ratio of thickness to length up to which a wall is drawn as a surface
 VISIBLE = 0.02  # displacement, relative to the size, below which the picture exaggerates displacements
-GAP = 0.35  # relative distance between points of a body beyond which rods join them
+GAP = 0.35  # relative gap beyond which parts of a body are joined by rods
 CLAMPED = 63  # bits of all six components
 FRAME = "motion"  # kind of a state that is a frame of a motion, whose value is the time [s]
 
@@ -176,7 +176,6 @@ def hull_faces(points):
 
 
 def hull(points):
-    """Returns the faces of the convex hull as points."""
     return [points[face] for face in hull_faces(points)]
 
 
@@ -222,7 +221,7 @@ def bodies(s, state, scale):
 # the label of the state contains the factor.
 
 WHOLE = 32767
-MOST_POINTS = 1300  # largest number of stored points of all members; of more points, only every n-th is stored
+MOST_POINTS = 1300  # largest number of stored points of all members; if there are more, only every n-th is stored
 MOST_FRAMED = 16_000  # largest number of points of all frames of a motion together
 LEAST = 3  # smallest number of points of a bent member before the number of frames is reduced
 
@@ -348,12 +347,10 @@ def shape(s, words, supports, hinges, start, view, most=MOST_FRAMED):
 
 
 def as_json(found):
-    """Returns the data of a shape as JSON."""
     return json.dumps(found, separators=(",", ":"))
 
 
 def store(site, name, found):
-    """Writes the file of a shape."""
     with open(os.path.join(site.folder, f"shape_{name}.js"), "w", encoding="utf-8") as out:
         out.write(f"beamwork_shape({json.dumps(name)}, {as_json(found)});\n")
 

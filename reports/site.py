@@ -47,7 +47,7 @@ def seconds(value):
 
 
 def file_of(key):
-    """Returns the file name without suffix for the key of a formulation."""
+    """Returns a file name, without suffix, for the key of a formulation."""
     return "formulation_" + key.replace(":", "_").replace("=", "_").replace(",", "_")
 
 
@@ -109,7 +109,7 @@ class Site:
                                       look_of=style.class_of)
 
     def write_assets(self):
-        """Writes the style sheet and the scripts next to the pages. The sheet contains the colours of formulations."""
+        """Writes the style sheet and the scripts next to the pages."""
         for asset in ASSETS.iterdir():
             own = style.sheet() if asset.name == "style.css" else ""
             with open(os.path.join(self.folder, asset.name), "w", encoding="utf-8") as out:
@@ -138,7 +138,6 @@ class Site:
         return "index.html" if alone else f"sweep_{self.name_of(sweep)}.html"
 
     def case(self, name):
-        """Returns the case of this name, or None."""
         return next((c for c in self.cases if c.name == name), None)
 
     def write(self, template, name, **context):

@@ -22,7 +22,7 @@ def map_text(x, y, words, more=""):
 
 
 class Fields:
-    """All fields, collected by outcome: one path and one group of signs for each kind of outcome."""
+    """All fields, collected by outcome: each kind of outcome has one path and one group of signs."""
 
     def __init__(self, look):
         self.look = look
@@ -141,7 +141,7 @@ def kind(outcome):
 
 
 class Cell:
-    """Outcome of one formulation at one value of one extreme: that of the quantity with the worst outcome. `error` is the
+    """Outcome of one formulation at one value of one extreme: the worst outcome of all quantities. `error` is the
     largest magnitude of the errors of all quantities, or NaN."""
 
     def __init__(self, outcomes):
@@ -221,7 +221,6 @@ def findings(record):
 
 
 def stored(site):
-    """Returns the record of `beamwork stress` in the results, or None."""
     return read(site.results)
 
 

@@ -1,5 +1,4 @@
-"""A permanent colour and marker for each formulation. A new formulation does not change the colours and markers of
-others.
+"""Colours and markers of formulations. A new formulation does not change those of others.
 
 The colours are distinguishable without colour vision (Okabe and Ito, Tol). In dark mode, each colour is replaced by a
 lighter colour of the same hue: figures.py writes a variable, which the style sheet defines (sheet())."""
@@ -47,7 +46,7 @@ MEANINGS = {"#b03a00": "var(--bad,#b03a00)", "#005a94": "var(--accent,#005a94)",
             "#6a5a00": "var(--fair,#6a5a00)"}
 VARIABLES = MEANINGS | {light: f"var(--f{i},{light})" for i, (light, _) in enumerate(COLOURS)}
 
-# Text in figures is stored as text, not as outlines, so that it can be searched and figures are small.
+# Text in figures is stored as text, not as outlines, so that it can be searched.
 plt.rcParams.update({
     "font.size": 9, "axes.grid": True, "grid.alpha": 0.25, "grid.linewidth": 0.5,
     "axes.spines.top": False, "axes.spines.right": False, "legend.frameon": False,

@@ -1,14 +1,13 @@
-"""First statements on the page of a sweep: for every formulation, the ranges in which it is within the tolerance, from
-the counts of one pass."""
+"""The first statements on the page of a sweep: the ranges in which each formulation is within the tolerance."""
 from dataclasses import dataclass, field
 
 from reports.sweep import boxes, gather, stored
 from reports.sweep.boxes import Box
 
-ENOUGH = 0.9  # share of the largest range that a range with fewer elements must reach to be listed first
-FEWER = 0.15  # share of the first range that a range with fewer elements must reach to be listed
-BEHIND = 0.95  # a quantity decides alone if its points within the tolerance are fewer than this share of the next one's
-WIDER = 1.01  # factor on the first range that a range with more elements must reach to be listed
+ENOUGH = 0.9  # a range with fewer elements is listed first if it has at least this share of the points of the largest range
+FEWER = 0.15  # a range with fewer elements is listed if it has at least this share of the points of the first range
+BEHIND = 0.95  # a quantity decides if its number of points within the tolerance is below this share of that of every other quantity
+WIDER = 1.01  # a range with more elements is listed if it has at least this multiple of the points of the first range
 
 
 @dataclass
@@ -79,7 +78,7 @@ class Answer:
         return [r for r in (self.first, self.fewer, self.wider) if r]
 
     def same(self):
-        """Returns a key that is equal for answers that are printed in one sentence."""
+        """Returns a key. Answers with equal keys are printed in one sentence."""
         if not self.first:
             return self.absent, self.of[-1].reached
         return self.first.mesh, self.first.box.lattice, self.first.box.chosen
@@ -98,7 +97,6 @@ def ranges(found, meshes, f, q):
 
 
 def answer(sweep, found, f):
-    """Returns the Answer of a formulation."""
     count = len(sweep.quantities)
     of = ranges(found, sweep.meshes, f, count)
     single = {q.name: ranges(found, sweep.meshes, f, i) for i, q in enumerate(sweep.quantities)
@@ -112,7 +110,6 @@ def answer(sweep, found, f):
 
 
 def of_sweep(sweep, found):
-    """Returns [Answer] with the exceptions. The nearly widest ranges come first, sorted by the number of elements."""
     made = [answer(sweep, found, f) for f in range(len(sweep.keys))]
     told = [(a, r) for a in made for r in a.told]
     asked = [(r.box, sweep.keys.index(a.key), len(sweep.quantities), sweep.meshes.index(r.mesh))
@@ -248,7 +245,6 @@ def count(number):
 
 
 def plenty(number):
-    """Returns a number in text form with separated thousands."""
     return f"{number:,}".replace(",", "\u202f")
 
 
@@ -284,7 +280,6 @@ def elements(number):
 
 
 def bounds(part, chosen):
-    """Returns the bounds [(sign, number)] of the selected part of an axis with numbers."""
     low, high, found = chosen[0], chosen[-1], []
     if low > 0:
         found.append(("≥", part.low[low] if part.exact else part.cuts[low - 1]))
@@ -294,7 +289,6 @@ def bounds(part, chosen):
 
 
 def condition(part, chosen):
-    """Describes the selected part of an axis."""
     axis = part.axis
     if axis.words:
         given, left = (axis.words[i] for i in chosen), set(range(len(part))) - set(chosen)
@@ -332,5 +326,4 @@ def held(box):
 
 
 def unjudged(whole, asked):
-    """Describes the number of points without a reference value."""
     return f"; {plenty(whole - asked)} of all {plenty(whole)} cannot be judged" if asked < whole else ""

@@ -12,7 +12,7 @@ import numpy as np
 ALLOWED = 0.03  # maximum share of exceptions among the points of a box
 LEAST = 0.05  # share of all points below which a box is not printed
 FEWEST = 3  # number of points below which a box is not printed
-GAIN = 1.2  # minimum factor on the number of points that justifies another condition
+GAIN = 1.2  # a further condition must increase the number of points at least by this factor
 WEIGHT = 3  # weight of an exception relative to a point within the tolerance, so that a box ends before mixed regions
 CLIMBS = (1, 3, 10, 30)  # weights of exceptions while a box grows
 ROUNDS = 20  # largest number of passes over all axes
@@ -104,7 +104,6 @@ def choices_of(parts):
 
 
 def fewest(whole):
-    """Returns the smallest number of points of a printed box."""
     return max(min(FEWEST, whole), LEAST * whole)
 
 
@@ -205,7 +204,7 @@ class Search:
                     self.one(axis, fixed)
 
     def enough(self):
-        """Returns True if there is a box to which no additional condition could add enough points."""
+        """Returns True if no additional condition could add enough points to a box."""
         most = max((score for score, _ in self.best.values()), default=0)
         return most >= self.good.sum() / GAIN
 

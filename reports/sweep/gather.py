@@ -69,7 +69,6 @@ class Lattice:
         return np.stack([p.index(values_of(c, at)) for c, p in zip(self.columns, self.parts)], 1)
 
     def cell_of(self, at):
-        """Returns the cell of each point."""
         found = np.zeros(len(at), np.int64)
         for k, part in enumerate(self.index(at).T):
             found = found * len(self.parts[k]) + part
@@ -83,7 +82,7 @@ def values_of(column, at):
 
 @dataclass
 class Extent:
-    """Range of an axis, with its smallest and largest value, and its different values if there are few."""
+    """Smallest and largest value of an axis, and its different values if they are few."""
 
     levels: np.ndarray
     low: float = math.inf
@@ -132,8 +131,7 @@ def most_parts(sweep):
 
 
 def ratios_of(sweep, extents):
-    """Returns pairs of axes whose ratio may be more informative than the axes, that is, axes with one unit and positive
-    values."""
+    """Returns the pairs of axes that have the same unit and positive values, whose ratio may describe the results."""
     pairs = []
     for i, j in itertools.combinations(range(min(AXES, len(sweep.axes))), 2):
         a, b = sweep.axes[i], sweep.axes[j]
@@ -334,7 +332,6 @@ def count(reach, cell, asked, reached):
 
 
 def take(into, sweep, piece):
-    """Adds the points of a piece to all counts."""
     asked, cells = asked_in(sweep, piece), [each.cell_of(piece.at) for each in into.lattices]
     reached, cell = reached_in(sweep, piece, asked), cells[0]
     np.add.at(into.points, cell, 1)

@@ -1,6 +1,6 @@
-"""Maps of a sweep in separate SVG images, with a field for each cell of two axes. The colour and the sign of a field both
-show its state. Equal adjacent fields in a row are joined, which keeps files small. assets/sweep.js draws the same maps
-over other axes and must be changed together with this module."""
+"""Maps of a sweep in separate SVG images, with a field for each cell of two axes. Colour and sign of a field show its
+state. Equal adjacent fields in a row are joined, which keeps files small. assets/sweep.js draws the same maps over
+other axes and must be changed together with this module."""
 import numpy as np
 from markupsafe import escape
 from matplotlib import colormaps
@@ -90,7 +90,6 @@ def bounds(part):
 
 
 def place_of(part, values):
-    """Returns the positions of values along an axis, in units of parts."""
     return np.interp(values, bounds(part), np.arange(len(part) + 1.0))
 
 
@@ -167,7 +166,6 @@ class Map:
         return out
 
     def frame(self, title):
-        """Draws edges, ticks and titles."""
         (width, height), left = self.size, self.left
         bottom = TOP + height
         room = max(34, 1.1 * LETTER * max(len(w) for _, w in marks(self.x)))

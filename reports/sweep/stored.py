@@ -12,7 +12,7 @@ GROUP = "experiments/sweep"  # in older files, the group is the root
 PIECE = 1_000_000  # largest number of values of a table that are read at once
 SCATTERED = ("sobol", "halton", "random")
 NONE = "none"  # prefix of kinds of missing references
-OTHER = "other_model"  # the outcome of a formulation that omits relevant physics
+OTHER = "other_model"  # outcome of a formulation that omits relevant physics
 ABSENT = ("not_offered", "no_scene", OTHER)  # outcomes of runs that were not requested
 
 
@@ -33,7 +33,6 @@ class Axis:
         return self.kind in SCATTERED
 
     def value(self, number):
-        """Returns the value at a point in text form."""
         if self.words:
             return self.words[int(number)]
         return f"{number:.4g}" + (f" {self.unit}" if self.unit not in ("", "1") else "")
@@ -118,7 +117,6 @@ class Sweep:
 
     @property
     def name(self):
-        """Returns the name of the subject without folders."""
         return pathlib.PurePath(self.subject).name
 
     def scene_of(self, worst):
@@ -161,7 +159,6 @@ class Sweep:
                              ) from why
 
     def place(self, values):
-        """Describes the parameters of a point."""
         return ", ".join(f"{a.name} = {a.value(v)}" for a, v in zip(self.axes, values))
 
 
@@ -222,7 +219,6 @@ def check(file, sweep):
 
 
 def worst_of(file):
-    """Returns the table of worst points."""
     return [Worst(int(r["point"]), text(r["formulation"]), int(r["mesh"]), text(r["quantity"]),
                   float(r["error"]), text(r["status"]), text(r["scene"]))
             for r in file["worst"][()]]
