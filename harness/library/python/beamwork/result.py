@@ -65,11 +65,12 @@ class _Memory:
 class Result:
     """Results of one run. `result["k_drive"]` is a value [SI]; curves: `result.curve(name)`.
 
-    values: {quantity: value}; errors: {quantity: error relative to its reference value}; units: {quantity: unit}. at:
-    {quantity: position of its value}: for a motion the time [s], for example of a largest value, otherwise the path
-    parameter. curves: names of the quantities that are curves. case, formulation, elements, parameters, cell (status,
-    unknowns, counted work, times). document: all data, in the form of `beamwork solve --format json` (read at the first
-    use).
+    values: {quantity: value}; errors: {quantity: error relative to its reference value}; units: {quantity: unit}.
+    at: {quantity: position of its value}: for a motion the time [s], for example of a largest value, otherwise the
+    path parameter.
+    curves: names of the quantities that are curves.
+    case, formulation, elements, parameters, cell (status, unknowns, counted work, times).
+    document: all data, in the form of `beamwork solve --format json` (read at the first use).
 
     The memory belongs to the library. It is freed when the result and all arrays of its curves have been deleted.
     Several threads may use a result. A result cannot be pickled, but result.document can."""

@@ -2,8 +2,8 @@
 
 Programs for uncertainty quantification and optimisation, in any language, can then call the model:
 
-model = umbridge.HTTPModel("http://localhost:4242", "forward") model([[0.5e-3, 210e9]], {"elements": 4}) #
-[[drive_force]]
+    model = umbridge.HTTPModel("http://localhost:4242", "forward")
+    model([[0.5e-3, 210e9]], {"elements": 4})       # [[drive_force]]
 
 The model `forward` has one input vector, the parameters of the scene, and one output vector, its quantities, all in SI
 units. The member `config` of a request may contain "formulation", "elements" and other parameters. Gradients are not
