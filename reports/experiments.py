@@ -18,7 +18,6 @@ GROUPS = "experiments"
 
 
 def plain(value):
-    """Returns None for a number that is not finite, otherwise the value."""
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 

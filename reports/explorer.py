@@ -67,7 +67,6 @@ def series_of(series, names):
 
 
 def data_of(case):
-    """Returns the data in the file of a case."""
     points = []
     for point in case.points:
         names = list(point.units)

@@ -44,7 +44,7 @@ PAGE = """<!DOCTYPE html>
 
 
 class NoFilm(Exception):
-    """Raised, with the reason, if there is no film."""
+    """Raised if there is no film, with the reason."""
 
 
 def films(path):
@@ -74,7 +74,6 @@ def chosen(path, wanted):
 
 
 def words_of(summary, s):
-    """Returns a description of the film."""
     times = s.value[shapes.frames_of(s)]
     what = f"{summary[:1].upper()}{summary[1:]}. " if summary else ""
     return (f"{what}{times[0]:.4g} to {times[-1]:.4g} s, computed with {s.formulation}, n = {s.n}, "

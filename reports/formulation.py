@@ -1,4 +1,4 @@
-"""Writes a page for each formulation: its theory, the physics it supports, where and why it fails, and its speed."""
+"""Writes a page for each formulation: its theory, supported physics, failures and speed."""
 import functools
 import math
 import re
@@ -76,7 +76,7 @@ def curve(series, quantity):
 
 def candidates(found):
     """Returns [(error on the finest mesh, case name, quantity, (case, point, series))] for series with at least three
-    meshes. The quantities are the first quantity with a verdict in each case and those with a wrong limit."""
+    meshes. The quantities of a case are the first one with a verdict and those with a wrong limit."""
     out = []
     for case, point, series in found:
         names = answers.judged(point)[:1]
@@ -132,7 +132,7 @@ def options_of(declared):
 
 
 def example(name, choices):
-    """Returns the formulation with one option that differs from its default, or without options if none has a choice."""
+    """Returns an example of the formulation with one option, or without options if it has none."""
     for option, values, default, _ in choices:
         other = next((v for v in values.split("|") if v != default), None)
         if other and "|" in values:
@@ -170,8 +170,8 @@ def rules(rows, known, titles):
 
 
 def lacking(found, attribute):
-    """Returns [(unsupported physics, cases)]. `attribute` is `missing` if the formulation is not run on these cases, or
-    `other` if it solves another model."""
+    """Returns [(unsupported physics, cases)]. `attribute` is `missing` if the formulation is not run on these cases,
+    or `other` if it solves another model on them."""
     lacks = {}
     for case, _, series in found:
         if getattr(series, attribute):
@@ -245,8 +245,8 @@ class Known:
     rules: list  # entries of the list of known deviations
     declared: dict  # formulation -> row of /declarations
     ways: dict  # result of all_ways()
-    titles: list  # section titles of the errata
-    certified: set  # names of the formulations with a certificate
+    titles: list  # titles of the sections of the errata
+    certified: set  # names of the formulations with an element report
 
 
 def gather(site):
@@ -262,7 +262,6 @@ def pages_of(site):
 
 
 def contents(site, key, known):
-    """Returns the variables of the template for a page."""
     name, options = split(key)
     everywhere = [(c, p, s) for c in site.cases for p in c.points for s in p.series
                   if s.key == key]

@@ -96,7 +96,7 @@ def draw_panel(axes, curves):
 
 
 def share(panels, axes):
-    """Gives panels with equal abscissae a common horizontal scale."""
+    """Sets the same horizontal scale in panels with equal abscissae."""
     for i, (curves, one) in enumerate(zip(panels, axes)):
         for k in range(i):
             if panels[k][0].x_name == curves[0].x_name and (

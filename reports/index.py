@@ -1,4 +1,4 @@
-"""First page: the results, the verdicts, and the best formulations for every case on one screen."""
+"""First page: the results, the verdicts, and the formulations of lowest cost for every case."""
 import functools
 import math
 import re
@@ -214,11 +214,11 @@ PLACES = (  # pages to read next, if the site has them
     ("deviations.html", "causes"),
     ("glossary.html", "glossary"),
 )
-FIGURE = (300, 165)  # size of the axes in pixels
+FIGURE = (300, 165)
 
 
 def formulation_rows(cases):
-    """Returns {formulation: {case: {verdict: number}}} over all points, without aliases of quantities."""
+    """Returns {formulation: {case: {verdict: number}}} over all points. Aliases of quantities are not counted."""
     rows = {}
     for row in verdicts.rows(cases):
         cell = rows.setdefault(row.formulation, {}).setdefault(row.case, {})

@@ -99,7 +99,7 @@ static inline void exact_point_add_cross(const real b[3], const real a[9], real 
     }
 }
 
-/* Computes the first derivatives with respect to the rotation of a node with the quaternion q. */
+/* Computes the first derivatives with respect to the rotation of a node. Its quaternion is q. */
 static inline void exact_point_first(const exact_point *p, const real q[4], double N, double dN,
                                      exact_point_turn *t)
 {
@@ -282,7 +282,6 @@ static inline void exact_deformed_second(int nodes, const exact_strain_line *lin
     }
 }
 
-/* Evaluates the strains and their derivatives. s [strains] are the stresses for H, or NULL. */
 static inline __attribute__((always_inline)) void
 exact_deformed_evaluate(int nodes, const exact_strain_line *line, exact_deformed_nodes *state,
                         int first, const real s[], exact_deformed *out)
@@ -349,7 +348,7 @@ static inline void exact_deformed_read(int nodes, const exact_strain_line *line,
         for (int i = 0; i < 4 && k > 0; i++)
             side += q[k - 1][i] * q[k][i];
         for (int i = 0; i < 4; i++) {
-            if (side < 0) /* all nodes use the same sign of the quaternion */
+            if (side < 0) /* the quaternions of all nodes have the same sign */
                 q[k][i] = -q[k][i];
             real_put(&s->q[k][i], lane, q[k][i]);
         }
@@ -399,7 +398,6 @@ static inline void exact_deformed_write_second(int nodes, exact_deformed *d, int
         }
 }
 
-/* Evaluates `run` elements with `nodes` nodes each. */
 static inline __attribute__((always_inline)) void exact_deformed_run(int nodes,
                                                                      const exact_strain_line *line,
                                                                      int run, const node_state x[],

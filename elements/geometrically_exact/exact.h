@@ -21,7 +21,7 @@ typedef enum exact_measure_kind {
  * second derivatives of m with respect to t = y^2. */
 void exact_measure_angle(double t, double m[3]);
 
-/* Computes the factor m and its derivatives for the requested kind. x is the measure
+/* Computes the factor m and its derivatives of the measure `kind`. x is the measure
  * EXACT_MEASURE_QUARTER of the rotation. */
 static inline void exact_measure_ratio(exact_measure_kind kind, const real x[3], real m[3])
 {
@@ -86,7 +86,7 @@ typedef struct exact_strain_line {
 } exact_strain_line;
 
 /* Prepares Gauss points between evenly spaced nodes, for constant initial curvature [1/m] and
- * strain. For any arc, the strains are zero in the stress-free element. */
+ * strain. The strains of the stress-free element are zero. */
 void exact_strain_prepare(int nodes, int points, double l0, const double curvature[3],
                           const double strain[3], exact_measure_kind rotation,
                           exact_strain_line *line);
@@ -162,7 +162,7 @@ enum {
  * stresses. */
 typedef struct exact_fields {
     int nodes, points, strains, warping_bubbles, free, all, field;
-    double x[EXACT_STRAIN_MAX_POINTS], w[EXACT_STRAIN_MAX_POINTS]; /* points of the strains */
+    double x[EXACT_STRAIN_MAX_POINTS], w[EXACT_STRAIN_MAX_POINTS];
     double at[EXACT_STIFFNESS_MAX_FIELD],
         weight[EXACT_STIFFNESS_MAX_FIELD]; /* points that integrate the fourth power of the twist
                                               rate */

@@ -218,7 +218,6 @@ static void condense(const beam_constants *c, const exact_fields *f, const doubl
         out->torque[i] = f->weight[i] * c->torque * unit / (out->l0 * out->l0);
 }
 
-/* Computes the twist rate at the points of the field as a function of the strains. */
 static void condense_twist(const exact_fields *f, const double X[], exact_stiffness *out)
 {
     const int m = f->strains;
@@ -245,8 +244,6 @@ static void condense_twist(const exact_fields *f, const double X[], exact_stiffn
                                        out->twist[i][j] * out->twist[i][k];
 }
 
-/* Computes S r of every point, and the products r . S r of two points. r has three nonzero
- * entries. */
 static void condense_modified(exact_stiffness *out)
 {
     const int n = out->strains;

@@ -8,8 +8,8 @@
 
 enum {
     STAGES = EXACT_WARPING_MAX_STAGES,
-    POLYNOMIALS = 20, /* enough for layers up to lambda_short, because the energy contains the
-                         square of the amplitude error */
+    POLYNOMIALS = 20, /* sufficient up to lambda_short; the error of the energy is the square of
+                         that of the amplitude */
     BUBBLES = POLYNOMIALS,
     FUNCTIONS = BUBBLES + 2, /* the first functions are 1 - x and x */
     INTERVALS = 9,
@@ -60,7 +60,7 @@ static void graded_points(double lambda, double x[], double rest[], double w[])
     double at[INTERVALS + 1], gauss[ORDER], weight[ORDER];
     for (int i = 0; i <= INTERVALS / 2; i++) {
         at[i] = step[i] * thickness;
-        at[INTERVALS - i] = at[i]; /* distance from the other end */
+        at[INTERVALS - i] = at[i];
     }
     quadrature_points(ORDER, gauss, weight);
     for (int i = 0; i < INTERVALS; i++)

@@ -72,7 +72,6 @@ static inline real real_choose(real_truth t, real a, real b)
 #else
 
 typedef double real __attribute__((vector_size(LANES * sizeof(double))));
-/* Returns the same number in all lanes. */
 static inline real real_of(double v)
 {
     return v - (real){0};

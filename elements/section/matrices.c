@@ -62,8 +62,7 @@ void section_matrices_centre(const section *c, double centre[3])
     centre[2] = m > 0 ? M[4] / m : 0;
 }
 
-/* Returns 1 if the moment of inertia about every axis is nonnegative, which is true if all
- * principal minors are nonnegative. */
+/* Returns 1 if the moment of inertia about every axis is nonnegative. */
 static int is_semidefinite(const double J[9])
 {
     const double small = 1e-9 * (J[0] + J[4] + J[8]);
@@ -99,7 +98,7 @@ static int make_slice(double M[36])
         if (!(fabs(S[i] - M[i]) <=
               SECTION_MATRICES_SYMMETRIC * sqrt(fabs(M[7 * (i / N)] * M[7 * (i % N)]))))
             return 0;
-    for (int i = 0; i < 36; i++) /* replaces -0 by 0 */
+    for (int i = 0; i < 36; i++)
         M[i] = S[i] + 0.0;
     return m >= 0 && (m > 0 || (z == 0 && y == 0));
 }

@@ -1,5 +1,4 @@
-/* Computes and checks section constants, which are computed from walls, a rectangle or a tube, or
- * are given numbers. */
+/* Computes and checks section constants. They are computed from a shape or given. */
 #include "elements/section/section.h"
 
 #include <math.h>
@@ -135,8 +134,7 @@ static status tube(const section_spec *s, section *out, fault *f)
                          "section: the wall thickness of the tube is %g m; it must be positive and "
                          "at most half the diameter, %g m",
                          t, R);
-    const double r = R - t, ring = t * (2 * R - t), /* R^2 - r^2 */ square = R * R + r * r,
-                 m = R * r / square;
+    const double r = R - t, ring = t * (2 * R - t), square = R * R + r * r, m = R * r / square;
     out->A = PI * ring;
     out->Iy = out->Iz = PI / 4 * ring * square;
     out->Ip = out->It = 2 * out->Iy;
@@ -264,7 +262,6 @@ static status check_constants(const section *c, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the constants from the shape, or copies given constants. */
 static status constants_of(const section_spec *spec, section *out, fault *f)
 {
     switch (spec->kind) {

@@ -9,7 +9,7 @@
 enum { PER_QY, PER_QZ, PER_WARPING, PER_TWIST };
 
 /* Returns the shear stress at the middle of the long sides of a rectangle in Saint-Venant torsion,
- * divided by G kappa t. The rectangle has the thickness 1 and the width w. */
+ * divided by G kappa t. w is the ratio of its width to its thickness t. */
 static double long_side(double w)
 {
     double sum = 0;
@@ -18,8 +18,7 @@ static double long_side(double w)
     return 1 - 8 / (PI * PI) * sum;
 }
 
-/* Returns the shear stress at the middle of the short sides, an alternating sum of tanh/n^2.
- * Without tanh, the sum would be Catalan's constant. */
+/* Returns the shear stress at the middle of the short sides, divided as in long_side. */
 static double short_side(double w)
 {
     const double catalan = 0.915965594177219015;
@@ -31,8 +30,8 @@ static double short_side(double w)
 
 static void rectangle_points(const section *c, stress_points *out)
 {
-    const double h = c->height, w = c->width; /* sizes along y and along z */
-    const int flat = w >= h;                  /* thin along y */
+    const double h = c->height, w = c->width;
+    const int flat = w >= h; /* thin along y */
     const double thin = fmin(h, w), ratio = fmax(h, w) / thin, at_long = long_side(ratio) * thin,
                  at_short = short_side(ratio) * thin, parabola = 1.5 / c->A;
     for (int i = -1; i <= 1; i++)
@@ -84,7 +83,7 @@ static void wall_points(const wall_flow *of, int k, double x, stress_points *out
         p->z = l->z[far] + x * (l->z[near] - l->z[far]);
         p->omega = l->omega[far] + x * (l->omega[near] - l->omega[far]);
         const double arm = (p->y - l->pole[0]) * n.ty + (p->z - l->pole[1]) * n.tz;
-        for (int i = 0; i < 3; i++) { /* shear flow q = -Q S/I, from the far to the near end */
+        for (int i = 0; i < 3; i++) {
             const double stress =
                 inertia[i] > 0 ? -flow_moment(s, &l->tree, value, of->q, k, i, x) / (inertia[i] * t)
                                : 0;
@@ -129,7 +128,6 @@ static void add_corner(const wall_flow *of, int at, int v, int w, stress_points 
                                               .omega = l->omega[at] + along * rise - off * arm};
 }
 
-/* Adds the outer corners at points where two walls meet. */
 static void add_corners(const wall_flow *of, stress_points *out)
 {
     const section_spec *s = of->spec;
@@ -226,8 +224,7 @@ static double measured(const stress *s, stress_measure what)
     return -s->along;
 }
 
-/* Returns the additional normal stress [Pa] of a fibre due to its rotation, beyond the stresses due
- * to N, My and Mz. */
+/* Returns the normal stress [Pa] of a fibre due to its rotation by the twist. */
 static double turned(const section *c, double y, double z, double twist)
 {
     const double u = y - c->ys, v = z - c->zs, mean = c->Ip / c->A + c->ys * c->ys + c->zs * c->zs,
@@ -251,7 +248,7 @@ static double of_point(const section *c, const stress_point *p, const stress_res
     return measured(&s, what);
 }
 
-/* Returns the larger measure of the two outermost fibres of a tube in the plane of bending. */
+/* Evaluates the stresses of a tube at the two outermost fibres in the plane of bending. */
 static double of_tube(const section *c, double R, const stress_resultants *r, stress_measure what)
 {
     double largest = -INFINITY;

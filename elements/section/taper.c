@@ -14,8 +14,7 @@ static int all_zero(const double v[9])
     return 1;
 }
 
-/* Returns the name of a number that only one of the two descriptions gives, with a value other than
- * NAN or 0. Returns NULL if there is no such number. */
+/* Returns the name of a number that only one of the two descriptions gives, or NULL. */
 static const char *given_once(const section_spec *p, const section_spec *q)
 {
     const struct {

@@ -13,7 +13,7 @@ double tree_wall_length(const section_spec *s, int w)
     return hypot(q[0] - p[0], q[1] - p[1]);
 }
 
-/* Finds the entry of `t` that reaches each point. The walls that close cells follow these
+/* Finds the entry of `t` that reaches each point. The walls that close cells are the last
  * entries. */
 static status connect(const section_spec *s, section_tree *t, fault *f)
 {
@@ -92,8 +92,8 @@ status tree_grow(const section_spec *s, section_tree *t, fault *f)
 
 void tree_flow(const section_spec *s, const section_tree *t, const double jump[], double flow[])
 {
-    /* sum over the cells d of (oint_c,d ds/t) x_d = oint_c, with a symmetric positive definite
-     * matrix */
+    /* for each cell c: sum over cells d of (oint_c,d ds/t) x_d = oint_c; the matrix is positive
+     * definite */
     double matrix[SECTION_MAX_WALLS * SECTION_MAX_WALLS], x[SECTION_MAX_WALLS];
     const int n = t->cells;
     for (int w = 0; w < s->walls; w++)
@@ -481,6 +481,5 @@ double walls_one_sided(const section_spec *s)
             warps += dA * omega * omega;
             quartic += dA * square * square;
         }
-    /* walls that meet in one point do not warp along their mid-lines */
     return warps > 1e-24 * quartic ? fabs(mixed) / sqrt(warps * quartic) : 0;
 }

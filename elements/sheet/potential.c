@@ -110,8 +110,6 @@ static const double corrected_torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE +
 static const double printed_torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
     {1}, {-1, 6, -9, 4}, {0, 2, -6, 4}, {0, 2, -6, 4}, {0, 0, -3, 4}};
 
-/* Adds the contribution of bending at one point. f contains the fields at the point, and ds is its
- * weight. */
 static void add_bending(const element_request *r, double x, double ds, const sheet_fields *f,
                         sums *out)
 {
@@ -182,7 +180,6 @@ static void add_idle_amplitudes(const element_request *r, sums *out)
             out->P0[a][b] += k * (2 * p[a] * p[b] + 2 * q[a] * q[b] - p[a] * q[b]);
 }
 
-/* Appends the terms of one degree in x. */
 static void append(int degree, sheet_potential_term terms[], int most, int *count, int i, int j,
                    double table[V][V])
 {

@@ -93,9 +93,9 @@ status sheet_third_prepare(const element_request *request, int printed, element_
 }
 
 /* If the element is bent to u = psi (x - x^2) L, with the end slopes psi and -psi, M_z = M~z + u F
- * is not linear along the element. With f = F L^2/EIz, the energy EIz/(2 L) (4 + f/3 - f^2/180)
- * psi^2 is positive up to f = 30 + sqrt(1620). For the other bending shape, with psi at both ends,
- * the energy is positive up to f = 185. */
+ * is not linear. With f = F L^2/EIz, the energy EIz/(2 L) (4 + f/3 - f^2/180) psi^2 is positive up
+ * to f = 30 + sqrt(1620). For the other bending shape, with psi at both ends, the energy is
+ * positive up to f = 185. */
 double sheet_third_tension(const element_data *data, const double sigma[])
 {
     const sheet_inverse_data *d = sheet_inverse_of(data);

@@ -1,5 +1,4 @@
-/* Loads along a collocation element that are part of its equilibrium: forces and tangent in any
- * state, the potential, and the linear part in the undeformed state. */
+/* Tests loads along a collocation element that are part of its equilibrium. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -65,8 +64,6 @@ static along_subject subject_of(int stages, int matrices, const double curvature
     return s;
 }
 
-/* Places the nodes in the undeformed state, with the axes of the middle of the element along the
- * global axes. */
 static void rest_nodes(const along_subject *s, node_state x[2])
 {
     const double along[3] = {1, 0, 0};
@@ -130,8 +127,6 @@ static double dot(int n, const double a[], const double b[])
     return dense_dot(n, a, b);
 }
 
-/* Sets an axial load that varies along the element. If `across` is 1, adds a varying transverse
- * load. */
 static void load_of(double size, int across, double q[3 * POINTS])
 {
     double point[POINTS], weight[POINTS];
@@ -244,8 +239,7 @@ static void rate(int stages)
     free(s.data);
 }
 
-/* The work of the load along a closed path of node states must be zero. Each side of the path is
- * integrated with Gauss points. */
+/* Checks that the work of the load on a closed path of the nodes is zero. */
 static void closed_path(int stages, const double curvature[3])
 {
     enum { SIDES = 3, RULE = 12 };
@@ -281,8 +275,7 @@ static void closed_path(int stages, const double curvature[3])
     free(s.data);
 }
 
-/* In a rigid motion of a loaded element, the forces must do the work of the load, and their
- * resultant force and moment must be those of q. */
+/* In rigid motions, nodal forces and load have the same work and the same resultants. */
 static void resultants(int stages, const double curvature[3])
 {
     const along_subject s = subject_of(stages, 0, curvature);
@@ -322,8 +315,7 @@ static double moment_left(const along_subject *s, const double q[], const double
     return vec3_norm(sum);
 }
 
-/* For the undeformed element, `along` returns forces that are linear in q, and the stiffness due to
- * the stresses. This stiffness is the whole stiffness if the stresses cause hardly any strain. */
+/* For the undeformed element, forces are linear in q. */
 static void linear(int stages, int matrices, const double curvature[3], int across)
 {
     const along_subject s = subject_of(stages, matrices, curvature);

@@ -144,7 +144,6 @@ def put_masses(canvas, view, scene):
 
 
 def zigzag(a, b, width=5, turns=5):
-    """Returns a zigzag from a to b [n x 2]."""
     along = b - a
     across = np.array([-along[1], along[0]]) / max(np.linalg.norm(along), 1e-9)
     share = np.concatenate([[0, 0.15], np.linspace(0.2, 0.8, 2 * turns), [0.85, 1]])
@@ -205,7 +204,7 @@ def put_ground(canvas, at, away):
 
 PLATE = 15  # half the side of the plate of a clamp [pt]
 HATCHES = 9  # number of hatching lines of a plate
-MOST_LETTERS = 4  # largest number of partly fixed nodes for which the drawing names the fixed components
+MOST_LETTERS = 4  # fixed components are named if at most this number of nodes is partly fixed
 
 
 def held_of(scene, node):
@@ -296,7 +295,6 @@ def pin_way(view, seen, ways):
 
 
 def put_support(canvas, view, scene, lines, node):
-    """Draws the symbol of the support of a node."""
     mark, at, held = f"support_{node.name}", view(node.position), held_of(scene, node)
     ways = into(scene, lines, node.name)
     if len(held) == 6:

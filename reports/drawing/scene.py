@@ -5,7 +5,7 @@ import numpy as np
 import yaml
 
 COMPONENTS = ("ux", "uy", "uz", "rx", "ry", "rz")
-Loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)  # every scalar is text until it is converted
+Loader = getattr(yaml, "CBaseLoader", yaml.BaseLoader)  # scalars are text until they are converted
 
 
 @dataclass
@@ -46,9 +46,9 @@ class Member:
 
 @dataclass
 class Load:
-    """A load. `kind` is force, moment, distributed, distributed_moment or gravity. `on` is a node or a member. `within`
-    contains the fractions of the member length between which the load acts. The fractions are equal for a force or a
-    moment. `within` is None at a node. `last` is the vector at the end of this range."""
+    """A load. `kind` is force, moment, distributed, distributed_moment or gravity. `on` is a node or a member.
+    `within` contains the start and the end of the load as fractions of the member length, which are equal for a force
+    or a moment, or is None at a node. `last` is the vector at the end of this range."""
     name: str
     kind: str
     vector: np.ndarray
@@ -102,7 +102,6 @@ class Spin:
 
 @dataclass
 class Scene:
-    """Content of a scene file."""
     name: str
     sections: dict  # name -> entry of the section in the file
     nodes: dict
@@ -202,7 +201,6 @@ def read_motion(said):
 
 
 def read_spin(analyses):
-    """Reads the rotating frame of the first analysis that has one."""
     for said in analyses.values():
         kind, what = next(iter(said.items()))
         turning = what if kind == "rotation" else what.get("spin")
