@@ -117,8 +117,8 @@ def check_truth(row, where, defaults):
 
 
 def check_words(row, where, names):
-    """Checks that theory and convention are among the allowed words, and that the parameters of the row do not contradict
-    them."""
+    """Checks that theory and convention are among the allowed words, and that they are consistent with the parameters
+    of the row."""
     given = dict(item.split("=", 1) for item in row["parameters"].split(";") if "=" in item)
     if row["theory"] not in THEORIES:
         raise Refused(f"{where}: theory '{row['theory']}' is none of {'|'.join(THEORIES[1:])}")
@@ -141,7 +141,7 @@ def truth_key(row):
 
 
 def read_truths(folders, defaults):
-    """Returns {case: rows} from the tables in the folders. A table that does not exist is treated as empty."""
+    """Returns {case: rows} from the tables in the folders. A missing table is treated as empty."""
     cases, seen, units = {}, {}, {}
     for path in [path for folder in folders for path in sorted(folder.glob("*.csv"))]:
         for number, row in read_csv(path, COLUMNS):

@@ -3,7 +3,7 @@ import csv
 
 
 class Refused(Exception):
-    """Raised for an invalid row. The text contains the file and, for a row, its line."""
+    """Raised for an invalid row. The text contains the file and the line."""
 
 
 def read_csv(path, columns):

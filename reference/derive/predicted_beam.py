@@ -146,7 +146,7 @@ def nijenhuis_sheared(gamma, kappa, a, centre, polar):
 
 
 def simo_reissner(gamma, kappa, a, centre, polar):
-    """Returns the strains of beam.py without the eccentricity terms, to test the rest of the program."""
+    """Returns the strains of beam.py without the eccentricity terms, for tests."""
     (ys, zs), warping = centre, None if a is None else kappa[0] - a
     eps = gamma[0] + kappa[0] * kappa[0] * (polar / 2)
     return [eps, gamma[1] - zs * kappa[0], gamma[2] + ys * kappa[0], warping] + list(kappa)
@@ -162,7 +162,7 @@ NEWTON_STEPS, SETTLED = 40, 1e-12
 
 
 class Printed(Beam):
-    """A Beam with the strains of a formulation, given by its name or by a function of the kind above."""
+    """A Beam with the strain measures of a formulation, given by its name or by a function as above."""
 
     def __init__(self, beam, formulation):
         self.__dict__.update(beam.__dict__)
@@ -202,7 +202,7 @@ class ScaledPrinted(Scaled):
         return self.gj + 12 * self.c * twist ** 2
 
     def _constitutive(self, E, s):
-        """Returns E - compliance s [kept, many] and its derivatives with respect to (gamma, kappa, a) and s."""
+        """Returns E - compliance s [kept, many] and its derivatives with respect to (gamma, kappa, a) and to s."""
         C, t = self._compliance(), self.kept.index(TORSION)
         right = np.array([e.value for e in E]) - C @ s
         by_v = np.array([e.gradient for e in E])

@@ -25,7 +25,6 @@ def _functionals(s, k, shear):
 
 
 def _product(m, factor, a, b):
-    """Adds the quadratic form factor (a . x)(b . x) to m."""
     for i in range(len(a)):
         for j in range(len(a)):
             m[i, j] += mpf(factor) * (a[i] * b[j] + a[j] * b[i]) / 2
@@ -54,8 +53,8 @@ def moment(s, k, shear, eq66):
 
 
 def critical(s, length, shear, prestress, eq66):
-    """Returns the (largest negative, smallest positive) critical load over the half-waves. A load that does not exist is
-    None."""
+    """Returns the (largest negative, smallest positive) critical load over the half-waves. None stands for a load
+    that does not exist."""
     found = []
     for n in range(1, HALF_WAVES + 1):
         k = n * pi / length

@@ -55,7 +55,6 @@ def write(derived):
 
 
 def difference(row, known):
-    """Returns one line that describes the difference of two rows, or None if they agree."""
     if known is None:
         return f"derived {row['value']} {row['unit']}, not stored"
     gap = abs(float(row["value"]) - float(known["value"]))
@@ -66,7 +65,6 @@ def difference(row, known):
 
 
 def differences(derived, cases):
-    """Yields lines that describe the differences from the stored rows of the cases."""
     stored = stored_rows(cases)
     for row in derived:
         line = difference(row, stored.pop(key_of(row), None))

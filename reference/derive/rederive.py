@@ -47,7 +47,7 @@ def folder_of(name):
 
 
 def as_text(value, relative):
-    """Returns the value in text form with the digits that its relative uncertainty justifies."""
+    """Returns the value as text, with the digits that its relative uncertainty justifies."""
     from mpmath import mpf, nstr
     digits = DIGITS
     while digits > 4 and 10.0 ** (1 - digits) < relative / 5:
@@ -173,8 +173,8 @@ def read_stored():
 
 
 def compare(names, whole, everything):
-    """Returns the exit status. `whole` is True if all programs are run, so that a row which no program derives is
-    detected."""
+    """Returns the exit status. If `whole` is True, all programs are run, and stored rows that no program derives are
+    reported."""
     stored, seen, agree, differ, cases = read_stored(), set(), 0, 0, read_defaults(
         ROOT / "reference" / "defaults.csv")
     for name in names:

@@ -21,11 +21,10 @@ from scipy.optimize import brentq
 
 mp.dps = 30
 ANY = "integrator=*;step=*;tolerance=*"
-STATIC = 1e-9  # relative uncertainty of linear theory: an amplitude of 1e-5 of the length changes the
-               # geometry by 1e-10
+STATIC = 1e-9  # relative uncertainty of linear theory; the deflection is 1e-5 of the length
 BERNOULLI_TIMES = ("0.25", "0.5", "1", "1.5", "1.75", "2", "5", "10")
 TIMOSHENKO_TIMES = ("0.001", "0.002", "0.005", "0.01", "0.02")
-JUDGED, JUDGED_AT = "0.001", "model=timoshenko;step=1e-5;time=0.001"  # a point that is used in verify
+JUDGED, JUDGED_AT = "0.001", "model=timoshenko;step=1e-5;time=0.001"  # a parameter point that `verify` runs
 MODES, FREQUENCIES = 400, 3
 ROUNDED = 5e-9
 

@@ -64,7 +64,7 @@ def matrices(omega, s, R=0):
 def flap(omega, s, count=3, R=0):
     K, M, _, _, _ = matrices(omega, s, R)
     return 1 / np.sqrt(eigh(
-        M, K, eigvals_only=True)[::-1][:count])  # in this form, the lowest frequencies are best conditioned
+        M, K, eigvals_only=True)[::-1][:count])  # this form is well conditioned for the lowest frequencies
 
 
 def lag(omega, s, count=3, R=0):
@@ -119,7 +119,7 @@ def whirl(omega, ratio, count):
 
 
 def across(**given):
-    """Yields rows of flap, lag and stretch for an axis normal to the beam, for which the beam is stable."""
+    """Yields the rows of flap, lag and stretch for an axis normal to the beam."""
     value, at = {**defaults.values("rotating_cantilever"), **given}, defaults.differing(
                      "rotating_cantilever", **given)
     omega, slenderness, R = value["omega_star"], value["slenderness"], value["hub_radius"]

@@ -15,15 +15,15 @@ PHYSICS = frozenset(
 SCENE = ("beamwork", "name", "summary", "source", "sections", "nodes", "members", "motions",
          "loads", "analyses", "quantities", "omit", "shear_theory", "meshes")
 NODE = ("at", "hold", "drive", "part_of", "rotation", "fork", "mass", "centre", "inertia"
-        )  # scene_states.py uses the inertia
+        )  # the inertia is used in scene_states.py
 MEMBER = ("from", "to", "section", "y", "warping", "curvature", "divisions", "release")
 LOAD = ("force", "moment", "distributed", "distributed_moment", "gravity", "on", "path", "factor",
         "at", "axes", "follower", "to_value")
 
 
 class Place:
-    """A node, with its body, the support of the body (None for a node that is part of another node's body), and its
-    position [m] relative to the reference point of the body."""
+    """A node: its body, the support of this body (None if the body belongs to another node), and its position [m]
+    relative to the reference point of the body."""
 
     def __init__(self, body, support, offset):
         self.body, self.support, self.offset = body, support, np.array(offset)
@@ -94,7 +94,7 @@ class SceneNetwork:
         self.net.extra = [condition() for condition in self.conditions_of] + self.extra
 
     def _measure(self):
-        """Sets the units of length and force, from the shortest member."""
+        """Sets the units of length and force from the shortest member."""
         self.frames = {}
         for name, entry in self.scene["members"].items():
             only(entry, name, MEMBER)
@@ -313,7 +313,6 @@ class SceneNetwork:
         return joint
 
     def displacement(self, name, component):
-        """Returns a displacement [m] or rotation [rad] of a node."""
         place = self.places[name]
         if component > 2:
             return rotation_vector(place.body.R)[component - 3]
@@ -386,7 +385,7 @@ class Pieces:
         yield name, {**out, "on": self.node(place)}
 
     def spread(self, name, entry):
-        """Yields the names and entries of a load along the member, one for each piece on which it acts."""
+        """Yields the name and the entry of a load along the member for each piece on which it acts."""
         kind = next((k for k in SPREAD if k in entry), None)
         begin, end = (number(entry.get(key, usual), name) for key, usual in (("from", "0"), ("to", "1")))
         out = {key: value for key, value in entry.items() if key not in OF_PART}

@@ -30,7 +30,7 @@ class Path:
         self.values = {}
 
     def walk(self, ask):
-        """Calls ask(scene network, level) at every station. Returns the results."""
+        """Calls ask(scene network, level) at every station. Returns the list of its results."""
         level, out = 0.0, []
         for station in self.stations:
             steps = self.steps if station > level else 1
@@ -97,7 +97,7 @@ def reaction(scene, name, component, level):
 
 def compliance(scene, level, entry, name):
     """Returns the compliance C [6, 6] in SI units for dead forces on a node and for moments under the convention in
-    `entry`. Released components of the node are free, and their present reactions remain as dead loads."""
+    `entry`. Released components of the node are free, and their current reactions remain as dead loads."""
     net, place = scene.net, scene.places[entry["node"]]
     if place.support is None:
         raise Refused(
@@ -203,14 +203,6 @@ def in_units(scene, load):
     return load * scene.force * np.array([1.0] * 3 + [scene.length] * 3)
 
 
-# Frequencies of a scene about its undeformed state: L z = omega^2 M z for the bodies and for all members at their
-# Chebyshev points.
-#
-# The fields of a member are those of equilibrium.Vibration, z = (dy, dp). The inertia of a member is rho A, rho (Ip,
-# Iy, Iz) and rho Iw, of which Iy, Iz and Iw are included only with `rotary_inertia`. For a body, the external load, the
-# loads of the ends of members and omega^2 (m (u + theta x c), J theta) are in equilibrium.
-
-
 def inertia_of(scene, name):
     """Returns (rho A, diag rho (Ip, Iy, Iz), rho Iw) of a member in the units of the network."""
     section, where = scene.section_of(scene.scene["members"][name])
@@ -310,7 +302,7 @@ def add_ends(out, v, at, row, shared):
 
 
 def frequencies(scene, count):
-    """Returns the lowest frequencies [Hz]."""
+    """Returns the `count` lowest frequencies [Hz]."""
     matrix, _ = scene.net.system(0.0)
     size, total = BODY * len(scene.net.bodies), matrix.shape[0]
     kept = np.r_[np.arange(size), np.arange(total - len(scene.net.numbers), total)]

@@ -72,7 +72,7 @@ class Support:
         ]
 
     def _sequence(self, level, numbers):
-        """Returns [(present axis, number)] of the free rotations, and the rotation R."""
+        """Returns [(current axis, number)] of the free rotations, and the rotation R."""
         R, free, angles = np.eye(3), [], iter(self.angles)
         for axis, kind in self.sequence:
             if kind == FREE:
@@ -101,7 +101,7 @@ class Support:
     def _turns(self, level, R, moment, numbers, kinds):
         if FREE not in kinds:
             return skew(R @ self.prescribed(level, numbers).T)
-        now = skew(R @ R.real.T)  # increment from the present rotation: zero, with the derivative as imaginary part
+        now = skew(R @ R.real.T)  # increment from the current rotation: zero, with the derivative as imaginary part
         out = []
         for i, kind in enumerate(kinds):
             j, k = (i + 1) % 3, (i + 2) % 3
@@ -115,8 +115,8 @@ class Support:
         return np.array([axis for axis, _ in self._sequence(level, numbers)[0]])
 
     def conditions(self, kept=None, axes=None):
-        """Returns the conditions. `kept` is {component: present load} of released components. `axes` are the axes of the
-        free rotations, which remain fixed so that no moment rotates with them."""
+        """Returns the conditions. `kept` is {component: current load} of released components. `axes` are the axes of
+        the free rotations, which remain fixed so that no moment rotates with them."""
         kept = kept or {}
         across = None if axes is None else np.linalg.svd(axes)[2][len(axes):]
         kinds = [FREE if i in kept else kind for i, kind in enumerate(self.kinds)]
@@ -144,8 +144,6 @@ class Support:
         ]
 
     def extra(self):
-        """Returns one condition for each free angle."""
-
         def of(which):
 
             def condition(level, x, R, force, moment, numbers):
@@ -191,7 +189,7 @@ class Release:
         self.slides = [(axes[:, i], new_number()) for i in components if i < 3]
 
     def _axes(self, R, numbers):
-        """Returns the present axes of the rotations, and the rotation of the end. R is the rotation of the node."""
+        """Returns the current axes of the rotations, and the rotation of the end. R is the rotation of the node."""
         out = []
         for axis, k in self.turns:
             out.append(R @ axis)
@@ -208,8 +206,6 @@ class Release:
         return np.concatenate([x - on[0] - on[1] @ self.at - apart, turned])
 
     def extra(self):
-        """Returns the conditions of the numbers, in the order of the numbers."""
-
         def turns(which):
             return lambda level, x, R, force, moment, numbers, on: [
                 self._axes(on[1], numbers)[0][which] @ (moment + np.cross(

@@ -1,6 +1,6 @@
 """Reads a scene in the form that `beamwork scene` writes, with loops and expressions expanded.
 
-Entries that the program does not support are rejected with one line that names them, and never ignored.
+Entries that the program does not support are rejected with one line that names them.
 """
 import math
 
@@ -13,11 +13,10 @@ from reference.derive.torsion import rectangle_constant
 
 
 class Refused(Exception):
-    """Raised with a line for the user if the program does not support a part of the scene."""
+    """Raised if the program does not support a part of the scene. The text is a line for the user."""
 
 
 def read(text):
-    """Returns the scene as nested dictionaries and lists of words."""
     try:
         scene = yaml.load(text, Loader=yaml.BaseLoader)
     except yaml.YAMLError as error:

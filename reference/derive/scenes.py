@@ -1,5 +1,5 @@
-"""Reference values of scenes in cases/examples that a program in this folder derives, one per line in the syntax of
-scene files."""
+"""Prints reference values of scenes in cases/examples that a program in this folder derives, in the syntax of scene
+files."""
 import pathlib
 import re
 

@@ -90,7 +90,8 @@ def jonker(q):
 
 
 def newton_cotes(points=9):
-    """Returns rational points in [0, 1] and weights, which are exact for polynomials of degree points - 1."""
+    """Returns rational points in [0, 1] and weights of a quadrature that is exact for polynomials of degree points -
+    1."""
     x = [Q(k, points - 1) for k in range(points)]
     rows = [[xi ** n for xi in x] + [Q(1, n + 1)] for n in range(points)]
     for i in range(points):
@@ -188,7 +189,7 @@ def all_modes(e, hg, g, tw, c, centre, trapeze=Q(0)):
 
 
 def directions(names=NAMES):
-    """Yields every e_i and e_i + e_j, with magnitudes other than one."""
+    """Yields every e_i and e_i + e_j, with factors other than one."""
     size = dict(zip(NAMES, (Q(3, 7), Q(5, 3), Q(-7, 5), Q(2, 11), Q(9, 4), Q(-4, 9), Q(6, 13), Q(11, 6))))
     for pair in itertools.combinations_with_replacement(names, 2):
         yield {n: size[n] if n in pair else Q(0) for n in NAMES}

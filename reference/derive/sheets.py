@@ -16,7 +16,7 @@ from reference.derive.network import Network, clamped, free
 from reference.derive.torsion import rectangle_constant
 
 RELATIVE = 5e-12
-ROUNDING = 1e-15  # round-off of a coordinate, in lengths of the sheet
+ROUNDING = 1e-15  # round-off of a coordinate, relative to the length of the sheet
 PLANAR = [(0, 0), (0, 1), (0, 5), (1, 0), (1, 1), (1, 5), (5, 0), (5, 1), (5, 5), (2, 2), (2, 3),
           (2, 4), (3, 2), (3, 3), (3, 4), (4, 2), (4, 3), (4, 4)]
 

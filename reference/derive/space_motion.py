@@ -49,7 +49,7 @@ class Rod:
 
 
 def _triangle(slope, peak):
-    """Returns a function of time that rises until the peak [s] and falls at the same rate."""
+    """Returns a function of time that rises linearly until the time `peak` [s] and falls at the same rate."""
     return lambda t: slope * max(peak - abs(t - peak), 0.0)
 
 
@@ -67,7 +67,6 @@ ELBOW = Rod((0, 0, 0), ((10, 0, 0), (0, 10, 0)), 1e6, 1e3, 1, 10, 20, True, 0, _
 
 
 def cross(a, b):
-    """Returns the cross products of [3, n] and [3, n] or [3, 1]."""
     return np.stack([
         a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]
     ])
@@ -90,7 +89,6 @@ def _between(x, points):
 
 
 def _each(tensors, vectors):
-    """Returns the products at nodes: [nodes, 3, 3] times [3, nodes]."""
     return (tensors @ vectors.T[:, :, None])[:, :, 0].T
 
 

@@ -110,7 +110,7 @@ def twist_of_i(ratio, n=30):
         A[0, j], A[n, j] = mpf(j == 0), D[n, j]
     T[0] = T[n] = 0
     a = lu_solve(A, T)
-    a[0] = 0  # boundary value; the twist at this end is also zero
+    a[0] = 0  # boundary value
     for j in range(n + 1):
         D[0, j] = mpf(j == 0)
     return lu_solve(D, a)[n]

@@ -72,8 +72,7 @@ class Sheet(unittest.TestCase):
         self.assertLess(np.max(np.abs(C - D) / np.sqrt(np.outer(np.diag(D), np.diag(D)))), 1e-12)
 
     def test_compliance_is_the_derivative_of_the_equilibrium(self):
-        """The compliance must predict the displacements of the deformed sheet due to small dead loads with moments about
-        fixed axes."""
+        """The compliance predicts the displacements of the deformed sheet due to small dead loads."""
         net, tip, _ = self.twisted(6, 12)
         C = net.response(1.0, tip, {tip: free})
         x, R, load = tip.x.copy(), tip.R, tip.load.copy()

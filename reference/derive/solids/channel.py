@@ -31,7 +31,6 @@ WAGNER = (
 
 
 def channel(along, flange, web):
-    """Returns the web at y = -WEB .. 0 with the flanges towards -y."""
     ys = np.concatenate([np.linspace(-WIDTH, -WEB, flange + 1), [0]])
     zs = np.concatenate(
         [

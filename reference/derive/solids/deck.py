@@ -80,7 +80,6 @@ class Grid:
 
 
 def turned(vector):
-    """Returns the rotation matrix of a rotation vector [rad]."""
     return rotation(exponential(np.asarray(vector, dtype=float)))
 
 
@@ -111,7 +110,7 @@ class Tip:
         return (0, 1, 2) if node in self.middle else (0, 2)
 
     def boundary(self, translation, R):
-        """Returns the cards for the directions of the face and the motion along these directions."""
+        """Returns the cards of the directions of the face and of the motion along them."""
         cards = (
             "*TRANSFORM,NSET=TIP,TYPE=R\n"
             + ",".join("%.12e" % a for a in np.concatenate([R[:, 0], R[:, 1]]))
@@ -163,7 +162,7 @@ class Tip:
         return self.change(index, R, arms, forces, motion, load)
 
     def change(self, index, R, arms, forces, motion, load):
-        """Returns the change of the resultant [6, 6] due to the change of the forces and of the arms of existing forces."""
+        """Returns the change of the resultant [6, 6] due to changes of forces and of arms."""
         out = np.zeros((6, 6))
         for n in self.nodes:
             rows = [index[n, d] for d in range(3)]

@@ -21,7 +21,7 @@ LENGTH, WIDTH, THICKNESS, YOUNG, POISSON = (
 )
 MESHES = (8, 2), (8, 1), (12, 2)  # elements along each edge, layers: coarse, thin, fine
 DEFLECTIONS, TWISTS = (0.001, 0.005, 0.01, 0.015), (0.05, 0.1, 0.15)
-# a plate has no choices of beam physics
+# a plate has none of these choices of beam physics
 ANY = "tip_warping=*;warping=*;shear=*;trapeze=*;wagner=*;shear_factor=*"
 BENT = (
     ("C_ux_Fx", "C_xx", "C_uy_Fy", "C_uy_Mz", "C_thz_Fy")
@@ -133,7 +133,6 @@ def twisted(angle, mesh):
 
 
 def unit(name):
-    """Returns the unit of a quantity of either case."""
     return {"u_x": "m", "F_y": "N"}.get(name) or unit_of(*entry_of(name))
 
 
