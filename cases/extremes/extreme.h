@@ -25,7 +25,7 @@ typedef enum extreme_knob {
     EXTREME_STEPS,    /* x is the number of load steps between two stations */
     EXTREME_SPLIT,    /* the first member is split at the fraction x of its length */
     EXTREME_REVERSE,  /* 1 if every member is reversed, otherwise 0 */
-    EXTREME_WHOLE     /* the time step is not refined: x sets it */
+    EXTREME_WHOLE     /* the steps of a motion are not refined */
 } extreme_knob;
 
 typedef enum extreme_criterion {

@@ -136,7 +136,7 @@ typedef struct builder {
     } list[SCENE_LISTS]; /* entries of each list, in the order of the indices of the scene */
     const char **shared; /* names of warping coordinates shared by members */
     int shares;
-    int default_warping; /* number of member ends without a specified warping condition */
+    int default_warping; /* warping of ends for which the file gives none */
 } builder;
 
 /* A map: an entry, or a map inside an entry. */

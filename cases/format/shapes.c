@@ -300,7 +300,7 @@ static patch rectangle_patch(double y0, double y1, double z0, double z1)
 }
 
 /* Returns the area between a corner and its inscribed quarter circle. With ky = kz = 1, the area
- * extends from the corner towards -y and -z. `sign` is -1 if the area is cut off. */
+ * extends from the corner (y, z) towards +y and +z. `sign` is -1 if the area is cut off. */
 static patch spandrel_patch(double y, double z, double r, int ky, int kz, int sign)
 {
     const double area = spandrel_area * r * r, at = spandrel_at * r,

@@ -1065,8 +1065,8 @@ int scene_add_diaphragm(scene *s, int master, int normal);
 /* Adds an imperfection, whose mode or shifts the caller adds. */
 int scene_add_imperfection(scene *s);
 void scene_shift_node(scene *s, int imperfection, int node, const double shift[3]);
-/* Returns 1 if the analysis uses the perfect structure, because it computes the mode of an
- * imperfection or a state about which such a mode is computed. */
+/* Returns 1 if the analysis uses the perfect structure, because its state is that about which the
+ * mode of an imperfection is computed. */
 int scene_is_perfect(const scene *s, int analysis);
 
 /* Relation of a coordinate of a node (0 .. 5 as in translation and angle), which is `ratio` times
