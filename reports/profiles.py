@@ -212,7 +212,7 @@ def write_table(site, compared, name="profiles.csv"):
 # The page of profiles, winners and reliability.
 
 NAVIGATION = [("profiles.html", "profiles")]
-NEAR = {to_the_best: 2, to_the_smallest: 10}  # factor for which the text next to a figure gives the share of the leading curve
+NEAR = {to_the_best: 2, to_the_smallest: 10}  # factors for which texts give the leading share
 READINGS = (defect, no_defect, any_defect)
 
 

@@ -162,8 +162,8 @@ int fields_vector(const fields *f, const char *key, int count, double out[]);
  * error. *out belongs to the arena. */
 int fields_values(const fields *f, const char *key, double **out);
 const char *fields_text(const fields *f, const char *key, const char *otherwise);
-/* b|b|c" of a word, or of the word that a parameter of that name has. Returns `otherwise` if the
- * key is missing. */
+/* Returns the index in "a|b|c" of the value of the key: a word, or a parameter whose value is a
+ * word. Returns `otherwise` if the key is missing. */
 int fields_word(const fields *f, const char *key, const char *choices, int otherwise);
 int fields_word_of(const fields *f, const document_node *word, const char *what,
                    const char *choices, int otherwise);

@@ -128,7 +128,7 @@ static json_t *scalar(void)
     return json_pack("{s:[s, s]}", "type", "number", "string");
 }
 
-/* b|b|c" to examples that editors offer. */
+/* Converts "a|b|c" to a list of examples that editors offer. */
 static json_t *words_of(const char *words)
 {
     json_t *list = json_array();

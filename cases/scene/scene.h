@@ -665,7 +665,7 @@ typedef struct scene_quantity {
     scene_passing passing;
     scene_abscissa x;      /* abscissa of a curve */
     double factor, offset; /* reported value = factor * extracted value + offset */
-    double near_zero;      /* value|value| */
+    double near_zero;      /* reference magnitude of relative errors for values near zero, or 0 */
     double tolerance;      /* relative tolerance of the limit, SCENE_TOLERANCE by default */
     double least_order;    /* lowest order of convergence with respect to the number of elements */
     scene_prediction prediction;

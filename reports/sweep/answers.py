@@ -4,10 +4,14 @@ from dataclasses import dataclass, field
 from reports.sweep import boxes, gather, stored
 from reports.sweep.boxes import Box
 
-ENOUGH = 0.9  # a range with fewer elements is listed first if it has at least this share of the points of the largest range
-FEWER = 0.15  # a range with fewer elements is listed if it has at least this share of the points of the first range
-BEHIND = 0.95  # a quantity decides if its number of points within the tolerance is below this share of that of every other quantity
-WIDER = 1.01  # a range with more elements is listed if it has at least this multiple of the points of the first range
+# A range with fewer elements is listed first if it has at least this share of the points of the largest range.
+ENOUGH = 0.9
+# A range with fewer elements is listed if it has at least this share of the points of the first range.
+FEWER = 0.15
+# A quantity decides if its points within the tolerance are fewer than this share of those of every other quantity.
+BEHIND = 0.95
+# The largest range is listed if it has more than this multiple of the points of the first range.
+WIDER = 1.01
 
 
 @dataclass

@@ -418,7 +418,7 @@ loads:""") + "  pull: {force: [0.5, 1, 2], on: own}\n"
         part = PLACED.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
             "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
         where = ("-f", "collocation", "-n", 1)
-        got = self.same_again(self.scene(part, "part.yaml"), *where)  # the x axis of the part is parallel to the z axis of the scene
+        got = self.same_again(self.scene(part, "part.yaml"), *where)
         plain = LEAF.replace("hold: all", "hold: [uy, uz, rx, ry, rz], drive: {ux: pushed}").replace(
             "loads:", "motions:\n  pushed: {unit: m, path: [0, 1], value: [0, 1e-3]}\nloads:")
         self.assertNotEqual(plain, LEAF)
