@@ -28,7 +28,8 @@ from reference.derive.scene_text import Refused, number, only  # noqa: E402
 TABLES = "examples"
 SOURCE = "reference/derive/of_scene.py"
 GRIDS = ((4, 13), (6, 14), (10, 15), (16, 16))  # (number of intervals, nodes of each interval)
-AGREEMENT, ROUND_OFF, NOTHING = 1e-10, 1e-11, 1e-13  # relative difference of grids; round-off relative to a value; round-off relative to the scale of a value
+# Relative difference of grids, round-off relative to a value, and round-off relative to the scale of a value.
+AGREEMENT, ROUND_OFF, NOTHING = 1e-10, 1e-11, 1e-13
 KINDS = ("displacement", "reaction", "stiffness", "compliance", "motion", "internal", "frequency")
 RESULTANTS = ("N", "Qy", "Qz", "Mx", "My", "Mz")
 
