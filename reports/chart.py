@@ -232,7 +232,7 @@ class Writer:
         return f"<g{whose}>{line}</g>" if whose else line
 
     def lines(self, curves):
-        """Returns the curves, [(points, look)], as one group."""
+        """Returns the SVG group of the curves [(points, look)]."""
         drawn = "".join(self.line(*curve) for curve in curves)
         return f'<g fill="none">{drawn}</g>' if drawn else ""
 

@@ -6,7 +6,7 @@ static const entry_field fields[] = {
     QUANTITY_ANALYSIS,
     {"member", ENTRY_NAME, .needed = 1, .summary = "name of a member",
      ENTRY_IN(scene_quantity, what.of.deflection.member), .of = SCENE_MEMBERS},
-    /* must precede `end`, because `end` is also a position */
+    /* this key must precede `end`, which is also a position */
     {"where", ENTRY_NUMBER, .needed = 1, .group = 2,
      .summary = "position within the member, from 0 at the start to 1 at the end of the member",
      ENTRY_IN(scene_quantity, what.of.deflection.place), .most = 1,

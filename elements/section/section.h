@@ -129,7 +129,7 @@ status section_compute(const section_spec *spec, section *out, fault *f);
  * velocity of the line and the angular velocity in section axes (Hodges, Nonlinear Composite Beam
  * Theory, 2006, chapters 4 and 5).
  *
- * Other constants are derived for orders of magnitude and for formulations that use only constants.
+ * Other constants are derived from C and M, for formulations that use only constants.
  * With E = G = 1 Pa, they are A = C_11, Iy = C_55, Iz = C_66 and It = C_44, with shear rigidities
  * C_22 and C_33. There is no warping, and the centroid is on the line. */
 
