@@ -11,7 +11,7 @@ enum { MAX_STEPS = 101 };
 
 static const parameter_type parameters[] = {
     {"stroke", "m", 0.05, 0, 1e2, NULL, "the platform moves from -stroke to +stroke"},
-    {"steps", "1", 11, 2, MAX_STEPS, NULL, "positions of the platform"},
+    {"steps", "1", 11, 2, MAX_STEPS, NULL, "number of positions of the platform"},
     {0},
 };
 

@@ -169,7 +169,7 @@ const extreme extremes[] = {
      {{"width", 0.223203587801597, 0.223203587801597, 1}},
      {{"frequency_1", 0}, {"frequency_2", 0}}, "difference in width", "1", EXTREME_PARAMETERS,
      16, 5, {1e-1, 1e-3, 1e-6, 1e-9, 1e-12}, EXTREME_EXACT, 0, 1e-4},
-    {"equal_loads", "equal eigenvalues", "short columns: the critical loads of all numbers of half-waves approach that of pure shear (Engesser)",
+    {"equal_loads", "equal eigenvalues", "short columns: the critical loads for all numbers of half-waves approach that of pure shear (Engesser)",
      "c_column", "",
      {{"length", 0, 0.6, 1}},
      {{"buckling_load", 0}}, "length/height", "1", EXTREME_PARAMETERS,

@@ -148,13 +148,14 @@ static void check_keys(const fields *f, int given)
     for (int k = 0; k < 3; k++) {
         if ((spreads(given) && (k < 2 || given != OF_TEMPERATURE)) || !fields_have(f, of_range[k]))
             continue;
-        document_mistake(f->b->mistakes, document_find(f->map, of_range[k]), 0,
-                         "%s: this key is for a distributed load; %s", of_range[k],
-                         given == OF_TEMPERATURE
-                             ? "a temperature is constant from 'from' to 'to'; remove the key"
-                         : given == SCENE_GRAVITY
-                             ? "gravity acts on the whole member; remove the key"
-                             : "a force or a moment within a member acts at one position, 'where'");
+        document_mistake(
+            f->b->mistakes, document_find(f->map, of_range[k]), 0,
+            "%s: this key is for a distributed load; %s", of_range[k],
+            given == OF_TEMPERATURE
+                ? "a temperature is constant from 'from' to 'to'; remove the key"
+            : given == SCENE_GRAVITY
+                ? "gravity acts on the whole member; remove the key"
+                : "a force or a moment within a member acts at one position; use 'where' instead");
     }
 }
 
@@ -171,9 +172,10 @@ static void read_range(const fields *f, int given, scene_load *what)
     what->range[1] = part_of(f, "to", 1);
     if (what->range[0] < what->range[1])
         return;
-    document_mistake(f->b->mistakes, document_find(f->map, fields_have(f, "to") ? "to" : "from"), 0,
-                     "from %g to %g of the member's length; give a larger 'to' than 'from'",
-                     what->range[0], what->range[1]);
+    document_mistake(
+        f->b->mistakes, document_find(f->map, fields_have(f, "to") ? "to" : "from"), 0,
+        "the load acts from %g to %g of the member's length; give 'to' a larger value than 'from'",
+        what->range[0], what->range[1]);
 }
 
 static int frame_motion_of(const fields *f, const scene_load *what)
@@ -365,9 +367,9 @@ void builder_constraints(builder *b)
         const int form = form_of(&f), two = form == 1;
         if (form < 0) {
             document_mistake(b->mistakes, f.map, 0,
-                             "give {equal: [NODE, NODE], components: [ux]}, {node: NODE, "
-                             "component: ux, ratio: -2, of: NODE}, or {diaphragm: [NODE], master: "
-                             "NODE, normal: z}");
+                             "the keys do not define a constraint; give {equal: [NODE, NODE], "
+                             "components: [ux]}, {node: NODE, component: ux, ratio: -2, of: NODE}, "
+                             "or {diaphragm: [NODE], master: NODE, normal: z}");
             continue;
         }
         if (form == 2) {
@@ -401,9 +403,10 @@ void builder_imperfections(builder *b)
             (by_mode ? fields_have(&f, "factor")
                      : fields_have(&f, "which") || fields_have(&f, "direction")) ||
             (shifts != NULL && (shifts->kind != DOCUMENT_MAP || shifts->count == 0))) {
-            document_mistake(b->mistakes, f.map, 0,
-                             "give {mode_of: ANALYSIS, which: 0, amplitude: 2e-3}, or {shifts: "
-                             "{NODE: [dx, dy, dz]}, factor: 1}");
+            document_mistake(
+                b->mistakes, f.map, 0,
+                "the keys do not define an imperfection; give {mode_of: ANALYSIS, which: 0, "
+                "amplitude: 2e-3}, or {shifts: {NODE: [dx, dy, dz]}, factor: 1}");
             continue;
         }
         const int index = scene_add_imperfection(b->scene);

@@ -44,7 +44,7 @@ static int constant(const name_context *c, const char *text, int *at, int length
                          "list of sections",
                          length - 1 < 40 ? length - 1 : 40, text + from);
     else if (index < 0)
-        expression_wrong(why, behind, "a section has no constant '%.*s'; it has %s",
+        expression_wrong(why, behind, "a section has no constant '%.*s'; its constants are %s",
                          rest < 40 ? rest : 40, text + behind, section_names_all);
     else
         *out = known->constants[index];

@@ -244,8 +244,10 @@ static int named_value(const scene_file *file, const fields *f, const document_n
     const int index = parameter_index(file->type.parameters, those->key[i]->text);
     mistakes *m = f->b->mistakes;
     if (index < 0) {
-        document_mistake(m, those->key[i], 0, "the scene has no parameter '%.40s'",
-                         those->key[i]->text);
+        document_mistake(
+            m, those->key[i], 0,
+            "the scene has no parameter '%.40s'; correct the name, or add the parameter",
+            those->key[i]->text);
         return -1;
     }
     const parameter_type *p = &file->parameter[index];
@@ -305,7 +307,8 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
                          t.uncertainty);
     if ((strcmp(t.kind, "predicted") == 0) != (t.formulation[0] != '\0'))
         document_mistake(m, f->place, 0,
-                         "kind 'predicted' requires a formulation; other kinds must not name one");
+                         "kind 'predicted' requires a formulation, and other kinds must not name "
+                         "one; add or remove 'formulation'");
     const scene_quantity *q = quantity_of(s, t.quantity);
     if (q == NULL)
         fields_entry(f, "quantity", SCENE_QUANTITIES);

@@ -82,8 +82,9 @@ static void read_number(parameter_type *p, const document_node *entry, int any_u
                          "%s: max = %g is below min = %g; correct one of them", p->name, p->max,
                          p->min);
     else if (read && !(p->value >= p->min && p->value <= p->max))
-        document_mistake(m, at, 0, "%s = %g %s is outside its range %g .. %g", p->name, p->value,
-                         p->unit, p->min, p->max);
+        document_mistake(m, at, 0, "%s = %g%s%s is outside its range %g .. %g", p->name, p->value,
+                         strcmp(p->unit, "1") == 0 ? "" : " ",
+                         strcmp(p->unit, "1") == 0 ? "" : p->unit, p->min, p->max);
     /* a range from 0 to 1 without a unit would be mistaken for a switch in --set */
     if (p->min == 0 && p->max == 1)
         p->max = nextafter(1, 2);

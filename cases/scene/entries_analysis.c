@@ -241,8 +241,8 @@ static const entry_field in_time[] = {
                 "far (at most the size of the structure). alpha and conserving: for all steps "
                 "together, distributed in proportion to their lengths; radau: for the error "
                 "estimate of one step, which is far above the actual error. 0: equal steps",
-     .left_out =
-         "0 if a step is given; otherwise 1e-3 (radau: 1e-5), which is 0.1 % of the displacements",
+     .left_out = "0 if a step is given; otherwise 1e-5 for radau, and 1e-3 (0.1 % of the "
+                 "displacements) for the other integrators",
      ENTRY_IN(scene_analysis, of.motion.tolerance)},
     {"rho", ENTRY_NUMBER, .group = 1,
      .summary = "alpha: spectral radius at infinite frequency, 0 to 1", .usual = "0.9"},

@@ -130,8 +130,8 @@ const entry_field entry_member[] = {
         {"at", ENTRY_NUMBERS, .needed = 1, .unit = (length),                                       \
          .summary = "displacements or rotations, ascending", ENTRY_IN(scene_spring, table[k].at)}, \
         {"value", ENTRY_NUMBERS, .needed = 1, .unit = (force),                                     \
-         .summary = "forces or moments at the values of 'at'; they must not decrease and must be " \
-                    "0 at 0, and are linear between and beyond the points",                        \
+         .summary = "forces or moments at the values of 'at', linear between and beyond the "      \
+                    "points; they must not decrease, and must be 0 at 0",                          \
          ENTRY_IN(scene_spring, table[k].value)},                                                  \
         {.name = NULL}};
 TABLE(ux, 0, "m", "N")
@@ -317,7 +317,7 @@ const entry_field *entry_of_load(scene_load_kind kind)
 static const entry_field rectangle[] = {
     {"width", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "along the member's z axis",
      ENTRY_IN(section_spec, width)},
-    {"thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "along its y axis",
+    {"thickness", ENTRY_NUMBER, .needed = 1, .unit = "m", .summary = "along the member's y axis",
      ENTRY_IN(section_spec, height)},
     {.name = NULL}};
 

@@ -312,8 +312,9 @@ static status operate(reader *r, jet_operation what, int place, int left, int ri
     *a = value;
     if (isfinite(value))
         return STATUS_OK;
-    return what == JET_POWER ? WRONG(r, place, "%g^%g has no value", base, *b)
-                             : WRONG(r, place, "the result is too large for a number");
+    return what == JET_POWER
+               ? WRONG(r, place, "%g^%g has no value; correct the base or the exponent", base, *b)
+               : WRONG(r, place, "the result is too large for a number; correct the values");
 }
 
 static int is_digit(char c)
@@ -451,7 +452,8 @@ static status read_primary(reader *r)
     if (c != '\0' && expression_name_length(r->text + from) > 0)
         return read_name(r);
     return c == '\0'
-               ? WRONG(r, from, "the expression ends where a number, a name or '(' is expected")
+               ? WRONG(r, from,
+                       "the expression ends where a number, a name or '(' is expected; complete it")
                : WRONG(r, from, "found '%c' where a number, a name or '(' is expected",
                        c >= ' ' ? c : '?');
 }

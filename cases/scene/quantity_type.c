@@ -8,11 +8,11 @@ static const entry_field abscissa[] = {
     {"quantity", ENTRY_NAME,
      .summary = "quantity whose curve over the same path is used as the abscissa",
      .left_out = "the path, time or frequency"},
-    {"name", ENTRY_TEXT, .summary = "its name", .left_out = "path, time or frequency"},
-    {"unit", ENTRY_TEXT, .summary = "its unit",
+    {"name", ENTRY_TEXT, .summary = "name of the abscissa", .left_out = "path, time or frequency"},
+    {"unit", ENTRY_TEXT, .summary = "unit of the abscissa",
      .left_out = "1; if the factor is 1, s for time and Hz for frequency"},
-    {"factor", ENTRY_NUMBER, .summary = "factor of the path parameter", .usual = "1"},
-    {"offset", ENTRY_NUMBER, .summary = "added to it", .usual = "0"},
+    {"factor", ENTRY_NUMBER, .summary = "abscissa = factor * value + offset", .usual = "1"},
+    {"offset", ENTRY_NUMBER, .summary = "offset of the abscissa", .usual = "0"},
     {.name = NULL}};
 
 static const entry_field when[] = {
@@ -27,7 +27,7 @@ static const entry_field when[] = {
      ENTRY_IN(scene_quantity, passing.order), .most = ENTRY_MOST_ORDER},
     {"from", ENTRY_NUMBER, .summary = "start of the window [s]", .usual = "0",
      ENTRY_IN(scene_quantity, passing.from)},
-    {"until", ENTRY_NUMBER, .summary = "its end [s]", .left_out = "that of the motion",
+    {"until", ENTRY_NUMBER, .summary = "end of the window [s]", .left_out = "the end of the motion",
      ENTRY_IN(scene_quantity, passing.until)},
     {"taper", ENTRY_WORD, .words = SCENE_TAPER_CHOICES,
      .summary = "window function of a spectrum; hann: the history is weighted by sin^2",
@@ -51,7 +51,7 @@ const entry_field entry_quantity[] = {
     QUANTITY_TYPES(KIND) /* QUANTITY_TYPES contains each kind once */
     {"unit", ENTRY_TEXT, .summary = "SI unit, or that of the scene's 'units'",
      .left_out = "as usual for the quantity"},
-    {"factor", ENTRY_NUMBER, .summary = "reported value = factor value + offset", .usual = "1",
+    {"factor", ENTRY_NUMBER, .summary = "reported value = factor * value + offset", .usual = "1",
      ENTRY_IN(scene_quantity, factor), .always = 1},
     {"offset", ENTRY_NUMBER, .summary = "offset in the same unit", .usual = "0",
      ENTRY_IN(scene_quantity, offset)},

@@ -129,7 +129,10 @@ static status ritz(solver *s, fault *f)
         for (int i = 0; i < k; i++)
             s->A[j * k + i] = s->H[i * s->room + j];
     if (LAPACKE_dgeev(LAPACK_COL_MAJOR, 'N', 'V', k, s->A, k, s->re, s->im, NULL, 1, s->z, k) != 0)
-        return fault_set(f, STATUS_NOT_CONVERGED, "an eigenvalue problem of %d unknowns failed", k);
+        return fault_set(
+            f, STATUS_NOT_CONVERGED,
+            "an eigenvalue problem of %d unknowns was not solved; use another number of elements",
+            k);
     sort(s);
     s->found = 0;
     while (s->found < k && size_of(s, s->found) > 16 * k * DBL_EPSILON * size_of(s, 0))
@@ -206,7 +209,8 @@ static status iterate(solver *s, int vectors, fault *f)
                        ? STATUS_OK
                        : fault_set(
                              f, STATUS_NOT_CONVERGED,
-                             "unsymmetric eigenvalue problem: the residual is %.1e with %d vectors",
+                             "the unsymmetric eigenvalue problem did not converge: the residual is "
+                             "%.1e with %d vectors; use fewer elements, or request fewer modes",
                              worst, s->count);
         best = fmin(best, worst);
     }
@@ -243,7 +247,8 @@ static status find(solver *s, fault *f)
         vectors = MORE + s->p->wanted;
     }
     return fault_set(f, STATUS_NOT_CONVERGED,
-                     "unsymmetric eigenvalue problem: start vector %d still yields new eigenvalues",
+                     "modes may be missing, because start vector %d still yields new eigenvalues; "
+                     "if the structure has many equal parts, make them slightly different",
                      MAX_STARTS);
 }
 

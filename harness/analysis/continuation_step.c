@@ -164,7 +164,8 @@ static status point_of(continuation *p, const double along[], path_point *out,
 {
     const double length = sqrt(continuation_step_dot(p, p->response, p->response));
     if (!(length > 0) || !isfinite(length))
-        return fault_set(f, STATUS_SINGULAR, "the loads cause no displacement");
+        return fault_set(f, STATUS_SINGULAR,
+                         "the loads cause no displacement; apply a load along a free coordinate");
     const double sign = along != NULL && continuation_step_dot(p, along, p->response) < 0 ? -1 : 1;
     for (int k = 0; k < p->n.all; k++)
         out->tangent[k] = sign * p->response[k] / length;

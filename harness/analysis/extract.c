@@ -18,8 +18,8 @@ static void extract_spectrum_modal(const analysis_context *, const scene_quantit
                                    const analysis_outcome *, quantity_result *);
 
 static const char *const no_frequency =
-    "the mesh has no mode of this kind that is distinguishable from round-off; coordinates with "
-    "little or no mass have no mode";
+    "the mesh has no mode of this kind that is distinguishable from round-off; use more elements, "
+    "or add mass to coordinates that have little or none";
 
 /* Returns 1 if this component of the node is defined. A rotation is undefined if all members at the
  * node release it. */
@@ -171,7 +171,8 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
         break;
     }
     if (r->status == STATUS_OK && !isfinite(r->value))
-        quantity_no_value(r, STATUS_SINGULAR, "the value is not finite");
+        quantity_no_value(r, STATUS_SINGULAR,
+                          "the value is NaN or Inf; check stiffnesses, loads and units");
 }
 
 /* Takes value i of a side, or the reason why the value does not exist. */
@@ -250,7 +251,8 @@ static void extract_spectrum_buckling(const analysis_context *c, const scene_qua
         snprintf(why, sizeof why, "no %s critical load%s: %.250s", sign,
                  side->count > 0 ? " with this index" : "", side->reason);
     else
-        snprintf(why, sizeof why, "there is no %s critical load with this index", sign);
+        snprintf(why, sizeof why,
+                 "there is no %s critical load with this index; request a lower index", sign);
     quantity_no_value(r, side->status, why);
 }
 

@@ -52,7 +52,7 @@ static double growth_of(const analysis_context *c, const rotation_modes *modes, 
     if (modes->count == 0 || modes->growth[largest] == 0)
         return modes->count > 0 ? 0 : NAN;
     const double growth = modes->growth[largest], size = hypot(growth, modes->frequency[largest]);
-    return known(c, growth, modes->error[largest] * size / growth, "the rate of growth", r);
+    return known(c, growth, modes->error[largest] * size / growth, "the growth rate", r);
 }
 
 /* Returns the modes at a station; NULL: no quantity requested modes. */
@@ -217,7 +217,7 @@ static const char *reason_of_path(const analysis_context *c, const scene_quantit
     const int follows = c->scene->analysis[q->analysis].follows;
     return follows != SCENE_NONE && c->outcomes[follows].status != STATUS_OK
                ? c->outcomes[follows].reason
-               : "the path does not reach this station";
+               : "the path does not reach this station; request an earlier one";
 }
 
 static void path_ends(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
@@ -324,8 +324,9 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
     } else if (!known) {
         quantity_no_value(r, STATUS_NO_VALUE,
                           q->reduction >= SCENE_CROSSING && q->reduction <= SCENE_PER_SECOND
-                              ? "the quantity crosses the level too few times in the time window"
-                              : "no part of the motion is in the time window");
+                              ? "the quantity crosses the level too few times in the time window; "
+                                "extend the window, or change the level"
+                              : "no part of the motion is in the time window; change the window");
     } else {
         r->value = quantity_scaled(q, found->value);
         r->x = quantity_abscissa(q, found->time);
@@ -342,10 +343,10 @@ static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quan
     char why[FAULT_TEXT];
     if (!peak->known)
         return;
-    snprintf(
-        why, sizeof why,
-        "unbounded at %.6g Hz, where the response is not damped; add damping, or write take: curve",
-        peak->hertz);
+    snprintf(why, sizeof why,
+             "the response is unbounded at %.6g Hz, where it is not damped; add damping, or write "
+             "take: curve",
+             peak->hertz);
     if (peak->unbounded) {
         quantity_no_value(r, STATUS_NO_VALUE, why);
         return;

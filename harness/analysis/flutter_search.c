@@ -200,7 +200,10 @@ static status confirm(search *s, fault *f)
     TRY(look_closely(s, s->next.path, 1, &again, f));
     return again.kind != FLUTTER_NONE
                ? STATUS_OK
-               : is_lost(s, "growing modes are lost in the round-off of the tangent", f);
+               : is_lost(
+                     s,
+                     "growing modes are lost in the round-off of the tangent; use fewer elements",
+                     f);
 }
 
 /* Advances from the stored state, which belongs to `last`, to the first unstable station s->next.
@@ -233,7 +236,8 @@ static status walk(search *s, fault *f)
         if (s->next.kind != FLUTTER_NONE)
             return confirm(s, f);
         if (s->next.count < s->last.count)
-            return is_lost(s, "slow modes are lost in the round-off of the tangent", f);
+            return is_lost(
+                s, "slow modes are lost in the round-off of the tangent; use fewer elements", f);
         const station c = s->next;
         for (int i = 0; stations > 0 && !s->of.massless && !s->of.damped &&
                         i + 1 < COMPARED_MOTIONS + 2 && i + 1 < c.count;
@@ -341,10 +345,10 @@ static status run(search *s, flutter_point *out, fault *f)
     kinematics_state_copy(n->c->model, n->state, s->kept);
     TRY(look(s, 0, &s->last, f));
     if (s->last.kind != FLUTTER_NONE)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "the state at path 0 is not stable: %s; critical loads require a stable state",
-            flutter_name(&s->of, s->last.kind));
+        return fault_set(f, STATUS_REFUSED,
+                         "critical loads require a stable state, but that at path 0 is not stable: "
+                         "%s; reduce the loads at path 0",
+                         flutter_name(&s->of, s->last.kind));
     TRY(walk(s, f));
     return close_in(s, out, f);
 }

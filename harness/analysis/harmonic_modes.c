@@ -124,13 +124,12 @@ static status all_modes(vibration *v, harmonic_modes *m, fault *f)
     free(K);
     free(x);
     free(mu);
-    return info == 0 ? STATUS_OK
-           : info == -1
-               ? no_memory(f)
-               : fault_set(
-                     f, STATUS_NOT_CONVERGED,
-                     "the computation of all modes of %d coordinates failed: LAPACK returned %d",
-                     m->n, info);
+    return info == 0    ? STATUS_OK
+           : info == -1 ? no_memory(f)
+                        : fault_set(f, STATUS_NOT_CONVERGED,
+                                    "the modes of %d coordinates were not found (LAPACK returned "
+                                    "%d); give a number of modes, such as modes: 50",
+                                    m->n, info);
 }
 
 /* Computes the first modes and the frequency of the next one. */

@@ -293,7 +293,7 @@ static void drop_of_mesh(eigen_side *side, const eigen_side *finer, int i)
         return;
     snprintf(side->reason, sizeof side->reason,
              "%.4g is an artefact of the mesh, whose nodes rotate without translation: %s with "
-             "elements half as long",
+             "elements half as long; use more elements",
              1 / side->mu[i], is_there ? "it is several times as large" : "it does not occur");
     side->count = i;
 }

@@ -81,8 +81,9 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
     int mode = 0;
     status outcome = flutter_system_alloc(n, &of, f);
     if (outcome == STATUS_OK && of.massless)
-        outcome =
-            fault_set(f, STATUS_REFUSED, "the structure has no mass, so it has no frequencies");
+        outcome = fault_set(f, STATUS_REFUSED,
+                            "the structure has no mass, so it has no frequencies; give a density "
+                            "to a section, or a mass to a node");
     if (outcome == STATUS_OK)
         outcome = flutter_motions(n, &of, modal_wanted(c, analysis), 1, &r, f);
     if (outcome == STATUS_OK && of.damped)
@@ -293,8 +294,8 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
         *stable &= !s->lost;
         if (s->lost)
             (void)fault_set(f, STATUS_NOT_CONVERGED,
-                            "the structure jumps to another equilibrium near path %g, before it "
-                            "loses its stiffness",
+                            "near path %g the structure jumps to another equilibrium before it "
+                            "loses its stiffness; use a continuation",
                             path);
         else if (*stable)
             s->rate = rate;
@@ -419,7 +420,7 @@ static status find_critical(loaded_search *s, fault *f)
     return isfinite(s->estimate) && target <= farthest_path
                ? fault_set(f, STATUS_NOT_CONVERGED,
                            "the critical load was not found, because its estimate near path %g "
-                           "still changes by %.1e",
+                           "still changes by %.1e; use a continuation",
                            s->estimate, s->change)
                : fault_set(f, STATUS_NOT_CONVERGED,
                            "no critical load from path %g to %g, because the structure does not "
@@ -575,7 +576,8 @@ static status store_results(loaded_search *s, outcome_side *out, fault *f)
         snprintf(out->reason, sizeof out->reason, "%.200s; use more elements, or a continuation",
                  why.text);
     } else if (found.count < s->wanted) {
-        snprintf(out->reason, sizeof out->reason, "no critical load up to path %g",
+        snprintf(out->reason, sizeof out->reason,
+                 "no further critical load up to path %g; request a lower index",
                  kinematics_state_path(s->stable));
     }
     return more == STATUS_FAULT ? fault_set(f, more, "%s", why.text) : STATUS_OK;
@@ -640,7 +642,8 @@ static status find_without_potential(analysis_context *c, loaded_search *s, outc
     outcome_side *out = &found->positive;
     *out = (outcome_side){.count = 1, .value = value, .mode = first.mode, .error = error};
     snprintf(out->reason, sizeof out->reason,
-             "for loads without a potential, only the first critical load is searched for");
+             "for loads without a potential, only the first critical load is searched for; request "
+             "which: 0");
     if (first.frequency > 0)
         snprintf(how, sizeof how, " at %.6g Hz", first.frequency / (2 * PI));
     snprintf(found->meaning, sizeof found->meaning, "%s%s%s", first.what, how,
@@ -675,8 +678,8 @@ status loaded_buckling(analysis_context *c, int analysis, analysis_outcome *o, f
     loaded_search s = {.unstable = INFINITY, .estimate = INFINITY};
     outcome_side *back = &o->left.spectrum.negative;
     snprintf(back->reason, sizeof back->reason,
-             "about a loaded state, loads are followed only in the direction of its path; reverse "
-             "the loads");
+             "from a loaded state, the search follows the loads only in the direction of the path; "
+             "reverse the loads");
     const status result = run(c, analysis, &s, &o->left.spectrum, f);
     if (result == STATUS_NOT_CONVERGED && !isfinite(s.estimate)) {
         const fault why = *f;

@@ -169,8 +169,9 @@ static status add_prestress(analysis_context *c, int follows, linear_system *s, 
                           ? outcome_displacements(&c->outcomes[follows], c->eq.loading.acting)
                           : NULL;
     if (x == NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "the linear analysis of the base state has no solution");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "the linear analysis of the base state has no solution; correct that analysis first");
     memcpy(about->of.load_x, x, (size_t)(size.free + size.driven) * sizeof *x);
     return add_stresses(c, 1, s, about, f);
 }

@@ -151,7 +151,7 @@ static void name_series(import_block *b, const import_header *h, int line)
         mistakes_add(b->m, h->model_line > 0 ? h->model_line : h->convention_line, 1,
                      "model and convention must be words of at most %d bytes", IMPORTED_WORD - 1);
     if (strlen(h->version) >= IMPORTED_WORD)
-        mistakes_add(b->m, h->version_line, 1, "version: at most %d bytes", IMPORTED_WORD - 1);
+        mistakes_add(b->m, h->version_line, 1, "version: give at most %d bytes", IMPORTED_WORD - 1);
     snprintf(to->version, sizeof to->version, "%.*s", IMPORTED_WORD - 1, h->version);
     snprintf(to->program, sizeof to->program, "%.*s", FORMULATION_KEY - 1, h->program);
     snprintf(to->file, sizeof to->file, "%s", b->path);
@@ -228,8 +228,8 @@ static int convert(const import_block *b, const scene_quantity *q, imported_row 
     fault f = {""};
     const scene_quantity *own_axis = axes_quantity(&b->axes, scene_of(b), q, &sign);
     if (own_axis == NULL) {
-        mistakes_add(b->m, line_of(b, row), 1, "the case has no quantity '%s' in these axes",
-                     q->name);
+        mistakes_add(b->m, line_of(b, row), 1,
+                     "the case has no quantity '%s' in these axes; correct '# axes'", q->name);
         return 0;
     }
     if (conversion_factor(row->unit, own_axis->unit, &row->factor, &f) != STATUS_OK) {

@@ -70,7 +70,8 @@ static void take_header(file_reader *r, const char *key, const char *value)
     import_header *h = &r->header;
     if (strcmp(key, "beamwork-import") == 0) {
         if (strcmp(value, "1") != 0)
-            mistakes_add(r->m, r->line, 1, "format version '%.20s'; this program reads version 1",
+            mistakes_add(r->m, r->line, 1,
+                         "unknown format version '%.20s'; this program reads only version 1",
                          value);
         r->versioned = 1;
     } else if (strcmp(key, "program") == 0)
@@ -119,7 +120,8 @@ static void find_column(file_reader *r, const char *name, int field)
         if (strcmp(names[c], name) == 0) {
             for (int i = 0; i < field; i++)
                 if (r->place[i] == c)
-                    mistakes_add(r->m, r->line, field + 1, "column '%s' is given twice", name);
+                    mistakes_add(r->m, r->line, field + 1, "column '%s' is given twice; remove one",
+                                 name);
             r->place[field] = c;
             return;
         }
@@ -146,7 +148,7 @@ static void read_columns(file_reader *r, char *const field[], int count)
         for (int i = 0; i < count; i++)
             found |= r->place[i] == c;
         if (!found)
-            mistakes_add(r->m, r->line, FIELDS + c, "column '%s' is missing", names[c]);
+            mistakes_add(r->m, r->line, FIELDS + c, "column '%s' is missing; add it", names[c]);
     }
 }
 
@@ -164,7 +166,8 @@ static double number_of(const file_reader *r, const char *text, column c)
         return NAN;
     }
     if ((c == SECONDS || c == UNCERTAINTY) && value < 0)
-        mistakes_add(r->m, r->line, 10 + c, "%s is below zero", names[c]);
+        mistakes_add(r->m, r->line, 10 + c, "%s is below zero; give zero or a positive number",
+                     names[c]);
     return value;
 }
 
@@ -230,11 +233,12 @@ static void read_fields(file_reader *r, char *line)
     }
     const int count = line_split(line, field, FIELDS);
     if (count > FIELDS)
-        mistakes_add(r->m, r->line, 1, "the line has more than %d fields", FIELDS);
+        mistakes_add(r->m, r->line, 1,
+                     "the line has more than %d fields; remove columns that are not used", FIELDS);
     else if (!r->placed || strcmp(field[0], names[QUANTITY]) == 0)
         read_columns(r, field, count);
     else if (++r->rows > IMPORT_ROWS)
-        mistakes_add(r->m, r->line, 1, "the file has more than %d rows", IMPORT_ROWS);
+        mistakes_add(r->m, r->line, 1, "the file has more than %d rows; split it", IMPORT_ROWS);
     else
         read_row(r, field, count);
 }
@@ -246,7 +250,8 @@ static status read_line(file_reader *r, char *line, fault *f)
         return STATUS_OK;
     if (!line_is_text(line)) {
         mistakes_add(r->m, r->line, 1,
-                     "the line is not UTF-8 text, or contains control characters");
+                     "the line is not UTF-8 text, or contains control characters; save the file as "
+                     "UTF-8 text");
     } else if (line[0] == '#') {
         TRY(close_block(r, f));
         read_header(r, line);

@@ -82,7 +82,9 @@ static wanted read_value(const map_reader *r, const document_node *key, const do
     const char *column = map_keys_text(r->m, of, "column", NULL),
                *x = map_keys_text(r->m, of, "abscissa", NULL);
     if (column == NULL || map_keys_text(r->m, of, "unit", NULL) == NULL)
-        document_mistake(r->m, key, 0, "%s: column and unit are required", key->text);
+        document_mistake(r->m, key, 0,
+                         "%s: column and unit are required; give {column: ..., unit: ...}",
+                         key->text);
     else
         w.column = column_named(r, of, column);
     if (x != NULL)
@@ -181,7 +183,8 @@ static status read_files(map_reader *r, const char *const file[], int files, wan
     for (int i = 0; i < count; i++) {
         r->block.at = list[i].key->line;
         if (list[i].seen == 0 || list[i].seen < list[i].rows)
-            document_mistake(r->m, list[i].key, 0, "%.60s: the files have no such row",
+            document_mistake(r->m, list[i].key, 0,
+                             "%.60s: the files have no such row; correct the value",
                              list[i].key->text);
         else if (list[i].rows != ALL)
             import_block_add(&r->block, &list[i].row);

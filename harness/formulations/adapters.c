@@ -245,8 +245,8 @@ static status check_scalars(const element_type *given, const double options[], f
               all = element_nodes(given, options) * (NODE_COORDINATES + count);
     if (count < 0 || count > ELEMENT_MAX_SCALARS)
         return fault_set(f, STATUS_REFUSED,
-                         "formulation %s: a node has 0 to %d additional unknowns", given->name,
-                         ELEMENT_MAX_SCALARS);
+                         "formulation %s: a node must have 0 to %d additional unknowns",
+                         given->name, ELEMENT_MAX_SCALARS);
     if (all > ELEMENT_MAX_COORDINATES)
         return fault_set(f, STATUS_REFUSED,
                          "formulation %s: %d coordinates of an element exceed %d; use fewer nodes "

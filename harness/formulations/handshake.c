@@ -100,7 +100,7 @@ static status no_such_word(const handshake_reading *r, const char *key, const wo
                                known->word);
     return fault_set(r->f, STATUS_REFUSED,
                      "%.60s: '%s' in its first line contains the unknown word '%.40s'; give %s",
-                     r->program_name, key, word != NULL ? word : "the value is not text", words);
+                     r->program_name, key, word != NULL ? word : "(not text)", words);
 }
 
 /* Combines the bits of a list of words. known NULL: the words of feature.h. */

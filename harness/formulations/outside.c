@@ -150,7 +150,10 @@ static status start_again(process *p, fault *f)
         again.constants.scalars == p->constants.scalars && again.damping == p->damping &&
         again.line == (p->type.line != NULL);
     return same ? STATUS_OK
-                : channel_break(&p->to, "gives different declarations when it is started again", f);
+                : channel_break(&p->to,
+                                "its first line differs when it is started again; print the same "
+                                "first line every time",
+                                f);
 }
 
 static void put(char **to, const void *from, size_t bytes)

@@ -108,10 +108,11 @@ static status set_value(const assignment_list *l, const parameter_type *p, const
                                "a value in SI units, without the unit",
                                l->what, p->name, l->owner, text);
     if (p->choices == NULL) {
-        const int flag = strcmp(p->unit, "1") == 0 && p->min == 0 && p->max == 1;
+        const int plain = strcmp(p->unit, "1") == 0, flag = plain && p->min == 0 && p->max == 1;
         if (number < p->min || number > p->max)
-            return fault_set(f, STATUS_REFUSED, "%s %s of %s: %g %s is outside its range %g .. %g",
-                             l->what, p->name, l->owner, number, p->unit, p->min, p->max);
+            return fault_set(f, STATUS_REFUSED, "%s %s of %s: %g%s%s is outside its range %g .. %g",
+                             l->what, p->name, l->owner, number, plain ? "" : " ",
+                             plain ? "" : p->unit, p->min, p->max);
         if (flag && number != 0 && number != 1)
             return fault_set(f, STATUS_REFUSED, "%s %s of %s: %g is not valid; give 0 or 1",
                              l->what, p->name, l->owner, number);

@@ -384,7 +384,8 @@ static status refused(channel *c, status outcome, size_t bytes, size_t had, faul
     size_t more = 0;
     const size_t here = had - CHANNEL_ANSWER;
     if (bytes > MESSAGE || here > bytes)
-        return channel_break(c, "the reason for its rejection is longer than 300 bytes", f);
+        return channel_break(c, "the reason for its rejection is longer than 300 bytes; shorten it",
+                             f);
     memcpy(text, rest, here);
     if (here < bytes) {
         const child_event what =
@@ -413,7 +414,8 @@ static status rest_of(channel *c, enum channel_request what, size_t least, size_
         return channel_break(c, why, f);
     }
     if (head[0] < STATUS_OK || head[0] > STATUS_REFUSED || head[1] < 0)
-        return channel_break(c, "an answer has an outcome outside 0 to 3", f);
+        return channel_break(
+            c, "an answer has an outcome outside 0 to 3; write one of these numbers", f);
     if (head[0] != STATUS_OK)
         return refused(c, (status)head[0], (size_t)head[1], had, f);
     *count = (size_t)head[1];

@@ -26,7 +26,9 @@ static status known(const frame_question *q, fault *f)
         return fault_set(f, STATUS_FAULT, "%s", c->trouble);
     if (lost)
         return channel_break(c, "its process was restarted between two requests", f);
-    return many ? channel_break(c, "more than 65536 kinds of elements at once", f) : STATUS_OK;
+    return many ? channel_break(
+                      c, "a request has more than 65536 kinds of elements; use fewer elements", f)
+                : STATUS_OK;
 }
 
 /* frame_put appends `bytes` to a request. frame_take reads `count` doubles of an answer. Both

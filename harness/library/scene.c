@@ -260,7 +260,7 @@ static status contestants_finished(const sweep *s, fault *f)
     return s->unfinished == 0
                ? STATUS_OK
                : fault_set(f, STATUS_TIME_LIMIT,
-                           "stopped before all cells were computed; number of missing cells: %d",
+                           "stopped before all runs were complete; number of missing runs: %d",
                            s->unfinished);
 }
 

@@ -88,9 +88,9 @@ static status carry(chain *s, const double B[], double Z[], fault *f)
     if (s->count > 0)
         s->negative += more_negative(c, s->F, B, W);
     if (dense_lu(c, W, pivot) != 0)
-        return fault_set(
-            f, STATUS_SINGULAR,
-            "the stiffness matrix of a part of a member with one end fixed is singular");
+        return fault_set(f, STATUS_SINGULAR,
+                         "the stiffness matrix of a part of a member with one end fixed is "
+                         "singular; use smaller steps, or correct the section");
     dense_lu_solve(c, c, W, pivot, Z);
     return STATUS_OK;
 }
@@ -170,7 +170,8 @@ status chain_stiffness(const chain *s, double K[], fault *f)
         whole[CHAIN_JOINT * CHAIN_JOINT];
     if (symmetric_inverse(c, s->F, stiffness) < 0)
         return fault_set(f, STATUS_SINGULAR,
-                         "the flexibility matrix of a member with one end fixed is singular");
+                         "the flexibility matrix of a member with one end fixed is singular; use "
+                         "smaller steps, or correct the section");
     dense_mul(c, c, c, stiffness, s->A, KA);
     congruence(c, c, s->A, stiffness, whole);
     for (int i = 0; i < c; i++)

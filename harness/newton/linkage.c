@@ -18,7 +18,7 @@ status linear_memory_alloc(const model *m, linear_memory *out, fault *f)
     return out->slot != NULL
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "%d elements require more memory than is available; give fewer",
+                           "%d elements require more memory than is available; use fewer elements",
                            model_elements(m));
 }
 
@@ -126,10 +126,10 @@ static status flexibility(const link_element *el, const double J_y[], const doub
         memcpy(&K[i * y], &H[(c + i) * n + c], (size_t)y * sizeof *K);
     dense_add_congruence(el->strains, y, J_y, el->C, K, work);
     out->negative = symmetric_inverse(y, K, out->F);
-    return out->negative >= 0
-               ? STATUS_OK
-               : fault_set(f, STATUS_SINGULAR,
-                           "the stiffness matrix of an element with one end fixed is singular");
+    return out->negative >= 0 ? STATUS_OK
+                              : fault_set(f, STATUS_SINGULAR,
+                                          "the stiffness matrix of an element with one end fixed "
+                                          "is singular; use smaller steps, or correct the section");
 }
 
 status link_of(const link_element *el, chain_link *out, fault *f)

@@ -385,7 +385,8 @@ static status check_corrections(const newton_use *use, const correction_sizes *w
                                 const newton_correction *one, int iteration, fault *f)
 {
     if (!isfinite(w->last))
-        return fault_set(f, STATUS_NOT_CONVERGED, "the corrections are not finite");
+        return fault_set(f, STATUS_NOT_CONVERGED,
+                         "the corrections of Newton's method are NaN or Inf; use smaller steps");
     if (w->last > too_large_at_first || (iteration > AT_FIRST && w->last > too_large) ||
         w->growing >= GROWING)
         return give_up(use, one, "diverged", iteration, f);

@@ -229,7 +229,9 @@ void outcome_take(eigen_side *from, outcome_side *to)
     to->status = from->status;
     snprintf(to->reason, sizeof to->reason, "%s", from->reason);
     if (from->rounding > 0 && from->status == STATUS_OK)
-        snprintf(to->reason, sizeof to->reason, "the geometric stiffness is only round-off");
+        snprintf(
+            to->reason, sizeof to->reason,
+            "the geometric stiffness is only round-off; apply a load that stresses the members");
     from->mu = from->mode = from->error = NULL;
 }
 

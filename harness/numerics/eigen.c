@@ -100,8 +100,9 @@ static status fill(candidates *p, int wanted, double scale, double least, eigen_
     for (int pass = 0; missing > 0; pass++) {
         if (pass == MAX_PASSES || p->count + missing >= p->n)
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "%d of %d eigenvalues were not found in %d attempts", missing,
-                             requested, pass);
+                             "%d of %d eigenvalues were not found in %d attempts; use another "
+                             "number of elements",
+                             missing, requested, pass);
         candidates_count_rest(p);
         TRY(run_lanczos(p, missing, least, &r->solutions, f));
         missing = requested - p->count;
@@ -334,8 +335,8 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
     free(K);
     return info == 0 ? STATUS_OK
                      : fault_set(f, STATUS_NOT_CONVERGED,
-                                 "the solution of a dense eigenvalue problem of %d unknowns "
-                                 "failed: LAPACK returned %d",
+                                 "a dense eigenvalue problem of %d unknowns was not solved (LAPACK "
+                                 "returned %d); use another number of elements",
                                  n, info);
 }
 

@@ -143,10 +143,10 @@ static status iterate(gyroscopic_solver *s, int wanted, fault *f)
             continue;
         return worst <= acceptable_residual
                    ? STATUS_OK
-                   : fault_set(
-                         f, STATUS_NOT_CONVERGED,
-                         "frequencies in a rotating frame: the residual is %.1e with %d vectors",
-                         worst, s->basis.count);
+                   : fault_set(f, STATUS_NOT_CONVERGED,
+                               "frequencies in a rotating frame did not converge: the residual is "
+                               "%.1e with %d vectors; use fewer elements, or request fewer modes",
+                               worst, s->basis.count);
     }
 }
 
@@ -372,7 +372,9 @@ static status find(gyroscopic_solver *s, fault *f)
     for (int attempt = 0; lost > 0; attempt++) {
         if (attempt == MAX_STARTS)
             return fault_set(f, STATUS_NOT_CONVERGED,
-                             "frequencies in a rotating frame that were not found: %d", lost);
+                             "number of frequencies in a rotating frame that were not found: %d; "
+                             "request another number of modes",
+                             lost);
         TRY((attempt == 0 ? begin : start)(s, first < n ? first : n, f));
         TRY(iterate(s, s->p->wanted, f));
         TRY(missing(s, s->p->wanted, &lost, f));

@@ -136,8 +136,10 @@ static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, d
     dseupd_c(1, "A", w->select, w->value, w->basis, n, 0, "G", n, "LA", wanted, tolerance, w->start,
              w->vectors, w->basis, n, w->parameter, w->pointer, w->vector, w->work, w->size, &info);
     if (info != 0)
-        return fault_set(f, STATUS_NOT_CONVERGED,
-                         "the eigenvectors were not found (ARPACK returned %d)", info);
+        return fault_set(
+            f, STATUS_NOT_CONVERGED,
+            "the eigenvectors were not found (ARPACK returned %d); use another number of elements",
+            info);
     for (int i = 0; i < found; i++)
         mu[i] = w->value[found - 1 - i];
     reverse((size_t)n, found, w->basis);
@@ -159,8 +161,9 @@ static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, 
     *found = info == 0 ? wanted : w->parameter[CONVERGED];
     if (info != 0 && (info != ENDED_EARLY || *found == 0))
         return fault_set(f, STATUS_NOT_CONVERGED,
-                         "only %d of %d eigenvalues were found (ARPACK returned %d)", *found,
-                         wanted, info);
+                         "only %d of %d eigenvalues were found (ARPACK returned %d); use another "
+                         "number of elements",
+                         *found, wanted, info);
     return take_vectors(w, n, wanted, *found, mu, x, f);
 }
 

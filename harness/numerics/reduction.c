@@ -56,7 +56,8 @@ static status decompose(reduction *b, fault *f)
                          "the structure is free to move; name interface nodes that support it");
     return info == 0 ? STATUS_OK
                      : fault_set(f, STATUS_NOT_CONVERGED,
-                                 "the modes for a reduced model did not converge");
+                                 "the modes for a reduced model did not converge; give another "
+                                 "number of modes");
 }
 
 /* Sets the number of modes. REFUSED: it exceeds the number of coordinates with mass, apart from

@@ -153,7 +153,9 @@ status ritz_hermitian(const subspace *b, ritz *r, fault *f)
     free(support);
     return info == 0 ? STATUS_OK
                      : fault_set(f, STATUS_NOT_CONVERGED,
-                                 "a Hermitian eigenvalue problem of %d unknowns failed", n);
+                                 "a Hermitian eigenvalue problem of %d unknowns was not solved; "
+                                 "use another number of elements",
+                                 n);
 }
 
 static int is_first_of_its_kind(double complex lambda)
@@ -262,5 +264,7 @@ status ritz_general(const subspace *b, double shift, ritz *r, fault *f)
     free(c);
     return info == 0 ? STATUS_OK
                      : fault_set(f, STATUS_NOT_CONVERGED,
-                                 "an eigenvalue problem of %d unknowns failed", n);
+                                 "an eigenvalue problem of %d unknowns was not solved; use another "
+                                 "number of elements",
+                                 n);
 }

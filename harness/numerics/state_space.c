@@ -110,7 +110,8 @@ static int range_of(split *s, const double A[], const double scale[], int from, 
                                    A[(j + (size_t)from) * n + i + (size_t)from]);
         if (size > 0 && LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', (int)size, S, (int)size, mu) != 0)
             fault_set(f, STATUS_NOT_CONVERGED,
-                      "the computation of the eigenvalues of a state space did not converge");
+                      "the eigenvalues of a state space did not converge; use another number of "
+                      "elements");
         else
             count = 0;
         const double none = 1e-12 * (size > 0 ? mu[size - 1] : 0);
@@ -257,8 +258,9 @@ static status decompose(split *s, double L[], double G[], double V[], int *posit
             G[j * p + i] = V[i * p + j];
     if (LAPACKE_dgesvj(LAPACK_COL_MAJOR, 'G', 'N', 'V', size, size, G, size, s->w, 0, V, size,
                        stat) != 0)
-        return fault_set(f, STATUS_NOT_CONVERGED,
-                         "the computation of the frequencies of a state space did not converge");
+        return fault_set(
+            f, STATUS_NOT_CONVERGED,
+            "the frequencies of a state space did not converge; use another number of elements");
     for (size_t i = 0; i < p; i++)
         s->w[i] *= stat[0];
     return STATUS_OK;

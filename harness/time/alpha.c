@@ -123,10 +123,10 @@ static status check_turns(const alpha *s, double time, fault *f)
         for (int k = 0; k < 3; k++)
             turn[k] = s->inc[at[k]];
         if (vec3_norm(turn) > most)
-            return fault_set(
-                f, STATUS_NOT_CONVERGED,
-                "a node rotates by %.2g rad in the step to %g s, but at most %g rad is allowed",
-                vec3_norm(turn), time, most);
+            return fault_set(f, STATUS_NOT_CONVERGED,
+                             "a node rotates by %.2g rad in the step to %g s, but at most %g rad "
+                             "is allowed; use a smaller step",
+                             vec3_norm(turn), time, most);
     }
     return STATUS_OK;
 }
