@@ -229,6 +229,7 @@ typedef struct path_point {
     /* number of negative pivots of K, or the replacement from left_count; -1: unknown */
     int negative;
     int determinant; /* sign of det K */
+    int lost;        /* 1: K is singular to working precision, so its determinant has no sign */
     /* eigenvalue of K nearest to zero, or its real part if K is not symmetric; NAN: not needed */
     double least;
     int nearest;
@@ -280,6 +281,8 @@ status continuation_step_correct(continuation *, path_goal, step_record *, fault
 /* Like continuation_step_correct, but starts from the current state, the result of the previous
  * iteration. */
 status continuation_step_go_on(continuation *, path_goal, step_record *, fault *);
+/* Returns SINGULAR if K is singular to working precision at the point. */
+status continuation_step_check(const path_point *, fault *f);
 /* Factors K in the current state and fills the point. The tangent points in the direction of
  * along[free + driven]; NULL: towards larger loads. */
 status continuation_step_look(continuation *, const double along[], path_point *, step_record *,

@@ -298,6 +298,7 @@ static status start(continuation *p, fault *f)
     step_record record = {0};
     TRY(newton_to(&p->n, 0, &record, f));
     TRY(continuation_step_look(p, NULL, &p->here, &record, f));
+    p->n.constrained = 1;
     p->first = p->here.negative;
     return add_point(p, f);
 }

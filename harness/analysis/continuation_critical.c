@@ -156,7 +156,7 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *is_a
         const int whole = by_rate || p->trial.symmetric || p->trial.nearest == 0;
         value = whole ? fabs(trial.value) : cabs(p->trial.mu[0]);
         scale = fmax(scale, isfinite(value) ? value : 0);
-        best = fmin(best, value);
+        best = p->trial.lost ? 0 : fmin(best, value);
         if (value <= closeness * scale || (!by_rate && is_aside(&p->trial)))
             break;
         if (i > 0 && before == last) {
@@ -286,7 +286,8 @@ static status look_at(continuation *p, path_goal goal, double part, int first, f
         TRY(corrected);
     }
     step_record unused = {0};
-    return continuation_step_look(p, p->moved, &p->trial, &unused, f);
+    TRY(continuation_step_look(p, p->moved, &p->trial, &unused, f));
+    return continuation_step_check(&p->trial, f);
 }
 
 /* Returns 1 if a parabola through three equidistant values of the same sign reaches or almost

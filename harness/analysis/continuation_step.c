@@ -174,7 +174,9 @@ static status point_of(continuation *p, const double along[], path_point *out,
     out->control = control_value(p);
     out->negative = record->negative_pivots;
     out->symmetric = out->negative >= 0;
-    out->determinant = factor_count(p->n.factor).determinant;
+    const factor_counts counts = factor_count(p->n.factor);
+    out->determinant = counts.determinant;
+    out->lost = counts.lost;
     out->least = NAN;
     out->nearest = 0;
     p->looked = 1;
@@ -189,12 +191,18 @@ status continuation_step_look(continuation *p, const double along[], path_point 
     return point_of(p, along, out, record, f);
 }
 
+status continuation_step_check(const path_point *at, fault *f)
+{
+    return at->lost ? fault_set(f, STATUS_SINGULAR, "the stiffness matrix is singular") : STATUS_OK;
+}
+
 status continuation_step_end(continuation *p, path_point *out, const step_record *record, fault *f)
 {
     memset(p->n.dx, 0, (size_t)p->n.all * sizeof *p->n.dx);
     memset(p->n.residual, 0, (size_t)p->n.all * sizeof *p->n.residual);
     advance_settle(p->c->model, &p->c->run->memory, p->n.state);
-    return point_of(p, p->moved, out, record, f);
+    TRY(point_of(p, p->moved, out, record, f));
+    return continuation_step_check(out, f);
 }
 
 void continuation_step_go_back(continuation *p)

@@ -143,10 +143,14 @@ static status factor_tangent(newton_run *n, model_linearisation *lin, fault *f)
     TRY(linearise_state(&n->c->eq, &n->c->run->memory, n->state, lin, f));
     if (n->whole.value != NULL)
         sparse_copy_leading(&n->whole, &n->K);
-    if (n->condensed == NULL)
-        return context_factor(n->c, n->factor, &n->K, f);
-    TRY(condensation_at(n->condensed, n->state, lin->path, f));
-    return context_factor_condensed(n->c, n->condensed, f);
+    if (n->condensed != NULL)
+        TRY(condensation_at(n->condensed, n->state, lin->path, f));
+    const status factored = n->condensed == NULL ? context_factor(n->c, n->factor, &n->K, f)
+                                                 : context_factor_condensed(n->c, n->condensed, f);
+    if (!n->constrained || factored != STATUS_SINGULAR || !factor_count(n->factor).lost)
+        return factored;
+    n->c->work->singular = 0;
+    return STATUS_OK;
 }
 
 /* Solves the condensed system for dx. */

@@ -1215,6 +1215,9 @@ typedef struct newton_run {
     double path;   /* target of newton_to */
     newton_convergence newton_convergence;
     int max_iterations, free, all;
+    /* 1: a tangent that is singular to working precision is not a failure, because a constraint is
+     * added to the system of equations */
+    int constrained;
     long counted; /* number of factorisations that the counters of the model already include */
 } newton_run;
 

@@ -153,6 +153,7 @@ status factor_numeric(matrix_factor *fa, const sparse *a, fault *f)
     double ratio = 1;
     status outcome = STATUS_OK;
     fa->counts.factorisations++;
+    fa->counts.lost = 0;
     if (fa->whole != NULL)
         TRY(choose(fa, &a, f));
     if (fa->upper && fa->symmetric != NULL) {
@@ -163,8 +164,10 @@ status factor_numeric(matrix_factor *fa, const sparse *a, fault *f)
             factor_unsymmetric_numeric(fa->unsymmetric, a, &fa->counts, &row, &column, &ratio);
     }
     if (outcome == STATUS_OK && ratio <= n * n * n * DBL_EPSILON &&
-        !(lost_part(fa, a, row, column) < lost))
+        !(lost_part(fa, a, row, column) < lost)) {
+        fa->counts.lost = 1;
         outcome = STATUS_SINGULAR;
+    }
     if (outcome == STATUS_SINGULAR)
         fault_set(f, outcome, "the stiffness matrix is singular");
     else if (outcome == STATUS_FAULT)

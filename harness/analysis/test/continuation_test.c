@@ -54,6 +54,22 @@ static void limit_points(void)
     }
 }
 
+/* The tangent of a fine mesh is singular to working precision at some distance from a limit point.
+ * Reference values: reference/derive/lee_frame.py. */
+static void limit_points_of_fine_meshes(void)
+{
+    const double exact[2] = {1.8556727540, -0.94144315560};
+    cell_result r = solve(case_find("lee_frame", NULL), "geometrically_exact", 96, "");
+    gsl_test_int((int)r.solve.status, STATUS_OK, "lee_frame, 288 elements: %s", r.solve.reason);
+    gsl_test_int(r.solve.events, 2, "lee_frame, 288 elements: two limit points");
+    for (int k = 0; k < 2 && k < r.solve.events; k++)
+        gsl_test_rel(r.solve.event[k].factor, exact[k], 5e-8, "lee_frame, 288 elements: limit %d",
+                     k);
+    gsl_test_rel(cells_value(&r, "deflection_at_limit"), 48.735137, 2e-5,
+                 "lee_frame, 288 elements: deflection");
+    cell_result_free(&r);
+}
+
 /* The bifurcations of a perfect cantilever column with its smallest stiffness about z are at P (1 -
  * P/EA) = (2 k - 1)^2 pi^2 EI/(4 L^2). */
 static status build_column(const double value[], scene *s, fault *f)
@@ -234,6 +250,7 @@ static void refusals(void)
 static void continuation_tests(void)
 {
     limit_points();
+    limit_points_of_fine_meshes();
     bifurcations("moment=0");
     bifurcations("moment=1");
     bifurcations("turned=1");
