@@ -48,6 +48,20 @@ static int is_defined(const scene *s, const scene_quantity *q, fault *f)
     return 1;
 }
 
+/* Returns 1 if the quantity does not require an energy that need not exist. */
+static int has_energy(const analysis_context *c, const scene_quantity *q, fault *f)
+{
+    const int of = q->what.kind == SCENE_BALANCE ? (int)q->what.of.balance : SCENE_KINETIC;
+    if (!model_absolute(c->model) ||
+        (of != SCENE_STRAIN && of != SCENE_ENERGY && of != SCENE_DRIFT))
+        return 1;
+    fault_set(f, STATUS_REFUSED,
+              "forces with a history need not derive from an energy, so %s has no strain energy; "
+              "remove this quantity, or use another formulation",
+              model_formulation(c->model));
+    return 0;
+}
+
 /* Takes a value at full load, about the undeformed state, for a load case or combination. */
 static void under_one(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                       int acting, quantity_result *r)
@@ -130,7 +144,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     if (q->what.kind ==
         SCENE_ENVELOPE_OF) /* solve.c computes this quantity later, from other values */
         return;
-    if (!is_defined(c->scene, q, &f)) {
+    if (!is_defined(c->scene, q, &f) || !has_energy(c, q, &f)) {
         quantity_no_value(r, STATUS_REFUSED, f.text);
         return;
     }

@@ -320,26 +320,8 @@ static status check_conserving(const analysis_context *c, int analysis, fault *f
                      t->name, model_history(c->model) > 0 ? "has a history" : "is not objective");
 }
 
-/* Checks that no energy is requested if an element has no energy function. */
-static status check_energies(const analysis_context *c, int analysis, fault *f)
-{
-    for (int i = 0; i < c->scene->quantities && model_absolute(c->model); i++) {
-        const scene_quantity *q = &c->scene->quantity[i];
-        const int of = q->what.kind == SCENE_BALANCE ? (int)q->what.of.balance : SCENE_KINETIC;
-        if (q->analysis == analysis &&
-            (of == SCENE_STRAIN || of == SCENE_ENERGY || of == SCENE_DRIFT))
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: forces with a history need not derive from an energy, so %s has "
-                             "no strain energy; remove the quantity, or use another formulation",
-                             scene_called(c->scene, SCENE_QUANTITIES, i).text,
-                             model_formulation(c->model));
-    }
-    return STATUS_OK;
-}
-
 status checks_of(const analysis_context *c, int analysis, fault *f)
 {
-    TRY(check_energies(c, analysis, f));
     TRY(check_conserving(c, analysis, f));
     TRY(check_newton(c, scene_motion_of(&c->scene->analysis[analysis]), f));
     TRY(check_mass(c, analysis, f));
