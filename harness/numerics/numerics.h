@@ -57,8 +57,8 @@ typedef struct factor_counts {
     double asymmetry;    /* largest |a_ij - a_ji|/sqrt|a_ii a_jj| of a matrix with by_numbers */
     int determinant;
     double condition; /* inexpensive estimate of the condition number, max|d|/min|d| */
-    /* 1: A is singular to working precision, but its factors are those of a matrix that differs from
-     * A by rounding errors */
+    /* 1: A is singular to working precision, but its factors are those of a matrix that differs
+     * from A by rounding errors */
     int lost;
 } factor_counts;
 
