@@ -89,16 +89,17 @@ static const verb_group shared[] = {
 const verb verb_bench = {
     "bench",
     "[CASE...]",
-    "measures error against run time, and the lowest cost of reaching an error",
+    "measures error against run time, and the lowest cost for a given error",
     "Times every formulation and mesh of the named cases; without a case, of all cases at all "
     "parameter points that have a reference value (select with -k). Each time is the minimum of "
     "many repetitions in five alternating rounds on one processor, separately for set-up and "
     "solution, and is shown with the error. If the rounds of two times overlap, the comparison is "
     "undecided. With --against FORMULATION, both formulations run alternately at equal error until "
-    "the comparison is decided or undecidable. Each formulation uses the smallest number of "
+    "the difference is significant or the comparison stays undecided. Each formulation uses the "
+    "smallest number of "
     "elements from which the errors of all quantities (or those selected with -k) are within the "
-    "tolerance, or the meshes given by -n. With --against PROGRAM, the same cell of another build "
-    "is timed.",
+    "tolerance, or the meshes given by -n. With --against PROGRAM, the same run is also timed with "
+    "another build of beamwork.",
     "beamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
     "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"
     "beamwork bench --scene leaf.yaml --against ../before/beamwork",

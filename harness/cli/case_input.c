@@ -21,8 +21,8 @@ static status read_either(const verb_option *o, void *member, const char *value,
         return option_take(&table, &t->own, value, f);
     if (t->packed != NULL)
         return fault_set(f, STATUS_REFUSED,
-                         "--truths is given twice for files that are not tables (.csv); give one "
-                         "such file, and any number of tables");
+                         "--truths names two files that are not tables (.csv); give only one such "
+                         "file, and any number of tables");
     t->packed = value;
     return STATUS_OK;
 }

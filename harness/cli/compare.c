@@ -29,7 +29,7 @@ static status write_table(const char *path, const stored_results *r, fault *f)
 
 static void print_sums(const comparison *c)
 {
-    printf("%d %s in both:", c->pairs, c->whole ? "cells" : "series");
+    printf("%d %s in both:", c->pairs, c->whole ? "runs" : "series");
     for (int k = 0; k < COMPARISON_KINDS; k++)
         printf("%s %d %s", k > 0 ? "," : "", c->count[k], comparison_kind_names[k]);
     if (c->swept) {
@@ -91,7 +91,7 @@ static int compare(const command_line *l, const compare_request *r, const stored
     if (c.pairs > 0)
         return comparison_differs(&c) ? DIFFERS : SAME;
     fault_set(f, STATUS_FAULT, "nothing was compared: %.80s and %.80s have no %s in common",
-              l->argument[0], l->argument[1], c.whole ? "cell" : "series");
+              l->argument[0], l->argument[1], c.whole ? "run" : "series");
     return trouble(f);
 }
 

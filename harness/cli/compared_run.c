@@ -96,7 +96,7 @@ static status lap_elsewhere(compared_run *c, double *seconds, fault *f)
     if (WIFEXITED(how) && WEXITSTATUS(how) == EXIT_AS_EXPECTED)
         return outcome;
     return fault_set(f, STATUS_FAULT,
-                     "%s does not solve this cell; use a version that supports the case, the "
+                     "%s does not complete this run; use a version that supports the case, the "
                      "formulation and the options",
                      c->program);
 }

@@ -23,7 +23,7 @@ static status print_mistakes(const import_request *r, const mistakes *m, fault *
     for (int i = 0; i < m->count; i++)
         fprintf(stderr, "%s:%d: %s\n", m->file, m->list[i].line, m->list[i].text);
     if (m->more > 0)
-        fprintf(stderr, "%s: %d more mistakes\n", m->file, m->more);
+        fprintf(stderr, "%s: %d more %s\n", m->file, m->more, m->more == 1 ? "error" : "errors");
     return STATUS_OK;
 }
 

@@ -66,7 +66,7 @@ static const verb_option both[] = {
     {0}};
 static const verb_option limit[] = {
     {"time-limit", 0, "SECONDS",
-     "time limit of a cell (default 120; element-test: 60 for each part; 0: no limit); a cell that "
+     "time limit of a run (default 120; element-test: 60 for each part; 0: no limit); a run that "
      "exceeds the limit fails with status 'time_limit'",
      .member = offsetof(chosen_formulations, time_limit), .most = 1000000},
     {0}};

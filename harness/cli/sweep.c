@@ -143,7 +143,7 @@ static int report(const sweep_options *r, const sweeping *s)
         return s->end.code;
     if (s->sweep.lost == 0)
         return EXIT_AS_EXPECTED;
-    fprintf(stderr, "beamwork: %d of %d batches are missing;  ", s->sweep.lost,
+    fprintf(stderr, "beamwork: %d of %d batches are missing; ", s->sweep.lost,
             s->sweep.ranges.batches);
     if (r->output != NULL)
         fprintf(stderr, "the others are in %s; run the same command again\n", s->sweep.batches);

@@ -33,8 +33,9 @@ static int report(const verify_request *r, const sweep *s, const evaluation *j, 
     if (e->ended)
         return e->code;
     if (s->unfinished > 0) {
-        fprintf(stderr, "beamwork: %s: %d cells were not run; the existing verdicts are ",
-                r->shards.partial ? "incomplete" : "interrupted", s->unfinished);
+        fprintf(stderr, "beamwork: %s: %d %s not computed; the existing verdicts are ",
+                r->shards.partial ? "incomplete" : "interrupted", s->unfinished,
+                s->unfinished == 1 ? "run was" : "runs were");
         if (file != NULL && output_partial(file->value, partial, NULL) == STATUS_OK)
             fprintf(stderr, "in %s\n", partial);
         else

@@ -33,7 +33,7 @@ class Sweeps(ProgramTest):
     def compared(self, code, new, *options, old=None):
         done = self.answered("compare", old or self.old, new, *options, code=code)
         *lines, pairs, cost = done.stdout.splitlines()
-        self.assertIn(" cells in both: ", pairs)
+        self.assertIn(" runs in both: ", pairs)
         self.assertTrue(cost.startswith("cost: "), cost)
         return lines, pairs
 
@@ -46,7 +46,7 @@ class Sweeps(ProgramTest):
 
     def test_same(self):
         lines, pairs = self.compared(0, self.old, "--threshold", "error=0,floor=0,work=0")
-        self.assertEqual((lines, pairs), ([], f"24 cells in both: {SAME}"))
+        self.assertEqual((lines, pairs), ([], f"24 runs in both: {SAME}"))
 
     def test_errors(self):
         def grow(by):
@@ -96,7 +96,7 @@ class Sweeps(ProgramTest):
         with group_of(one) as file:
             self.assertNotIn(0.3, file["points"][()], "a number that rounds as in the list")
         lines, pairs = self.compared(1, two, old=one)
-        self.assertTrue(pairs.startswith("12 cells in both: 0 worse, 0 better, 0 changed, 2 gone, 4 new"), (lines, pairs))
+        self.assertTrue(pairs.startswith("12 runs in both: 0 worse, 0 better, 0 changed, 2 gone, 4 new"), (lines, pairs))
         self.assertEqual(sorted(lines), sorted(
             [f"gone     elastica/axial=1e+06;load={load}" for load in (0.1, 0.4)] +
             ["new      elastica/axial=1e+06;load=0.7"] +
@@ -127,7 +127,7 @@ class Sweeps(ProgramTest):
                                           "-n", "1,2"), old=words)
         self.assertEqual(lines, ["gone     c_column/section_data=shear_flow"])
         leaf = sweep(self.new, "--scene", LEAF, "--vary", "thickness=0.2e-3,1e-3", "-f", "collocation", "-n", "1", "-k", "k_drive")
-        self.assertEqual(self.compared(0, leaf, old=leaf)[1], f"2 cells in both: {SAME}")
+        self.assertEqual(self.compared(0, leaf, old=leaf)[1], f"2 runs in both: {SAME}")
 
     def test_trouble(self):
         results = verify("elastica/default and beamw", self.folder / "results.h5")
