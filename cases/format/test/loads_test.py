@@ -341,11 +341,8 @@ class MotionTest(SceneCase):
         path.write_text(path.read_text("utf-8").replace(
             "omit:", f"  v: {late}\n  w: {late}\nomit:"), "utf-8")
         text = self.answered("solve", "--scene", path, "-f", "beamw", "-n", 1, code=1).stdout
-        self.assertRegex(text, r"v +- the path does not reach this station\nw +- likewise\n")
+        self.assertRegex(text, r"v +- the path does not reach this station; request an\n +earlier one\nw +- likewise\n")
 
-
-# Critical load of a column in a plane, clamped at the bottom and free at the top. The column buckles at the path
-# parameter 1. Tables and records must show its stability at each station.
 
 # Critical load of a column in a plane, clamped at the bottom and free at the top. The column buckles at the path
 # parameter 1.
