@@ -203,7 +203,7 @@ static void read_axis(const fields *f, double axis[3])
     placement_turn(f->placed, axis);
     if (axis[0] == 0 && axis[1] == 0 && axis[2] == 0)
         document_mistake(f->b->mistakes, n, 0,
-                         "the axis has no length; give x, y, z or a direction");
+                         "the axis is the zero vector; give x, y or z, or a vector that is not zero");
 }
 
 static void read_sequence(const fields *f, const document_node *list, scene_node *n)

@@ -70,8 +70,8 @@ def _words(name: str, value: Any) -> list[str]:
 
 
 class _Told:
-    """Standard error of the program: progress is passed to the function, and other lines are kept. If there is a
-    function, standard error is a terminal, because the program writes its progress only to a terminal."""
+    """Standard error of the program: progress is passed to the function, and other lines are kept. If a
+    function is given, standard error is a pseudo-terminal, because the program writes its progress only to a terminal."""
 
     def __init__(self, progress: Progress | None) -> None:
         self.progress = progress
