@@ -202,8 +202,9 @@ static void read_axis(const fields *f, double axis[3])
         axis[fields_word_of(f, n, "axis", "x|y|z", 0)] = 1;
     placement_turn(f->placed, axis);
     if (axis[0] == 0 && axis[1] == 0 && axis[2] == 0)
-        document_mistake(f->b->mistakes, n, 0,
-                         "the axis is the zero vector; give x, y or z, or a vector that is not zero");
+        document_mistake(
+            f->b->mistakes, n, 0,
+            "the axis is the zero vector; give x, y or z, or a vector that is not zero");
 }
 
 static void read_sequence(const fields *f, const document_node *list, scene_node *n)
