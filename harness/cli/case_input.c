@@ -20,9 +20,10 @@ static status read_either(const verb_option *o, void *member, const char *value,
     if (length > 4 && strcmp(value + length - 4, ".csv") == 0)
         return option_take(&table, &t->own, value, f);
     if (t->packed != NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "--truths names two files that are not tables (.csv); give only one such "
-                         "file, and any number of tables");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--truths is given twice for files that are not tables (.csv); give only one such "
+            "file, and any number of tables");
     t->packed = value;
     return STATUS_OK;
 }
