@@ -426,7 +426,7 @@ static status fill(const scene *s, series *one, fault *f)
 }
 
 /* Returns the position after the last series of the point. */
-static int frame_motion_of(const sweep *s, int point_index)
+static int series_end(const sweep *s, int point_index)
 {
     int place = s->seriess;
     while (place > 0 && s->series[place - 1].point > point_index)
@@ -442,7 +442,7 @@ status import_cells_add(sweep *s, int point_index, imported *found, fault *f)
         return fault_set(f, STATUS_FAULT, "out of memory for series");
     }
     s->series = more;
-    const int place = frame_motion_of(s, point_index);
+    const int place = series_end(s, point_index);
     memmove(&more[place + 1], &more[place], (size_t)(s->seriess - place) * sizeof *more);
     s->seriess++;
     series *one = &more[place];

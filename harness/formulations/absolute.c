@@ -145,8 +145,8 @@ typedef struct absolute_place {
     gather *together;
 } absolute_place;
 
-static absolute_place frame_motion_of(const element_data *d, const double e[],
-                                      const double history[], gather *together)
+static absolute_place configuration_of(const element_data *d, const double e[],
+                                       const double history[], gather *together)
 {
     absolute_place at = {.data = d, .history = history, .together = together};
     for (int k = 0; k < d->nodes && history != NULL; k++) {
@@ -298,7 +298,7 @@ static void stress_of_one(void *context, gather *together, int i)
 {
     const absolute_many *all = context;
     const absolute_place at =
-        frame_motion_of(all->data[i], all->e[i], all->out[i].history, together);
+        configuration_of(all->data[i], all->e[i], all->out[i].history, together);
     all->outcome[i] = stress_at(&at, &all->out[i]);
 }
 
@@ -323,7 +323,7 @@ status absolute_stress(const element_data *d, const double e[], const double inn
 {
     status outcome;
     if (d->given->force_many == NULL) {
-        const absolute_place at = frame_motion_of(d, e, out->history, NULL);
+        const absolute_place at = configuration_of(d, e, out->history, NULL);
         return stress_at(&at, out);
     }
     absolute_stress_many(1, &d, &e, &inner, out, &outcome);

@@ -35,29 +35,13 @@ static int stored(const mesh_pattern *p, int row, int column)
            (!p->matrix.symmetric || row <= column);
 }
 
-/* Returns the address of an entry; NULL: the entry is not stored. */
-static double *frame_motion_of(sparse *a, int row, int column)
-{
-    int low = a->column[column], high = a->column[column + 1] - 1;
-    while (low <= high) {
-        const int middle = (low + high) / 2;
-        if (a->row[middle] == row)
-            return &a->value[middle];
-        if (a->row[middle] < row)
-            low = middle + 1;
-        else
-            high = middle - 1;
-    }
-    return NULL;
-}
-
 void assemble_subtract(sparse *K, int row, int column, double value)
 {
     if (row < 0 || column < 0 || row >= K->n || column >= K->n || (K->symmetric && row > column))
         return;
-    double *entry = frame_motion_of(K, row, column);
-    if (entry != NULL)
-        *entry -= value;
+    const int position = sparse_position(K, row, column);
+    if (position >= 0)
+        K->value[position] -= value;
 }
 
 static size_t collect_of(const mesh_element *el, const mesh_pattern *p, size_t count, int row[],
@@ -369,7 +353,7 @@ void assemble_discrete(const mesh_element *el, const double K[], sparse *out)
             const int row = el->index[a], column = el->index[b];
             if (row != NONE && column != NONE && row < out->n && column < out->n &&
                 (!out->symmetric || row <= column))
-                *frame_motion_of(out, row, column) += K[n * a + b];
+                out->value[sparse_position(out, row, column)] += K[n * a + b];
         }
 }
 

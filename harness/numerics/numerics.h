@@ -29,6 +29,8 @@ void sparse_free_values(sparse *a);
 void sparse_zero(sparse *a);
 /* Copies the leading rows and columns of `whole`. */
 void sparse_copy_leading(const sparse *whole, sparse *leading);
+/* Returns the position of an entry in `value`, or -1 if it is not stored. */
+int sparse_position(const sparse *a, int row, int column);
 /* Returns entry (j, j), or 0 if it is not stored. */
 double sparse_diagonal(const sparse *a, int j);
 void sparse_mul(const sparse *a, const double x[], double y[]);            /* y = A x */

@@ -102,8 +102,7 @@ struct by_numbers {
     double *diagonal;
 };
 
-/* Returns the position of an entry; -1: not stored. */
-static int frame_motion_of(const sparse *a, int row, int column)
+int sparse_position(const sparse *a, int row, int column)
 {
     int low = a->column[column], high = a->column[column + 1] - 1;
     while (low <= high) {
@@ -120,7 +119,7 @@ static int frame_motion_of(const sparse *a, int row, int column)
 
 double sparse_diagonal(const sparse *a, int j)
 {
-    const int place = frame_motion_of(a, j, j);
+    const int place = sparse_position(a, j, j);
     return place < 0 ? 0 : a->value[place];
 }
 
@@ -132,7 +131,7 @@ static void fill(const sparse *a, by_numbers *b)
         for (int k = a->column[j]; k < a->column[j + 1] && a->row[k] <= j; k++) {
             b->upper.row[entries] = a->row[k];
             b->from[entries] = k;
-            b->mirror[entries++] = frame_motion_of(a, j, a->row[k]);
+            b->mirror[entries++] = sparse_position(a, j, a->row[k]);
         }
     }
     b->upper.column[a->n] = entries;
