@@ -301,7 +301,7 @@ typedef struct element_type {
      * starts from the same values.
      * With a history, the forces of `force` may depend on rigid rotations, need not derive from an
      * energy, which is not requested, and may have an unsymmetric K. Such elements have at
-     * most seven nodes. Linear buckling, damping of members and energies are refused. */
+     * most seven nodes. Linear buckling, damping of members and energies are rejected. */
     int (*history)(const double options[]); /* number of doubles of each element; default: 0 */
     /* Computes the values in the undeformed state; default: zero. */
     void (*begin)(const element_data *, const node_state x[], double history[]);
@@ -321,23 +321,24 @@ typedef struct element_type {
      * The damping of the member is added. Requires `strain` and `stress`. Default: no damping. */
     void (*damping)(const element_data *, double V[]);
     /* Optional: motion of the sections between the nodes, for loads along the element. Computes
-     * place and axes of the section at `count` points, and the generalised forces of loads there.
-     * Loads along members, weights and partial loads do work on this motion, in all analyses, with
-     * dead and follower forces and moments and with eccentric loads. A rigid motion of the nodes
-     * must move the sections in the same way, so that nodal forces are in equilibrium with the
-     * loads. Loads that `along` includes do not use it. Excludes `history`. By default (NULL),
-     * loads do work on a displacement field that is common to all types (field/field.h). */
+     * position and axes of the section at `count` points, and the generalised forces of loads
+     * there. Loads along members, weights and partial loads do work on this motion, in all
+     * analyses, with dead and follower forces and moments and with eccentric loads. A rigid motion
+     * of the nodes must move the sections in the same way, so that nodal forces are in equilibrium
+     * with the loads. Loads that `along` includes do not use it. Excludes `history`. By default
+     * (NULL), loads do work on a displacement field that is common to all types (field/field.h). */
     void (*line)(const element_data *, const node_state x[], int count, line_output out[]);
     /* Optional: number of additional unknowns of each node, in addition to its 7 coordinates, for
      * example slopes or further modes of warping; default: 0. They are dimensionless numbers that
-     * are zero in the undeformed state and do not change in a rigid motion. The coordinates of an
-     * element with w of them are the 7n coordinates of its nodes, followed by the w of the first
-     * node, then those of the next node; J, F, M and all other arrays have 7n + wn columns. The
-     * elements of a member share the unknowns of their common nodes. Members share those of a node
-     * if they share the warping amplitude and have the same axes there. All other unknowns of ends
-     * are free, except those in `held`. A type with additional unknowns has no `along`, `line`,
-     * `equations_many` and `unstressed`. Without `inertia`, and in transient analyses, the unknowns
-     * have no mass. */
+     * are zero in the undeformed state and do not change in a rigid motion. With w unknowns in
+     * each node, the coordinates of an element are the 7n coordinates of its nodes, followed by the
+     * unknowns of the first node, then those of the next node. J, F, M and all other arrays have
+     * 7n + wn columns. The
+     * elements of a member share the unknowns of their common nodes. Members share the unknowns
+     * of a node if they share the warping amplitude and have the same axes there. All other
+     * unknowns of ends are free, except those in `held`. A type with additional unknowns has no
+     * `along`, `line`, `equations_many` and `unstressed`. Without `inertia`, and in transient
+     * analyses, the unknowns have no mass. */
     int (*scalars)(const double options[]);
     /* Additional unknowns that are zero at ends of members with restrained warping: bit i for
      * unknown i. Default: none. */
