@@ -36,6 +36,21 @@ rule harness 'reference/|reports/|elements/(beamw|sheet|geometrically_exact|coll
 for room in ${floors%% study *}; do
     rule "harness/$room" 'cases/format/' 'what solves reads no files'
 done
+# The README of a folder begins with one sentence without "and", names the header that other folders include, and lists what
+# the folder may include.
+for room in $floors; do
+    page=harness/$room/README.md entry=$room.h
+    [ "$room" = library ] && entry=beamwork.h
+    sed -n 2p "$page" | grep -E '^[^.:;]*\.$' | grep -qvw and || { echo "$page: begin with one sentence without 'and'"; bad=1; }
+    grep -q "^Read first: \`$entry\`" "$page" || { echo "$page: the first file to read is $entry"; bad=1; }
+    may=$(sed -n '/^May include:/,/^$/p' "$page" | grep -o '`[^`]*`' | tr -d '`')
+    hits=$(grep -hoE '^ *# *include +"[^"]+/[^"]+"' "harness/$room"/*.c "harness/$room"/*.h | cut -d '"' -f 2 | sort -u |
+        awk -v room="$room" -v may="$may" 'BEGIN { n = split(may, word, /[ \n]+/) }
+            { path = $0; sub("^harness/", "", path); ok = index(path, room "/") == 1
+              for (i = 1; i <= n; i++) ok = ok || index(path "/", word[i] "/") == 1
+              if (!ok) print }')
+    [ -z "$hits" ] || { echo "$hits" | sed "s|\$|   <- $page does not list it|"; bad=1; }
+done
 # A file *_impl.h is internal to its folder. Tests of this folder may include it.
 hits=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]+"[^"]*_impl\.h"' elements cases harness --include='*.c' --include='*.h' 2>/dev/null |
     awk -F '[:"]' '{ home = $4; file = $1; sub("/[^/]*$", "", home); sub("/(test/)?[^/]*$", "", file) }
