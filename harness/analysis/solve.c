@@ -113,6 +113,28 @@ static status check_base(const analysis_context *c, int analysis, fault *f)
     return fault_set(f, o->status, "the analysis of the base state failed: %.150s", o->reason);
 }
 
+/* Checks inputs that depend on the formulation, so that no analysis runs in vain. */
+static status check_supported(const analysis_context *c, fault *f)
+{
+    int damps = 0;
+    for (int i = 0; i < c->scene->analyses; i++) {
+        const scene_analysis *a = &c->scene->analysis[i];
+        const analysis_context own = context_of(c, i);
+        if (!context_runs(c, i) || c->options->sample > 0)
+            continue;
+        damps |= a->kind == SCENE_MOTION || a->kind == SCENE_HARMONIC || a->damped;
+        if (a->kind == SCENE_MOTION)
+            TRY(motion_check(&own, i, f));
+    }
+    if (!damps)
+        return STATUS_OK;
+    const equations eq = {c->model, loading_of(c->model, 0), c->run};
+    run_damping d;
+    const status outcome = damping_begin(&eq, &d, f);
+    damping_end(&eq, &d);
+    return outcome;
+}
+
 /* Runs analyses. The first failure determines the overall status. perfect 0: analyses of the
  * imperfect structure; 1: analyses of the perfect structure; otherwise: all analyses. */
 static void run_analyses(analysis_context *c, int perfect)
@@ -258,6 +280,20 @@ static status imperfect_begin(const analysis_context *c, imperfect *p, fault *f)
     return run_state_begin(&p->run, p->m, c->options->threads, f);
 }
 
+/* Gives all analyses, or only those of the imperfect structure, a failure that excludes them. */
+static void exclude(analysis_context *c, int perfect, status outcome, const fault *f)
+{
+    for (int i = 0; i < c->scene->analyses; i++) {
+        analysis_outcome *o = &c->outcomes[i];
+        if (!perfect && scene_is_perfect(c->scene, i))
+            continue;
+        o->kind = c->scene->analysis[i].kind;
+        o->status = outcome;
+        snprintf(o->reason, sizeof o->reason, "%s", f->text);
+    }
+    corrupt(c->result, outcome, f);
+}
+
 /* Runs the analyses whose modes are used as imperfections, then the analyses of the imperfect
  * structure. */
 static void run_imperfect(analysis_context *c, imperfect *p)
@@ -277,15 +313,7 @@ static void run_imperfect(analysis_context *c, imperfect *p)
         p->c.sides = c->sides = p->sides;
         return;
     }
-    for (int i = 0; i < c->scene->analyses; i++) {
-        analysis_outcome *o = &c->outcomes[i];
-        if (scene_is_perfect(c->scene, i))
-            continue;
-        o->kind = c->scene->analysis[i].kind;
-        o->status = ready;
-        snprintf(o->reason, sizeof o->reason, "%s", f.text);
-    }
-    corrupt(c->result, ready, &f);
+    exclude(c, 0, ready, &f);
 }
 
 status solve_scene(const scene *s, const model *m, const solve_options *options,
@@ -313,7 +341,11 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
         return fault_set(f, STATUS_FAULT, "out of memory for a solution");
     }
     result->quantities = s->quantities;
-    if (s->imperfections > 0)
+    fault unsupported = {""};
+    const status supported = check_supported(&c, &unsupported);
+    if (supported != STATUS_OK)
+        exclude(&c, 1, supported, &unsupported);
+    else if (s->imperfections > 0)
         run_imperfect(&c, &other);
     else
         run_analyses(&c, 2);

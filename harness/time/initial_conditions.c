@@ -320,9 +320,23 @@ static status check_conserving(const analysis_context *c, int analysis, fault *f
                      t->name, model_history(c->model) > 0 ? "has a history" : "is not objective");
 }
 
-status checks_of(const analysis_context *c, int analysis, fault *f)
+/* Checks that the explicit integrator has no damping of elements to integrate. */
+static status check_explicit(const analysis_context *c, int analysis, fault *f)
+{
+    if (scene_motion_of(&c->scene->analysis[analysis])->scheme != SCENE_EXPLICIT ||
+        !damping_of_elements(c->model))
+        return STATUS_OK;
+    return fault_set(f, STATUS_REFUSED,
+                     "the integrator explicit does not support members with damping%s; use "
+                     "another integrator",
+                     model_type(c->model)->damping != NULL ? ", nor damping of the formulation"
+                                                           : "");
+}
+
+status motion_check(const analysis_context *c, int analysis, fault *f)
 {
     TRY(check_conserving(c, analysis, f));
+    TRY(check_explicit(c, analysis, f));
     TRY(check_newton(c, scene_motion_of(&c->scene->analysis[analysis]), f));
     TRY(check_mass(c, analysis, f));
     TRY(forms_check(c->model, f));
@@ -395,12 +409,6 @@ int extent_is_less(const extent *so_far, double tolerance, double *scale)
 status integrator_alloc(const scheme_request *r, motion_scheme **out, fault *f)
 {
     *out = NULL;
-    if (r->how->scheme == SCENE_EXPLICIT && damping_of_elements(r->c->model))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "the integrator explicit does not support members with damping%s; use "
-            "another integrator",
-            model_type(r->c->model)->damping != NULL ? ", nor damping of the formulation" : "");
     switch (r->how->scheme) {
     case SCENE_ALPHA:
         return alpha_alloc(r, out, f);

@@ -316,7 +316,6 @@ static status solve(motion_course *w, fault *f)
     const step_record start = {.increment = 0};
     scene_rotating_frame frame;
     const model *m = w->c->model;
-    TRY(checks_of(w->c, w->analysis, f));
     TRY(model_spreads(m, w->analysis) ? frame_masses_alloc_bodies(m, &w->masses, f)
                                       : frame_masses_alloc(m, &w->masses, f));
     w->masses.damping = w->c->scene->analysis[w->analysis].damping.mass;

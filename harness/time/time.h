@@ -183,6 +183,9 @@ void feedback_signals(const equations *, const model_state *, int load, double p
 
 /* Transient analysis: computes the states at the requested times. */
 
+/* Checks before any analysis runs that the integrator supports the formulation, the form of
+ * Newton's method, the damping and the kind of mass, and that all drivers are functions of time. */
+status motion_check(const analysis_context *, int analysis, fault *);
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Returns the end of another run that the motion continues; NULL: none. */
 const outcome_end *resume_given(const analysis_context *, int analysis);

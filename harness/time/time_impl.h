@@ -524,9 +524,6 @@ void cayley_slopes_forces(const cayley_step *, const cayley_slopes *, const doub
 
 /* Checks whether a motion can be integrated as requested. REFUSED: the request is not supported. */
 
-/* Checks that the integrator supports the form of Newton's method, that inertia of the requested
- * kind is defined, and that all drivers are functions of time. */
-status checks_of(const analysis_context *, int analysis, fault *);
 /* Checks the treatment of massless coordinates. Their positions follow from equilibrium per body,
  * which is not possible with consistent mass. Without numerical damping, their accelerations grow
  * without bound. */

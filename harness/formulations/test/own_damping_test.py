@@ -167,6 +167,10 @@ class OwnDamping(Speaker):
 
         self.refused(2, "motions would gain energy", *solve(PULLED % "radau", self.in_c(), "own_damping:eta=-0.1"))
         self.refused(2, "nor damping of the formulation", *solve(PULLED % "explicit", self.in_c(), "own_damping"))
+        static = PULLED.replace("analyses: {", "loads: {f: {force: [1, 0, 0], on: b}}\nanalyses: {still: {static: {stations: "
+                                "[1]}}, ") + "  s: {displacement: {analysis: still, node: b, component: ux}}\n"
+        out = self.answered(*solve(static % "explicit", self.in_c(), "own_damping"), code=2).stdout
+        self.assertEqual(out, "")  # no analysis runs
         self.refused(2, "damping returned (3), strains=6 wants (6, 6)",
                      *solve(PULLED % "radau", self.python("return prepare(kind) * eta", "return eta[:3]"),
                             "own_damping_py"), env=WITH_MODULES)
