@@ -1,5 +1,6 @@
 #include "harness/cli/cli.h"
 
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -331,3 +332,12 @@ static const verb_option both[] = {
     {0}};
 const option_group options_case = {both, begin, end, close_case};
 const option_group options_scene = {both + 1, begin, end, close_case};
+
+void case_input_name(const case_options *r, const case_type *type, char *text, size_t size)
+{
+    char parameters[PARAMETERS_TEXT], path[PATH_MAX];
+    parameters_text(type, r->parameter, parameters, sizeof parameters);
+    const char *file = r->scene_path != NULL ? realpath(r->scene_path, path) : NULL;
+    snprintf(text, size, "%s%s%s", file != NULL ? file : type->name,
+             parameters[0] != '\0' ? "; " : "", parameters);
+}

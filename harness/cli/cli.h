@@ -221,6 +221,9 @@ void case_input_example(case_options *);
 const case_type *case_input_find(case_options *);
 /* Returns the case of --scene FILE; NULL: all errors of the file have been printed. */
 const case_type *case_input_scene(case_options *);
+/* Writes the name of the scene in the form that `import` reads: the case or the full path of the
+ * scene file, with the parameters that differ from their defaults. */
+void case_input_name(const case_options *, const case_type *, char *text, size_t size);
 /* Reads a scene file. Returns EXIT_AS_EXPECTED or, after printing error messages, another exit
  * status. */
 int case_input_read(const command_line *, const char *path, scene_file **out);

@@ -17,17 +17,6 @@ typedef struct export_request {
 
 enum { DEFAULT_ELEMENTS = 20 };
 
-/* Writes the name of the scene in the form that `import` reads: the case or the full path of the
- * scene file, with the parameters that differ from their defaults. */
-static void name_of(const export_request *r, const case_type *type, char *text, size_t size)
-{
-    char parameters[PARAMETERS_TEXT], path[PATH_MAX];
-    parameters_text(type, r->of.parameter, parameters, sizeof parameters);
-    const char *file = r->of.scene_path != NULL ? realpath(r->of.scene_path, path) : NULL;
-    snprintf(text, size, "%s%s%s", file != NULL ? file : type->name,
-             parameters[0] != '\0' ? "; " : "", parameters);
-}
-
 static status write_deck(const export_request *r, const deck_request *deck, fault *f)
 {
     output file;
@@ -49,7 +38,7 @@ static status export(const export_request *r, const case_type *type, scene *s, f
                          "an input deck contains only one mesh; give a single number with -n");
     TRY(files_check(r->of.line, 0, NULL, f));
     TRY(cell_scene(type, r->of.parameter, NULL, s, f));
-    name_of(r, type, of, sizeof of);
+    case_input_name(&r->of, type, of, sizeof of);
     const deck_request deck = {.scene = s,
                                .of = of,
                                .elements =

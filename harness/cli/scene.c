@@ -1,9 +1,11 @@
 /* Writes scene files from any case, and describes their keys. */
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 
 #include "cases/format/format.h"
 #include "harness/cli/cli.h"
+#include "harness/exchange/exchange.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 #include "harness/terminal/terminal.h"
@@ -30,7 +32,11 @@ static status write_to(FILE *to, const scene_request *r, const case_type *type, 
         return describe(to, r, f);
     const write_head head = {type->name, type->summary, type->source};
     TRY(cell_scene(type, r->of.parameter, NULL, s, f));
-    return write_scene(to, s, &head, f);
+    if (strcmp(r->format, "json") != 0)
+        return write_scene(to, s, &head, f);
+    char of[PARAMETERS_TEXT + PATH_MAX];
+    case_input_name(&r->of, type, of, sizeof of);
+    return scene_data_write(&(scene_data_request){.scene = s, .head = &head, .of = of}, to, f);
 }
 
 static status write_out(const scene_request *r, const case_type *type, fault *f)
@@ -69,7 +75,9 @@ const verb verb_scene = {
     "Writes a case at a parameter point as a scene file, or rewrites your own scene file (--scene "
     "FILE): names are kept, loops and expressions are expanded, and numbers have all their digits. "
     "The file that is written gives the same scene, bit for bit. --keys lists the keys of scene "
-    "files; --schema describes them as JSON Schema, for editors.",
+    "files; --schema describes them as JSON Schema, for editors. With --format json, writes the "
+    "scene as data in SI units for drivers of other programs, with the axes of members, the "
+    "constants of sections and the required physics.",
     "beamwork scene c_column -o column.yaml\n"
     "beamwork scene --keys",
     shared,

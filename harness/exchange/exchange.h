@@ -25,6 +25,19 @@ int axes_parse(const char *text, axes *out);
 const scene_quantity *axes_quantity(const axes *a, const scene *s, const scene_quantity *q,
                                     int *sign);
 
+/* A scene as data for drivers of other programs (beamwork.peers). */
+
+typedef struct scene_data_request {
+    const scene *scene;
+    const write_head *head;
+    const char *of; /* name for an import: "case; parameters" */
+} scene_data_request;
+
+/* Writes JSON: the scene file that write_scene writes, the required physics, the axes of the
+ * members, the constants of the sections, and the meanings of the quantities. All values are in SI
+ * units. REFUSED: a file cannot express the scene, or a member has no axis. */
+status scene_data_write(const scene_data_request *, FILE *to, fault *f);
+
 /* A scene as an input deck of CalculiX 2.20. Members are solids, and ends are rigid faces. */
 
 enum { DECK_MOST_ELEMENTS = 400 };

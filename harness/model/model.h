@@ -659,6 +659,23 @@ void assemble_vector(const mesh_element *el, const double local[], double out[])
 /* Subtracts a value from an entry. Has no effect if the entry is not stored. */
 void assemble_subtract(sparse *a, int row, int column, double value);
 
+/* An arc of constant torsion and curvature between two points. The arc is straight if torsion and
+ * curvature are zero. */
+typedef struct member_arc {
+    double length;         /* along the arc [m] */
+    double start[3], R[9]; /* position and triad at p */
+    double k[3];           /* [1/m] torsion and two curvatures, in the axes of the triad */
+    /* [m] bow: deviation from the arc, in the axes of the arc: bow sin(half_waves pi s/length) */
+    double bow[2];
+    int half_waves;
+} member_arc;
+
+/* Computes the axis of a member. axes_angle [rad]: angle of the axes of the section. REFUSED: no
+ * arc of this curvature connects the ends of the member. */
+status member_arc_of(const scene *s, int member, double axes_angle, member_arc *out, fault *f);
+/* Computes the position, and the triad without the bow, at the arc length s [m]. */
+void member_arc_at(const member_arc *a, double s, double position[3], double R[9]);
+
 unsigned features_needed(const scene *);
 /* Returns the physics that the scene omits although it has an effect. */
 unsigned features_omitted(const scene *);

@@ -81,23 +81,6 @@ void turns_follow(const model *, model_state *);
 /* Returns the rotation vector between two nodes; NULL: no quantity needs it. */
 const double *turns_between(const model *, const model_state *, int from, int node);
 
-/* An arc of constant torsion and curvature between two points. The arc is straight if torsion and
- * curvature are zero. */
-typedef struct member_arc {
-    double length;         /* along the arc [m] */
-    double start[3], R[9]; /* position and triad at p */
-    double k[3];           /* [1/m] torsion and two curvatures, in the axes of the triad */
-    /* [m] bow: deviation from the arc, in the axes of the arc: bow sin(half_waves pi s/length) */
-    double bow[2];
-    int half_waves;
-} member_arc;
-
-/* Computes the axis of a member. axes_angle [rad]: angle of the axes of the section. REFUSED: no
- * arc of this curvature connects the ends of the member. */
-status member_arc_of(const scene *s, int member, double axes_angle, member_arc *out, fault *f);
-/* Computes the position, and the triad without the bow, at the arc length s [m]. */
-void member_arc_at(const member_arc *a, double s, double position[3], double R[9]);
-
 /* A tracked rotation vector of a node's frame. The vector is relative to the frame of another node
  * (NONE: to the fixed frame). */
 typedef struct mesh_turn {
