@@ -75,7 +75,7 @@ ifeq ($(QUIET),)
 include $(BUILD)/flags.mk
 endif
 
-.PHONY: help all verify docs words test tests stress bench layers asan tidy format format-check check clean report truths FORCE
+.PHONY: help all verify docs words test tests stress bench layers asan tidy format format-check check clean report truths peers FORCE
 .DEFAULT_GOAL := $(if $(DEBUG)$(FAST),all,help)
 .DELETE_ON_ERROR:
 .SUFFIXES:
@@ -128,6 +128,18 @@ ifndef RESULTS
 	@$(call is_newer,stress) || $(MAKE) --no-print-directory stress >$(BUILD)/stress.txt
 endif
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) --imported $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") $(foreach form,$(FIGURES),--figures $(form)) $(if $(STYLE),--style "$(STYLE)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
+
+# Other programs on cases: PEERS=opensees,exudyn:cable selects programs or elements, PEER_CASES="NAME,PARAMETER=VALUE ..." cases.
+PEERS ?=
+PEER_CASES ?= elastica bend_45 roll_up shear_elastica sheet_cantilever,warping=0,trapeze=0,shear_factor=0.8333333333333334
+PEERS_VENV := build/peers-venv
+beamwork_peers = PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=harness/library/python BEAMWORK=$(abspath $(PROGRAM)) BEAMWORK_LIBRARY=$(abspath $(BUILD))/libbeamwork.so.0 $(PYTHON) -m beamwork.peers
+comma := ,
+peers: all library ## install other programs in build/peers-venv and solve cases with them: build/peers/CASE.csv, for 'beamwork import'
+	@test -x $(PEERS_VENV)/bin/python || $(PYTHON) -m venv $(PEERS_VENV)
+	@mkdir -p $(BUILD)/peers && $(beamwork_peers) --requirements $(if $(PEERS),--peers "$(PEERS)") >$(BUILD)/peers/requirements.txt
+	@$(PEERS_VENV)/bin/python -m pip install -q -r $(BUILD)/peers/requirements.txt
+	@$(foreach case,$(PEER_CASES),$(beamwork_peers) $(subst $(comma), --set=,$(case)) $(if $(PEERS),--peers "$(PEERS)") -o $(BUILD)/peers/$(firstword $(subst $(comma), ,$(case))).csv &&) echo "results: $(BUILD)/peers"
 
 docs: all library needs-docs ## build the documentation as a site that opens from disk, build/docs/index.html, with verdicts of the last verify
 	@rm -rf $(BUILD)/docs $(BUILD)/docs_trees

@@ -38,7 +38,7 @@ fill harness/library/packaging/beamwork.pc.in "$LIBDIR/pkgconfig/beamwork.pc"
 fill harness/library/packaging/beamwork-config.cmake.in "$LIBDIR/cmake/beamwork/beamwork-config.cmake"
 fill harness/library/packaging/beamwork-config-version.cmake.in "$LIBDIR/cmake/beamwork/beamwork-config-version.cmake"
 
-for file in harness/library/python/beamwork/*.py harness/library/python/beamwork/py.typed; do put 644 "$file" "$PYTHONDIR/beamwork/${file##*/}"; done
+for file in harness/library/python/beamwork/*.py harness/library/python/beamwork/peers/*.py harness/library/python/beamwork/py.typed; do put 644 "$file" "$PYTHONDIR/${file#harness/library/python/}"; done
 put 644 elements/examples/beamwork_element.py "$PYTHONDIR/beamwork_element.py"
 
 put 644 "$build/truths.h5" "$data/truths.h5"

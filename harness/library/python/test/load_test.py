@@ -208,7 +208,7 @@ class Types(ModuleTest):
     def test_everything_has_types(self):
         """Every function of the module must have types of its arguments and of its result. This is tested also without
         mypy."""
-        for path in sorted((FOLDER / "beamwork").glob("*.py")):
+        for path in sorted((FOLDER / "beamwork").rglob("*.py")):
             for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.FunctionDef):
                     given = node.args.posonlyargs + node.args.args + node.args.kwonlyargs

@@ -1,0 +1,61 @@
+"""`python3 -m beamwork.peers CASE --peers NAME[:ELEMENT],... -o FILE.csv`"""
+from __future__ import annotations
+
+import argparse
+import json
+import pathlib
+import sys
+
+from ..errors import Error
+from ..program import run
+from . import chosen, load, names, solve, table
+
+
+def _arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="python3 -m beamwork.peers", description="Solves a case with other programs.")
+    parser.add_argument("case", nargs="?", help="a built-in case")
+    parser.add_argument("--scene", help="your scene file")
+    parser.add_argument("--data", help="a scene written by `beamwork scene --format json`")
+    parser.add_argument("--set", action="append", default=[], metavar="NAME=VALUE", help="value of a parameter")
+    parser.add_argument("--peers", default=",".join(names()), help="NAME or NAME:ELEMENT, separated by commas")
+    parser.add_argument("--elements", help="meshes; default: those of the case")
+    parser.add_argument("--rounds", type=int, default=3, help="times are the least of this number of rounds")
+    parser.add_argument("--limit", type=float, default=60, help="longest time of one mesh [s]")
+    parser.add_argument("--requirements", action="store_true", help="print the Python packages of the peers for pip")
+    parser.add_argument("-o", "--output", help="import file; default: standard output")
+    return parser.parse_args()
+
+
+def main() -> int:
+    given = _arguments()
+    if given.requirements:
+        print(*(package for name in given.peers.split(",") for package in load(name).REQUIRES), sep="\n")
+        return 0
+    try:
+        if given.data:
+            text = pathlib.Path(given.data).read_text(encoding="utf-8")
+        else:
+            options = {"scene": given.scene} if given.scene else {}
+            text, _ = run("scene", *([given.case] if given.case else []), format="json", **options,
+                          set=dict(word.split("=", 1) for word in given.set))
+        scene = json.loads(text)
+        meshes = [int(n) for n in given.elements.split(",")] if given.elements else scene["scene"]["meshes"]
+        found = [solve(scene, peer, element, [int(n) for n in meshes], given.rounds, given.limit)
+                 for peer, element in chosen(given.peers.split(","))]
+    except Error as error:
+        print(f"beamwork.peers: {error}", file=sys.stderr)
+        return 2
+    for one in found:
+        told = {one.missing} | {run.get("refusal", run.get("failure", "")) for run in one.runs}
+        for why in sorted(told - {""}):
+            print(f"{one.program}: {why}", file=sys.stderr)
+    written = table(scene, found)
+    if given.output:
+        pathlib.Path(given.output).write_text(written, encoding="utf-8")
+    else:
+        print(written, end="")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,318 @@
+"""A scene as data, its mesh, and what a driver returns. All values are in SI units and all vectors in global axes."""
+from __future__ import annotations
+
+import bisect
+import dataclasses
+import math
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+COMPONENTS = ("ux", "uy", "uz", "rx", "ry", "rz")
+Vector = Sequence[float]
+Matrix = Sequence[Sequence[float]]
+
+
+class Refused(Exception):
+    """A peer cannot express a part of the scene. The text names this part, then the reason: "warping: ..."."""
+
+
+class Failed(Exception):
+    """A peer did not find a solution."""
+
+
+@dataclasses.dataclass(frozen=True)
+class Element:
+    """An element of a peer. offers: the physics it models, in the words of the protocol. analyses: keys of scene files.
+    order: number of nodes minus 1. keys: "nodes.mass", "members.release" and others that the driver reads in `raw`."""
+    summary: str
+    offers: frozenset[str] = frozenset()
+    analyses: frozenset[str] = frozenset()
+    order: int = 1
+    keys: frozenset[str] = frozenset()
+
+
+@dataclasses.dataclass(frozen=True)
+class Node:
+    """hold: fixed components. drive: {component: name of the motion}."""
+    name: str
+    at: Vector
+    hold: frozenset[str]
+    drive: Mapping[str, str]
+    raw: Mapping[str, Any]
+
+
+@dataclasses.dataclass(frozen=True)
+class Section:
+    """Constants about the centroid and the principal axes y and z. GA: shear stiffnesses along y and z [N], infinite if
+    the section is rigid in shear or the scene omits shear. rho_A [kg/m]; rho_I: rotary inertias about x, y, z [kg m]."""
+    name: str
+    raw: Mapping[str, Any]
+    EA: float
+    GA: tuple[float, float]
+    GIt: float
+    EIy: float
+    EIz: float
+    rho_A: float
+    rho_I: tuple[float, float, float]
+
+    def stiffness(self, most: float = math.inf) -> list[list[float]]:
+        """Returns the matrix from (gx, gy, gz, kx, ky, kz) to (N, Qy, Qz, Mx, My, Mz) about the centroid. most: replaces
+        infinite shear stiffnesses."""
+        if "stiffness" in self.raw:
+            return [list(row) for row in self.raw["stiffness"]]
+        diagonal = (self.EA, *(min(k, most) for k in self.GA), self.GIt, self.EIy, self.EIz)
+        return [[diagonal[i] if i == k else 0.0 for k in range(6)] for i in range(6)]
+
+
+@dataclasses.dataclass(frozen=True)
+class Member:
+    """A line of constant curvature [1/m, in section axes] from `start`. axes: columns x, y, z at the start."""
+    name: str
+    ends: tuple[str, str]
+    section: Section
+    start: Vector
+    axes: Matrix
+    length: float
+    curvature: Vector
+    raw: Mapping[str, Any]
+
+    def at(self, s: float) -> tuple[list[float], list[list[float]]]:
+        """Returns the position and the axes (columns) at the arc length s."""
+        k = self.curvature
+        turn = rotation([c * s for c in k])
+        w = math.sqrt(sum(c * c for c in k))
+        first, second = cross(k, (1, 0, 0)), cross(k, cross(k, (1, 0, 0)))
+        angle = w * s
+        a = (1 - math.cos(angle)) / w**2 if angle > 1e-4 else s * s / 2 * (1 - angle**2 / 12)
+        b = (angle - math.sin(angle)) / w**3 if angle > 1e-2 else s**3 / 6 * (1 - angle**2 / 20)
+        along = [s * (i == 0) + a * first[i] + b * second[i] for i in range(3)]
+        step = times(self.axes, along)
+        return [p + q for p, q in zip(self.start, step)], product(self.axes, turn)
+
+
+@dataclasses.dataclass(frozen=True)
+class Load:
+    """kind: force, moment, distributed, ... vector: its value at the factor 1. node or member: where it acts."""
+    name: str
+    kind: str
+    vector: Vector
+    node: str | None
+    member: str | None
+    follower: bool
+    raw: Mapping[str, Any]
+
+
+@dataclasses.dataclass(frozen=True)
+class Analysis:
+    """kind: linear, static, compliance, buckling, modal, ... about: the analysis that provides the state."""
+    name: str
+    kind: str
+    stations: tuple[float, ...]
+    about: str | None
+    raw: Mapping[str, Any]
+
+
+@dataclasses.dataclass(frozen=True)
+class Quantity:
+    """value = factor * what is extracted + offset."""
+    name: str
+    kind: str
+    analysis: str
+    unit: str
+    factor: float
+    offset: float
+    raw: Mapping[str, Any]
+    x: Mapping[str, Any]
+
+
+@dataclasses.dataclass(frozen=True)
+class MeshNode:
+    """name: the node of the scene, or None inside a member."""
+    number: int
+    name: str | None
+    at: Vector
+
+
+@dataclasses.dataclass(frozen=True)
+class MeshElement:
+    """nodes: order + 1 numbers along the member. R: columns x (along the chord), y, z. frames: axes at each node on the
+    line of the member. length: along the line. begin, end: as fractions of the member."""
+    member: Member
+    nodes: tuple[int, ...]
+    R: Matrix
+    frames: tuple[Matrix, ...]
+    length: float
+    begin: float
+    end: float
+
+
+@dataclasses.dataclass(frozen=True)
+class Mesh:
+    """The nodes of the scene come first, in their order."""
+    nodes: tuple[MeshNode, ...]
+    elements: tuple[MeshElement, ...]
+    node_of: Mapping[str, int]
+
+
+@dataclasses.dataclass
+class State:
+    """Displacements and rotation vectors, and forces of supports on the structure at fixed and driven components, for each
+    node of the scene. compliance: 6 x 6 matrix of the node of a compliance analysis."""
+    u: Mapping[str, Vector] = dataclasses.field(default_factory=dict)
+    reaction: Mapping[str, Vector] = dataclasses.field(default_factory=dict)
+    compliance: Matrix | None = None
+
+
+@dataclasses.dataclass
+class Answer:
+    """The states at the stations of an analysis (linear: one), critical factors or frequencies [Hz] in ascending order.
+    iterations: number of equation systems solved."""
+    states: Sequence[State] = ()
+    factors: Sequence[float] = ()
+    frequencies: Sequence[float] = ()
+    iterations: int = 0
+
+
+class Model:
+    """A model of a peer. unknowns: free degrees of freedom. settings: solver, tolerance, steps and what is made rigid."""
+    unknowns: int = 0
+    settings: str = ""
+
+    def solve(self, analysis: Analysis) -> Answer:
+        """Called once for each analysis, in the order of the scene, while the clock runs."""
+        raise NotImplementedError
+
+
+@dataclasses.dataclass(frozen=True)
+class Scene:
+    """What `beamwork scene --format json` writes; raw: all of it. of: name of the case with parameters, for an import."""
+    name: str
+    of: str
+    physics: frozenset[str]
+    plane: str | None
+    nodes: Mapping[str, Node]
+    sections: Mapping[str, Section]
+    members: Mapping[str, Member]
+    loads: tuple[Load, ...]
+    motions: Mapping[str, Mapping[str, Any]]
+    analyses: Mapping[str, Analysis]
+    quantities: tuple[Quantity, ...]
+    meanings: Mapping[str, str]
+    raw: Mapping[str, Any]
+
+    def load_factor(self, load: Load, path: float) -> float:
+        """Returns the factor of a load at a path parameter."""
+        if "factor" in load.raw:
+            return interpolated(load.raw["path"], load.raw["factor"], path)
+        return path
+
+    def motion_value(self, name: str, path: float) -> float:
+        """Returns the value of a prescribed motion at a path parameter."""
+        motion = self.motions[name]
+        return interpolated(motion["path"], motion["value"], path)
+
+    def length(self) -> float:
+        """Returns the length of the longest member."""
+        return max(m.length for m in self.members.values())
+
+    def mesh(self, n: int, order: int = 1) -> Mesh:
+        """Returns n elements for each member, or for each piece between loads on the member."""
+        nodes = [MeshNode(i, node.name, node.at) for i, node in enumerate(self.nodes.values())]
+        numbers = {node.name: i for i, node in enumerate(self.nodes.values())}
+        elements: list[MeshElement] = []
+        for member in self.members.values():
+            breaks = self._breaks(member)
+            each = int(member.raw.get("divisions", n))
+            places = [a + (b - a) * i / each for a, b in zip(breaks, breaks[1:]) for i in range(each)] + [1.0]
+            last = numbers[member.ends[0]]
+            for i, (begin, end) in enumerate(zip(places, places[1:])):
+                chain, frames, points = [last], [], []
+                for k in range(order + 1):
+                    at, frame = member.at((begin + (end - begin) * k / order) * member.length)
+                    frames.append(frame)
+                    points.append(at)
+                    if k == 0:
+                        continue
+                    if k == order and i == len(places) - 2:
+                        chain.append(numbers[member.ends[1]])
+                    else:
+                        chain.append(len(nodes))
+                        nodes.append(MeshNode(len(nodes), None, at))
+                last = chain[-1]
+                elements.append(MeshElement(member, tuple(chain), triad(points[0], points[-1], frames), tuple(frames),
+                                            (end - begin) * member.length, begin, end))
+        return Mesh(tuple(nodes), tuple(elements), numbers)
+
+    def _breaks(self, member: Member) -> list[float]:
+        """Returns the ends of the pieces of a member, as fractions of its length."""
+        at = {float(load.raw[key]) for load in self.loads if load.member == member.name
+              for key in ("where", "from", "to") if key in load.raw}
+        out = [0.0]
+        for place in sorted(at):
+            if place > out[-1] + 1e-3 and place < 1 - 1e-3:
+                out.append(place)
+        return out + [1.0]
+
+
+def interpolated(at: Sequence[float], value: Sequence[float], x: float) -> float:
+    """Returns the value at x of a line through the points."""
+    i = min(max(bisect.bisect_right(at, x), 1), len(at) - 1)
+    return value[i - 1] + (value[i] - value[i - 1]) * (x - at[i - 1]) / (at[i] - at[i - 1])
+
+
+def cross(a: Vector, b: Vector) -> list[float]:
+    return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+
+
+def times(A: Matrix, v: Vector) -> list[float]:
+    return [sum(a * b for a, b in zip(row, v)) for row in A]
+
+
+def transposed(A: Matrix) -> list[list[float]]:
+    return [list(row) for row in zip(*A)]
+
+
+def product(A: Matrix, B: Matrix) -> list[list[float]]:
+    return transposed([times(A, column) for column in transposed(B)])
+
+
+def unit(v: Vector) -> list[float]:
+    size = math.sqrt(sum(x * x for x in v))
+    return [x / size for x in v]
+
+
+def rotation(v: Vector) -> list[list[float]]:
+    """Returns the matrix of a rotation vector."""
+    angle = math.sqrt(sum(x * x for x in v))
+    if angle == 0:
+        return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
+    x, y, z = (c / angle for c in v)
+    c, s = math.cos(angle), math.sin(angle)
+    d = 1 - c
+    return [[c + x * x * d, x * y * d - z * s, x * z * d + y * s], [y * x * d + z * s, c + y * y * d, y * z * d - x * s],
+            [z * x * d - y * s, z * y * d + x * s, c + z * z * d]]
+
+
+def rotation_vector(R: Matrix) -> list[float]:
+    """Returns the rotation vector of a matrix, with an angle up to pi."""
+    trace = R[0][0] + R[1][1] + R[2][2]
+    a = max(range(3), key=lambda i: R[i][i])
+    if trace >= R[a][a]:
+        q = [1 + trace, R[2][1] - R[1][2], R[0][2] - R[2][0], R[1][0] - R[0][1]]
+    else:
+        b, c = (a + 1) % 3, (a + 2) % 3
+        q = [R[c][b] - R[b][c], 0, 0, 0]
+        q[1 + a], q[1 + b], q[1 + c] = 1 + 2 * R[a][a] - trace, R[a][b] + R[b][a], R[a][c] + R[c][a]
+    sine = math.sqrt(q[1]**2 + q[2]**2 + q[3]**2)
+    sign = 1 if q[0] >= 0 else -1
+    scale = sign * 2 * math.atan2(sine, abs(q[0])) / sine if sine > 0 else 0
+    return [scale * x for x in q[1:]]
+
+
+def triad(begin: Vector, end: Vector, frames: Sequence[Matrix]) -> list[list[float]]:
+    """Returns columns x along the chord, and y near the mean of the y axes of the frames."""
+    x = unit([b - a for a, b in zip(begin, end)])
+    y = [frames[0][i][1] + frames[-1][i][1] for i in range(3)]
+    along = sum(a * b for a, b in zip(x, y))
+    y = unit([b - along * a for a, b in zip(x, y)])
+    return transposed([x, y, cross(x, y)])

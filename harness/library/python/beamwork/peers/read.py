@@ -1,0 +1,146 @@
+"""Reads a scene as data, checks whether an element of a peer can express it, and extracts its quantities."""
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from .data import COMPONENTS, Analysis, Answer, Element, Load, Member, Node, Quantity, Refused, Scene, Section
+
+_KNOWN = {
+    "nodes": {"at", "hold", "drive"},
+    "members": {"from", "to", "section", "y", "warping", "curvature", "divisions"},
+    "motions": {"path", "value"},
+    "loads": {"force", "moment", "on", "path", "factor"},
+    "": {"beamwork", "name", "summary", "source", "sections", "nodes", "members", "loads", "motions", "analyses",
+         "quantities", "omit", "shear_theory", "meshes"},
+}  # keys that every driver supports; others are in Element.keys
+_ANALYSIS: dict[str, set[str]] = {"linear": set(), "static": {"stations", "steps"}, "buckling": set(), "modal": set(),
+             "compliance": {"about", "node", "moments", "released"}}
+_QUANTITY = {"displacement": {"node", "component"}, "reaction": {"node", "component"},
+             "compliance": {"row", "column"}, "stiffness": {"component"}, "critical_factor": {"which"},
+             "frequency": {"which"}}
+
+
+def _section(name: str, raw: Mapping[str, Any], physics: frozenset[str]) -> Section:
+    E, G, density = raw["E"], raw["G"], raw["density"]
+    F = [raw["F"][i][i] if "shear" in physics else 0.0 for i in range(2)]
+    rotary = density if "rotary inertia" in physics else 0.0
+    mass, inertia = density * raw["A"], (density * raw["Ip"], rotary * raw["Iy"], rotary * raw["Iz"])
+    if "mass" in raw:
+        mass, inertia = raw["mass"][0][0], (raw["mass"][3][3], raw["mass"][4][4], raw["mass"][5][5])
+    GA = tuple(G / f if f > 0 else math.inf for f in F)
+    return Section(name, raw, E * raw["A"], (GA[0], GA[1]), G * raw["It"], E * raw["Iy"], E * raw["Iz"], mass, inertia)
+
+
+def _load(name: str, raw: Mapping[str, Any], members: Mapping[str, Any]) -> Load:
+    kind = next(iter(raw))
+    on = raw.get("on")
+    along = kind.startswith("distributed") or "where" in raw or (on in members and kind == "gravity")
+    vector = raw[kind] if isinstance(raw[kind], list) else (0.0, 0.0, 0.0)
+    return Load(name, kind, vector, None if along else on, on if along else None,
+                raw.get("follower") in ("true", "yes"), raw)
+
+
+def _analysis(name: str, entry: Mapping[str, Any]) -> Analysis:
+    kind = next(iter(entry))
+    raw = entry[kind]
+    return Analysis(name, kind, tuple(raw.get("stations", ())), raw.get("about"), raw)
+
+
+def _quantity(name: str, entry: Mapping[str, Any]) -> Quantity:
+    kind = next(iter(entry))
+    raw = entry[kind]
+    return Quantity(name, kind, raw.get("analysis", ""), entry["unit"], entry.get("factor", 1.0),
+                    entry.get("offset", 0.0), raw, entry.get("x", {}))
+
+
+def scene_of(raw: Mapping[str, Any]) -> Scene:
+    """Returns the scene that `beamwork scene --format json` wrote."""
+    file, physics = raw["scene"], frozenset(raw["physics"])
+    sections = {name: _section(name, constants, physics) for name, constants in zip(file["sections"], raw["sections"])}
+    members = {}
+    for (name, entry), line in zip(file["members"].items(), raw["lines"]):
+        first = entry["section"] if isinstance(entry["section"], str) else entry["section"][0]
+        members[name] = Member(name, (entry["from"], entry["to"]), sections[first], line["start"], line["axes"],
+                               line["length"], line["curvature"], entry)
+    nodes = {name: Node(name, entry["at"], frozenset(entry.get("hold", ())), entry.get("drive", {}), entry)
+             for name, entry in file["nodes"].items()}
+    return Scene(file["name"], raw["of"], physics, file.get("plane"), nodes, sections, members,
+                 tuple(_load(name, entry, members) for name, entry in file.get("loads", {}).items()),
+                 file.get("motions", {}), {name: _analysis(name, a) for name, a in file["analyses"].items()},
+                 tuple(_quantity(name, q) for name, q in file.get("quantities", {}).items()), raw["meanings"], raw)
+
+
+def check(scene: Scene, element: Element, program: str) -> None:
+    """Raises Refused if the element lacks physics of the scene, or if the driver does not read one of its keys."""
+    lacks = sorted(scene.physics - element.offers)
+    if lacks:
+        raise Refused(f"{lacks[0]}: the element of {program} does not model it")
+    for name, section in scene.sections.items():
+        if "coupled section" not in element.offers and "stiffness" in section.raw and any(
+                section.raw["stiffness"][i][k] != 0 for i in range(6) for k in range(6) if i != k):
+            raise Refused(f"coupled section: section {name} is not diagonal")
+    file = scene.raw["scene"]
+    for part, known in _KNOWN.items():
+        for name, entry in (file.get(part, {}).items() if part else [("scene", file)]):
+            for key in entry:
+                if key not in known and f"{part}.{key}".lstrip(".") not in element.keys:
+                    raise Refused(f"{key}: the driver of {program} does not read this key of {name}")
+    for member in scene.members.values():
+        if not isinstance(member.raw["section"], str) and "taper" not in element.keys:
+            raise Refused(f"section: {member.name} is tapered")
+
+
+def refusal(scene: Scene, element: Element, q: Quantity) -> str:
+    """Returns why the quantity cannot be computed; "": it can."""
+    if q.analysis not in scene.analyses:
+        return f"{q.kind}: no driver computes this quantity"
+    analysis = scene.analyses[q.analysis]
+    if analysis.kind not in element.analyses:
+        return f"{analysis.kind}: the driver has no such analysis"
+    for key in analysis.raw:
+        if key not in _ANALYSIS.get(analysis.kind, set()) and f"{analysis.kind}.{key}" not in element.keys:
+            return f"{key}: the driver does not read this key of {analysis.name}"
+    if q.kind not in _QUANTITY or set(q.raw) - _QUANTITY[q.kind] - {"analysis", "take", "at"}:
+        return f"{q.kind}: no driver computes this quantity"
+    if q.raw.get("take", "last") not in ("last", "curve", "max", "min") or ("take" in q.raw and "factor" not in q.x and
+                                                                           q.raw["take"] == "curve"):
+        return f"take: no driver computes '{q.raw['take']}'"
+    if q.kind in ("compliance", "stiffness") and analysis.raw.get("moments", "spatial") != "spatial":
+        return "moments: drivers use the spatial convention only"
+    return ""
+
+
+def _state_values(q: Quantity, answer: Answer) -> list[float]:
+    if q.kind in ("displacement", "reaction"):
+        c = COMPONENTS.index(q.raw["component"])
+        return [(s.u if q.kind == "displacement" else s.reaction)[q.raw["node"]][c] for s in answer.states]
+    row = COMPONENTS.index(q.raw["row" if q.kind == "compliance" else "component"])
+    column = COMPONENTS.index(q.raw["column"]) if q.kind == "compliance" else row
+    entries = [s.compliance[row][column] for s in answer.states if s.compliance is not None]
+    return entries if q.kind == "compliance" else [1 / c for c in entries]
+
+
+def value_of(scene: Scene, q: Quantity, answer: Answer) -> float | list[list[float]]:
+    """Returns the value of a quantity, or for a curve the list of [x, value]."""
+    if q.kind in ("critical_factor", "frequency"):
+        found = list(answer.factors if q.kind == "critical_factor" else answer.frequencies)
+        which = int(q.raw.get("which", 0))
+        if which >= len(found):
+            raise Refused(f"{q.kind}: the driver found only {len(found)} values")
+        return float(q.factor * found[which] + q.offset)
+    analysis = scene.analyses[q.analysis]
+    stations = analysis.stations or (scene.analyses[analysis.about].stations if analysis.about else (1.0, ))
+    values = [float(q.factor * v + q.offset) for v in _state_values(q, answer)]
+    if len(values) != len(stations):
+        raise Refused(f"{q.kind}: the driver gives {len(values)} of {len(stations)} states")
+    take = q.raw.get("take", "last")
+    if take == "curve":
+        return [[q.x["factor"] * p + q.x.get("offset", 0), v] for p, v in zip(stations, values)]
+    if "at" in q.raw:
+        at = float(q.raw["at"])
+        if at not in stations:
+            raise Refused("at: there is no station at this value")
+        return values[stations.index(at)]
+    return max(values) if take == "max" else min(values) if take == "min" else values[-1]
