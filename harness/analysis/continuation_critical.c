@@ -103,6 +103,25 @@ static int is_before(const continuation *p, const sought *s)
     return p->trial.negative == s->negative;
 }
 
+/* State away from the critical point, from which the slope of the eigenvalue follows. */
+typedef struct apart {
+    double eigenvalue, factor, control; /* eigenvalue NAN: none */
+} apart;
+
+static double control_of(const continuation *p)
+{
+    return kinematics_component(p->c->model, p->n.state, p->by->node, p->by->component);
+}
+
+/* Keeps the trial point with the largest eigenvalue of the mode. */
+static void keep_apart(continuation *p, int by_rate, double eigenvalue, apart *a)
+{
+    if (by_rate && isnan(a->eigenvalue) && p->trial.symmetric)
+        eigenvalue = least_eigenvalue(p);
+    if (isfinite(eigenvalue) && !(fabs(eigenvalue) <= fabs(a->eigenvalue)))
+        *a = (apart){eigenvalue, kinematics_state_path(p->n.state), control_of(p)};
+}
+
 /* Evaluates the point at the fraction b->at of the step. *before: 1 if this point lies before the
  * critical point. */
 static status try_at(continuation *p, path_goal goal, const sought *s, bound *b, int *before,
@@ -134,9 +153,10 @@ static double next_part(const bound *low, const bound *high)
 }
 
 /* Narrows the interval. The final state is the critical point, apart from rounding. *gone: 1 if the
- * test function has no zero. *behind: fraction of the step immediately after the point. */
+ * test function has no zero. *behind: fraction of the step immediately after the point. *away: a
+ * state before or after the point. */
 static status locate(continuation *p, path_goal goal, const sought *s, int *is_absent,
-                     double *behind, fault *f)
+                     double *behind, apart *away, fault *f)
 {
     const int by_rate = s->by_rate;
     bound low = {s->from, by_rate ? p->here.rate : NAN}, high = {1, by_rate ? p->next.rate : NAN};
@@ -153,6 +173,7 @@ static status locate(continuation *p, path_goal goal, const sought *s, int *is_a
         if (outcome == STATUS_SINGULAR || (outcome == STATUS_NOT_CONVERGED && at_it))
             break;
         TRY(outcome);
+        keep_apart(p, by_rate, by_rate ? NAN : trial.value, away);
         const int whole = by_rate || p->trial.symmetric || p->trial.nearest == 0;
         value = whole ? fabs(trial.value) : cabs(p->trial.mu[0]);
         scale = fmax(scale, isfinite(value) ? value : 0);
@@ -227,24 +248,45 @@ static status pass_pair(continuation *p, path_goal goal, sought *s, double behin
     return STATUS_OK;
 }
 
+/* Estimates the rounding errors of a critical point: the tangent is singular where its eigenvalue
+ * is within rounding of zero. The slope of the eigenvalue is known from the state *away. At a limit
+ * point, the error of the load factor is of second order. */
+static void estimate_rounding(continuation *p, const apart *away, path_event *e)
+{
+    double square = 0;
+    if (isnan(away->eigenvalue))
+        return;
+    for (int k = 0; k < p->n.free; k++)
+        square += p->mode[k] * p->mode[k];
+    memset(p->mode + p->n.free, 0, (size_t)(p->n.all - p->n.free) * sizeof *p->mode);
+    const double error = stiffness_parts_assembled_rounding(p->c->model, &p->c->run->memory,
+                                                            p->n.state, p->mode) /
+                         square,
+                 part = error / fabs(away->eigenvalue);
+    e->control_error = part * fabs(away->control - e->control);
+    e->factor_error =
+        (e->kind == EVENT_LIMIT_POINT ? part * part : part) * fabs(away->factor - e->factor);
+}
+
 /* Reports the critical point inside the step as an event, and continues the search *s after it. */
 static status report_critical(continuation *p, path_goal goal, sought *s, int *jump, fault *f)
 {
     double behind = 1;
-    TRY(locate(p, goal, s, jump, &behind, f));
+    apart away = {.eigenvalue = NAN};
+    TRY(locate(p, goal, s, jump, &behind, &away, f));
     if (*jump && is_pair(p, s) && !holds_some_turns(p->c->model))
         return pass_pair(p, goal, s, behind, jump, f);
     if (*jump)
         return STATUS_OK;
-    path_event event = {
-        .kind = s->by_rate ? EVENT_LIMIT_POINT : EVENT_BIFURCATION,
-        .analysis = p->analysis,
-        .negative_before = s->negative,
-        .factor = kinematics_state_path(p->n.state),
-        .control = kinematics_component(p->c->model, p->n.state, p->by->node, p->by->component),
-        .other_factor = NAN};
+    path_event event = {.kind = s->by_rate ? EVENT_LIMIT_POINT : EVENT_BIFURCATION,
+                        .analysis = p->analysis,
+                        .negative_before = s->negative,
+                        .factor = kinematics_state_path(p->n.state),
+                        .control = control_of(p),
+                        .other_factor = NAN};
     least_eigenvalue(p);
     event.measure = load_work(p);
+    estimate_rounding(p, &away, &event);
     *jump = !s->by_rate && event.measure > least_load_work;
     if (*jump)
         return STATUS_OK;

@@ -258,7 +258,11 @@ static void take_critical(const analysis_context *c, const scene_quantity *q,
         order += result_event_multiplicity(e);
         if (order <= what->order)
             continue;
-        r->value = quantity_scaled(q, what->ordinate == SCENE_LOAD_FACTOR ? e->factor : e->control);
+        const int is_load = what->ordinate == SCENE_LOAD_FACTOR;
+        const double value = is_load ? e->factor : e->control,
+                     error = is_load ? e->factor_error : e->control_error;
+        r->value = quantity_scaled(q, value);
+        r->rounding = error > 0 ? fabs(q->factor * error / r->value) : 0;
         r->x = quantity_abscissa(q, e->control);
         return;
     }

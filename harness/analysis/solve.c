@@ -113,7 +113,7 @@ static status check_base(const analysis_context *c, int analysis, fault *f)
     return fault_set(f, o->status, "the analysis of the base state failed: %.150s", o->reason);
 }
 
-/* Checks inputs that depend on the formulation, so that no analysis runs in vain. */
+/* Checks the inputs that depend on the formulation, before any analysis runs. */
 static status check_supported(const analysis_context *c, fault *f)
 {
     int damps = 0;

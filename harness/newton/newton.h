@@ -707,6 +707,8 @@ typedef struct path_event {
     /* load factor and control value [m] at the point; branch jump: at a control value of both
      * branches */
     double factor, control;
+    /* critical point: bounds of the rounding errors of both; otherwise 0 */
+    double factor_error, control_error;
     double other_factor; /* branch jump: load factor on the rejected branch; otherwise NAN */
     /* critical point: |phi . f|/(|phi| |f|), where phi is the null vector and f the load; branch
      * jump: distance between the branches */
@@ -1397,6 +1399,10 @@ void stiffness_parts_material_product(const model *, const linear_memory *, cons
 /* Returns a bound of the rounding error of x^T K x for the stiff part. */
 double stiffness_parts_material_rounding(const model *, const linear_memory *, const model_state *,
                                          const double x[]);
+/* Like stiffness_parts_material_rounding, for the assembled matrix and its factors, whose entries
+ * are much larger than the stiffness of soft motions. */
+double stiffness_parts_assembled_rounding(const model *, const linear_memory *, const model_state *,
+                                          const double x[]);
 status stiffness_parts_geometric(const equations *, const linear_memory *, const model_state *,
                                  sparse *G, fault *);
 

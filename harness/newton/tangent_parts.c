@@ -163,6 +163,25 @@ double stiffness_parts_material_rounding(const model *m, const linear_memory *me
     return sum + discrete_material_rounding(m, s, x);
 }
 
+double stiffness_parts_assembled_rounding(const model *m, const linear_memory *memory,
+                                          const model_state *s, const double x[])
+{
+    const int n = model_strains(m);
+    double sum = 0;
+    for (int i = 0; i < model_elements(m); i++) {
+        const model_slot w = linearise_slot(m, memory, i);
+        double local[ELEMENT_MAX_COORDINATES], terms[ELEMENT_MAX_STRAINS] = {0};
+        kinematics_local(m, s, model_element(m, i), x, local);
+        for (int k = 0; k < n; k++)
+            for (int j = 0; j < model_own_coordinates(m); j++)
+                terms[k] += fabs(w.J[k * model_own_coordinates(m) + j] * local[j]);
+        for (int k = 0; k < n; k++)
+            for (int j = 0; j < n; j++)
+                sum += fabs(w.C[k * n + j]) * terms[k] * terms[j];
+    }
+    return DBL_EPSILON * sum;
+}
+
 status stiffness_parts_geometric(const equations *eq, const linear_memory *memory,
                                  const model_state *s, sparse *G, fault *f)
 {

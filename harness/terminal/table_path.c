@@ -89,8 +89,11 @@ void table_path_matrices(FILE *to, const scene *s, const solve_result *r)
 
 static void row_of_event(FILE *to, const path_event *e)
 {
-    fprintf(to, "%s at %.9g m, load factor %.9g", result_event_name(e->kind), e->control,
-            e->factor);
+    const double least = 5e-10; /* relative error of values with nine digits */
+    char control[ROUNDING_TEXT], factor[ROUNDING_TEXT];
+    rounding_known(e->control, fmax(e->control_error, least * fabs(e->control)), control);
+    rounding_known(e->factor, fmax(e->factor_error, least * fabs(e->factor)), factor);
+    fprintf(to, "%s at %s m, load factor %s", result_event_name(e->kind), control, factor);
     if (e->kind == EVENT_BRANCH_JUMP)
         fprintf(to, ": a step led to another branch, with load factor %.9g\n", e->other_factor);
     else if (e->negative_before >= 0)

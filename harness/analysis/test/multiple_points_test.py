@@ -279,6 +279,24 @@ class MultiplePoints(ProgramTest):
         said = [step["stability"] for step in json.loads(done.stdout)["steps"]]
         self.assertEqual(said, ["stable"] * 2 + ["unstable (2)"] * 3)
 
+    def test_rounding(self):
+        """The error due to round-off must be estimated: the tangent of a fine mesh is singular only within rounding."""
+        exact = {"bifurcation_load": 0.8681346606, "deflection_at_limit": 48.7351372}  # reference/derive/lee_frame.py
+        for n in 24, 96:
+            done = run("solve", "lee_frame", "--set", "plane=0", "-f", "geometrically_exact", "-n", n, "--format", "json")
+            found = {q["quantity"]: q for q in json.loads(done.stdout)["quantities"]}
+            for name, right in exact.items():
+                error, rounding = abs(found[name]["value"] / right - 1), found[name]["rounding"]
+                self.assertLess(rounding, 1e-3)
+                if n == 96:  # on the coarse mesh, the discretisation error is larger
+                    self.assertLess(error, rounding)
+                    self.assertGreater(rounding, 1e-5)
+                else:
+                    self.assertLess(rounding, 5e-6)
+        out = run("solve", "lee_frame", "--set", "plane=0", "-f", "geometrically_exact", "-n", 96).stdout
+        self.assertRegex(out, r"bifurcation at -8\.34\d* m, load factor 0\.8681\d?:")
+        self.assertRegex(out, r"bifurcation_load +0\.8681\d* N .*, round-off \d\.\de-04")
+
 
 if __name__ == "__main__":
     unittest.main()
