@@ -1,0 +1,187 @@
+"""OpenSees: frames with corotational transformation, by load control."""
+from __future__ import annotations
+
+import importlib.metadata
+from typing import Any
+
+from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State, transposed
+
+NAME, PROGRAM, LICENCE = "opensees", "OpenSees", "free for research and internal use; no commercial redistribution"
+HOMEPAGE = "https://openseespydoc.readthedocs.io"
+REQUIRES = ("openseespy==3.7.1.2", )
+_STATICS = frozenset({"linear", "static", "compliance"})
+_LARGE = frozenset({"large rotations"})
+_SHEAR = _LARGE | {"shear"}
+ELEMENTS = {
+    "dispBeamColumn": Element("displacement-based, 2 Gauss points, corotational", _LARGE, _STATICS),
+    "elasticBeamColumn": Element("Euler-Bernoulli, corotational", _LARGE, _STATICS),
+    "forceBeamColumn": Element("force-based with shear, 3 Lobatto points, corotational", _SHEAR, _STATICS),
+    "ElasticTimoshenkoBeam": Element("Timoshenko, linear", frozenset({"shear"}), frozenset({"linear"})),
+}
+_TURNS = 1e-3  # [rad] larger rotations in space are not sums of increments
+_LEAST_STEP = 1e-4  # smallest load step, relative to the path
+_steps: dict[tuple[str, str, int], list[float]] = {}  # load steps that converged in the first round
+
+
+def version() -> str:
+    return importlib.metadata.version("openseespy")
+
+
+class Corotational(Model):
+    """The model, at path parameter 0. Loads and motions are series over the path."""
+
+    def __init__(self, scene: Scene, name: str, mesh: Mesh) -> None:
+        import openseespy.opensees as ops  # pylint: disable=import-error,import-outside-toplevel
+        self.ops, self.scene, self.name, self.mesh = ops, scene, name, mesh
+        ops.wipe()
+        ops.model("basic", "-ndm", 3, "-ndf", 6)
+        for node in mesh.nodes:
+            ops.node(node.number, *node.at)
+        for i, section in enumerate(scene.sections.values(), 1):
+            E, G = section.raw["E"], section.raw["G"]
+            shear = [min(GA / (G * section.EA / E), 1e4) for GA in section.GA]
+            ops.section("Elastic", i, E, section.EA / E, section.EIz / E, section.EIy / E, G, section.GIt / G,
+                        *(shear if name == "forceBeamColumn" else ()))
+            rule, points = ("Lobatto", 3) if name == "forceBeamColumn" else ("Legendre", 2)
+            ops.beamIntegration(rule, i, i, points)
+        tags = {section: i for i, section in enumerate(scene.sections, 1)}
+        for i, element in enumerate(mesh.elements, 1):
+            ops.geomTransf("Corotational", i, *transposed(element.R)[2])
+            s = element.member.section
+            E, G = s.raw["E"], s.raw["G"]
+            constants: tuple[Any, ...] = (i, tags[s.name])
+            if name == "elasticBeamColumn":
+                constants = (s.EA / E, E, G, s.GIt / G, s.EIy / E, s.EIz / E, i)
+            elif name == "ElasticTimoshenkoBeam":
+                constants = (E, G, s.EA / E, s.GIt / G, s.EIy / E, s.EIz / E, *(min(k / G, 1e4 * s.EA / E) for k in s.GA), i)
+            ops.element(name, i, *element.nodes, *constants)
+        self._add_supports()
+        length = scene.length()
+        self.unknowns = 6 * len(mesh.nodes) - self.held
+        self.settings = f"Newton, NormDispIncr {1e-9 * (1 + length):.1e}, load steps halved after a failure"
+        ops.numberer("RCM")
+        ops.constraints("Transformation")
+        ops.system("BandGeneral")
+        ops.test("NormDispIncr", 1e-9 * (1 + length), 30)
+        ops.algorithm("Newton")
+
+    def _series(self, tag: int, raw: Any, key: str) -> None:
+        """Adds a pattern whose series is the path parameter, or the values of a motion or factors of a load."""
+        if key in raw:
+            self.ops.timeSeries("Path", tag, "-time", *raw["path"], "-values", *raw[key], "-useLast")
+        else:
+            self.ops.timeSeries("Linear", tag)
+        self.ops.pattern("Plain", tag, tag)
+
+    def _add_supports(self) -> None:
+        ops, self.held, tag = self.ops, 0, 1
+        for node in self.scene.nodes.values():
+            number = self.mesh.node_of[node.name]
+            ops.fix(number, *(int(c in node.hold) for c in COMPONENTS))
+            self.held += len(node.hold) + len(node.drive)
+        for name, motion in self.scene.motions.items():
+            self._series(tag, motion, "value")
+            for node in self.scene.nodes.values():
+                for component, by in node.drive.items():
+                    if by == name:
+                        ops.sp(self.mesh.node_of[node.name], COMPONENTS.index(component) + 1, 1.0)
+            tag += 1
+        for load in self.scene.loads:
+            if load.node is None or load.kind not in ("force", "moment"):
+                raise Refused(f"{load.kind}: the driver has forces and moments at nodes only")
+            self._series(tag, load.raw, "factor")
+            zero = (0.0, 0.0, 0.0)
+            vector = (*load.vector, *zero) if load.kind == "force" else (*zero, *load.vector)
+            ops.load(self.mesh.node_of[load.node], *vector)
+            tag += 1
+        self.next_tag = tag
+
+    def solve(self, analysis: Analysis) -> Answer:
+        if analysis.kind == "compliance":
+            return Answer([State(compliance=self._compliance(analysis))], iterations=1)
+        if analysis.kind == "linear":
+            self.ops.algorithm("Linear")
+        stations = analysis.stations or (1.0, )
+        states, iterations, path = [], 0, 0.0
+        key = (self.scene.of, self.name, len(self.mesh.elements))
+        known, taken, step = list(_steps.get(key, ())), [], 1.0
+        self.ops.integrator("LoadControl", 1.0)
+        self.ops.analysis("Static", "-noWarnings")
+        for station in stations:
+            while path < station * (1 - 1e-12):
+                step = known.pop(0) if known else min(step, station - path)
+                self.ops.integrator("LoadControl", step)
+                if self.ops.analyze(1) != 0:
+                    iterations, step = iterations + 30, step / 2
+                    if step < _LEAST_STEP * stations[-1]:
+                        raise Failed(f"Newton's method does not converge at path parameter {path:g}")
+                    self.ops.setTime(path)
+                    continue
+                path += step
+                taken.append(step)
+                iterations += max(self.ops.testIter(), 1)
+                step *= 2
+            states.append(self._state(analysis.kind == "linear"))
+        if analysis.kind == "static":
+            _steps[key] = taken
+        return Answer(states, iterations=iterations)
+
+    def _state(self, linear: bool) -> State:
+        self.ops.reactions()
+        u: dict[str, list[float | None]] = {}
+        reaction: dict[str, list[float | None]] = {}
+        for name, number in self.mesh.node_of.items():
+            moved = [float(x) for x in self.ops.nodeDisp(number)]
+            turns = sorted(abs(x) for x in moved[3:])
+            known = linear or turns[2] < _TURNS or turns[1] < 1e-9 * turns[2]
+            u[name] = [x if known or i < 3 else None for i, x in enumerate(moved)]
+            reaction[name] = [float(x) for x in self.ops.nodeReaction(number)]
+        return State(u, reaction)
+
+    def _compliance(self, analysis: Analysis) -> list[list[float]]:
+        """Returns the compliance from the tangent of the last state. Released components get their reactions as loads."""
+        import numpy  # pylint: disable=import-outside-toplevel
+        ops, node = self.ops, self.mesh.node_of[analysis.raw["node"]]
+        released = analysis.raw.get("released", [])
+        ops.reactions()
+        forces = [float(x) for x in ops.nodeReaction(node)]
+        ops.loadConst("-time", 0.0)
+        ops.timeSeries("Constant", self.next_tag)
+        ops.pattern("Plain", self.next_tag, self.next_tag)
+        ops.load(node, *(f if COMPONENTS[i] in released else 0.0 for i, f in enumerate(forces)))
+        for tag in range(1, len(self.scene.motions) + 1):
+            ops.remove("loadPattern", tag)
+        for one in self.scene.nodes.values():
+            number = self.mesh.node_of[one.name]
+            for c in one.drive:
+                i = COMPONENTS.index(c) + 1
+                if c not in released or number != node:
+                    ops.sp(number, i, float(ops.nodeDisp(number, i)))
+        for c in self.scene.nodes[analysis.raw["node"]].hold.intersection(released):
+            ops.remove("sp", node, COMPONENTS.index(c) + 1)
+        ops.wipeAnalysis()
+        ops.numberer("Plain")
+        ops.constraints("Transformation")
+        ops.system("FullGeneral")
+        ops.test("NormDispIncr", 1e-9 * (1 + self.scene.length()), 30)
+        ops.algorithm("Newton")
+        ops.integrator("LoadControl", 0.0)
+        ops.analysis("Static", "-noWarnings")
+        if ops.analyze(1) != 0:
+            raise Failed("Newton's method does not converge with the reactions as loads")
+        size = ops.systemSize()
+        K = numpy.array(ops.printA("-ret")).reshape(size, size).T  # stored by columns
+        degrees = ops.nodeDOFs(node)
+        out = numpy.zeros((6, 6))
+        for k, column in enumerate(degrees):
+            if column >= 0:
+                unit = numpy.zeros(size)
+                unit[column] = 1
+                x = numpy.linalg.solve(K, unit)
+                for i, row in enumerate(degrees):
+                    out[i, k] = x[row] if row >= 0 else 0
+        return [[float(x) for x in row] for row in out]
+
+
+def build(scene: Scene, element: str, mesh: Mesh) -> Model:
+    return Corotational(scene, element, mesh)
