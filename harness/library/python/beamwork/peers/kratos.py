@@ -1,0 +1,381 @@
+"""Kratos: corotational beams of the StructuralMechanicsApplication."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from .data import COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, Model, Refused, Scene, State
+
+NAME, PROGRAM, LICENCE = "kratos", "Kratos", "BSD-4-Clause"
+HOMEPAGE = "https://github.com/KratosMultiphysics/Kratos"
+REQUIRES = (
+    "KratosMultiphysics==10.4.4",
+    "KratosStructuralMechanicsApplication==10.4.4",
+    "KratosLinearSolversApplication==10.4.4",
+)
+ELEMENTS = {
+    "corotational": Element(
+        "CrBeamElement3D2N: corotational; linear analyses and modes by CrLinearBeamElement3D2N;"
+        " with shear, Engesser's theory",
+        order=1,
+        offers=frozenset({"shear", "haringx", "large rotations", "geometric", "mass", "rotary inertia"}),
+        analyses=frozenset({"linear", "static", "compliance", "modal"}),
+        keys=frozenset({"loads.distributed", "plane"}),
+    ),
+}
+
+_TOLERANCE = 1e-10
+_MOST_ITERATIONS = 100
+_LEAST_STEP = 1 / 64
+_STEPS: dict[tuple[str, str], int] = {}  # steps between stations that converged last
+
+
+def version() -> str:
+    return importlib.metadata.version("KratosStructuralMechanicsApplication")
+
+
+def build(scene: Scene, element: str, mesh: Mesh) -> Model:
+    return Frame(scene, mesh)
+
+
+class Frame(Model):
+    def __init__(self, scene: Scene, mesh: Mesh) -> None:
+        self.scene, self.mesh = scene, mesh
+        for load in scene.loads:
+            if load.follower:
+                raise Refused("follower loads: this driver applies dead loads only")
+            if load.kind not in ("force", "moment", "distributed"):
+                raise Refused(f"loads of kind {load.kind}: this driver has no such load")
+        self.kept: dict[str, Sequence[State]] = {}
+        self.wanted = {
+            a.about: a.raw["node"]
+            for a in scene.analyses.values()
+            if a.kind == "compliance" and a.about is not None
+        }
+        self.driven = {
+            (mesh.node_of[node.name], COMPONENTS.index(component)): motion
+            for node in scene.nodes.values()
+            for component, motion in node.drive.items()
+        }
+        self.held = {
+            (number, COMPONENTS.index(c))
+            for number in range(len(mesh.nodes))
+            for c in self._held(number)
+        }
+        self.unknowns = 6 * len(mesh.nodes) - len(self.held | set(self.driven))
+        self.settings = (
+            f"SparseLU, Newton, MixedGenericCriteria {_TOLERANCE:.0e}, steps halved where they fail"
+        )
+        self._import()
+        self.model: Any = self._new("CrBeamElement3D2N")
+
+    def _held(self, number: int) -> set[str]:
+        node = self.mesh.nodes[number]
+        held = set(self.scene.nodes[node.name].hold) if node.name is not None else set()
+        if self.scene.plane is not None:
+            normal = ({"x", "y", "z"} - set(self.scene.plane)).pop()
+            held |= {"u" + normal} | {"r" + axis for axis in self.scene.plane}
+        return held
+
+    def _import(self) -> None:
+        import KratosMultiphysics as km
+        import KratosMultiphysics.LinearSolversApplication as solvers
+        import KratosMultiphysics.StructuralMechanicsApplication as sm
+
+        km.Logger.GetDefaultOutput().SetSeverity(km.Logger.Severity.WARNING)
+        self.km, self.sm, self.solvers = km, sm, solvers
+        self.displacements = [
+            getattr(km, f"{kind}_{axis}") for kind in ("DISPLACEMENT", "ROTATION") for axis in "XYZ"
+        ]
+        self.reactions = [
+            getattr(km, f"{kind}_{axis}")
+            for kind in ("REACTION", "REACTION_MOMENT")
+            for axis in "XYZ"
+        ]
+        self.forces = [
+            getattr(sm, f"{kind}_{axis}") for kind in ("POINT_LOAD", "POINT_MOMENT") for axis in "XYZ"
+        ]
+
+    def _section(self, part: Any, tag: int, section: Any) -> None:
+        """The stiffnesses with E = 1 and G = 1/2. Without effective areas the element is rigid in
+        shear."""
+        km, sm = self.km, self.sm
+        p = part.CreateNewProperties(tag)
+        p.SetValue(km.YOUNG_MODULUS, 1.0)
+        p.SetValue(km.POISSON_RATIO, 0.0)
+        p.SetValue(km.DENSITY, section.rho_A / section.EA)
+        p.SetValue(sm.CROSS_AREA, section.EA)
+        p.SetValue(sm.I22, section.EIy)
+        p.SetValue(sm.I33, section.EIz)
+        p.SetValue(sm.TORSIONAL_INERTIA, 2 * section.GIt)
+        for variable, value in zip((sm.AREA_EFFECTIVE_Y, sm.AREA_EFFECTIVE_Z), section.GA):
+            if math.isfinite(value):
+                p.SetValue(variable, 2 * value)
+        p.SetValue(km.CONSTITUTIVE_LAW, sm.LinearElastic3DLaw())
+
+    def _new(self, element: str) -> Any:
+        km, sm = self.km, self.sm
+        self.owner = km.Model()
+        part = self.owner.CreateModelPart("beams", 2)
+        part.ProcessInfo.SetValue(km.DOMAIN_SIZE, 3)
+        for variable in (
+            km.DISPLACEMENT,
+            km.ROTATION,
+            km.REACTION,
+            km.REACTION_MOMENT,
+            sm.POINT_LOAD,
+            sm.POINT_MOMENT,
+            km.VOLUME_ACCELERATION,
+            km.VELOCITY,
+            km.ANGULAR_VELOCITY,
+            km.ACCELERATION,
+            km.ANGULAR_ACCELERATION,
+        ):
+            part.AddNodalSolutionStepVariable(variable)
+        tags: dict[str, int] = {}
+        for e in self.mesh.elements:
+            section = e.member.section
+            if section.name not in tags:
+                tags[section.name] = len(tags) + 1
+                self._section(part, tags[section.name], section)
+        for number, node in enumerate(self.mesh.nodes, start=1):
+            part.CreateNewNode(number, *map(float, node.at))
+        for u, r in zip(self.displacements, self.reactions):
+            km.VariableUtils().AddDof(u, r, part)
+        for number, e in enumerate(self.mesh.elements, start=1):
+            p = part.GetProperties()[tags[e.member.section.name]]
+            made = part.CreateNewElement(element, number, [n + 1 for n in e.nodes], p)
+            made.SetValue(km.LOCAL_AXIS_2, [float(row[1]) for row in e.R])
+        first = part.GetProperties()[1]
+        for number in range(1, len(self.mesh.nodes) + 1):
+            part.CreateNewCondition("PointLoadCondition3D1N", 2 * number, [number], first)
+            part.CreateNewCondition("PointMomentCondition3D1N", 2 * number + 1, [number], first)
+        for number, dof in self.held | set(self.driven):
+            part.Nodes[number + 1].Fix(self.displacements[dof])
+        return part
+
+    def _nodal(self, load: Load) -> dict[int, list[float]]:
+        """Forces and moments on nodes; half of the load of each element acts on its nodes."""
+        out: dict[int, list[float]] = {}
+
+        def add(number: int, factor: float, first: int) -> None:
+            target = out.setdefault(number, [0.0] * 6)
+            for i in range(3):
+                target[first + i] += factor * float(load.vector[i])
+
+        if load.kind in ("force", "moment"):
+            add(self.mesh.node_of[str(load.node)], 1.0, 0 if load.kind == "force" else 3)
+        else:
+            for e in self.mesh.elements:
+                if e.member.name == load.member:
+                    for number in e.nodes:
+                        add(number, e.length / 2, 0)
+        return out
+
+    def _loads(self, p: float | None) -> dict[int, list[float]]:
+        total: dict[int, list[float]] = {}
+        for load in self.scene.loads:
+            factor = 1.0 if p is None else float(self.scene.load_factor(load, p))
+            for number, vector in self._nodal(load).items():
+                target = total.setdefault(number, [0.0] * 6)
+                for i in range(6):
+                    target[i] += factor * vector[i]
+        return total
+
+    def _strategy(self, part: Any, linear: bool) -> Any:
+        km = self.km
+        builder = km.ResidualBasedBlockBuilderAndSolver(self.solvers.SparseLUSolver())
+        scheme = km.ResidualBasedIncrementalUpdateStaticScheme()
+        if linear:
+            strategy = km.ResidualBasedLinearStrategy(
+                part, scheme, builder, True, False, False, False
+            )
+        else:
+            t = _TOLERANCE
+            criterion = km.MixedGenericCriteria([(km.DISPLACEMENT, t, t), (km.ROTATION, t, t)])
+            criterion.SetEchoLevel(0)
+            strategy = km.ResidualBasedNewtonRaphsonStrategy(
+                part, scheme, criterion, builder, _MOST_ITERATIONS, True, False, True
+            )
+        strategy.SetEchoLevel(0)
+        strategy.Initialize()
+        return strategy
+
+    def _set(self, part: Any, loads: Any, drives: Any) -> None:
+        for number, vector in loads.items():
+            for variable, value in zip(self.forces, vector):
+                part.Nodes[number + 1].SetSolutionStepValue(variable, 0, value)
+        for (number, dof), value in drives.items():
+            part.Nodes[number + 1].SetSolutionStepValue(self.displacements[dof], 0, value)
+
+    def _run(self, part: Any, strategy: Any, loads: Any, drives: Any) -> bool:
+        self._set(part, loads, drives)
+        try:
+            strategy.InitializeSolutionStep()
+            strategy.Predict()
+            converged = strategy.SolveSolutionStep()
+            strategy.FinalizeSolutionStep()
+        except RuntimeError:  # the matrix of a diverging iteration is singular
+            return False
+        return bool(converged) and self._balanced(part, loads)
+
+    def _balanced(self, part: Any, loads: Any) -> bool:
+        """Checks that reactions and loads are in balance: the criterion of increments also
+        accepts states that are not in equilibrium, and NaN."""
+        sums, sizes = [0.0] * 3, 1e-300
+        length = self.scene.length()
+        for vector in loads.values():
+            for i in range(3):
+                sums[i] += vector[i]
+                sizes += abs(vector[i]) + abs(vector[3 + i]) / length
+        for number, dof in self.held | set(self.driven):
+            if dof < 3:
+                value = part.Nodes[number + 1].GetSolutionStepValue(self.reactions[dof])
+                sums[dof] += value
+                sizes += abs(value)
+        return all(math.isfinite(x) and abs(x) <= 1e-5 * sizes for x in sums)
+
+    def solve(self, analysis: Analysis) -> Answer:
+        if analysis.kind == "static":
+            return self._static(analysis)
+        if analysis.kind == "linear":
+            return self._linear()
+        if analysis.kind == "compliance":
+            return self._compliance(analysis)
+        if analysis.kind == "modal":
+            return self._modal()
+        raise Refused(f"{analysis.kind}: this driver has no such analysis")
+
+    def _static(self, analysis: Analysis) -> Answer:
+        steps = _STEPS.get((self.scene.name, analysis.name), 1)
+        while True:
+            part, self.model = self.model, None
+            if part is None:
+                part = self._new("CrBeamElement3D2N")
+            answer = self._walk(part, analysis, steps)
+            if answer is not None:
+                self.kept[analysis.name] = answer.states
+                return answer
+            steps *= 2
+            _STEPS[self.scene.name, analysis.name] = steps
+            if 1 / steps < _LEAST_STEP:
+                del _STEPS[self.scene.name, analysis.name]
+                raise Failed("Newton's method fails or leaves loads and reactions unbalanced")
+
+    def _walk(self, part: Any, analysis: Analysis, steps: int) -> Answer | None:
+        """Follows the path; None: a step fails. A failed step cannot be repeated from its start,
+        because elements keep their rotations."""
+        strategy = self._strategy(part, linear=False)
+        loads: dict[int, list[float]] = {}
+        drives: dict[tuple[int, int], float] = dict.fromkeys(self.driven, 0.0)
+        states: list[State] = []
+        iterations = 0
+        for p in analysis.stations:
+            last_loads, last_drives = loads, drives
+            loads = self._loads(p)
+            drives = {at: float(self.scene.motion_value(m, p)) for at, m in self.driven.items()}
+            for k in range(1, steps + 1):
+                s = k / steps
+                zero = [0.0] * 6
+                now = {
+                    n: [(1 - s) * a + s * b for a, b in zip(last_loads.get(n, zero), vector)]
+                    for n, vector in loads.items()
+                }
+                moved = {at: (1 - s) * last_drives[at] + s * drives[at] for at in drives}
+                part.CloneTimeStep(float(len(states)) + s)
+                if not self._run(part, strategy, now, moved):
+                    return None
+                iterations += int(part.ProcessInfo[self.km.NL_ITERATION_NUMBER])
+            states.append(self._state(part))
+            if analysis.name in self.wanted:
+                states[-1].compliance = self._inverse(part, self.wanted[analysis.name])
+        return Answer(states=states, iterations=iterations)
+
+    def _state(self, part: Any, linear: bool = False) -> State:
+        """Large rotations are NaN: ROTATION is the sum of the increments of the iterations, which
+        depends on the steps, and the elements do not give the rotations of their nodes."""
+        u: dict[str, list[float]] = {}
+        reaction: dict[str, list[float]] = {}
+        supported = self.held | set(self.driven)
+        for name, number in self.mesh.node_of.items():
+            node = part.Nodes[number + 1]
+            u[name] = [float(node.GetSolutionStepValue(v)) for v in self.displacements]
+            if not linear and any(x != 0 for x in u[name][3:]):
+                u[name][3:] = [math.nan] * 3
+            reaction[name] = [
+                float(node.GetSolutionStepValue(v)) if (number, dof) in supported else 0.0
+                for dof, v in enumerate(self.reactions)
+            ]
+        return State(u=u, reaction=reaction)
+
+    def _matrix(self, part: Any, kind: str) -> Any:
+        """The stiffness or mass matrix of all coordinates, from the matrices of the elements."""
+        import numpy as np
+
+        size = 6 * len(self.mesh.nodes)
+        out = np.zeros((size, size))
+        for number, e in enumerate(self.mesh.elements, start=1):
+            own, rest = self.km.Matrix(), self.km.Vector()
+            element = part.Elements[number]
+            if kind == "mass":
+                element.CalculateMassMatrix(own, part.ProcessInfo)
+            else:
+                element.CalculateLocalSystem(own, rest, part.ProcessInfo)
+            at = [6 * n + i for n in e.nodes for i in range(6)]
+            out[np.ix_(at, at)] += np.array(own)
+        return out
+
+    def _inverse(self, part: Any, node: str) -> Any:
+        """The inverse of the tangent at the node, with its driven components free."""
+        import numpy as np
+
+        number = self.mesh.node_of[node]
+        fixed = self.held | {at for at in self.driven if at[0] != number}
+        free = [i for i in range(6 * len(self.mesh.nodes)) if (i // 6, i % 6) not in fixed]
+        inverse = np.linalg.inv(self._matrix(part, "stiffness")[np.ix_(free, free)])
+        place = {i: k for k, i in enumerate(free)}
+        own = [place.get(6 * number + i) for i in range(6)]
+        return [
+            [float(inverse[r, c]) if r is not None and c is not None else 0.0 for c in own]
+            for r in own
+        ]
+
+    def _linear_part(self) -> Any:
+        part = self._new("CrLinearBeamElement3D2N")
+        part.CloneTimeStep(1.0)
+        return part
+
+    def _linear(self) -> Answer:
+        part = self._linear_part()
+        if self.driven:
+            raise Refused("linear: this driver has no driven nodes in linear analyses")
+        if not self._run(part, self._strategy(part, linear=True), self._loads(None), {}):
+            raise Failed("the linear equations are not solved: loads and reactions do not balance")
+        return Answer(states=[self._state(part, linear=True)], iterations=1)
+
+    def _compliance(self, analysis: Analysis) -> Answer:
+        if analysis.about is not None:
+            return Answer(states=self.kept[analysis.about])
+        part = self._linear_part()
+        strategy = self._strategy(part, linear=True)
+        strategy.InitializeSolutionStep()
+        return Answer(states=[State(compliance=self._inverse(part, analysis.raw["node"]))])
+
+    def _modal(self) -> Answer:
+        """Frequencies from the stiffness and mass matrices of the program's elements."""
+        import numpy as np
+
+        part = self._linear_part()
+        strategy = self._strategy(part, linear=True)
+        strategy.InitializeSolutionStep()
+        fixed = self.held | set(self.driven)
+        free = [i for i in range(6 * len(self.mesh.nodes)) if (i // 6, i % 6) not in fixed]
+        at = np.ix_(free, free)
+        k, m = self._matrix(part, "stiffness")[at], self._matrix(part, "mass")[at]
+        squares = np.sort(1 / np.linalg.eigvals(np.linalg.solve(k, m)).real)
+        return Answer(
+            frequencies=[math.sqrt(w) / (2 * math.pi) for w in squares if 0 < w < math.inf]
+        )

@@ -1,0 +1,436 @@
+"""xara (a fork of OpenSees): geometrically exact frames of 2 to 4 nodes, and corotational frames."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import math
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+from .data import COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, Model, Refused, Scene, State
+
+NAME, PROGRAM, LICENCE = "xara", "xara", "BSD-2-Clause"
+HOMEPAGE = "https://github.com/peer-open-source/xara"
+REQUIRES = (
+    'xara==0.0.46; python_version >= "3.12"',
+    'opensees==0.1.32; python_version >= "3.12"',
+)
+
+_STATICS = frozenset({"linear", "static", "compliance"})
+_OFFERS = frozenset({"shear", "haringx", "large rotations", "geometric"})
+_KEYS = frozenset({"loads.distributed", "plane"})
+ELEMENTS = {
+    "exact": Element(
+        "ExactFrame with 2 nodes: geometrically exact, linear interpolation",
+        order=1,
+        offers=_OFFERS,
+        analyses=_STATICS,
+        keys=_KEYS,
+    ),
+    "exact_3": Element(
+        "ExactFrame with 3 nodes on a straight line",
+        order=2,
+        offers=_OFFERS,
+        analyses=_STATICS,
+        keys=_KEYS,
+    ),
+    "exact_4": Element(
+        "ExactFrame with 4 nodes on a straight line",
+        order=3,
+        offers=_OFFERS,
+        analyses=_STATICS,
+        keys=_KEYS,
+    ),
+    "force": Element(
+        "ForceFrame: force interpolation, corotational (Corotational02); with shear, Engesser's theory",
+        order=1,
+        offers=_OFFERS | {"mass"},
+        analyses=_STATICS | {"modal"},
+        keys=_KEYS,
+    ),
+}
+
+_STIFF = 1e8  # shear stiffness of a rigid section, over EI/L^2
+_LEAST_STEP = 1 / 512
+_STEPS: dict[tuple[str, str, str], int] = {}  # steps between stations that converged last
+
+
+def version() -> str:
+    if sys.version_info < (3, 12):
+        raise ImportError("it requires Python 3.12 or later")
+    found = importlib.metadata.version("xara")
+    return f"{found} (opensees {importlib.metadata.version('opensees')})"
+
+
+def build(scene: Scene, element: str, mesh: Mesh) -> Model:
+    return Frame(scene, element, mesh)
+
+
+def _unwrapped(vector: Any, last: Any) -> Any:
+    """The rotation vector of the same rotation that is nearest to `last`."""
+    import numpy as np
+
+    angle = float(np.linalg.norm(vector))
+    if angle < 1e-12:
+        axis = last / np.linalg.norm(last) if np.linalg.norm(last) > math.pi else None
+        angle, vector = 0.0, np.zeros(3)
+        if axis is None:
+            return vector
+    else:
+        axis = vector / angle
+    turns = round((float(axis @ last) - angle) / (2 * math.pi))
+    return axis * (angle + 2 * math.pi * turns)
+
+
+def _rotation_vector(quaternion: Any) -> Any:
+    """The rotation vector of a quaternion (x, y, z, w)."""
+    import numpy as np
+
+    q = np.array(quaternion)
+    if q[3] < 0:
+        q = -q
+    sine = float(np.linalg.norm(q[:3]))
+    return q[:3] * (2 * math.atan2(sine, q[3]) / sine if sine > 0 else 2.0)
+
+
+class Frame(Model):
+    def __init__(self, scene: Scene, element: str, mesh: Mesh) -> None:
+        self.scene, self.element, self.mesh = scene, element, mesh
+        self.order = ELEMENTS[element].order
+        self.size = max(math.dist(mesh.nodes[0].at, n.at) for n in mesh.nodes)
+        self.rigid = False
+        self.drives: dict[tuple[int, int], tuple[int, list[Any]]] = {}
+        self.kept: dict[str, list[State]] = {}
+        self.wanted = {
+            a.about: a.raw["node"]
+            for a in scene.analyses.values()
+            if a.kind == "compliance" and a.about is not None
+        }
+        self._refuse()
+        self.model: Any = self._new()
+        self.unknowns = sum(6 - len(self._held(n)) for n in range(len(mesh.nodes)))
+        self.settings = (
+            f"Umfpack, Newton, NormDispIncr {self._tolerance():.0e}, steps halved where they fail"
+            + ("" if element == "force" or self._planar() else ", at least 8 steps")
+            + (", rigid in shear: GA = 1e8 EI/L^2" if self.rigid else "")
+        )
+
+    def _refuse(self) -> None:
+        for load in self.scene.loads:
+            if load.follower:
+                raise Refused("follower loads: this driver applies dead loads only")
+            if load.kind not in ("force", "moment", "distributed"):
+                raise Refused(f"loads of kind {load.kind}: this driver has no such load")
+
+    def _tolerance(self) -> float:
+        return 1e-8 * self.size
+
+    def _least_steps(self, stations: int) -> int:
+        """Steps between stations. In space, results of ExactFrame depend on the steps: by 1e-6 with
+        8 steps in the 45-degree bend."""
+        return 1 if self.element == "force" or self._planar() else math.ceil(8 / stations)
+
+    def _planar(self) -> bool:
+        """Returns True if the scene lies and moves in one coordinate plane."""
+        for i in range(3):
+            inside = {"r" + "xyz"[i]} | {"u" + "xyz"[k] for k in range(3) if k != i}
+            if (
+                len({n.at[i] for n in self.mesh.nodes}) == 1
+                and all(max(abs(e.R[i][1]), abs(e.R[i][2])) > 1 - 1e-9 for e in self.mesh.elements)
+                and all(
+                    load.vector[k] == 0 or (load.kind == "moment") == (k == i)
+                    for load in self.scene.loads
+                    for k in range(3)
+                )
+                and all(inside.issuperset(n.drive) for n in self.scene.nodes.values())
+            ):
+                return True
+        return False
+
+    def _held(self, number: int) -> set[str]:
+        node = self.mesh.nodes[number]
+        held = set(self.scene.nodes[node.name].hold) if node.name is not None else set()
+        if self.scene.plane is not None:
+            axes = self.scene.plane
+            normal = ({"x", "y", "z"} - set(axes)).pop()
+            held |= {"u" + normal} | {"r" + axis for axis in axes}
+        return held
+
+    def _points(self) -> list[list[float]]:
+        """The places of the nodes; inner nodes lie on the chord, as ExactFrame requires."""
+        at = [list(map(float, n.at)) for n in self.mesh.nodes]
+        for e in self.mesh.elements:
+            first, last = at[e.nodes[0]], at[e.nodes[-1]]
+            for k, inner in enumerate(e.nodes[1:-1], start=1):
+                s = k / self.order
+                at[inner] = [(1 - s) * a + s * b for a, b in zip(first, last)]
+        return at
+
+    def _section(self, model: Any, tag: int, section: Any, length: float) -> None:
+        stiffness = (section.EIz, section.EIy)
+        ga = [
+            value if math.isfinite(value) else _STIFF * ei / length**2
+            for value, ei in zip(section.GA, stiffness)
+        ]
+        self.rigid |= any(not math.isfinite(value) for value in section.GA)
+        model.section(
+            "ElasticFrame",
+            tag,
+            E=1.0,
+            G=1.0,
+            A=section.EA,
+            Ay=ga[0],
+            Az=ga[1],
+            Iy=section.EIy,
+            Iz=section.EIz,
+            J=section.GIt,
+            **({"mass": section.rho_A} if self.element == "force" else {}),
+        )
+
+    def _new(self, linear: bool = False) -> Any:
+        import xara
+
+        model = xara.Model(ndm=3, ndf=6, rotations="Iter")
+        for number, at in enumerate(self._points()):
+            model.node(number, tuple(at))
+            held = self._held(number)
+            model.fix(number, *(int(c in held) for c in COMPONENTS))
+        tags: dict[tuple[str, float], int] = {}
+        for number, e in enumerate(self.mesh.elements, start=1):
+            key = (e.member.section.name, e.member.length)
+            if key not in tags:
+                tags[key] = len(tags) + 1
+                self._section(model, tags[key], e.member.section, e.member.length)
+            transform = "Identity" if self.element != "force" else "Corotational02"
+            model.geomTransf(
+                "Linear" if linear and self.element == "force" else transform,
+                number,
+                tuple(float(row[2]) for row in e.R),
+            )
+            model.element(
+                "ForceFrame" if self.element == "force" else "ExactFrame",
+                number,
+                list(e.nodes),
+                section=tags[key],
+                transform=number,
+                shear=1,
+            )
+        return model
+
+    def _nodal(self, load: Load) -> dict[int, list[float]]:
+        """The forces and moments on nodes; loads along members are lumped by the shape functions
+        of the displacements."""
+        out: dict[int, list[float]] = {}
+
+        def add(number: int, vector: Any, factor: float, first: int) -> None:
+            target = out.setdefault(number, [0.0] * 6)
+            for i in range(3):
+                target[first + i] += factor * float(vector[i])
+
+        if load.kind in ("force", "moment"):
+            number = self.mesh.node_of[str(load.node)]
+            add(number, load.vector, 1.0, 0 if load.kind == "force" else 3)
+            return out
+        weights = {1: (1 / 2, 1 / 2), 2: (1 / 6, 4 / 6, 1 / 6), 3: (1 / 8, 3 / 8, 3 / 8, 1 / 8)}
+        for e in self.mesh.elements:
+            if e.member.name == load.member:
+                for node, weight in zip(e.nodes, weights[self.order]):
+                    add(node, load.vector, weight * e.length, 0)
+        return out
+
+    def _add_pattern(self, model: Any, tag: int, series: list[Any]) -> None:
+        model.timeSeries(*series)
+        model.pattern("Plain", tag, tag)
+
+    def _drive(self, model: Any, number: int, dof: int) -> None:
+        tag, series = self.drives[number, dof]
+        self._add_pattern(model, tag, series)
+        model.sp(number, dof + 1, 1.0, pattern=tag)
+
+    def _apply(self, model: Any, stations: Sequence[float], scale: float = 1.0) -> None:
+        """Each load and each driven component has a pattern of its own, with its values at the
+        stations, which are the times 1, 2, ...; without stations, the factor is 1."""
+        times = [float(k) for k in range(max(len(stations), 1) + 1)]
+        tag = 0
+
+        def series(values: list[float]) -> list[Any]:
+            return ["Path", tag, "-time", *times, "-values", 0.0, *(scale * v for v in values)]
+
+        for load in self.scene.loads:
+            tag += 1
+            values = [float(self.scene.load_factor(load, p)) for p in stations] or [1.0]
+            self._add_pattern(model, tag, series(values))
+            for number, vector in self._nodal(load).items():
+                model.load(number, *vector, pattern=tag)
+        for node in self.scene.nodes.values():
+            for component, motion in node.drive.items():
+                tag += 1
+                values = [float(self.scene.motion_value(motion, p)) for p in stations]
+                number, dof = self.mesh.node_of[node.name], COMPONENTS.index(component)
+                self.drives[number, dof] = tag, series(values)
+                self._drive(model, number, dof)
+
+    def _prepare(self, model: Any, algorithm: str = "Newton") -> None:
+        model.system("Umfpack")
+        model.numberer("RCM")
+        model.constraints("Transformation")
+        model.algorithm(algorithm)
+        model.test("NormDispIncr", self._tolerance(), 20, 0)
+        model.integrator("LoadControl", 1.0)
+        model.analysis("Static")
+
+    def solve(self, analysis: Analysis) -> Answer:
+        if analysis.kind == "static":
+            return self._static(analysis)
+        if analysis.kind == "compliance":
+            return self._compliance(analysis)
+        if analysis.kind == "linear":
+            return self._linear(analysis)
+        if analysis.kind == "modal":
+            return self._modal(analysis)
+        raise Refused(f"{analysis.kind}: this driver has no such analysis")
+
+    def _static(self, analysis: Analysis) -> Answer:
+        import numpy as np
+
+        model, self.model = self.model, None
+        if model is None:
+            model = self._new()
+        self._apply(model, analysis.stations)
+        self._prepare(model)
+        states: list[State] = []
+        turns = {name: np.zeros(3) for name in self.mesh.node_of}
+        iterations = 0
+        key = (self.scene.name, self.element, analysis.name)
+        step = 1.0 / _STEPS.get(key, self._least_steps(len(analysis.stations)))
+        for station in range(len(analysis.stations)):
+            time = float(station)
+            while time < station + 1 - 1e-9:
+                step = min(step, station + 1 - time)
+                model.integrator("LoadControl", step)
+                if model.analyze(1) != 0:
+                    step /= 2
+                    _STEPS[key] = max(_STEPS.get(key, 1), math.ceil(1 / step))
+                    if step < _LEAST_STEP:
+                        raise Failed(f"Newton's method fails at {time:.3g} of {len(analysis.stations)} stations")
+                    continue
+                time += step
+                iterations += int(model.numIter())
+                self._follow(model, turns)
+            states.append(self._state(model, turns))
+            if analysis.name in self.wanted:
+                states[-1].compliance = self._compliance_here(model, self.wanted[analysis.name])
+        self.kept[analysis.name] = states
+        return Answer(states=states, iterations=iterations)
+
+    def _follow(self, model: Any, turns: dict[str, Any]) -> None:
+        for name, last in turns.items():
+            rotation = _rotation_vector(model.nodeRotation(self.mesh.node_of[name]))
+            turns[name] = _unwrapped(rotation, last)
+
+    def _state(self, model: Any, turns: dict[str, Any]) -> State:
+        model.reactions()
+        numbers = self.mesh.node_of
+        return State(
+            u={
+                name: [float(x) for x in (*model.nodeDisp(number)[:3], *turns[name])]
+                for name, number in numbers.items()
+            },
+            reaction={
+                name: [float(x) for x in model.nodeReaction(number)]
+                for name, number in numbers.items()
+            },
+        )
+
+    def _compliance_here(self, model: Any, node: str) -> Any:
+        """The inverse of the tangent at the node. Its driven components are released for this:
+        their reactions act as loads."""
+        number = self.mesh.node_of[node]
+        driven = [dof for n, dof in self.drives if n == number]
+        if not driven:
+            return self._inverse_at(model, number)
+        model.reactions()
+        reaction = model.nodeReaction(number)
+        for dof in driven:
+            model.remove("loadPattern", self.drives[number, dof][0])
+        load = [float(reaction[d]) if d in driven else 0.0 for d in range(6)]
+        self._add_pattern(model, 1000, ["Constant", 1000])
+        model.load(number, *load, pattern=1000)
+        model.wipeAnalysis()
+        self._prepare(model)
+        model.integrator("LoadControl", 0.0)
+        if model.analyze(1) != 0:
+            raise Failed("the state with released components is not in equilibrium")
+        out = self._inverse_at(model, number)
+        model.remove("loadPattern", 1000)
+        for dof in driven:
+            self._drive(model, number, dof)
+        model.wipeAnalysis()
+        self._prepare(model)
+        return out
+
+    def _inverse_at(self, model: Any, number: int) -> Any:
+        import numpy as np
+
+        inverse = np.linalg.inv(np.array(model.getTangent(k=1.0)))
+        dofs = model.nodeDOFs(number)
+        return [
+            [float(inverse[row, column]) if row >= 0 <= column else 0.0 for column in dofs]
+            for row in dofs
+        ]
+
+    def _compliance(self, analysis: Analysis) -> Answer:
+        if analysis.about is not None:
+            return Answer(states=self.kept[analysis.about])
+        model = self._new()
+        self._prepare(model)
+        model.integrator("LoadControl", 0.0)
+        if model.analyze(1) != 0:
+            raise Failed("the undeformed state is not in equilibrium")
+        number = self.mesh.node_of[analysis.raw["node"]]
+        return Answer(states=[State(compliance=self._inverse_at(model, number))])
+
+    def _linear(self, analysis: Analysis) -> Answer:
+        """One step of the linear algorithm; reactions by central differences of small loads."""
+        import numpy as np
+
+        if any(node.drive for node in self.scene.nodes.values()):
+            raise Refused("linear: this driver has no driven nodes in linear analyses")
+
+        def solved(scale: float, algorithm: str) -> Any:
+            model = self._new()
+            self._apply(model, [], scale)
+            self._prepare(model, algorithm)
+            if model.analyze(1) != 0:
+                raise Failed("the linear equations cannot be solved")
+            model.reactions()
+            return model
+
+        numbers = self.mesh.node_of
+        whole = solved(1.0, "Linear")
+        u = {name: np.array(whole.nodeDisp(n)) for name, n in numbers.items()}
+        most = max(float(np.abs(v).max()) for v in u.values())
+        small = 1e-5 / most if most > 0 else 1.0
+        up, down = solved(small, "Newton"), solved(-small, "Newton")
+        reaction = {
+            name: (np.array(up.nodeReaction(n)) - np.array(down.nodeReaction(n))) / (2 * small)
+            for name, n in numbers.items()
+        }
+        return Answer(
+            states=[
+                State(
+                    u={name: v.tolist() for name, v in u.items()},
+                    reaction={name: v.tolist() for name, v in reaction.items()},
+                )
+            ],
+            iterations=1,
+        )
+
+    def _modal(self, analysis: Analysis) -> Answer:
+        if self.element != "force":
+            raise Refused("modal: ExactFrame has no mass matrix")
+        model = self._new()
+        count = min(self.unknowns - 1, 10)
+        squares = model.eigen("-fullGenLapack", count)
+        return Answer(frequencies=[math.sqrt(max(w, 0.0)) / (2 * math.pi) for w in squares])

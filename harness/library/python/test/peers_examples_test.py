@@ -1,0 +1,65 @@
+"""Numbers that the documentation or the tests of other programs state, through our drivers. Programs that are not installed are
+skipped by name."""
+import importlib
+import json
+import unittest
+
+from harness.library.python.test.module import ModuleTest, bw
+
+peers = None if bw is None else importlib.import_module("beamwork.peers")
+
+
+def cantilever(section, length, load, omit):
+    """Returns a cantilever along x with a load on its tip. section: constants with E and G."""
+    made = bw.Scene("cantilever")
+    constants = {key: value for key, value in section.items() if key not in ("E", "G")}
+    made.sections["bar"] = {"constants": constants, "young": section["E"], "shear_modulus": section["G"]}
+    made.nodes["root"], made.nodes["tip"] = {"at": [0, 0, 0], "hold": "all"}, {"at": [length, 0, 0]}
+    made.members["bar"] = {"from_": "root", "to": "tip", "section": "bar", "y": [0, 1, 0], "warping": "free"}
+    made.loads["load"] = {**load, "on": "tip"}
+    made.analyses["bent"] = {"static": {"stations": [1]}}
+    for c in ("ux", "uy", "uz"):
+        made.quantities[c] = {"displacement": {"analysis": "bent", "node": "tip", "component": c}, "unit": "m"}
+    made.omit = ["trapeze", "wagner_torque", *omit]
+    return made
+
+
+class Examples(ModuleTest):
+
+    def values(self, peer, element, n, made=None, **case):
+        if made is not None:
+            case["scene"] = self.folder / "scene.yaml"
+            made.write(case["scene"])
+        words = [word for key, value in case.items() if key != "case" for word in (f"--{key}", value)]
+        data = json.loads(self.answered("scene", *([case["case"]] if "case" in case else []), *words, "--format", "json").stdout)
+        found = peers.solve(data, peer, element, [n], rounds=1)
+        if found.missing:
+            self.skipTest(found.missing)
+        self.assertIn("values", found.runs[0], found.runs[0])
+        return list(found.runs[0]["values"].values())
+
+    def same(self, got, want, delta):
+        for a, b in zip(got, want, strict=True):
+            self.assertAlmostEqual(a, b, delta=delta)
+
+    def test_xara_force(self):
+        """Table 5 of Perez and Filippou, Int. J. Numer. Meth. Eng. 125 (2024), doi 10.1002/nme.7506, as in xara's examples."""
+        made = cantilever({"E": 10, "G": 10, "A": 1e7, "Iy": 1, "Iz": 1, "It": 1e7, "Ip": 2, "D": [50, 0, 0, 0, 50, 0, 0, 0, 1]}, 1,
+                          {"force": [0, 10, 0]}, [])
+        self.same(self.values("xara", "exact", 10, made), (-0.061013882, 0.31723971, 0), 1e-8)
+        self.same(self.values("xara", "exact_4", 10, made), (-0.061315634, 0.31781389, 0), 1e-8)
+
+    def test_xara_bend(self):
+        """Table 8 there, whose steps differ from ours: the results of this element depend on the steps."""
+        got = self.values("xara", "exact", 8, case="bend_45", set="torsion=polar")
+        self.same(got, (-23.477869, -13.487488, 53.369390), 3e-5)
+
+    def test_kratos(self):
+        """Cantilever under a tip moment: test_patch_test_cr_beam.py of the StructuralMechanicsApplication."""
+        made = cantilever({"E": 210e9, "G": 210e9 / 2.6, "A": 0.01, "Iy": 1e-5, "Iz": 1e-5, "It": 1e-5, "Ip": 2e-5}, 1,
+                          {"moment": [0, 0, 150000]}, ["shear"])
+        self.same(self.values("kratos", "corotational", 20, made), (-0.0008495924536316574, 0.03569912736309147, 0), 1e-9)
+
+
+if __name__ == "__main__":
+    unittest.main()
