@@ -118,12 +118,13 @@ static status measure(const formulation *chosen, softness *out, fault *f)
         const double tip = C[t * SIX + t] * L * L / 3, cross = planes[k].sign * C[v * SIX + t];
         out->bend[k] = C[t * SIX + t] / L;
         out->shear[k] = shear_of(chosen, &c, k);
-        if (!(fabs(C[v * SIX + v] / (tip + out->shear[k] * L) - 1) < rounding &&
-              fabs(cross / (out->bend[k] * L * L / 2) - 1) < rounding))
+        const double shift = C[v * SIX + v] / (tip + out->shear[k] * L) - 1,
+                     slope = cross / (out->bend[k] * L * L / 2) - 1;
+        if (!(fabs(shift) < rounding && fabs(slope) < rounding))
             return fault_set(f, STATUS_REFUSED,
-                             "under a force at its end, one element is not exact (along %c: "
-                             "relative error %.2g)",
-                             "yz"[k], C[v * SIX + v] / (tip + out->shear[k] * L) - 1);
+                             "one element is not exact under a force along %c at its end "
+                             "(relative errors: displacement %.2g, rotation %.2g)",
+                             "yz"[k], shift, slope);
     }
     return STATUS_OK;
 }
@@ -216,8 +217,10 @@ static void compare(const formulation *chosen, support of, const softness *soft,
     fault f = {""};
     const ends right = exact_ends(of, soft, q);
     if (found_ends(chosen, of, q, &found, &f) != STATUS_OK) {
-        checks_require(one, 0, "one element %s under distributed loads: %s", support_name[of],
-                       f.text);
+        checks_require(one, 0,
+                       "distributed loads: one element %s has no solution (%s); correct the "
+                       "functions of the element",
+                       support_name[of], f.text);
         return;
     }
     for (int i = 0; i < 2 * SIX; i++) {
@@ -226,12 +229,13 @@ static void compare(const formulation *chosen, support of, const softness *soft,
         char words[TEST_ELEMENT_WORDS];
         checks_deviation(
             one, fabs(a - b) / size_of(soft, c, reaction),
-            "distributed loads: one element %s gives %.9g instead of %.9g as %s%s; if 'measured' "
-            "names a stiffness, correct that stiffness first; otherwise correct the strains, which "
-            "must use r and R of node_state, with the x axis along the undeformed element",
-            support_name[of], a, b, reaction ? "reaction to the " : "",
+            "distributed loads: in one element %s, the %s%s is %.9g instead of %.9g; if a check of "
+            "'states' fails, correct the stiffness that it names; otherwise compute the strains "
+            "from r and R of node_state, with the x axis along the undeformed element",
+            support_name[of], reaction ? "reaction to the " : "",
             test_element_coordinate(&(const test_element){.nodes = 2}, NODE_COORDINATES * node + c,
-                                    words));
+                                    words),
+            a, b);
     }
 }
 
@@ -325,24 +329,24 @@ static void check_taken(const test_element *s, check_results *c)
     test_element_rigid_motion(s, turn, bent, x);
     check_result *derives = checks_open(
                      c, "K is the derivative of the forces under a distributed load", 1e-7),
-                 *sums = checks_open(c, "the forces add up to the distributed load", 1e-9);
+                 *sums = checks_open(c, "the nodal forces add up to the distributed load", 1e-9);
     test_element_rest(s, inner);
     status outcome = forces_under(&of, x, F, K);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
         outcome = stencil_first(forces_of, &of, X, a, found[a]) ? STATUS_NOT_CONVERGED : STATUS_OK;
     checks_require(derives, outcome == STATUS_OK,
-                   "along: the element cannot evaluate a state under a small load%s", s->words);
+                   "along: the status under a small load is '%s'; correct 'along' or 'update'%s",
+                   status_name(outcome), s->words);
     for (int a = 0; a < X && outcome == STATUS_OK; a++)
         for (int b = 0; b < X; b++) {
             const double ua = test_element_unit(s, a), ub = test_element_unit(s, b),
                          change = (found[a][b] * ub + found[b][a] * ua) * FINER / 2,
                          scale = sqrt(fabs(K[a * (X + 1)] * K[b * (X + 1)]));
-            checks_deviation(derives,
-                             fabs(K[a * X + b] - change / (ua * ub)) / fmax(scale, size * l * l),
-                             "along: the derivative of force %d with respect to coordinate %d is "
-                             "%.6g, but finite "
-                             "differences give %.6g%s",
-                             a + 1, b + 1, K[a * X + b], change / (ua * ub), s->words);
+            checks_deviation(
+                derives, fabs(K[a * X + b] - change / (ua * ub)) / fmax(scale, size * l * l),
+                "along: the derivative of nodal force %d with respect to coordinate %d is %.6g, "
+                "but finite differences give %.6g; correct C, mixed, H or second%s",
+                a + 1, b + 1, K[a * X + b], change / (ua * ub), s->words);
         }
     double point[ELEMENT_ALONG_POINTS], weight[ELEMENT_ALONG_POINTS];
     quadrature_points(ELEMENT_ALONG_POINTS, point, weight);
@@ -351,8 +355,9 @@ static void check_taken(const test_element *s, check_results *c)
         for (int j = 0; j < ELEMENT_ALONG_POINTS; j++)
             load += l * weight[j] * of.q[3 * j + i];
         checks_deviation(sums, fabs(F[i] + F[NODE_COORDINATES + i] + load) / (size * l),
-                         "along: the sum of the nodal forces is %.6g for a load of %.6g%s",
-                         -F[i] - F[NODE_COORDINATES + i], load, s->words);
+                         "along: the nodal forces along %c add up to %.6g instead of the load "
+                         "%.6g; correct 'along'%s",
+                         "xyz"[i], -F[i] - F[NODE_COORDINATES + i], load, s->words);
     }
 }
 
@@ -363,14 +368,16 @@ void checks_along(const formulation *chosen, check_results *out)
     static const struct {
         const char *name;
         double q[SIX];
-    } load[] = {{"a uniform force along one element, and a torque", {force, force, force, moment}},
-                {"a uniform moment along one element", {0, 0, 0, 0, moment, moment}}};
+    } load[] = {
+        {"uniformly distributed force and torque on one element", {force, force, force, moment}},
+        {"uniformly distributed bending moments on one element", {0, 0, 0, 0, moment, moment}}};
     softness soft = {0};
     fault f = {""};
     checks_current(out, "one element as a cantilever");
     const status outcome =
         chosen->type->line != NULL
-            ? fault_set(&f, STATUS_REFUSED, "the element has its own motion between its nodes")
+            ? fault_set(&f, STATUS_REFUSED,
+                        "the element defines its motion between the nodes with 'line'")
             : measure(chosen, &soft, &f);
     for (size_t i = 0; i < sizeof load / sizeof load[0]; i++) {
         if (outcome != STATUS_OK) {

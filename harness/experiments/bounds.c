@@ -47,16 +47,17 @@ static void look(guarded *g, int must, const test_element *s, check_results *c)
     check_result *beside = checks_open(c, "no memory outside an output changes", 0),
                  *filled = checks_open(c, "outputs are filled completely", 0);
     for (int i = 0; i < GUARD; i++) {
-        checks_require(beside, untouched(&g->words[GUARD - 1 - i]),
-                       "%s: entry %d, before the first entry, is written%s", g->name, -i - 1 + 1,
-                       s->words);
-        checks_require(beside, untouched(&g->words[GUARD + g->size + i]),
-                       "%s: there are %d entries, but entry %d is written%s", g->name, g->size,
-                       g->size + i + 1, s->words);
+        const int outside[] = {-i - 1, g->size + i};
+        for (int k = 0; k < 2; k++)
+            checks_require(beside, untouched(&g->words[GUARD + outside[k]]),
+                           "%s: entry %d is written, but the output has %d entries, numbered from "
+                           "1; write only these%s",
+                           g->name, outside[k] + 1, g->size, s->words);
     }
     for (int i = 0; i < g->size && must; i++)
         checks_require(filled, !untouched(&g->words[GUARD + i]),
-                       "%s: entry %d of %d is never written%s", g->name, i + 1, g->size, s->words);
+                       "%s: entry %d of %d is never written; fill the whole output%s", g->name,
+                       i + 1, g->size, s->words);
     free(g->words);
     g->words = NULL;
 }
@@ -239,12 +240,14 @@ static void check(const test_element *s, check_results *c)
     in_time(s, x, c);
     forces(s, x, c);
     data(s, c);
+    checks_require(inputs, memcmp(given, x, (size_t)s->nodes * sizeof *x) == 0,
+                   "strain, inertia: the element changes the states of the nodes, which are "
+                   "inputs; write only to outputs%s",
+                   s->words);
     checks_require(
-        inputs, memcmp(given, x, (size_t)s->nodes * sizeof *x) == 0,
-        "strain, inertia: the element changes the states of the nodes, which are read-only%s",
+        inputs, memcmp(kept, e, (size_t)s->strains * sizeof *e) == 0,
+        "stress: the element changes the strains, which are inputs; write only to outputs%s",
         s->words);
-    checks_require(inputs, memcmp(kept, e, (size_t)s->strains * sizeof *e) == 0,
-                   "stress: the element changes the strains, which are read-only%s", s->words);
 }
 
 void checks_bounds(const formulation *chosen, check_results *out)
@@ -319,8 +322,7 @@ static void same(const call_account *a, const call_account *b, const char *after
     const char *other = apart(a, b);
     checks_require(
         one, other == NULL,
-        "%s differs after %s; do not store anything between calls in static variables or "
-        "in 'data'%s",
+        "%s differs %s; do not store anything between calls in static variables or in 'data'%s",
         other, after, s->words);
 }
 
@@ -336,9 +338,10 @@ static void other_element(const test_element *s, const call_account *before, con
     what.length = longer;
     if (test_element_make(&what, &other, &f) == STATUS_OK) {
         record_calls(&other, x, &between);
-        same(first, &between, "calls of another element, compared with a new process", s, one);
+        same(first, &between, "after calls of another element, compared with a new process", s,
+             one);
         record_calls(s, x, &after);
-        same(before, &after, "calls of another element", s, one);
+        same(before, &after, "after calls of another element", s, one);
     }
     test_element_free(&other);
 }
@@ -365,11 +368,13 @@ static int in_its_place(const test_element *s, const call_account *before, const
     const int again = s->type.prepare(&s->request, s->data, &f) == STATUS_OK;
     if (!again) {
         memcpy(s->data, kept, s->size);
-        checks_require(one, 0, "prepare: rejects the same element when it is prepared again: %s%s",
+        checks_require(one, 0,
+                       "prepare: an accepted element is rejected when it is prepared again (%s); "
+                       "do not depend on earlier calls%s",
                        f.text, s->words);
     } else {
         record_calls(s, x, &after);
-        same(before, &after, "another element was in its memory", s, one);
+        same(before, &after, "if another element was in its memory before", s, one);
     }
     free(kept);
     return again;
@@ -398,7 +403,11 @@ static void alone(const test_element *s, const call_account *before, const node_
         memcpy(a.C, before->C, sizeof a.C);
         a.energy = before->energy;
     }
-    same(before, &a, "a call for that output alone", s, one);
+    const char *other = apart(before, &a);
+    checks_require(one, other == NULL,
+                   "%s differs if it is requested alone; compute it independently of the other "
+                   "outputs%s",
+                   other, s->words);
 }
 
 /* Checks that the energy of an element with inner unknowns does not depend on the path: the same
@@ -415,10 +424,11 @@ static void two_ways(const test_element *s, const call_account *before, const no
         return;
     s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
     test_element_converged(s, e, inner, &(stress_output){.energy = &energy});
-    checks_deviation(one, fabs(energy / before->energy - 1),
-                     "stress, update: the same strains give an energy of %.9g J, but %.9g J when "
-                     "evaluated after other strains; the energy must not depend on the path%s",
-                     before->energy, energy, s->words);
+    checks_deviation(
+        one, fabs(energy / before->energy - 1),
+        "stress, update: the same strains give an energy of %.9g J, but %.9g J when evaluated "
+        "after other strains; let 'update' find the same internal unknowns%s",
+        before->energy, energy, s->words);
 }
 
 static void make_longer(const test_element *s, const node_state x[], call_account *out)
@@ -465,10 +475,10 @@ static void stateless_check(const test_element *s, check_results *c)
     checks_current(c, "the same state again%s", s->words);
     record_calls(s, x, &before);
     record_calls(s, x, &after);
-    same(&before, &after, "the same call", s, one);
+    same(&before, &after, "in a second, equal call", s, one);
     record_calls(s, y, &between);
     record_calls(s, x, &after);
-    same(&before, &after, "calls of another state", s, one);
+    same(&before, &after, "after calls for another state", s, one);
     checks_current(c, "another element between%s", s->words);
     other_element(s, &before, x, &first, one);
     if (!in_its_place(s, &before, x, one))

@@ -136,7 +136,7 @@ static void stop_late(tester *t, int time_limit)
 static void pass_over(certificate *of, int part)
 {
     char why[CHECK_TEXT];
-    snprintf(why, sizeof why, "not checked: '%s' exceeded the time limit", of->late);
+    snprintf(why, sizeof why, "not checked, because '%s' exceeded the time limit", of->late);
     checks_not_made(&of->part[part].check_results, certificate_part_name(part), why);
 }
 
@@ -202,7 +202,7 @@ status certificate_find(const certificate_request *r, certificate **out, fault *
                             MAP_SHARED | MAP_ANONYMOUS, -1, 0);
     *out = NULL;
     if (all == MAP_FAILED)
-        return fault_set(f, STATUS_FAULT, "out of memory for the certificates");
+        return fault_set(f, STATUS_FAULT, "out of memory for the element reports");
     *out = all;
     for (int i = 0; i < r->count; i++)
         all[i].chosen = r->chosen[i];
@@ -392,8 +392,8 @@ static void write_one(FILE *to, screen look, const certificate *c, int verbose, 
         if (!quiet || checks_outcome(&c->part[i].check_results) == CHECK_FAILED)
             write_family(to, look, c, i, verbose);
     if (!quiet)
-        fputs("measured: errors over elements (states: 1 and 4 unequal elements) with orders, and "
-              "over thickness\n",
+        fputs("measured: errors over numbers of elements (states: 1, and 4 of unequal length) and "
+              "over thicknesses\n",
               to);
     for (int i = CHECKS_FAMILIES; i < CERTIFICATE_PARTS; i++)
         if (!quiet)

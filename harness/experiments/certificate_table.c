@@ -323,7 +323,8 @@ static void write_one(FILE *to, int latex, const certificate *c)
     char words[CELL];
     write_about(to, latex, c);
     snprintf(words, sizeof words,
-             "interface requirements %s, %d checks on %d numbers (beamwork %s, SHA-256 %.12s)",
+             "interface requirements %s, %d checks on %d numbers (beamwork %s, SHA-256 of the "
+             "element %.12s)",
              certificate_holds(c) ? "satisfied" : "violated",
              certificate_counted(c, CHECK_PASSED) + certificate_counted(c, CHECK_FAILED),
              certificate_compared(c), environment_version(), c->hash);

@@ -99,13 +99,13 @@ static void theories(const element_type *t, check_result *one)
         ((t->offers & FEATURE_ENGESSER) != 0) == ((t->shear_theories & SHEAR_ENGESSER) != 0) &&
             ((t->offers & FEATURE_HARINGX) != 0) == ((t->shear_theories & SHEAR_HARINGX) != 0),
         "shear_theories: FEATURE_ENGESSER and SHEAR_ENGESSER, or FEATURE_HARINGX and "
-        "SHEAR_HARINGX, are not declared together; declare both or neither");
+        "SHEAR_HARINGX, are not declared together; declare both of a pair or neither");
     checks_require(one, !own || t->shear_theories == SHEAR_OWN,
                    "shear_theories: SHEAR_OWN excludes other theories; set only SHEAR_OWN");
-    checks_require(one, own == (t->own_theory != NULL),
-                   own ? "own_theory: describe SHEAR_OWN and its source in one line"
-                       : "own_theory: it is given, but shear_theories has no SHEAR_OWN; remove "
-                         "own_theory, or set SHEAR_OWN");
+    checks_require(
+        one, own == (t->own_theory != NULL),
+        own ? "own_theory: describe SHEAR_OWN and its source in one line"
+            : "own_theory: shear_theories has no SHEAR_OWN; remove own_theory, or set SHEAR_OWN");
 }
 
 static void words(const element_type *t, check_result *one)
@@ -120,17 +120,18 @@ static void words(const element_type *t, check_result *one)
     checks_require(one, (t->lacks != 0) == (t->lacks_by != NULL),
                    t->lacks != 0
                        ? "lacks_by: name the equations that omit the physics declared in 'lacks'"
-                       : "lacks_by: it is given, but 'lacks' is empty; remove lacks_by, or declare "
-                         "the omitted physics in 'lacks'");
+                       : "lacks_by: 'lacks' is empty; remove lacks_by, or declare the omitted "
+                         "physics in 'lacks'");
     checks_require(one, !(t->lacks & LACKS_SHEAR_Y) || t->offers & FEATURE_SHEAR,
                    "lacks: LACKS_SHEAR_Y is only for types that support shear; remove it");
-    checks_require(one, !(t->offers & FEATURE_ROTARY_INERTIA) || t->offers & FEATURE_MASS,
-                   "offers: FEATURE_ROTARY_INERTIA requires FEATURE_MASS");
-    checks_require(one, ((t->limits & LIMIT_TENSION) != 0) == (t->tension != NULL),
-                   "tension: it requires LIMIT_TENSION; give both or neither");
     checks_require(
-        one, !t->spreads || (t->inertia != NULL && t->offers & FEATURE_MASS),
-        "spreads: it requires 'inertia' and FEATURE_MASS; add them, or remove 'spreads'");
+        one, !(t->offers & FEATURE_ROTARY_INERTIA) || t->offers & FEATURE_MASS,
+        "offers: FEATURE_ROTARY_INERTIA requires FEATURE_MASS; declare both, or only FEATURE_MASS");
+    checks_require(
+        one, ((t->limits & LIMIT_TENSION) != 0) == (t->tension != NULL),
+        "tension: this member and LIMIT_TENSION require each other; give both or neither");
+    checks_require(one, !t->spreads || (t->inertia != NULL && t->offers & FEATURE_MASS),
+                   "spreads: 'inertia' or FEATURE_MASS is missing; give both, or remove 'spreads'");
 }
 
 static void orders(const formulation *chosen, check_result *one)
@@ -139,11 +140,10 @@ static void orders(const formulation *chosen, check_result *one)
     for (int a = 0; a < ELEMENT_ANALYSES; a++) {
         const element_order order =
             element_order_in(chosen->type, (element_analysis)a, chosen->option);
-        checks_require(
-            one, order.least >= 1 && order.highest >= order.least,
-            "order: %d to %d in %s; give a lowest order of at least 1 and a highest order "
-            "that is not smaller",
-            order.least, order.highest, analysis[a]);
+        checks_require(one, order.least >= 1 && order.highest >= order.least,
+                       "order: the orders in %s are %d (lowest) and %d (highest); give a lowest "
+                       "order of at least 1 and a highest order that is not smaller",
+                       analysis[a], order.least, order.highest);
     }
 }
 
@@ -159,23 +159,24 @@ static void sizes(const formulation *chosen, check_result *one)
                    "memory: internal unknowns (%d) require memory for 'update'; set 'memory'",
                    inner);
     checks_require(one, inner >= 0 && memory >= 0,
-                   "inner, memory: the values are %d and %d; neither may be negative", inner,
-                   memory);
+                   "inner, memory: the values are %d and %d; give values that are not negative",
+                   inner, memory);
 }
 
 static void options(const element_type *t, check_result *one)
 {
     const int count = parameter_count(t->options);
     checks_require(one, count <= ELEMENT_MAX_OPTIONS,
-                   "options: there are %d options, but at most %d are allowed", count,
+                   "options: there are %d options, but at most %d are allowed; remove some", count,
                    ELEMENT_MAX_OPTIONS);
     for (int i = 0; i < count; i++) {
         const parameter_type *o = parameter_at(t->options, i);
         const int choices = parameter_choices(o);
-        checks_require(one,
-                       choices > 0 ? o->value >= 0 && o->value < choices
-                                   : o->value >= o->min && o->value <= o->max,
-                       "options: the default of '%s' is outside its range", o->name);
+        checks_require(
+            one,
+            choices > 0 ? o->value >= 0 && o->value < choices
+                        : o->value >= o->min && o->value <= o->max,
+            "options: the default of '%s' is outside its range; give a default within it", o->name);
         checks_require(one, o->summary != NULL && o->summary[0] != '\0',
                        "options: describe '%s' in one line", o->name);
     }

@@ -7,22 +7,24 @@
 
 const checks_family checks_families[CHECKS_FAMILIES] = {
     {"declared", "the declarations are consistent", checks_declared},
-    {"features", "each declared feature works alone, in subsets and in the cases", checks_features},
-    {"derivatives", "J and H are the derivatives of the strains", checks_derivatives},
-    {"energy", "stress, C and G derive from the energy, C and G are symmetric", checks_energy},
+    {"features", "each declared feature works alone, in subsets and in the built-in cases",
+     checks_features},
+    {"derivatives", "J and H are the first and second derivatives of the strains",
+     checks_derivatives},
+    {"energy", "stress and C derive from the energy; C and G are symmetric", checks_energy},
     {"force", "force and stiffness derive from the energy", checks_force},
     {"motion", "rigid motion, node order and units do not change the results", checks_motion},
-    {"stateless", "equal calls give bit-for-bit equal results, whatever came before",
+    {"stateless", "equal calls give bit-for-bit equal results, whatever calls precede them",
      checks_stateless},
     {"many", "many elements at once give the same results as each element alone", checks_many},
     {"bounds", "outputs are filled completely; no memory outside them changes", checks_bounds},
     {"unsound", "NaN and Inf are reported and not suppressed", checks_nonfinite},
-    {"mass", "the mass matrix is positive definite and has the mass of the beam", checks_mass},
-    {"along", "loads along one element are as exact as forces at its nodes", checks_along},
+    {"mass", "M is positive definite and contains the mass of the beam", checks_mass},
+    {"along", "distributed loads on one element are as exact as forces at its nodes", checks_along},
     {"rotating", "centrifugal and gyroscopic terms derive from the kinetic energy",
      checks_rotating},
     {"in_time", "inertia forces during a motion derive from the kinetic energy", checks_in_time},
-    {"history", "committing the history does not change the strains", checks_history},
+    {"history", "committing the history changes neither strains nor forces", checks_history},
 };
 
 /* Checks of invariance under rigid motions, under reversal of the node order, and under a change of
@@ -55,8 +57,9 @@ static void rest(const test_element *s, check_result *one)
     s->type.strain(s->data, x, &(strain_output){.e = e, .history = s->history});
     for (int i = 0; i < s->strains; i++)
         checks_deviation(one, fabs(e[i]) / s->request.length,
-                         "strain: strain %d of the undeformed element is %.6g m, not zero%s", i + 1,
-                         e[i], s->words);
+                         "strain: strain %d of the undeformed element is %.6g m; define it as zero "
+                         "in that state%s",
+                         i + 1, e[i], s->words);
 }
 
 /* Computes the energy or, if there is none, the sum of the absolute stresses, times the length. */
@@ -102,7 +105,7 @@ static void node_order(const test_element *s, double size, check_result *one)
     checks_deviation(
         one, checks_relative(fabs(back - there), fabs(there)),
         "strain, stress: if its nodes are exchanged, the element has an energy of %.9g "
-        "J instead of %.9g J; correct the functions, or declare LIMIT_ORDER_DEPENDENT%s",
+        "J instead of %.9g J; correct strain or stress, or declare LIMIT_ORDER_DEPENDENT%s",
         back, there, s->words);
 }
 
@@ -112,10 +115,10 @@ static void has_energy(const test_element *s, check_result *one)
     node_state x[ELEMENT_MAX_NODES];
     test_element_state(s, 0.05, 3, x);
     energy_of(s, x, &energy);
-    checks_require(one, energy != 0,
-                   "strain, stress: the deformed element has no energy, because all its strains or "
-                   "all its stresses are zero%s",
-                   s->words);
+    checks_require(
+        one, energy != 0,
+        "strain, stress: the deformed element has %s of zero; correct strain or stress%s",
+        energy_word(s), s->words);
 }
 
 /* Checks the same element in m, mm and um: the energies in joules must be equal. */
@@ -183,13 +186,13 @@ void checks_motion(const formulation *chosen, check_results *out)
                         "declares LIMIT_ORDER_DEPENDENT");
     else if (element_history(chosen->type, chosen->option) > 0)
         checks_not_made(out, "the energy does not change if the nodes are exchanged",
-                        "declares a history, which depends on the order of the nodes");
+                        "the history of the element depends on the order of the nodes");
     if (chosen->type->limits & LIMIT_NOT_OBJECTIVE)
         checks_not_made(out, "rigid motion changes no strain",
                         "declares LIMIT_NOT_OBJECTIVE; see 'paths'");
     else if (chosen->type->force != NULL && element_history(chosen->type, chosen->option) > 0)
         checks_not_made(out, "rigid motion changes no strain",
-                        "the element provides forces with a history; see 'paths'");
+                        "the element provides forces with a history, which 'paths' checks");
 }
 
 /* Checks of states with NaN or Inf, which occur in diverging iterations. The element must return an

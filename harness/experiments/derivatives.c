@@ -44,12 +44,11 @@ static void compare_J(const test_element *s, int strain, int c, double given, do
 {
     char where[TEST_ELEMENT_WORDS];
     const double unit = test_element_unit(s, c);
-    checks_deviation(
-        one, size > 0 ? fabs(given - found) / size : fabs(given - found),
-        "J: the derivative of strain %d with respect to coordinate %d (%s) is %.6g, but "
-        "finite differences give %.6g%s",
-        strain + 1, c + 1, test_element_coordinate(s, c, where), given / unit, found / unit,
-        s->words);
+    checks_deviation(one, size > 0 ? fabs(given - found) / size : fabs(given - found),
+                     "J: the derivative of strain %d with respect to coordinate %d (%s) is %.6g, "
+                     "but finite differences give %.6g; correct J or the strain%s",
+                     strain + 1, c + 1, test_element_coordinate(s, c, where), given / unit,
+                     found / unit, s->words);
 }
 
 static void check_J(const test_element *s, const node_state x[], check_result *one)
@@ -85,13 +84,12 @@ static void compare_H(const test_element *s, int strain, const double H[],
             const double found =
                 (change[a][strain * n + b] * ub + change[b][strain * n + a] * ua) / 2;
             const double given = H[a * n + b] * ua * ub;
-            checks_deviation(one, checks_relative(fabs(given - found), size),
-                             "H: the second derivative of strain %d with respect to coordinates %d "
-                             "and %d (%s, %s) is %.6g, but finite differences of J give %.6g, a "
-                             "relative difference of %.1e%s",
-                             strain + 1, a + 1, b + 1, test_element_coordinate(s, a, first),
-                             test_element_coordinate(s, b, other), H[a * n + b], found / (ua * ub),
-                             checks_relative(fabs(given - found), size), s->words);
+            checks_deviation(
+                one, checks_relative(fabs(given - found), size),
+                "H: the second derivative of strain %d with respect to coordinates %d and %d (%s, "
+                "%s) is %.6g, but finite differences of J give %.6g; correct H%s",
+                strain + 1, a + 1, b + 1, test_element_coordinate(s, a, first),
+                test_element_coordinate(s, b, other), H[a * n + b], found / (ua * ub), s->words);
         }
 }
 
@@ -141,7 +139,7 @@ void checks_derivatives(const formulation *chosen, check_results *out)
 {
     const element_type *t = chosen->type;
     if (t->force != NULL) {
-        checks_not_made(out, J_name, "the element provides forces and has no strains");
+        checks_not_made(out, J_name, "the element provides forces instead of strains");
         return;
     }
     if (t->leaves & LEAVES_J)
@@ -160,8 +158,7 @@ void checks_derivatives(const formulation *chosen, check_results *out)
 enum { MANY_M = TEST_ELEMENT_STRAINS, MANY_N = TEST_ELEMENT_COORDINATES, MANY = 5 };
 
 static const double longer = 1.7 * 0.2385; /* [m] length of an element of the second kind */
-static const char *const check_name =
-    "results for many elements at once equal those for each alone";
+static const char *const check_name = "many elements at once give the same results as each alone";
 
 /* Results of one element, without those that would be computed by finite differences. */
 typedef struct many_answers {
@@ -279,11 +276,10 @@ static void compare_stresses(const many_batch *b, int k, check_result *one)
     const int m = b->of[k]->strains;
     const double sigma = many_largest(m, a->sigma), C = many_largest(m * m, a->C);
     char what[TEST_ELEMENT_WORDS];
-    checks_require(
-        one, a->outcome == t->outcome,
-        "many at once: the status of element %d of %d is '%s', but '%s' if the element is "
-        "evaluated alone%s",
-        k + 1, MANY, status_name(t->outcome), status_name(a->outcome), b->of[k]->words);
+    checks_require(one, a->outcome == t->outcome,
+                   "many at once: the status of element %d of %d is '%s', but '%s' if the element "
+                   "is evaluated alone; return the same status%s",
+                   k + 1, MANY, status_name(t->outcome), status_name(a->outcome), b->of[k]->words);
     if (a->outcome != STATUS_OK || t->outcome != STATUS_OK)
         return;
     differ(b, k, "energies", "energy", a->energy, t->energy, fabs(a->energy), one);

@@ -87,15 +87,14 @@ static void check_stiffness(const energy_place *at, const double C[], check_resu
         const int outcome = stencil_first(stress_at, at, m, j, column);
         for (int i = 0; i < m; i++) {
             const double size = size_of(s, C, i, j), found = column[i] / unit_of(s);
-            checks_deviation(derives,
-                             outcome == 0 ? checks_relative(fabs(C[i * m + j] - found), size) : NAN,
-                             "C: the derivative of sigma %d with respect to strain %d is %.6g, but "
-                             "finite differences of "
-                             "the stress give %.6g%s",
-                             i + 1, j + 1, C[i * m + j], found, s->words);
+            checks_deviation(
+                derives, outcome == 0 ? checks_relative(fabs(C[i * m + j] - found), size) : NAN,
+                "C: the derivative of sigma %d with respect to strain %d is %.6g, but finite "
+                "differences of the stress give %.6g; correct C or the stress%s",
+                i + 1, j + 1, C[i * m + j], found, s->words);
             checks_deviation(symmetric, checks_relative(fabs(C[i * m + j] - C[j * m + i]), size),
-                             "C: entry %d, %d is %.6g, but entry %d, %d is %.6g; C is symmetric if "
-                             "the stress derives from an energy%s",
+                             "C: entry %d, %d is %.6g, but entry %d, %d is %.6g; derive the stress "
+                             "from an energy, which makes C symmetric%s",
                              i + 1, j + 1, C[i * m + j], j + 1, i + 1, C[j * m + i], s->words);
         }
     }
@@ -118,8 +117,9 @@ static void check_rest(const test_element *s, check_results *c)
                      energy, s->words);
     for (int i = 0; i < s->strains; i++)
         checks_deviation(one, fabs(sigma[i]) / (size_of(s, C, i, i) * s->request.length),
-                         "stress: sigma %d of the undeformed element is %.3g N, not zero%s", i + 1,
-                         sigma[i], s->words);
+                         "stress: sigma %d of the undeformed element is %.3g N; define it as zero "
+                         "in that state%s",
+                         i + 1, sigma[i], s->words);
 }
 
 /* Checks that G is symmetric and linear in the prestress. */
@@ -153,11 +153,10 @@ static void check_geometric(const test_element *s, const double C[], check_resul
                 "geometric: entry %d, %d of G is %.6g, but entry %d, %d is %.6g; make G "
                 "symmetric%s",
                 i + 1, j + 1, Ga[ij], j + 1, i + 1, Ga[ji], s->words);
-            checks_deviation(
-                linear, checks_relative(fabs(Gs[ij] - 2 * Ga[ij] + 3 * Gb[ij]), size),
-                "geometric: entry %d, %d of G for the sum of two prestresses is not the "
-                "sum of the entries for each prestress%s",
-                i + 1, j + 1, s->words);
+            checks_deviation(linear, checks_relative(fabs(Gs[ij] - 2 * Ga[ij] + 3 * Gb[ij]), size),
+                             "geometric: entry %d, %d of G for the prestress 2 a - 3 b is %.6g, "
+                             "but 2 G(a) - 3 G(b) is %.6g; make G linear in the prestress%s",
+                             i + 1, j + 1, Gs[ij], 2 * Ga[ij] - 3 * Gb[ij], s->words);
         }
 }
 
@@ -175,13 +174,14 @@ static void check(const test_element *s, check_results *c)
         s, e, inner,
         &(stress_output){.energy = &energy, .sigma = sigma, .C = C, .residual = &residual});
     checks_require(checks_open(c, "moderate strains have stresses", 0), outcome == STATUS_OK,
-                   "stress: strains of a few hundredths of the length end with status '%s'%s",
+                   "stress: strains of a few hundredths of the length give the status '%s'; "
+                   "compute their stresses%s",
                    status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;
     checks_deviation(checks_open(c, "the internal equations are solved", 1e-9), fabs(residual),
-                     "update: after %d corrections the residual of the internal unknowns is %.1e; "
-                     "check 'memory' and 'update'%s",
+                     "update: after %d corrections, the residual of the internal unknowns is %.1e; "
+                     "correct 'memory' or 'update'%s",
                      30, residual, s->words);
     check_gradient(&at, sigma, C, c);
     check_stiffness(&at, C, c);
@@ -194,7 +194,7 @@ void checks_energy(const formulation *chosen, check_results *out)
 {
     if (chosen->type->force != NULL) {
         checks_not_made(out, "stress is the gradient of the energy",
-                        "the element provides forces and has no stresses");
+                        "the element provides forces instead of stresses");
         return;
     }
     test_elements_each(chosen, out, check);
@@ -239,11 +239,11 @@ static void check_force(const test_element_stencil *at, const double force[], ch
         const double unit = test_element_unit(s, i);
         double found = NAN;
         stencil_first(potential_at, at, 1, i, &found);
-        checks_deviation(one, checks_relative(fabs(force[i] * unit + found), size),
-                         "inertia: the centrifugal force in coordinate %d (%s) is %.6g, but minus "
-                         "the derivative of the potential is %.6g%s",
-                         i + 1, test_element_coordinate(s, i, where), force[i], -found / unit,
-                         s->words);
+        checks_deviation(
+            one, checks_relative(fabs(force[i] * unit + found), size),
+            "inertia: the centrifugal force in coordinate %d (%s) is %.6g, but minus the "
+            "derivative of the potential is %.6g; correct the force or the potential%s",
+            i + 1, test_element_coordinate(s, i, where), force[i], -found / unit, s->words);
     }
 }
 
@@ -266,16 +266,15 @@ static void rotating_check_stiffness(const test_element_stencil *at, const doubl
             const double ui = test_element_unit(s, i), uj = test_element_unit(s, j),
                          a = stiffness[i * n + j], b = stiffness[j * n + i],
                          found = -(column[j][i] * ui + column[i][j] * uj) / 2;
-            checks_deviation(
-                derives, checks_relative(fabs(a * ui * uj - found), size),
-                "inertia: entry %d, %d (%s, %s) of N is %.6g, but finite differences of "
-                "the centrifugal force give %.6g%s",
-                i + 1, j + 1, test_element_coordinate(s, i, first),
-                test_element_coordinate(s, j, other), a, found / (ui * uj), s->words);
-            checks_deviation(
-                symmetric, checks_relative(fabs(a - b) * ui * uj, size),
-                "inertia: entry %d, %d of N is %.6g, but the transposed entry is %.6g%s", i + 1,
-                j + 1, a, b, s->words);
+            checks_deviation(derives, checks_relative(fabs(a * ui * uj - found), size),
+                             "inertia: entry %d, %d (%s, %s) of N is %.6g, but finite differences "
+                             "of the centrifugal force give %.6g; correct N or the force%s",
+                             i + 1, j + 1, test_element_coordinate(s, i, first),
+                             test_element_coordinate(s, j, other), a, found / (ui * uj), s->words);
+            checks_deviation(symmetric, checks_relative(fabs(a - b) * ui * uj, size),
+                             "inertia: entry %d, %d of N is %.6g, but the transposed entry is "
+                             "%.6g; make N symmetric%s",
+                             i + 1, j + 1, a, b, s->words);
         }
 }
 
@@ -287,14 +286,13 @@ static void check_skew(const test_element *s, const double G[], check_result *on
         size = fmax(size, fabs(G[i]) * test_element_unit(s, i / n) * test_element_unit(s, i % n));
     for (int i = 0; i < n; i++)
         for (int j = 0; j <= i; j++)
-            checks_deviation(
-                one,
-                checks_relative(fabs(G[i * n + j] + G[j * n + i]) * test_element_unit(s, i) *
-                                    test_element_unit(s, j),
-                                size),
-                "inertia: entry %d, %d of G is %.6g, but the transposed entry is %.6g; the "
-                "gyroscopic matrix must be skew-symmetric%s",
-                i + 1, j + 1, G[i * n + j], G[j * n + i], s->words);
+            checks_deviation(one,
+                             checks_relative(fabs(G[i * n + j] + G[j * n + i]) *
+                                                 test_element_unit(s, i) * test_element_unit(s, j),
+                                             size),
+                             "inertia: entry %d, %d of G is %.6g, but the transposed entry is "
+                             "%.6g; make G skew-symmetric%s",
+                             i + 1, j + 1, G[i * n + j], G[j * n + i], s->words);
 }
 
 /* Checks that the velocity v of the rotating frame gives the kinetic energy 1/2 v^T M v = -V, where
@@ -318,18 +316,18 @@ static void own_motion(const test_element *s, const node_state x[], const inerti
         checks_deviation(
             checks_open(c, "the potential is minus the kinetic energy of the frame motion", 1e-11),
             fabs(dense_dot(n, v, Mv) / 2 / -*out->potential - 1),
-            "inertia: the potential is %.6g J, but minus the kinetic energy of the "
-            "motion of the frame, 1/2 v^T M v, is %.6g J%s",
+            "inertia: the potential is %.6g J, but -1/2 v^T M v for the velocities v of the frame "
+            "is %.6g J; correct the potential or M%s",
             *out->potential, -dense_dot(n, v, Mv) / 2, s->words);
     for (int i = 0; i < n; i++)
         largest = fmax(largest, fabs(out->force[i]) * test_element_unit(s, i));
     for (int i = 0; i < n; i++)
-        checks_deviation(checks_open(c, "the Coriolis force is twice the centrifugal force", 1e-11),
-                         fabs(Gv[i] + 2 * out->force[i]) * test_element_unit(s, i) / largest,
-                         "inertia: G times the motion of the frame is %.6g in coordinate %d (%s), "
-                         "not minus twice the centrifugal force, %.6g%s",
-                         Gv[i], i + 1, test_element_coordinate(s, i, where), -2 * out->force[i],
-                         s->words);
+        checks_deviation(
+            checks_open(c, "the Coriolis force is twice the centrifugal force", 1e-11),
+            fabs(Gv[i] + 2 * out->force[i]) * test_element_unit(s, i) / largest,
+            "inertia: in coordinate %d (%s), G v for the velocities v of the frame is %.6g, but "
+            "minus twice the centrifugal force is %.6g; correct G or the force%s",
+            i + 1, test_element_coordinate(s, i, where), Gv[i], -2 * out->force[i], s->words);
 }
 
 static void in_frame(const test_element *s, check_results *c)
@@ -342,12 +340,13 @@ static void in_frame(const test_element *s, check_results *c)
     checks_current(c, "inertia in a rotating frame%s", s->words);
     const status outcome = s->type.inertia(s->data, x, &turning, &out);
     checks_require(checks_open(c, "the element has inertia in a rotating frame", 0),
-                   outcome == STATUS_OK, "inertia: status '%s' in a rotating frame%s",
+                   outcome == STATUS_OK,
+                   "inertia: the status in a rotating frame is '%s'; compute the potential, its "
+                   "force, N and G%s",
                    status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;
-    check_force(&at, F,
-                checks_open(c, "the centrifugal force is the gradient of its energy", 1e-9));
+    check_force(&at, F, checks_open(c, "the centrifugal force derives from its potential", 1e-9));
     rotating_check_stiffness(&at, stiffness, c);
     check_skew(s, G, checks_open(c, "G is skew", 1e-12));
     own_motion(s, x, &out, c);
@@ -392,11 +391,10 @@ static void warping(const test_element *s, check_result *one)
                      found = twisted_energy(s, angle) - twisted_energy(&plain, angle),
                      expected = -s->section.density * s->section.Iw * l * a * a *
                                 (w[1] * w[1] + w[2] * w[2]) / 2;
-        checks_deviation(
-            one, fabs(found / expected - 1),
-            "inertia: the centrifugal energy of warping is %.6g J, not -1/2 rho Iw l a^2 "
-            "(Oy^2 + Oz^2) = %.6g J%s",
-            found, expected, s->words);
+        checks_deviation(one, fabs(found / expected - 1),
+                         "inertia: the centrifugal potential of warping is %.6g J instead of -1/2 "
+                         "rho Iw l a^2 (Oy^2 + Oz^2) = %.6g J; correct the potential%s",
+                         found, expected, s->words);
     }
     test_element_free(&plain);
 }

@@ -102,7 +102,8 @@ static void features_of_cases(const formulation *chosen, check_results *c)
     }
     if (registry_cases[0] != NULL)
         checks_require(checks_open(c, "cases", 0), runs > 0,
-                       "features, limits: the formulation supports no built-in case");
+                       "offers, limits: the formulation supports no built-in case; declare the "
+                       "features that it supports, and only the limits that it has");
 }
 
 /* Checks subsets of the features. For each subset, the type must give a finite stiffness or a
@@ -135,7 +136,7 @@ static void feature_subsets(const formulation *chosen, check_results *c)
     checks_deviation(
         few, (double)count[REFUSED] / (1 << OPTIONAL),
         "prepare: %d of %d subsets of the declared features are rejected, but at most half may be; "
-        "reject only subsets that lack a feature which another one requires",
+        "reject a subset only if one of its features requires a feature that is missing",
         count[REFUSED], 1 << OPTIONAL);
 }
 
@@ -314,11 +315,12 @@ static void symmetric(const test_element *s, const double A[], check_result *one
     char first[TEST_ELEMENT_WORDS], other[TEST_ELEMENT_WORDS];
     for (int i = 0; i < n; i++)
         for (int j = 0; j < i; j++)
-            checks_deviation(
-                one, fabs(A[i * n + j] - A[j * n + i]) / size_of(A, n, i, j),
-                "inertia: entry %d, %d (%s, %s) of M is %.6g, but the transposed entry is %.6g%s",
-                i + 1, j + 1, test_element_coordinate(s, i, first),
-                test_element_coordinate(s, j, other), A[i * n + j], A[j * n + i], s->words);
+            checks_deviation(one, fabs(A[i * n + j] - A[j * n + i]) / size_of(A, n, i, j),
+                             "inertia: entry %d, %d (%s, %s) of M is %.6g, but the transposed "
+                             "entry is %.6g; make M symmetric%s",
+                             i + 1, j + 1, test_element_coordinate(s, i, first),
+                             test_element_coordinate(s, j, other), A[i * n + j], A[j * n + i],
+                             s->words);
 }
 
 /* Checks that a matrix is positive definite: a Cholesky factorisation must exist after scaling to a
@@ -334,11 +336,10 @@ static void positive(const test_element *s, const double A[], check_result *one)
             scaled[i * n + j] = (size > 0 ? A[i * n + j] / size : 0) + (i == j ? 1e-9 : 0);
         }
     const int pivot = dense_cholesky(n, scaled);
-    checks_require(
-        one, pivot == 0,
-        "inertia: M is not positive definite; a motion of the nodes in coordinates 1 to %d "
-        "(the last: %s) has no positive kinetic energy%s",
-        pivot, test_element_coordinate(s, pivot > 0 ? pivot - 1 : 0, where), s->words);
+    checks_require(one, pivot == 0,
+                   "inertia: M is not positive definite; a motion of the nodes in coordinates 1 to "
+                   "%d (the last: %s) has no positive kinetic energy; correct M%s",
+                   pivot, test_element_coordinate(s, pivot > 0 ? pivot - 1 : 0, where), s->words);
 }
 
 /* Returns v^T M v, twice the kinetic energy, for the velocity field omega x r + shift. */
@@ -370,9 +371,10 @@ static void total(const test_element *s, const node_state x[], const double M[],
         double shift[3] = {0, 0, 0};
         shift[c] = 1;
         const double found = energy(s, x, M, none, shift);
-        checks_deviation(one, fabs(found / mass - 1),
-                         "inertia: the mass along %c is %.6g kg, not rho A l = %.6g kg%s", "xyz"[c],
-                         found, mass, s -> words);
+        checks_deviation(
+            one, fabs(found / mass - 1),
+            "inertia: the mass along %c is %.6g kg instead of rho A l = %.6g kg; correct M%s",
+            "xyz"[c], found, mass, s -> words);
     }
 }
 
@@ -400,7 +402,8 @@ static void carried(const test_element *s, const node_state x[], const double M[
         for (int j = 0; j < n; j++)
             checks_deviation(one, fabs(back[i * n + j] - M[i * n + j]) / size_of(M, n, i, j),
                              "inertia: if the element is rotated as a whole and M is rotated back, "
-                             "entry %d, %d (%s, %s) is %.6g instead of %.6g%s",
+                             "entry %d, %d (%s, %s) is %.6g instead of %.6g; compute M in axes "
+                             "that rotate with the element%s",
                              i + 1, j + 1, test_element_coordinate(s, i, first),
                              test_element_coordinate(s, j, second), back[i * n + j], M[i * n + j],
                              s->words);
@@ -433,16 +436,15 @@ static void moments(const test_element *s, check_result *one)
                          whole = energy(s, x, M, omega, none),
                          thin = energy(&line, x, without, omega, none),
                          found = whole - (axis == 0 ? 0 : thin);
-            checks_deviation(
-                one, fabs(found / moment - 1),
-                "inertia: the moment of inertia of the sections about %c is %.6g kg m^2, "
-                "not rho l I = %.6g kg m^2%s",
-                "xyz"[axis], found, moment, s -> words);
+            checks_deviation(one, fabs(found / moment - 1),
+                             "inertia: the moment of inertia of the sections about %c is %.6g kg "
+                             "m^2 instead of rho l I = %.6g kg m^2; correct M%s",
+                             "xyz"[axis], found, moment, s -> words);
             if (axis == 0)
                 checks_deviation(
                     one, fabs(thin / moment - 1),
-                    "inertia: without rotary inertia, the moment of inertia about x is %.6g kg "
-                    "m^2, not rho l Ip = %.6g kg m^2; twist must always have inertia%s",
+                    "inertia: without rotary inertia, the moment of inertia about x is %.6g kg m^2 "
+                    "instead of rho l Ip = %.6g kg m^2; keep the inertia of the twist%s",
                     thin, moment, s->words);
         }
     }
@@ -457,7 +459,8 @@ static void check(const test_element *s, check_results *c)
     test_element_state(s, 0.05, 31, x);
     const status outcome = s->type.inertia(s->data, x, NULL, &(inertia_output){.M = M});
     checks_require(checks_open(c, "the element has a mass matrix", 0), outcome == STATUS_OK,
-                   "inertia: status '%s' in a strained state%s", status_name(outcome), s->words);
+                   "inertia: the status of a moderately strained state is '%s'; compute its M%s",
+                   status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;
     symmetric(s, M, checks_open(c, "M is symmetric", 1e-13));

@@ -67,9 +67,9 @@ static void compare(const test_element *s, const double found[], const double ri
     for (int i = 0; i < s->coordinates; i++)
         checks_deviation(
             one, checks_relative(fabs(found[i] - right[i]) * test_element_unit(s, i), size),
-            "inertia: the inertia force in coordinate %d (%s) is %.6g, but according to %s it is "
-            "%.6g%s",
-            i + 1, test_element_coordinate(s, i, where), found[i], what, right[i], s->words);
+            "inertia: the inertia force in coordinate %d (%s) is %.6g, but %.6g according to %s; "
+            "correct 'taken'%s",
+            i + 1, test_element_coordinate(s, i, where), found[i], right[i], what, s->words);
 }
 
 /* Checks that C is the derivative of the inertia forces with respect to the rates. The forces are
@@ -91,12 +91,12 @@ static void check_rates(const test_element *s, const node_state x[], const doubl
         moved[j] = rate[j];
         for (int i = 0; i < n; i++) {
             const double found = (taken[1][i] - taken[0][i]) / (2 * step);
-            checks_deviation(
-                one, fabs(C[n * i + j] - found) * test_element_unit(s, i) * step / size,
-                "inertia: entry %d, %d (%s, %s) of C is %.6g, but finite differences of the "
-                "inertia forces give %.6g%s",
-                i + 1, j + 1, test_element_coordinate(s, i, first),
-                test_element_coordinate(s, j, other), C[n * i + j], found, s->words);
+            checks_deviation(one,
+                             fabs(C[n * i + j] - found) * test_element_unit(s, i) * step / size,
+                             "inertia: entry %d, %d (%s, %s) of C is %.6g, but finite differences "
+                             "of the inertia forces give %.6g; correct C%s",
+                             i + 1, j + 1, test_element_coordinate(s, i, first),
+                             test_element_coordinate(s, j, other), C[n * i + j], found, s->words);
         }
     }
 }
@@ -143,8 +143,10 @@ static void check_one(const test_element *s, check_results *c)
     inertia_output out = {.M = M, .rate = rate, .taken = h, .C = C};
     const status outcome = s->type.inertia(s->data, x, NULL, &out);
     checks_require(checks_open(c, "the element has inertia during a motion", 0),
-                   outcome == STATUS_OK, "inertia: status '%s' in time%s", status_name(outcome),
-                   s->words);
+                   outcome == STATUS_OK,
+                   "inertia: the status of a moderately strained state in motion is '%s'; compute "
+                   "its inertia forces%s",
+                   status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;
     by_differences(&place, M, right);

@@ -10,7 +10,8 @@ const measured_group measured_groups[MEASURED_GROUPS] = {
     {"states",
      "uniform and linear states of a cantilever: error with 1 element and with 4 unequal elements",
      measured_states},
-    {"locking", "8 elements, thickness-to-length ratio from 1 to 1e-6", measured_locking},
+    {"locking", "errors with 8 elements, for ratios of thickness to length from 1 to 1e-6",
+     measured_locking},
     {"orders", "orders of convergence, and errors with 1 to 32 elements", measured_orders},
     {"paths", "changes due to superposed full turns and after closed cycles, 24 steps each",
      measured_paths},
@@ -89,7 +90,7 @@ void measured_locking(const formulation *chosen, check_results *c, measures *out
     r.load = SCENE_MOMENT;
     r.needs = shear | FEATURE_LARGE;
     r.analysis = BEAM_LARGE;
-    checks_current(c, "a beam that is bent by a quarter turn and becomes thin");
+    checks_current(c, "a beam that is bent by a quarter turn and becomes thinner");
     over_thickness(&r, "bent by a quarter turn, moment", out);
 }
 
@@ -154,13 +155,13 @@ static void states_conclude(const state *s, element_measure *one)
     one->wrong_limit = fine > 1e-6 && fine > 0.5 * coarse;
     if (one->wrong_limit && coarse < 1e-9)
         snprintf(one->words, sizeof one->words,
-                 "the result is exact with one element, but has an error of %.2g %% with four: a "
-                 "coupling of the nodes, its sign, or a power of the length is wrong",
+                 "the result is exact with one element, but has an error of %.2g %% with four; "
+                 "correct the coupling of the nodes, its sign or a power of the length",
                  100 * fine);
     else if (one->wrong_limit)
         snprintf(one->words, sizeof one->words,
-                 "the error is %.2g %% with one element and %.2g %% with four: a stiffness of the "
-                 "section is wrong (probably %s)",
+                 "the error is %.2g %% with one element and %.2g %% with four; correct the "
+                 "stiffness of the section (probably %s)",
                  100 * coarse, 100 * fine, s->reason);
 }
 
@@ -326,19 +327,20 @@ static void hold_against_declared(const orders_question *q, int last, const elem
     if (last == 0 && fabs(one->error[one->points - 1]) <= noise)
         checks_require(claimed, 1, "%s", "");
     else if (last > 1 && one->order < 0.1 && one->least > 0)
-        checks_require(
-            claimed, 0,
-            "order: the errors do not decrease (%.2g, %.2g, %.2g with %g, %g and %g elements, %s), "
-            "so the limit is wrong; correct the element, or the constants of its section",
-            fabs(one->error[last - 2]), fabs(one->error[last - 1]), fabs(one->error[last]),
-            one->at[last - 2], one->at[last - 1], one->at[last], q->name);
+        checks_require(claimed, 0,
+                       "order: the errors of '%s' do not decrease (%.2g, %.2g, %.2g with %g, %g "
+                       "and %g elements), so the limit is wrong; correct the element, or the "
+                       "constants of its section",
+                       q->name, fabs(one->error[last - 2]), fabs(one->error[last - 1]),
+                       fabs(one->error[last]), one->at[last - 2], one->at[last - 1], one->at[last]);
     else if (last > 0)
-        checks_deviation(
-            claimed, one->least - one->order,
-            "order: at least %d is declared in %s, but %s shows %.1f (errors of %.2g and %.2g with "
-            "%g and %g elements); declare the measured order, or correct the element",
-            one->least, analysis[q->declared], q->name, one->order, fabs(one->error[last - 1]),
-            fabs(one->error[last]), one->at[last - 1], one->at[last]);
+        checks_deviation(claimed, one->least - one->order,
+                         "order: the declared order in %s is at least %d, but the observed order "
+                         "of '%s' is %.1f (errors of %.2g and %.2g with %g and %g elements); "
+                         "correct the element, or declare the observed order",
+                         analysis[q->declared], one->least, q->name, one->order,
+                         fabs(one->error[last - 1]), fabs(one->error[last]), one->at[last - 1],
+                         one->at[last]);
 }
 
 static void measure_order(const formulation *chosen, const orders_question *q, check_results *c,

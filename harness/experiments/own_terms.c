@@ -58,10 +58,10 @@ void own_damping_check(const test_element *s, const double C[], check_results *c
                          "give a positive semidefinite matrix%s",
                          i + 1, i + 1, V[n * i + i], s->words);
         for (int j = 0; j < i; j++)
-            checks_deviation(
-                symmetric, fabs(B[n * i + j] - B[n * j + i]),
-                "damping: entry %d, %d of V is %.6g, but the transposed entry is %.6g%s", i + 1,
-                j + 1, V[n * i + j], V[n * j + i], s->words);
+            checks_deviation(symmetric, fabs(B[n * i + j] - B[n * j + i]),
+                             "damping: entry %d, %d of V is %.6g, but the transposed entry is "
+                             "%.6g; make V symmetric%s",
+                             i + 1, j + 1, V[n * i + j], V[n * j + i], s->words);
     }
     const double least = least_eigenvalue(n, B);
     checks_deviation(
@@ -142,18 +142,16 @@ static void check_jacobian(const line_place *p, check_result *one)
                 turn[i] += part[i] / 2;
         }
         for (int i = 0; i < 3; i++) {
-            checks_deviation(
-                one, fabs(P[n * i + j] * unit - change[i]) / s->request.length,
-                "line: entry %d, %d of P (%s) at %g is %.6g, but differences of r give "
-                "%.6g%s",
-                i + 1, j + 1, test_element_coordinate(s, j, where), p->point, P[n * i + j],
-                change[i] / unit, s->words);
-            checks_deviation(
-                one, fabs(T[n * i + j] * unit - turn[i]),
-                "line: entry %d, %d of T (%s) at %g is %.6g, but differences of R give "
-                "%.6g%s",
-                i + 1, j + 1, test_element_coordinate(s, j, where), p->point, T[n * i + j],
-                turn[i] / unit, s->words);
+            checks_deviation(one, fabs(P[n * i + j] * unit - change[i]) / s->request.length,
+                             "line: at %g of the length, entry %d, %d of P (%s) is %.6g, but "
+                             "finite differences of r give %.6g; correct P or r%s",
+                             p->point, i + 1, j + 1, test_element_coordinate(s, j, where),
+                             P[n * i + j], change[i] / unit, s->words);
+            checks_deviation(one, fabs(T[n * i + j] * unit - turn[i]),
+                             "line: at %g of the length, entry %d, %d of T (%s) is %.6g, but "
+                             "finite differences of R give %.6g; correct T or R%s",
+                             p->point, i + 1, j + 1, test_element_coordinate(s, j, where),
+                             T[n * i + j], turn[i] / unit, s->words);
         }
     }
 }
@@ -179,8 +177,9 @@ static void check_second(const line_place *p, check_result *one)
         }
         for (int i = 0; i < n; i++)
             checks_deviation(one, fabs(H[n * i + j] - column[i]) * unit * test_element_unit(s, i),
-                             "line: entry %d, %d of H at %g is %.6g, but differences give %.6g%s",
-                             i + 1, j + 1, p->point, H[n * i + j], column[i], s->words);
+                             "line: at %g of the length, entry %d, %d of H is %.6g, but finite "
+                             "differences of the nodal forces give %.6g; correct H%s",
+                             p->point, i + 1, j + 1, H[n * i + j], column[i], s->words);
     }
 }
 
@@ -205,10 +204,10 @@ static void check_sums(const line_place *p, check_result *one)
                      size = i < 3 ? s->request.length : 1;
         checks_deviation(
             one, fabs(sum[i] - right) * size,
-            "line: the forces on the nodes have the %s %.6g along %c instead of %.6g, "
-            "that of the load at %g; a rigid motion of the nodes must move the section "
-            "in the same way%s",
-            i < 3 ? "sum" : "moment", sum[i], "xyz"[i % 3], right, p -> point, s -> words);
+            "line: for a load at %g of the length, the nodal forces have the %s %c = %.6g instead "
+            "of %.6g; let the section follow rigid motions of the nodes%s",
+            p->point, i < 3 ? "sum along" : "moment about", "xyz"[i % 3], sum[i], right,
+            s -> words);
     }
 }
 
@@ -220,17 +219,16 @@ static void check_at_rest(const line_place *p, check_result *one)
     const line_output at = section_of(p, x, NULL, NULL, NULL);
     for (int i = 0; i < 3; i++) {
         const double right = (1 - p->point) * x[0].r[i] + p->point * x[s->nodes - 1].r[i];
-        checks_deviation(
-            one, fabs(at.r[i] - right) / s->request.length,
-            "line: in the undeformed element, the section at %g is at %c = %.6g instead "
-            "of %.6g%s",
-            p->point, "xyz"[i], at.r[i], right, s->words);
+        checks_deviation(one, fabs(at.r[i] - right) / s->request.length,
+                         "line: in the undeformed element, the section at %g of the length is at "
+                         "%c = %.6g instead of %.6g; correct r%s",
+                         p->point, "xyz"[i], at.r[i], right, s->words);
     }
     for (int i = 0; i < 9; i++)
-        checks_deviation(
-            one, fabs(at.R[i] - x[0].R[i]),
-            "line: in the undeformed element, R at %g differs from that of the nodes%s", p->point,
-            s->words);
+        checks_deviation(one, fabs(at.R[i] - x[0].R[i]),
+                         "line: in the undeformed element, R at %g of the length differs from R of "
+                         "the nodes; correct R%s",
+                         p->point, s->words);
 }
 
 void own_line_check(const test_element *s, check_results *c)
@@ -249,10 +247,10 @@ void own_line_check(const test_element *s, check_results *c)
                               .point = point[k],
                               .force = {0.7 * f, -1.1 * f, 0.4 * f},
                               .moment = {-0.6, 0.9, 1.2}};
-        check_jacobian(&p, checks_open(c, "P and T are the derivatives of the sections", 1e-8));
-        check_second(&p, checks_open(c, "H is the derivative of the forces of a load", 1e-7));
-        check_sums(&p,
-                   checks_open(c, "forces on the nodes are in equilibrium with the load", 1e-11));
+        check_jacobian(
+            &p, checks_open(c, "P and T are the derivatives of position and rotation", 1e-8));
+        check_second(&p, checks_open(c, "H is the derivative of the nodal forces of a load", 1e-7));
+        check_sums(&p, checks_open(c, "the nodal forces are in equilibrium with the load", 1e-11));
         if (straight)
             check_at_rest(&p, checks_open(c, "sections of the undeformed element", 1e-13));
     }

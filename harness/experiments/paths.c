@@ -47,18 +47,19 @@ static status forces_of(const test_element *s, const node_state x[], const doubl
 static void forces_continue(const test_element *s, const committed *of, check_result *one)
 {
     double first[N], then[N], most = 0;
+    char where[TEST_ELEMENT_WORDS];
     if (forces_of(s, of->x, of->before, first) != STATUS_OK ||
         forces_of(s, of->x, of->after, then) != STATUS_OK)
         return;
     for (int i = 0; i < s->coordinates; i++)
         most = fmax(most, fabs(first[i]));
     for (int i = 0; i < s->coordinates; i++)
-        checks_deviation(
-            one, checks_relative(fabs(then[i] - first[i]), most),
-            "commit: the force in coordinate %d of a state, times its unit, changes from "
-            "%.9g J to %.9g J when the state is committed; store what gives the same "
-            "forces%s",
-            i + 1, first[i], then[i], s->words);
+        checks_deviation(one, checks_relative(fabs(then[i] - first[i]), most),
+                         "commit: the force in coordinate %d (%s) changes from %.9g to %.9g when "
+                         "the state is committed; store values that give the same forces%s",
+                         i + 1, test_element_coordinate(s, i, where),
+                         first[i] / test_element_unit(s, i), then[i] / test_element_unit(s, i),
+                         s->words);
 }
 
 static void continues(const test_element *s, const committed *of, check_result *one)
@@ -103,11 +104,14 @@ static void check(const test_element *s, check_results *c)
                   test_element_lacks_energy(s) ? checks_open(c, claim_forces, 1e-11)
                                                : checks_open(c, check_continuation, 1e-13));
         commit_of(s, of.before, &again);
-        compare_values(s, of.after, again.after, "in a second call with the same input",
+        compare_values(s, of.after, again.after,
+                       "in a second call with the same input; use only the arguments of 'commit'",
                        checks_open(c, check_same, 0));
         commit_of(s, of.after, &again);
-        compare_values(s, of.after, again.after, "after a second commit of the same state",
-                       checks_open(c, check_repetition, 1e-12));
+        compare_values(
+            s, of.after, again.after,
+            "after a second commit of the same state; let a second commit change nothing",
+            checks_open(c, check_repetition, 1e-12));
         memcpy(again.before, of.after, sizeof of.after);
         last = again.before;
     }
@@ -291,7 +295,8 @@ static void superposed(const test_element *s, measures *out)
         test_element_rigid_motion(s, turn, x, carried);
         if (walker_step(&at, k, x, 0) != STATUS_OK ||
             walker_step(&there, k, carried, 0) != STATUS_OK) {
-            snprintf(one->words, sizeof one->words, "a state of the path cannot be evaluated");
+            snprintf(one->words, sizeof one->words,
+                     "the element cannot evaluate a state of this path");
             return;
         }
         most = fmax(most, difference(&at, &there, turn));
@@ -320,7 +325,7 @@ static void cycles(const test_element *s, measures *out)
         cycle_state(s, (double)(k % STEPS) / STEPS, x);
         if (walker_step(&at, k, x, k <= STEPS || k == marks[mark] * STEPS) != STATUS_OK) {
             snprintf(forces->words, sizeof forces->words,
-                     "a state of the path cannot be evaluated");
+                     "the element cannot evaluate a state of this path");
             if (strains != NULL)
                 memcpy(strains->words, forces->words, sizeof strains->words);
             return;
@@ -357,8 +362,8 @@ static void hold_against_declared(const formulation *chosen, const measures *out
         }
         for (int k = 0; k < one->points; k++)
             checks_deviation(checks_open(c, of[i].check_result, exact), one->error[k],
-                             "%s: an error of %.2g of the largest value after %g turns or cycles; "
-                             "correct the update, or declare %s",
+                             "%s: the error after %g turns or cycles is %.2g of the largest value; "
+                             "correct the rotations or 'commit', or declare %s",
                              one->name, one->error[k], one->at[k], of[i].word);
     }
 }

@@ -71,12 +71,13 @@ status test_element_make(const test_element_request *what, test_element *out, fa
     if (!fits(out))
         return fault_set(f, STATUS_FAULT,
                          "the element declares %d internal unknowns and %d doubles of memory, but "
-                         "the checks support at most %d and %d",
+                         "the checks support at most %d and %d; declare fewer",
                          out->inner, out->memory, TEST_ELEMENT_INNER, TEST_ELEMENT_MEMORY);
     out->size = out->type.data_size(&out->request);
     out->data = calloc(1, out->size > 0 ? out->size : 1);
     if (out->data == NULL)
-        return fault_set(f, STATUS_FAULT, "data_size requests %zu bytes, which cannot be allocated",
+        return fault_set(f, STATUS_FAULT,
+                         "data_size: %zu bytes cannot be allocated; return a smaller size",
                          out->size);
     TRY(out->type.prepare(&out->request, out->data, f));
     return begin(out, f);
@@ -202,15 +203,23 @@ const char *test_element_coordinate(const test_element *s, int c, char words[TES
     return words;
 }
 
+/* Describes an element that differs from that with a rectangular section: " [options, section]". */
 static void describe(const test_element_request *what, const formulation *chosen, test_element *s)
 {
-    static const char *const section_words[] = {"", ", unsymmetric section",
-                                                ", section given by its matrices"};
+    static const char *const section_words[] = {"", "unsymmetric section",
+                                                "section given by its matrices"};
     const char *options = strchr(chosen->key, ':');
     const int curved = what->curvature[0] != 0 || what->curvature[2] != 0;
-    snprintf(s->words, sizeof s->words, "%s%.80s%s%s", options != NULL ? ", with " : "",
-             options != NULL ? options + 1 : "", section_words[what->form],
-             curved ? ", initially curved" : "");
+    const char *const part[] = {options != NULL ? options + 1 : "", section_words[what->form],
+                                curved ? "initially curved" : ""};
+    size_t used = 0;
+    s->words[0] = '\0';
+    for (int k = 0; k < 3; k++)
+        if (part[k][0] != '\0')
+            used += (size_t)snprintf(s->words + used, sizeof s->words - used, "%s%.80s",
+                                     used > 0 ? ", " : " [", part[k]);
+    if (used > 0)
+        snprintf(s->words + used, sizeof s->words - used, "]");
 }
 
 typedef struct way {
@@ -255,9 +264,9 @@ static void one_way(const way *w, check_results *c, test_elements_check *check)
     describe(&w->made, w->chosen, &s);
     const int refused = outcome == STATUS_REFUSED && f.text[0] != '\0';
     checks_require(checks_open(c, "prepare", 0), outcome == STATUS_OK || (refused && !w->usual),
-                   "prepare: an element%s is rejected (%s): %s; support the element, or reject it "
+                   "prepare: the element%s is rejected (%s: %s); support the element, or reject it "
                    "with a reason and do not declare the feature",
-                   s.words[0] != '\0' ? s.words + 1
+                   s.words[0] != '\0' ? s.words
                                       : " with a rectangular section and all declared features",
                    status_name(outcome), f.text[0] != '\0' ? f.text : "no reason is given");
     if (outcome == STATUS_OK && returns_values(&s, c))
@@ -330,7 +339,7 @@ enum { N = TEST_ELEMENT_COORDINATES };
 static const char *const F_name = "F is the gradient of the energy",
                          *const K_name = "K is the derivative of F",
                          *const check_same = "a rigid motion does not change the energy",
-                         *const check_undeformed = "the undeformed element has no load";
+                         *const check_undeformed = "the undeformed element has no forces";
 
 static status call(const test_element *s, const node_state x[], force_output *out)
 {
@@ -377,10 +386,10 @@ static void check_force(const test_element_stencil *at, const double F[], check_
         double found = NAN;
         const double unit = test_element_unit(s, i);
         stencil_first(energy_at, at, 1, i, &found);
-        checks_deviation(
-            one, checks_relative(fabs(work[i] - found), size),
-            "force: F in coordinate %d (%s) is %.6g, but the derivative of the energy is %.6g%s",
-            i + 1, test_element_coordinate(s, i, where), F[i], found / unit, s->words);
+        checks_deviation(one, checks_relative(fabs(work[i] - found), size),
+                         "force: F in coordinate %d (%s) is %.6g, but the derivative of the energy "
+                         "is %.6g; correct F or the energy%s",
+                         i + 1, test_element_coordinate(s, i, where), F[i], found / unit, s->words);
     }
 }
 
@@ -404,12 +413,13 @@ static void check_stiffness(const test_element_stencil *at, const double K[], ch
             const double given =
                 ((1 - opposite) * K[i * n + j] + opposite * K[j * n + i]) * ui * uj;
             const double found = (1 - opposite) * column[j][i] * ui + opposite * column[i][j] * uj;
-            checks_deviation(one, checks_relative(fabs(given - found), size),
-                             "K: the derivative of the force in coordinate %d (%s) with respect to "
-                             "coordinate %d (%s) is %.6g, but finite differences of F give %.6g%s",
-                             i + 1, test_element_coordinate(s, i, first), j + 1,
-                             test_element_coordinate(s, j, other), given / (ui * uj),
-                             found / (ui * uj), s->words);
+            checks_deviation(
+                one, checks_relative(fabs(given - found), size),
+                "K: the derivative of the force in coordinate %d (%s) with respect to coordinate "
+                "%d (%s) is %.6g, but finite differences of F give %.6g; correct K or F%s",
+                i + 1, test_element_coordinate(s, i, first), j + 1,
+                test_element_coordinate(s, j, other), given / (ui * uj), found / (ui * uj),
+                s->words);
         }
 }
 
@@ -441,15 +451,17 @@ static void check_rest(const test_element *s, double scale, check_result *one)
     if (test_element_lacks_energy(s))
         energy = 0;
     checks_deviation(one, fabs(energy) / scale,
-                     "force: the undeformed element has an energy of %.3g J%s", energy, s->words);
+                     "force: the undeformed element has an energy of %.3g J; define the energy as "
+                     "zero in that state%s",
+                     energy, s->words);
     if (leaves & LEAVES_FORCE)
         return;
     works(s, F, work);
     for (int i = 0; i < s->coordinates; i++)
-        checks_deviation(
-            one, fabs(work[i]) / scale,
-            "force: F in coordinate %d (%s) of the undeformed element is %.3g, not zero%s", i + 1,
-            test_element_coordinate(s, i, where), F[i], s->words);
+        checks_deviation(one, fabs(work[i]) / scale,
+                         "force: F in coordinate %d (%s) of the undeformed element is %.3g; define "
+                         "it as zero in that state%s",
+                         i + 1, test_element_coordinate(s, i, where), F[i], s->words);
 }
 
 static void check(const test_element *s, check_results *c)
@@ -465,7 +477,8 @@ static void check(const test_element *s, check_results *c)
              &(force_output){
                  .energy = &energy, .F = leaves & LEAVES_FORCE ? NULL : F, .K = leaves ? NULL : K});
     checks_require(checks_open(c, "moderate strains have forces", 0), outcome == STATUS_OK,
-                   "force: displacements of a few hundredths of the length end with status '%s'%s",
+                   "force: displacements of a few hundredths of the length give the status '%s'; "
+                   "compute their forces%s",
                    status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;

@@ -110,7 +110,7 @@ class OwnLoads(Speaker):
         made, wrong = self.contract(self.python())
         self.assertEqual((made, wrong), (["holds"] * 5 + ["not claimed"] * 2, ""))
         for before, after, told in (
-                ("(1 - q) * r[:, 0]", "0.9 * (1 - q) * r[:, 0]", "forces on the nodes have the sum"),
+                ("(1 - q) * r[:, 0]", "0.9 * (1 - q) * r[:, 0]", "nodal forces have the sum"),
                 ("psi = s * ", "psi = 0.1 + s * ", "R at 0 differs from that of the nodes")):
             self.assertIn(told, self.contract(self.python(before, after), code=1)[1])
 

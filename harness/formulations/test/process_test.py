@@ -217,7 +217,7 @@ class InPython(ProgramTest):
             "    if kind.length > 0.4:\n        longer.add(id(kind))\n"
             "    if kind.length > 0.4 and len(longer) > 1:\n        raise ValueError('too long')\n"
             "    chord = (")
-        self.assertIn("rejects the same element when it is prepared again: formulation timoshenko_py: ValueError: too "
+        self.assertIn("an accepted element is rejected when it is prepared again (formulation timoshenko_py: ValueError: too "
                       "long (mine.py:", out)
         self.assertNotIn("crashed", out)
 
