@@ -16,9 +16,10 @@ int message_finish(int code)
     const int reported =
         code == EXIT_REFUSED ||
         code == EXIT_FAULT; /* messages about these statuses have already been printed */
-    if ((fflush(stdout) == 0 && !ferror(stdout)) || reported)
+    fault f = {""};
+    if (output_flush(&f) == STATUS_OK || reported)
         return code;
-    return message_fail(STATUS_FAULT, "standard output cannot be written");
+    return message_exit(STATUS_FAULT, &f);
 }
 
 int message_exit(status s, const fault *f)

@@ -289,8 +289,8 @@ status batch_belongs(const batch_label *b, const shard_work *w, const char *path
                          path, b->verb, b->request);
     if (strcmp(b->build, w->build) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%.120s: the batch was computed by another build (%.60s; this is %.60s); "
-                         "use that build, or a new folder",
+                         "%.120s: the batch was computed by another build (%.60s; this build is "
+                         "%.60s); use that build, or a new folder",
                          path, b->build, w->build);
     if (strcmp(b->plan, w->plan) != 0)
         return fault_set(

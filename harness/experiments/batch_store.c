@@ -79,7 +79,7 @@ static status look_inside(batch_store *s, const shard_work *w, const char *path,
     if (batch_open(path, &label, NULL, NULL, &why) != STATUS_OK) {
         s->damaged++;
         if (messages != NULL)
-            fprintf(messages, "beamwork: %s; it counts as missing\n", why.text);
+            fprintf(messages, "beamwork: %s (this batch counts as missing)\n", why.text);
         return STATUS_OK;
     }
     status outcome = batch_belongs(&label, w, path, f);
@@ -257,8 +257,8 @@ status batch_store_first(const char *folder, batch_label *out, fault *f)
     free(entry);
     return found ? STATUS_OK
                  : fault_set(f, STATUS_REFUSED,
-                             "%.200s: the folder contains no batches; run a verb with --shard K/N "
-                             "--into this folder",
+                             "%.200s: the folder contains no batches; run verify or sweep with "
+                             "--shard K/N and --into this folder",
                              folder);
 }
 

@@ -86,7 +86,7 @@ static status start(tester *t, certificate *of, int part, int time_limit, fault 
     int ends[2];
     const pid_t parent = getpid();
     if (pipe2(ends, O_CLOEXEC) != 0)
-        return fault_set(f, STATUS_FAULT, "cannot start a process: no pipe can be created");
+        return child_not_started(f);
     *t = (tester){.end = ends[0], .since = clock_wall_seconds(), .of = of, .part = part};
     fflush(NULL);
     t->process = fork();
@@ -100,7 +100,7 @@ static status start(tester *t, certificate *of, int part, int time_limit, fault 
     if (t->process < 0) {
         close(ends[0]);
         t->end = -1;
-        return fault_set(f, STATUS_FAULT, "cannot start a process");
+        return child_not_started(f);
     }
     return STATUS_OK;
 }

@@ -316,7 +316,7 @@ int beam_point(const beam_request *r, double at, double exact, element_measure *
     else
         value = solved(r, &s, words);
     if (!offered)
-        snprintf(one->words, sizeof one->words, "not offered: %s", missing);
+        snprintf(one->words, sizeof one->words, "not supported: %s", missing);
     else if (words[0] != '\0' && one->words[0] == '\0')
         memcpy(one->words, words, sizeof words);
     if (offered)

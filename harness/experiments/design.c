@@ -24,10 +24,10 @@ static status count_grid(design *d, fault *f)
                              "--design sobol --points N",
                              a->of->name, a->of->name, a->from, a->to);
         if (d->points > DESIGN_MOST_POINTS / a->count)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "the sweep has more than %d points; give fewer parts, or --design sobol --points N",
-                DESIGN_MOST_POINTS);
+            return fault_set(f, STATUS_REFUSED,
+                             "the grid has more than %d points; give fewer parts or values, or "
+                             "--design sobol --points N",
+                             DESIGN_MOST_POINTS);
         d->points *= a->count;
     }
     return STATUS_OK;
@@ -227,10 +227,14 @@ static status check(const case_type *type, const sweep_axis *a, double value, fa
 
 static status add_value(sweep_axis *a, double value, fault *f)
 {
+    char text[ASSIGNMENT_VALUE];
     for (int i = 0; i < a->count; i++)
-        if (a->value[i] == value)
-            return fault_set(f, STATUS_REFUSED, "--vary %s: a value is given twice; give it once",
-                             a->of->name);
+        if (a->value[i] == value) {
+            axis_text(a, value, text, sizeof text);
+            return fault_set(f, STATUS_REFUSED,
+                             "--vary %s: the value %s is given twice; give it once", a->of->name,
+                             text);
+        }
     double *more = realloc(a->value, (size_t)(a->count + 1) * sizeof *more);
     if (more == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for the values of --vary");
@@ -292,8 +296,8 @@ static status check_ends(const case_type *type, const sweep_axis *a, fault *f)
 {
     if (a->kind == AXIS_LOG && !(a->from > 0 && a->to > 0) && !(a->from < 0 && a->to < 0))
         return fault_set(f, STATUS_REFUSED,
-                         "--vary %s: equal ratios from %g to %g do not exist; give ends of the "
-                         "same sign, or remove ':log'",
+                         "--vary %s: equal ratios from %g to %g do not exist; give two nonzero "
+                         "ends of the same sign, or remove ':log'",
                          a->of->name, a->from, a->to);
     if (a->from == a->to)
         return fault_set(f, STATUS_REFUSED,
@@ -314,9 +318,10 @@ static status read_range(const case_type *type, const char *text, const char *do
     const size_t rest = colon != NULL ? (size_t)(colon - to) : strlen(to);
     const size_t end = strcspn(to, "/:");
     if (a->of->choices != NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "--vary %s: the values are words, which have no range; list words from %s",
-                         a->of->name, a->of->choices);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--vary %s: the values are words, which have no range; list some of the words %s",
+            a->of->name, a->of->choices);
     if (colon != NULL && strcmp(colon, ":log") != 0)
         return fault_set(f, STATUS_REFUSED,
                          "--vary %s: the kind of steps '%.40s' is unknown; write %s=A..B/N for "

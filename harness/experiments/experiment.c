@@ -247,10 +247,11 @@ static const schema_field fields_of_certificate[] = {
     {"compared", "1", FIELD_INT, "number of compared values, plus yes/no checks",
      .get = get_compared},
     {0}};
-static const record_type record_certificate = {"certificate",
-                                               "formulations",
-                                               "checks of a formulation against the interface",
-                                               {key_of_formulation, fields_of_certificate}};
+static const record_type record_certificate = {
+    "certificate",
+    "formulations",
+    "checks of a formulation against the interface requirements",
+    {key_of_formulation, fields_of_certificate}};
 
 static const schema_field fields_of_part[] = {
     {"what", "", FIELD_TEXT, "summary of the requirements", .get = get_what}, {0}};
@@ -277,7 +278,7 @@ static const schema_field fields_of_check[] = {
 static const record_type record_check = {
     "claim",
     "claims",
-    "a requirement of the interface and the deviation of a formulation from this requirement",
+    "an interface requirement, and the deviation of a formulation from it",
     {key_of_formulation, key_of_family, fields_of_check}};
 
 static const schema_field key_of_measure[] = {

@@ -306,8 +306,9 @@ static void print_head(FILE *to, const extreme *e)
     fputc('\n', to);
     paragraph_printf(to, 0, 0, "%s: %s", e->name, e->summary);
     paragraph_printf(to, 0, 2, "%s%s, %s", e->base, fixed,
-                     e->criterion == EXTREME_EXACT ? "against exact values"
-                                                   : "compared with the formulation's own value");
+                     e->criterion == EXTREME_EXACT
+                         ? "against exact values"
+                         : "compared with the value of the same formulation without the extreme");
     if (fprintf(to, "  %-*s", INDENT - 2 + NAME_WIDTH, e->x_name) > INDENT + NAME_WIDTH)
         fprintf(to, "\n%*s", INDENT + NAME_WIDTH, "");
     for (int k = 0; k < e->values; k++)
@@ -415,8 +416,8 @@ static void print_unexpected(FILE *to, const extreme_sweep *s)
 
 static void print_legend(FILE *to)
 {
-    fprintf(to, "\nerrors in %%; ~ coarse: decreases with more elements; ! wrong; ? not expected; "
-                "- skip\n");
+    fprintf(to, "\nerrors in %%; ~ under-resolved: decreases with more elements; ! wrong; ? not "
+                "expected; - not supported\n");
     for (int k = 0, named = 0; k < OUTCOME_KINDS; k++)
         if (failures[k].letter != '\0')
             fprintf(to, "%s%c %s", named++ > 0 ? "; " : "", failures[k].letter, failures[k].words);

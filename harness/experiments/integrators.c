@@ -295,13 +295,13 @@ static void print_reference(FILE *to, const integrators *p, const integrators_gr
     char stopped[160] = "";
     if (integrators_order_is_stopped(g))
         snprintf(stopped, sizeof stopped,
-                 "; between these two steps the order is %.1f instead of %d, because modes that "
-                 "the steps do not resolve contribute",
+                 "; the observed order of radau is %.1f instead of %d, because its steps do not "
+                 "resolve some modes",
                  g->order, INTEGRATORS_REFERENCE_ORDER);
     paragraph_printf(
         to, 0, 2,
-        "time-integration errors: relative to radau at %g on the same mesh (%d steps), "
-        "whose error is at most %.1e according to radau at %g and %g%s",
+        "time-integration errors: relative to radau with tolerance %g on the same mesh (%d steps), "
+        "whose error is at most %.1e according to radau with tolerances %g and %g%s",
         integrators_reference[0], integrators_cell_of(p, g->reference)->solve.steps, g->uncertainty,
         integrators_reference[1], integrators_reference[2], stopped);
 }
@@ -322,7 +322,7 @@ static void print_head(FILE *to, const integrators *p, const integrators_group *
             "no errors are available, because the reference solution cannot be checked: %s",
             g->reason);
     if (isfinite(g->from) && g->from < g->end)
-        paragraph_printf(to, 0, 2, "energy and momenta: their largest change since %g s", g->from);
+        paragraph_printf(to, 0, 2, "energy and momentum: largest changes since %g s", g->from);
     fprintf(to, "  %-*s%*s%*s%*s%6s%*s%*s%6s%5s%*s%*s  %s\n", NAME, "integrator", NUMBER, "step",
             NUMBER, "tol.", NUMBER, "error", "order", NUMBER, "energy", NUMBER, "momentum", "iter.",
             "rej.", NUMBER, "cost ms", NUMBER, "time ms", "fate");
@@ -390,7 +390,7 @@ static int write_standing(FILE *text, const integrators *p, const integrators_gr
         if (!integrators_order_stagnates(p, &l, quantity))
             continue;
         if (text != NULL)
-            fprintf(text, "%s %s (off by %.1e at a step of %g s)", count > 0 ? "," : "",
+            fprintf(text, "%s %s (error %.1e at a step of %g s)", count > 0 ? "," : "",
                     l.method->name, last->values[quantity], last->step);
         count++;
     }
@@ -419,7 +419,7 @@ static void print_level(FILE *to, const integrators *p, int group, double level)
     double behind = 0;
     paragraph words;
     FILE *text = paragraph_begin(&words, to);
-    fprintf(text, "the three integrators with the lowest cost for an error of %g:", level);
+    fprintf(text, "integrators with the lowest cost for an error of %g (at most three):", level);
     for (int place = 0; place < 3; place++) {
         integrators_reach best = {NULL, INFINITY};
         for (int i = 0; i < count; i++) {

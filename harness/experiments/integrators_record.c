@@ -40,9 +40,9 @@ static const schema_field fields_of_run[] = {
      "structure, rotations in rad",
      AT(integrators_run, error)},
     {"order", "1", FIELD_DOUBLE,
-     "order of the error, compared with the previous run with a longer step",
+     "observed order, from the errors of this run and of the previous one with a longer step",
      AT(integrators_run, order)},
-    {"cost", "s", FIELD_DOUBLE, "cost of the counted work, with the project's cost coefficients",
+    {"cost", "s", FIELD_DOUBLE, "cost of the counted work, with beamwork's cost coefficients",
      AT(integrators_run, cost)},
     {"seconds", "s", FIELD_DOUBLE, "processor time", AT(integrators_run, seconds)},
     {"steps", "1", FIELD_LONG, "accepted steps", AT(integrators_run, steps)},
@@ -207,15 +207,15 @@ static void get_reached_tolerance(const subject *s, field_value *out)
 
 static const schema_field fields_of_reached[] = {
     {"error", "1", FIELD_DOUBLE, "time error", AT(record_reached, error)},
-    {"integrator", "", FIELD_TEXT, "integrator that reaches the error",
+    {"integrator", "", FIELD_TEXT, "integrator that achieves the error",
      TEXT_OF(RECORD, record_reached, integrator)},
     {"cost", "s", FIELD_DOUBLE, "cost of the counted work at this error",
      AT(record_reached, way.cost)},
-    {"step", "s", FIELD_DOUBLE, "step of the run that reaches the error", .get = get_reached_step},
+    {"step", "s", FIELD_DOUBLE, "step of the run that achieves the error", .get = get_reached_step},
     {"tolerance", "1", FIELD_DOUBLE, "tolerance of that run", .get = get_reached_tolerance},
     {0}};
 static const record_type record_integrators_reached = {
-    "reached", "reached", "lowest cost of reaching an error level", {KEYS, fields_of_reached}};
+    "reached", "reached", "lowest cost for an error", {KEYS, fields_of_reached}};
 
 static const schema_field fields_of_verdict[] = {
     {"judged", "", FIELD_TEXT,
@@ -266,10 +266,10 @@ static void get_momentum(const subject *s, field_value *out)
 static const schema_field fields_of_all[] = {
     {"growth", "1", FIELD_DOUBLE,
      "relative increase of the energy above which the outcome is 'grows'", .get = get_growth},
-    {"exact_energy", "1", FIELD_DOUBLE, "relative drift up to which the energy counts as exact",
+    {"exact_energy", "1", FIELD_DOUBLE, "relative change up to which the energy counts as exact",
      .get = get_energy},
-    {"exact_momentum", "1", FIELD_DOUBLE, "relative drift up to which the momentum counts as exact",
-     .get = get_momentum},
+    {"exact_momentum", "1", FIELD_DOUBLE,
+     "relative change up to which the momentum counts as exact", .get = get_momentum},
     {"unexpected", "1", FIELD_INT, "verdicts that the table does not expect",
      AT(motions, verdicts.unexpected)},
     {0}};

@@ -23,7 +23,7 @@ enum { MOST_POINTS_IN_BATCH = 8192, MOST_BATCHES = 100000000 };
 static status add_axis(parameter_ranges *r, const char *text, fault *f)
 {
     if (r->design.axes == CASE_MAX_PARAMETERS)
-        return fault_set(f, STATUS_REFUSED, "more than %d --vary options; give fewer",
+        return fault_set(f, STATUS_REFUSED, "more than %d options --vary are given; give fewer",
                          CASE_MAX_PARAMETERS);
     sweep_axis *a = &r->axis[r->design.axes];
     TRY(axis_read(r->request.type, text, a, f));
@@ -41,10 +41,10 @@ static status read_axes(parameter_ranges *r, fault *f)
     char shown[ASSIGNMENT_SHOWN];
     assignment_shown(&list, shown);
     if (r->request.varies == 0)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "no parameter varies; give --vary NAME=A..B/N; 'beamwork list %.170s' shows the names",
-            shown);
+        return fault_set(f, STATUS_REFUSED,
+                         "no parameter varies; give --vary NAME=A..B/N; 'beamwork list %.170s' "
+                         "shows the parameters",
+                         shown);
     for (int i = 0; i < r->request.varies; i++)
         TRY(add_axis(r, r->request.vary[i], f));
     const int axes = r->design.axes;
@@ -305,8 +305,7 @@ static status run(void *context, int batch, FILE *to, digest *content, fault *f)
     status outcome = ranges_solve(own->of, batch, &w, f);
     if (outcome == STATUS_OK && rows_write(to, &w) != 0)
         outcome =
-            fault_set(f, STATUS_FAULT,
-                      "the results of batch %d cannot be passed to the main process", batch + 1);
+            fault_set(f, STATUS_FAULT, "out of memory for the results of batch %d", batch + 1);
     if (outcome == STATUS_OK)
         add_content(content, &w);
     rows_free(&w);
@@ -320,7 +319,8 @@ static status keep(ranges_work *own, int batch, FILE *from, rows *w, fault *f)
     const int points = ranges_batch(own->of, batch, &first);
     TRY(rows_alloc(&shape, points, w, f));
     if (rows_read(from, w) != 0)
-        return fault_set(f, STATUS_FAULT, "the results of batch %d cannot be read from a process",
+        return fault_set(f, STATUS_FAULT,
+                         "the results of batch %d cannot be read; compute the batch again",
                          batch + 1);
     add_content(&own->content, w);
     if (own->tally != NULL)

@@ -146,10 +146,10 @@ static void put_columns(ranges_file *file)
 
 static status failed(const ranges_file *file, fault *f)
 {
-    return fault_set(
-        f, STATUS_FAULT,
-        "%.200s: the sweep could not be written, because the disk or the memory is full",
-        file->path);
+    return fault_set(f, STATUS_FAULT,
+                     "%.200s: the sweep could not be written, because the disk or the memory is "
+                     "full; free some space",
+                     file->path);
 }
 
 status ranges_file_open(const char *path, const parameter_ranges *r, const char *plan,

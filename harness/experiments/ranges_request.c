@@ -190,8 +190,8 @@ static void describe_reference(const tally *t, int q, char text[RANGES_TABLE_LIN
         {kind[ROWS_DERIVED], "reference values computed for each point"},
         {kind[ROWS_LIMIT], alone ? "the limit of the same meshes, which shows only convergence"
                                  : "the limit of the meshes of all formulations of one theory"},
-        {kind[ROWS_NONE], "none, because no limit has an uncertainty below half of the error (use "
-                          "finer meshes with -n, or --compute-references)"},
+        {kind[ROWS_NONE], "none, because no limit has an uncertainty below half of the target "
+                          "error (use finer meshes with -n, or --compute-references)"},
         {kind[ROWS_DISPUTED], "none, because the limits of the formulations disagree"}};
     size_t used = 0;
     int parts = 0;
@@ -383,7 +383,8 @@ void ranges_table_map(FILE *to, const tally *t, int every)
 {
     const parameter_ranges *r = t->of;
     if (t->columns == 0) {
-        fprintf(to, "\nno map for %d parameters; the report page of the sweep shows slices\n",
+        fprintf(to,
+                "\nno map, because %d parameters vary; the report page of the sweep shows slices\n",
                 r->design.axes);
         return;
     }
@@ -394,10 +395,11 @@ void ranges_table_map(FILE *to, const tally *t, int every)
         100 * r->request.tolerance, r->mesh[r->meshes - 1],
         has_other(t) ? "; o: another model" : "",
         has_unknown(t, 0) ? "; ?: no reference value" : "",
-        has_unknown(t, 1) ? "; a number with ?: some of its points have no reference" : "",
-        has_mixed(t) ? "; *: relative to a reference value; elsewhere relative to limits "
-                       "of meshes, which do not show the physics omitted by a theory"
-                     : "",
+        has_unknown(t, 1) ? "; a number with ?: some of its points have no reference value" : "",
+        has_mixed(t)
+            ? "; *: errors relative to reference values; other numbers: errors relative to limits "
+              "of meshes, which do not show the effect of physics that a theory omits"
+            : "",
         is_coarse(t) ? "; each field shows the number of elements that suffices for all "
                        "its points; column and row give the lower bounds of the field"
                      : "");

@@ -107,8 +107,8 @@ static status hold_batches(const char *folder, fault *f)
         if (flock(held, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             close(held);
             return fault_set(f, STATUS_REFUSED,
-                             "%.200s: another 'beamwork sweep' is using it; wait until it ends, or "
-                             "give -o another name",
+                             "%.200s: another 'beamwork sweep' is using this folder; wait until it "
+                             "ends, or give -o another name",
                              folder);
         }
         if (fstat(held, &there) != 0)

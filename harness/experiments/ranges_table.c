@@ -37,7 +37,7 @@ void ranges_table_head(FILE *to, const parameter_ranges *r)
         snprintf(seed, sizeof seed, ", seed %lu", r->design.seed);
     paragraph_printf(
         to, fprintf(to, "%s", r->request.type->name), 2,
-        "%s%s: %ld points (%s%s), %d %s, %d %s: %ld cells", fixed[0] != '\0' ? ", " : "", fixed,
+        "%s%s: %ld points (%s%s), %d %s, %d %s: %ld runs", fixed[0] != '\0' ? ", " : "", fixed,
         r->design.points, design_name(r->design.kind), seed, r->formulations,
         r->formulations == 1 ? "formulation" : "formulations", r->meshes,
         r->meshes == 1 ? "mesh" : "meshes", r->design.points * r->formulations * r->meshes);
@@ -157,16 +157,16 @@ static void write_open(FILE *to, const tally *t)
     for (int i = 0; i < t->of->formulations; i++)
         open |= tally_of(t, i, t->of->quantities)->open > 0;
     if (open)
-        paragraph_printf(
-            to, 0, 2,
-            "a point at which a value has no reference counts for all quantities together only if "
-            "another value is outside the error; n?: over the points that have a reference");
+        paragraph_printf(to, 0, 2,
+                         "all quantities: a point at which a quantity has no reference value "
+                         "counts only if another quantity is outside the error; n?: over the "
+                         "points at which all quantities have a reference value");
 }
 
 static void write_all_shares(FILE *to, const tally *t, int every)
 {
     const int several = t->of->quantities > 1;
-    fprintf(to, "\nshare of the points within %g %%\n", 100 * t->of->request.tolerance);
+    fprintf(to, "\nshare of the points with errors within %g %%\n", 100 * t->of->request.tolerance);
     for (int q = 0; q < t->of->quantities && (every || !several); q++)
         write_shares(to, t, q);
     if (several) {
@@ -201,7 +201,7 @@ static void write_failures(FILE *to, const tally *t)
             ran += t->ran[i * r->meshes + k];
         }
         if (failed > 0)
-            fprintf(to, "%s: %ld of %ld cells have no solution\n", r->formulation[i].key, failed,
+            fprintf(to, "%s: %ld of %ld runs have no solution\n", r->formulation[i].key, failed,
                     ran);
     }
 }

@@ -27,8 +27,8 @@ static status read_back(const sweep *s, const evaluation *j, stored_results *out
         return fault_set(f, STATUS_FAULT, "TMPDIR: the name is too long; give a shorter one");
     const int file = mkstemp(path);
     if (file < 0)
-        return fault_set(f, STATUS_FAULT, "%.200s: cannot be written; set TMPDIR to a folder",
-                         path);
+        return fault_set(f, STATUS_FAULT,
+                         "%.200s: cannot be written; set TMPDIR to a writable folder", path);
     close(file);
     status outcome = store_write(path, NULL, s, j, &e, f);
     if (outcome == STATUS_OK)

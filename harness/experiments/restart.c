@@ -49,8 +49,8 @@ static status check_chosen(const restart *r, const solution_request *of, fault *
             r->formulation, r->elements, of->formulation.key, of->elements);
     if (r->keep_all != of->keep_all)
         return fault_set(f, STATUS_REFUSED,
-                         "the --restart file was written by a run %s --all-dofs; %s",
-                         r->keep_all ? "with" : "without", r->keep_all ? "give it" : "remove it");
+                         "the --restart file was written by a run %s --all-dofs; %s --all-dofs",
+                         r->keep_all ? "with" : "without", r->keep_all ? "give" : "remove");
     return STATUS_OK;
 }
 
@@ -372,10 +372,11 @@ static status differ(const char *former, const char *now, fault *f)
             while (same < n && same < k && a[same] == b[same])
                 same++;
             same = same > BEFORE ? same - BEFORE : 0;
-            return fault_set(
-                f, STATUS_REFUSED,
-                "the --restart file belongs to another scene: there '%.*s', here '%.*s'",
-                excerpt_length(n - same), a + same, excerpt_length(k - same), b + same);
+            return fault_set(f, STATUS_REFUSED,
+                             "the --restart file belongs to another scene: there '%.*s', here "
+                             "'%.*s'; give the scene of the file",
+                             excerpt_length(n - same), a + same, excerpt_length(k - same),
+                             b + same);
         }
         former = a + n + (a[n] == '\n');
         now = b + k + (b[k] == '\n');

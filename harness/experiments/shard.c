@@ -46,7 +46,7 @@ static status start_process(worker_pool *c, int self, fault *f)
     const pid_t parent = getpid();
     c->todo.queue->at[self] = -1;
     if (pipe2(ends, O_CLOEXEC) != 0)
-        return fault_set(f, STATUS_FAULT, "cannot start a process: no pipe can be created");
+        return child_not_started(f);
     c->worker[self].process = fork();
     if (c->worker[self].process == 0) {
         child_begin(parent);
@@ -56,7 +56,7 @@ static status start_process(worker_pool *c, int self, fault *f)
     close(ends[1]);
     if (c->worker[self].process < 0) {
         close(ends[0]);
-        return fault_set(f, STATUS_FAULT, "cannot start a process");
+        return child_not_started(f);
     }
     fcntl(ends[0], F_SETFL, O_NONBLOCK);
     c->worker[self].from = ends[0];

@@ -276,7 +276,9 @@ static status ask_scene(const char *script, const sweep_point *p, derived_value 
     FILE *text = tmpfile();
     const write_head head = {p->type->name, p->type->summary, p->type->source};
     if (text == NULL)
-        return fault_set(f, STATUS_FAULT, "a temporary file for the scene cannot be created");
+        return fault_set(f, STATUS_FAULT,
+                         "a temporary file for the scene cannot be created; make sure that /tmp is "
+                         "writable and not full");
     status outcome = write_scene(text, &p->scene, &head, f);
     if (outcome == STATUS_OK)
         outcome = derive_scene(script, text, value, count, f);

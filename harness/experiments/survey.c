@@ -68,25 +68,6 @@ static status look_at(parameter_ranges *r, const sweep *s, int index, survey_sel
     return STATUS_OK;
 }
 
-static const char *quantity_at(const void *context, int i)
-{
-    const scene *s = context;
-    return i < s->quantities ? s->quantity[i].name : NULL;
-}
-
-static status check_words(const survey_selected *w, const sweep_point *p, fault *f)
-{
-    char word[SELECT_WORD];
-    if (!select_unmet(w->select, &w->words, word))
-        return STATUS_OK;
-    const char *near = choice_nearest(word, quantity_at, &p->scene);
-    if (near == NULL)
-        return select_all_met(w->select, &w->words, f);
-    return fault_set(f, STATUS_REFUSED,
-                     "selection '%.60s': the name '%.60s' is unknown; did you mean '%s'?",
-                     w->select, word, near);
-}
-
 /* Removes formulations that cannot run or have no selected quantity. REFUSED: the user named a
  * formulation that cannot run, or no formulation or quantity remains. */
 static status keep_running(parameter_ranges *r, const survey_selected *w, fault *f)
@@ -102,7 +83,8 @@ static status keep_running(parameter_ranges *r, const survey_selected *w, fault 
             continue;
         if (r->request.formulations > 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%.60s does not support %.160s, which %.60s requires",
+                             "%.60s does not support %.160s, which %.60s requires; choose another "
+                             "formulation with -f",
                              r->formulation[i].key, why, r->request.type->name);
         if (used < (int)sizeof r->left_out)
             used += snprintf(r->left_out + used, sizeof r->left_out - (size_t)used, "%s%s (%s)",
@@ -112,12 +94,10 @@ static status keep_running(parameter_ranges *r, const survey_selected *w, fault 
     if (kept > 0 && r->quantities > 0)
         return STATUS_OK;
     return w->select != NULL
-               ? fault_set(f, STATUS_REFUSED,
-                           "-k '%.100s' selects no quantity of %.60s; 'beamwork list CASE' shows "
-                           "the quantities",
-                           w->select, r->request.type->name)
+               ? narrow_to_nothing(w->select, r->request.type->name, f)
                : fault_set(f, STATUS_REFUSED,
-                           "%.60s has no single-valued quantity that a formulation can compute",
+                           "%.60s has no single-valued quantity that a formulation can compute; "
+                           "choose another case",
                            r->request.type->name);
 }
 
@@ -143,9 +123,10 @@ static status evaluate(parameter_ranges *r, const sweep *s, fault *f)
         }
     if (known < 0)
         return fault_set(f, STATUS_REFUSED,
-                         "no scene can be built at any point that was tried: %.200s",
+                         "no scene can be built at the points that were tried (%.200s); change the "
+                         "ranges of --vary",
                          s->point[0].reason);
-    TRY(check_words(&w, &s->point[known], f));
+    TRY(narrow_check_words(&s->point[known], w.select, &w.words, f));
     scene_omission_words(features_omitted(&s->point[known].scene), r->omitted);
     assumptions_words(&s->point[known], sizeof r->assumed, r->assumed);
     take_meshes(r, s);

@@ -359,7 +359,8 @@ static void compare_errors(const listing *l, const result_series *a, const resul
     const double slack = log10(1 + l->limits->error) + pow(10, -RESULTS_DECADES_DECIMALS);
     if (a->errors != b->errors) {
         comparison_lines_heading(l, b->errors < a->errors ? CHANGE_WORSE : CHANGE_OTHER);
-        fprintf(l->to, ": values with an error: %d (before: %d)\n", b->errors, a->errors);
+        fprintf(l->to, ": number of values with a known error: %d (before: %d)\n", b->errors,
+                a->errors);
         return;
     }
     const int largest = compare_error(l, "largest", &a->largest, &b->largest);

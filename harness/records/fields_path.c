@@ -53,24 +53,24 @@ static void get_prediction_error(const subject *s, field_value *out)
 static const schema_field fields_of_quantity[] = {
     {"moments", "", FIELD_TEXT, "convention for moments while their node rotates",
      .get = get_moments},
-    {"status", "", FIELD_ENUM, "ok if there is a value", VALUE(status),
-     .word = fields_keys_word_of_status, .words = STATUSES},
+    {"status", "", FIELD_ENUM, "ok if there is a value; otherwise the kind of failure",
+     VALUE(status), .word = fields_keys_word_of_status, .words = STATUSES},
     {"reason", "", FIELD_TEXT, "reason for a missing value", VALUE(reason)},
     {"value", OWN_UNIT, FIELD_DOUBLE, "the value", VALUE(value)},
     {"meaning", "", FIELD_TEXT,
      "envelope: governing combination; frequency: damped or not; critical load of loads without a "
      "potential: kind of instability; curve of a continued motion: its start",
      VALUE(meaning)},
-    {"not_modelled", "", FIELD_TEXT, "omitted physics of the formulation that affects the value",
-     .get = get_not_modelled},
-    {"truth", OWN_UNIT, FIELD_DOUBLE, "reference value of the same continuum model",
+    {"not_modelled", "", FIELD_TEXT,
+     "physics that the formulation omits and that affects the value", .get = get_not_modelled},
+    {"truth", OWN_UNIT, FIELD_DOUBLE, "reference value for the same continuum model",
      OF(TRUTH, truth, value)},
     {"error", "1", FIELD_DOUBLE,
      "(value - reference value)/|reference value|; near_zero is the divisor if it is larger",
      .get = get_error},
     {"model_error", "1", FIELD_DOUBLE,
-     "relative difference from the reference value of another model", .get = get_model_error},
-    {"x", "x_unit", FIELD_DOUBLE, "location of a maximum or minimum", VALUE(x)},
+     "relative difference from the reference value for another model", .get = get_model_error},
+    {"x", "x_unit", FIELD_DOUBLE, "abscissa of a maximum or minimum", VALUE(x)},
     {"x_name", "", FIELD_TEXT, "name of the abscissa of a curve",
      OF(QUANTITY, scene_quantity, x.name)},
     {"x_unit", "", FIELD_TEXT, "unit of the abscissa", OF(QUANTITY, scene_quantity, x.unit)},
@@ -95,7 +95,7 @@ static const schema_field fields_of_quantity[] = {
 const record_type record_quantity = {
     "quantity",
     "quantities",
-    "a requested value of a cell",
+    "a requested value of a formulation on one mesh",
     {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_quantity}};
 
 static const schema_field fields_of_truth[] = {
@@ -122,7 +122,7 @@ static const schema_field fields_of_curve[] = {
 const record_type record_curve = {
     "curve",
     "curves",
-    "a quantity along a path, whose points are in the arrays curve_x and curve_value",
+    "a curve of a quantity; its points are in the arrays curve_x and curve_value",
     {keys_of_point, keys_of_series, key_of_mesh, names_of_quantity, fields_of_curve}};
 
 static void get_analysis(const subject *s, int analysis, field_value *out)
@@ -166,15 +166,21 @@ static const schema_field fields_of_step[] = {
      "undecided; in rotating axes: stable, unstable: grows, stable without damping or undecided",
      .get = get_stability},
     {"residual", "1", FIELD_DOUBLE,
-     "residual before the last iteration of the step, relative to that before the first",
+     "residual before the last iteration of the step, relative to the residual before the first "
+     "iteration",
      STEP(residual)},
-    {"correction", "1", FIELD_DOUBLE, "correction by the last iteration of the step",
+    {"correction", "1", FIELD_DOUBLE,
+     "largest correction in the last iteration of the step: translations relative to the size of "
+     "the scene, rotations in rad",
      STEP(correction)},
-    {"remaining", "1", FIELD_DOUBLE, "predicted correction of a further iteration",
+    {"remaining", "1", FIELD_DOUBLE, "predicted largest correction in a further iteration",
      STEP(remaining)},
-    {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before the last iteration",
+    {"incompatibility", "1", FIELD_DOUBLE,
+     "largest |D(x) - e|/l before the last iteration: strains D(x) of the nodes, element strains "
+     "e, length l",
      STEP(incompatibility)},
-    {"energy", "J", FIELD_DOUBLE, "r . K^-1 r of the first iteration", STEP(energy)},
+    {"energy", "J", FIELD_DOUBLE,
+     "r . K^-1 r in the first iteration, with the residual r and the tangent K", STEP(energy)},
     {0}};
 const record_type record_step = {"step",
                                  "steps",
@@ -189,8 +195,13 @@ static const schema_field fields_of_iteration[] = {
     {"residual", "1", FIELD_DOUBLE,
      "sqrt(r . K^-1 r) before the iteration, relative to the value before the first iteration",
      ITERATION(residual)},
-    {"correction", "1", FIELD_DOUBLE, "correction by the iteration", ITERATION(correction)},
-    {"incompatibility", "1", FIELD_DOUBLE, "max |D(x) - e|/l before the iteration",
+    {"correction", "1", FIELD_DOUBLE,
+     "largest correction in the iteration: translations relative to the size of the scene, "
+     "rotations in rad",
+     ITERATION(correction)},
+    {"incompatibility", "1", FIELD_DOUBLE,
+     "largest |D(x) - e|/l before the iteration: strains D(x) of the nodes, element strains e, "
+     "length l",
      ITERATION(incompatibility)},
     {0}};
 const record_type record_iteration = {
@@ -268,7 +279,8 @@ static const schema_field fields_of_motion[] = {
      BALANCE(SCENE_WORK)},
     {"dissipated", "J", FIELD_DOUBLE, "energy dissipated by damping since the start",
      BALANCE(SCENE_DISSIPATED)},
-    {"drift", "J", FIELD_DOUBLE, "energy plus dissipated energy, minus initial energy and work",
+    {"drift", "J", FIELD_DOUBLE,
+     "energy-balance error: energy plus dissipated energy, minus initial energy and work",
      BALANCE(SCENE_DRIFT)},
     {"px", "kg m/s", FIELD_DOUBLE, "momentum along x", BALANCE(SCENE_PX)},
     {"py", "kg m/s", FIELD_DOUBLE, "momentum along y", BALANCE(SCENE_PY)},
@@ -302,8 +314,8 @@ static void get_stiffness(const subject *s, field_value *out)
 }
 
 static const schema_field fields_of_matrix[] = {
-    {"node", "1", FIELD_INT, "index of the analysis in the scene", AT(nodal_matrices, node)},
-    {"node_name", "", FIELD_TEXT, "name of the analysis in the scene", .get = get_node},
+    {"node", "1", FIELD_INT, "index of the node in the scene", AT(nodal_matrices, node)},
+    {"node_name", "", FIELD_TEXT, "name of the node in the scene", .get = get_node},
     {"moments", "", FIELD_ENUM, "convention for moments while their node rotates",
      AT(nodal_matrices, moments), .word = fields_keys_word_of_moments,
      .words = SCENE_MOMENTS_SYMMETRISED + 1},
@@ -316,7 +328,7 @@ static const schema_field fields_of_matrix[] = {
     {0}};
 const record_type record_matrix = {"matrix",
                                    "matrices",
-                                   "compliance and stiffness of a node at a station of a path",
+                                   "compliance and stiffness at a node, at a station of a path",
                                    {keys_of_point, keys_of_series, key_of_mesh, fields_of_matrix}};
 
 /* Returns the type with its declarations for the current options of the formulation. */
@@ -347,9 +359,9 @@ static void get_limits(const subject *s, field_value *out)
         {LIMIT_TENSION,
          "no element is so long that its axial force makes its transverse stiffness indefinite"},
         {LIMIT_EIGHTH_TWIST, "twist of an element below an eighth of a turn"},
-        {LIMIT_NOT_OBJECTIVE, "strains that rigid rotations of a deformed element change; the "
-                              "error vanishes with more elements"},
-        {LIMIT_PATH_DEPENDENT, "strains that depend on the path that led to a state; the error "
+        {LIMIT_NOT_OBJECTIVE, "rigid rotations of a deformed element change its strains; the error "
+                              "vanishes with more elements"},
+        {LIMIT_PATH_DEPENDENT, "the strains depend on the path that led to a state; the error "
                                "vanishes with more elements"},
         {LIMIT_WARPING_RIGID, "no shear deformation due to warping, so no closed cells that warp"},
         {LIMIT_FLAT_ARC, "the arc of a curved element rises by less than 2 radii of gyration of "
@@ -461,13 +473,13 @@ static const schema_field fields[] = {
     {"type", "", FIELD_TEXT, "name without options", TEXT_OF(FORMULATION, element_type, name)},
     {"summary", "", FIELD_TEXT, "description", TEXT_OF(FORMULATION, element_type, summary)},
     {"source", "", FIELD_TEXT, "publication", TEXT_OF(FORMULATION, element_type, source)},
-    {"family", "", FIELD_TEXT, "formulations of a family share code or theory",
+    {"family", "", FIELD_TEXT, "family; formulations of one family share code or theory",
      TEXT_OF(FORMULATION, element_type, family)},
     {"offers", "", FIELD_TEXT, "supported physics, separated by commas", .get = get_offers},
     {"limits", "", FIELD_TEXT, "restrictions", .get = get_limits},
     {"lacks", "", FIELD_TEXT, "features supported in only one direction", .get = get_lacks},
     {"differences", "", FIELD_TEXT,
-     "functions computed by differences; if there are any, the times are not ranked",
+     "functions computed by finite differences; if there are any, the times are not ranked",
      .get = get_differences},
     {"misprint", "", FIELD_TEXT,
      "misprint that is implemented as printed; if there is one, the formulation is not ranked",
@@ -476,23 +488,24 @@ static const schema_field fields[] = {
      "1 if the formulation is computed in another process; its times are then not ranked",
      .get = get_process},
     {"is_new", "", FIELD_FLAG,
-     "1 if the formulation is not accepted yet; its verdicts then do not affect the exit status",
+     "1 if the formulation is not accepted yet; its verdicts then affect the exit status only if "
+     "-f names it",
      .get = get_is_new},
     {"shear_theory", "", FIELD_TEXT, "shear theory in stability", .get = get_theory},
     {"statics_least", "1", FIELD_INT, "order of convergence in statics", .get = get_order},
-    {"statics_highest", "1", FIELD_INT, "order of convergence if leading terms vanish", .offset = 1,
-     .get = get_order},
+    {"statics_highest", "1", FIELD_INT,
+     "highest order of convergence, if leading error terms vanish", .offset = 1, .get = get_order},
     {"vibration_least", "1", FIELD_INT, "order in vibration", .offset = 2, .get = get_order},
-    {"vibration_highest", "1", FIELD_INT, "order of convergence if leading terms vanish",
-     .offset = 3, .get = get_order},
+    {"vibration_highest", "1", FIELD_INT,
+     "highest order of convergence, if leading error terms vanish", .offset = 3, .get = get_order},
     {"motion_least", "1", FIELD_INT, "order of convergence in transient analyses",
      .get = get_motion},
-    {"motion_highest", "1", FIELD_INT, "order of convergence if leading terms vanish", .offset = 1,
-     .get = get_motion},
+    {"motion_highest", "1", FIELD_INT,
+     "highest order of convergence, if leading error terms vanish", .offset = 1, .get = get_motion},
     {"buckling_least", "1", FIELD_INT, "order of convergence in linear buckling", .offset = 4,
      .get = get_order},
-    {"buckling_highest", "1", FIELD_INT, "order of convergence if leading terms vanish",
-     .offset = 5, .get = get_order},
+    {"buckling_highest", "1", FIELD_INT,
+     "highest order of convergence, if leading error terms vanish", .offset = 5, .get = get_order},
     {"nodes", "1", FIELD_INT, "number of nodes of an element", .get = get_nodes},
     {"strains", "1", FIELD_INT, "number of generalized strains of an element", .get = get_strains},
     {"inner", "1", FIELD_INT, "number of internal unknowns of an element", .get = get_inner},

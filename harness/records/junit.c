@@ -110,8 +110,8 @@ static void write_agreement(FILE *to, const sweep *s, const agreement *a)
     fprintf(to, "\" name=\"%s n=%d %s (discrete)\">\n", one->formulation.key, one->mesh[a->mesh],
             p->scene.quantity[a->quantity].name);
     if (!a->good)
-        fprintf(to, "   <failure message=\"%.17g differs from the stored %.17g\"/>\n", a->value,
-                a->truth->value);
+        fprintf(to, "   <failure message=\"%.17g differs from the stored value %.17g\"/>\n",
+                a->value, a->truth->value);
     fprintf(to, "  </testcase>\n");
 }
 
@@ -182,8 +182,8 @@ void junit_write(FILE *to, const sweep *s, const evaluation *j)
                          "run assigned no verdict, because there is no reference value");
     if (s->unfinished > 0)
         write_deviations(to, "run", s->unfinished,
-                         s->partial ? "cells were not computed, because batches are missing"
-                                    : "cells were not computed, because the run was interrupted");
+                         s->partial ? "missing runs, because batches are missing"
+                                    : "missing runs, because verify was interrupted");
     fprintf(to, " </testsuite>\n</testsuites>\n");
 }
 

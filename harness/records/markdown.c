@@ -127,7 +127,8 @@ static void write_legend(FILE *to, const overview *o)
             "number counts the quantities with this verdict.\n",
             o->joined ? " and options" : "");
     if (o->accepted < o->columns)
-        fprintf(to, "\n(new): not accepted yet; its verdicts do not affect the exit status.\n");
+        fprintf(to, "\n(new): the formulation is not accepted yet; its verdicts do not affect the "
+                    "exit status.\n");
 }
 
 static void write_row(FILE *to, const overview *o, int row)
@@ -249,12 +250,12 @@ void markdown_write(FILE *to, const sweep *s, const evaluation *j, const overvie
         fprintf(to, "**%s violates the interface requirements**: %s\n\n", j->breach[i].formulation,
                 j->breach[i].why);
     fprintf(to,
-            "%d verdicts against reference values in %d cells; %d verdicts differ from the "
-            "expected ones; %d of %d stored discrete values agree",
-            j->evaluated, sweep_cells(s), j->unexpected, j->agreements - j->disagreements,
+            "runs: %d; verdicts against reference values: %d; unexpected verdicts: %d; stored "
+            "discrete values that agree: %d of %d",
+            sweep_cells(s), j->evaluated, j->unexpected, j->agreements - j->disagreements,
             j->agreements);
     if (s->unfinished > 0)
-        fprintf(to, "; %d cells were not run", s->unfinished);
+        fprintf(to, "; missing runs: %d", s->unfinished);
     if (j->unobserved > 0)
         fprintf(to, "; %d known deviation%s not observed", j->unobserved,
                 j->unobserved == 1 ? " was" : "s were");

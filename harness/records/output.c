@@ -93,12 +93,6 @@ void output_abandon(void)
             output_remove(unfinished[i].path);
 }
 
-static status fail(const char *path, int why, fault *f)
-{
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another location",
-                     path, strerror(why));
-}
-
 /* Calls `make` with an unpredictable name next to `path`. Returns its result, or -1 with errno set.
  * The file counts as incomplete until output_unregister is called. */
 static int output_beside(const char *path, int (*make)(const char *name), char temporary[PATH_MAX])
@@ -157,7 +151,7 @@ int output_is_hdf5(const char *path)
 static status check_form(const char *path, const file_place *to, output_form form, fault *f)
 {
     if (to->kind == PLACE_FOLDER)
-        return fail(path, EISDIR, f);
+        return place_unwritable(path, EISDIR, f);
     if (form == OUTPUT_TEXT && output_is_hdf5(path))
         return fault_set(f, STATUS_REFUSED,
                          "%.200s: this command writes text, not HDF5; give a name that does not "
@@ -169,7 +163,7 @@ static status check_form(const char *path, const file_place *to, output_form for
             "%.200s is %s, but HDF5 requires a regular file; give the name of a file", path,
             to->descriptor >= 0 ? "the file of standard output or error" : "a pipe or a device");
     if (to->kind != PLACE_FREE && access(to->path, W_OK) != 0)
-        return fail(path, errno, f);
+        return place_unwritable(path, errno, f);
     return STATUS_OK;
 }
 
@@ -183,7 +177,7 @@ static status open_as(const char *path, output_form form, output *out, fault *f)
         direct ? open_stream(&out->to) : output_beside(out->to.path, make_file, out->temporary);
     out->stream = file >= 0 ? fdopen(file, "w") : NULL;
     if (out->stream == NULL)
-        return fail(path, errno, f);
+        return place_unwritable(path, errno, f);
     if (!direct)
         keep_permissions(&out->to, file);
     return STATUS_OK;
@@ -224,8 +218,12 @@ static int is_stored(FILE *stream)
 
 status output_flush(fault *f)
 {
-    return fflush(stdout) == 0 ? STATUS_OK
-                               : fault_set(f, STATUS_FAULT, "standard output cannot be written");
+    errno = 0;
+    if (fflush(stdout) == 0 && !ferror(stdout))
+        return STATUS_OK;
+    return fault_set(f, STATUS_FAULT,
+                     "standard output cannot be written (%s); redirect it to another location",
+                     errno != 0 ? strerror(errno) : "an earlier write failed");
 }
 
 status output_close(output *out, fault *f)
@@ -248,8 +246,8 @@ status output_close(output *out, fault *f)
         return STATUS_OK;
     }
     discard(out);
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s)%s", out->to.path,
-                     why != 0 ? strerror(why) : "no space left",
+    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s)%s; choose another location",
+                     out->to.path, why != 0 ? strerror(why) : "no space left",
                      out->temporary[0] != '\0' ? "; no file was left" : "");
 }
 
@@ -270,7 +268,7 @@ status output_try(const char *path, output_form form, file_place *where, fault *
         return STATUS_OK;
     const int file = output_beside(where->path, make_file, temporary);
     if (file < 0)
-        return fail(path, errno, f);
+        return place_unwritable(path, errno, f);
     close(file);
     unlink(temporary);
     output_unregister(temporary);
@@ -287,12 +285,13 @@ status output_partial(const char *path, char partial[PATH_MAX], fault *f)
     }
     const size_t stem = dot != NULL && dot > leaf ? (size_t)(dot - path) : strlen(path);
     const int length = snprintf(partial, PATH_MAX, "%.*s.partial%s", (int)stem, path, path + stem);
-    return length < PATH_MAX ? STATUS_OK : fail(path, ENAMETOOLONG, f);
+    return length < PATH_MAX ? STATUS_OK : place_unwritable(path, ENAMETOOLONG, f);
 }
 
 static status folder_fail(const output_folder *out, int why, fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); no file was left",
+    return fault_set(f, STATUS_FAULT,
+                     "%.200s: cannot be written (%s); no file was left; choose another location",
                      out->to.path, why != 0 ? strerror(why) : "no space left");
 }
 
@@ -305,8 +304,7 @@ static status find(const char *path, output_folder *out, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "the name of an output is empty; give the name of a folder");
     if (length >= sizeof plain)
-        return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another location",
-                         path, strerror(ENAMETOOLONG));
+        return place_unwritable(path, ENAMETOOLONG, f);
     while (length > 1 && path[length - 1] == '/')
         length--;
     memcpy(plain, path, length);

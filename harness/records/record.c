@@ -62,9 +62,9 @@ static status write_bytes(const char *image, size_t size, const char *path, faul
 static status write_image(const record_file *r, const char *path, fault *f)
 {
     if (r->bad)
-        return fault_set(
-            f, STATUS_FAULT,
-            "the results could not be stored in HDF5, probably because memory is full");
+        return fault_set(f, STATUS_FAULT,
+                         "the results could not be stored in HDF5, probably because memory is "
+                         "full; free memory and run again");
     if (path == NULL)
         return STATUS_OK;
     const ssize_t size =
@@ -100,7 +100,7 @@ static status close_on_disk(record_file *r, fault *f)
                          ? checksum_of_file(r->to.temporary, line, f)
                          : fault_set(f, STATUS_FAULT,
                                      "%.200s: the results could not be written, because the disk "
-                                     "or the memory is full",
+                                     "or the memory is full; free some space",
                                      r->to.to.path);
     if (outcome == STATUS_OK) {
         fseek(r->to.stream, 0, SEEK_END);

@@ -465,6 +465,8 @@ typedef struct file_place {
 /* Finds the target of a path. REFUSED: the path is empty. FAULT: the path is too long, or its
  * folder does not exist. */
 status place_find(const char *path, file_place *out, fault *f);
+/* Reports that the file or folder cannot be written. why: value of errno. Returns FAULT. */
+status place_unwritable(const char *path, int why, fault *f);
 /* Returns 1 if both are the same file, according to device and inode. If the paths are free,
  * compares the names in the same folder. */
 int place_same(const file_place *a, const file_place *b);

@@ -361,7 +361,7 @@ status results_table_read(const char *path, FILE *from, stored_results *out, fau
         strcmp(line, results_table_head) != 0)
         return fault_set(f, STATUS_FAULT,
                          "%.120s: the file is neither a result of 'beamwork verify -o' (HDF5) nor "
-                         "a table of 'beamwork compare -o'",
+                         "a table of 'beamwork compare -o'; give one of these",
                          path);
     for (int row = 2; fgets(line, sizeof line, from) != NULL; row++)
         TRY(take_row(line, path, row, out, f));

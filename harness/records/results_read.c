@@ -27,8 +27,10 @@ static status sort_cells(const char *path, stored_results *r, fault *f)
         qsort(r->cell, (size_t)r->cells, sizeof *r->cell, compare_cells);
     for (int i = 1; i < r->cells; i++)
         if (results_order(&r->cell[i - 1], &r->cell[i]) == 0)
-            return fault_set(f, STATUS_FAULT, "%.120s: cell %.120s n=%d occurs twice", path,
-                             r->cell[i].name, r->cell[i].elements);
+            return fault_set(
+                f, STATUS_FAULT,
+                "%.120s: the run %.120s n=%d occurs twice; run 'beamwork verify -o' again", path,
+                r->cell[i].name, r->cell[i].elements);
     return STATUS_OK;
 }
 
@@ -38,8 +40,10 @@ static status sort_series(const char *path, stored_results *r, fault *f)
         qsort(r->series, (size_t)r->seriess, sizeof *r->series, compare_series);
     for (int i = 1; i < r->seriess; i++)
         if (compare_series(&r->series[i - 1], &r->series[i]) == 0)
-            return fault_set(f, STATUS_FAULT, "%.120s: series %.120s occurs twice", path,
-                             r->series[i].name);
+            return fault_set(
+                f, STATUS_FAULT,
+                "%.120s: the series %.120s occurs twice; run 'beamwork verify -o' again", path,
+                r->series[i].name);
     return STATUS_OK;
 }
 
@@ -252,7 +256,7 @@ static status take_cell(const char *path, const char *of, const case_tables *t, 
     char name[NAME + PARAMETERS_TEXT + FORMULATION_KEY];
     const char *parameters = parameters_of(t, row->point);
     if (parameters == NULL)
-        return results_case_damaged(path, of, ": the point of a cell", f);
+        return results_case_damaged(path, of, ": the point of a run", f);
     snprintf(name, sizeof name, "%s/%s/%s", of, parameters, row->formulation);
     if (row->elements < 1 || row->elements > RESULTS_MOST_ELEMENTS || !are_counts(row))
         return results_case_damaged(path, name, "", f);
@@ -300,7 +304,7 @@ static status take_limits(const char *path, const char *of, const case_tables *t
             continue;
         const int finest = finest_cell(t, limit);
         if (finest < 0 || !set_limit(&cell[finest], limit))
-            return results_case_damaged(path, of, ": the cell of a limit", f);
+            return results_case_damaged(path, of, ": the run of a limit", f);
     }
     return STATUS_OK;
 }
@@ -319,7 +323,7 @@ static status take_case(const char *path, hid_t at, const char *name, case_table
     for (int i = 0; i < t->cells; i++)
         TRY(take_cell(path, name, t, &t->cell[i], &next, out, f));
     if (next < t->values)
-        return results_case_damaged(path, where, "quantities: the cell of a value", f);
+        return results_case_damaged(path, where, "quantities: the run of a value", f);
     return take_limits(path, name, t, out->cells > first ? &out->cell[first] : NULL, f);
 }
 

@@ -308,7 +308,7 @@ static status check_size(const sweep_file *s, fault *f)
     char what[FAULT_TEXT];
     const double two = 2;
     const double cells = (double)s->points * (s->formulations * (double)s->meshes + 1);
-    snprintf(what, sizeof what, "%.120s: %.0f cells", s->path, cells);
+    snprintf(what, sizeof what, "%.120s: %.0f runs", s->path, cells);
     if (cells > most_items)
         return fault_set(f, STATUS_REFUSED, "%s are too many; compare sweeps of fewer points",
                          what);
@@ -326,7 +326,7 @@ static status add_point(const sweep_file *s, int which, stored_results *out, fau
     for (int i = 0; i < s->formulations; i++)
         for (int k = 0; k < s->meshes && good; k++)
             good = add_mesh(s, (size_t)which * (size_t)s->formulations + (size_t)i, k, text, out);
-    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for the cells of a sweep");
+    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for the runs of a sweep");
 }
 
 static status read_file(sweep_file *s, stored_results *out, fault *f)

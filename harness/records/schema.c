@@ -102,7 +102,7 @@ const char *place_leaf(const char *path)
     return slash != NULL ? slash + 1 : path;
 }
 
-static status fail(const char *path, int why, fault *f)
+status place_unwritable(const char *path, int why, fault *f)
 {
     return fault_set(f, STATUS_FAULT, "%.200s: cannot be written (%s); choose another location",
                      path, strerror(why));
@@ -159,9 +159,9 @@ static status find_folder(const char *given, file_place *out, fault *f)
         folder[length] = '\0';
     }
     if (out->path[length] == '\0')
-        return fail(given, EISDIR, f);
+        return place_unwritable(given, EISDIR, f);
     if (stat(folder, &there) != 0)
-        return fail(given, errno, f);
+        return place_unwritable(given, errno, f);
     set_kind(&there, out);
     out->kind = PLACE_FREE;
     out->descriptor = -1;
@@ -177,11 +177,11 @@ status place_find(const char *path, file_place *out, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "the name of an output is empty; give the name of a file");
     if (length >= sizeof out->path)
-        return fail(path, ENAMETOOLONG, f);
+        return place_unwritable(path, ENAMETOOLONG, f);
     memcpy(out->path, path, length + 1);
     const int found = stat(path, &there) == 0;
     if (!found && errno != ENOENT)
-        return fail(path, errno, f);
+        return place_unwritable(path, errno, f);
     if (found) {
         set_kind(&there, out);
         if (out->kind == PLACE_STREAM)

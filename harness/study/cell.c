@@ -345,8 +345,8 @@ static void estimate(const scene *s, const element_type *type, omission *out)
         }
         if (isfinite(last) && isfinite(change))
             snprintf(out->why, sizeof out->why,
-                     "it changes with the mesh, from %.2g to %.2g with %d elements", last, change,
-                     n);
+                     "the effect depends on the mesh: %.2g, but %.2g with %d elements", last,
+                     change, n);
         last = change;
     }
     if (out->why[0] == '\0')
@@ -362,7 +362,7 @@ static void find_change(const scene *s, omission *out)
         out->change = 0;
     else if (whole == NULL)
         snprintf(out->why, sizeof out->why,
-                 "no built-in formulation supports everything in this scene");
+                 "no built-in formulation supports all physics of the scene");
     else if (!can_be_shown(s))
         snprintf(out->why, sizeof out->why, "a section is given by its matrices");
     else
@@ -392,9 +392,9 @@ void omission_words(const omission *o, char text[OMISSION_TEXT])
     if (o->what == 0)
         return;
     if (o->exact)
-        snprintf(text, OMISSION_TEXT, "without %s, which changes no value", o->words);
+        snprintf(text, OMISSION_TEXT, "without %s; the omission changes no value", o->words);
     else if (!o->other)
-        snprintf(text, OMISSION_TEXT, "without %s, which changes no value by more than %.1g",
+        snprintf(text, OMISSION_TEXT, "without %s; the omission changes no value by more than %.1g",
                  o->words, o->change);
     else if (isfinite(o->change))
         snprintf(text, OMISSION_TEXT,
@@ -404,7 +404,8 @@ void omission_words(const omission *o, char text[OMISSION_TEXT])
         snprintf(text, OMISSION_TEXT, "another model: %s not modelled (its effect is unknown: %s)",
                  o->words, o->why);
     else
-        snprintf(text, OMISSION_TEXT,
-                 "another model: %s not modelled (makes a zero %s nonzero, or changes its path)",
-                 o->words, o->quantity);
+        snprintf(
+            text, OMISSION_TEXT,
+            "another model: %s not modelled (a %s of zero becomes nonzero, or its path changes)",
+            o->words, o->quantity);
 }

@@ -384,7 +384,7 @@ static void choose(const scene *s, candidate_run of[], int count, default_choice
     if (first != NULL && count > 1) {
         const size_t used = strlen(out->why_formulation);
         snprintf(out->why_formulation + used, FAULT_TEXT - used,
-                 ", converged at the lowest cost of %d", count);
+                 ", converged at the lowest cost of %d formulations", count);
     }
 }
 

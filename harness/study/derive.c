@@ -1,6 +1,7 @@
 #include "harness/study/study.h"
 
 #include <dlfcn.h>
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -18,8 +19,12 @@ status derive_script(const char *name, char out[PATH_MAX], fault *f)
         data_place("reference", folder);
     const int length =
         snprintf(out, PATH_MAX, "%s/derive/%s", given != NULL ? given : folder, name);
-    return length < PATH_MAX ? STATUS_OK
-                             : fault_set(f, STATUS_FAULT, "%.60s...: the path is too long", out);
+    return length < PATH_MAX
+               ? STATUS_OK
+               : fault_set(
+                     f, STATUS_FAULT,
+                     "%.60s...: the path is too long; set BEAMWORK_REFERENCE to a shorter path",
+                     out);
 }
 
 typedef struct script {
@@ -37,11 +42,14 @@ static status start(const derive_question *q, script *s, fault *f)
 {
     int out[2] = {-1, -1}, error[2] = {-1, -1};
     if (pipe(out) != 0 || pipe(error) != 0 || (s->process = fork()) < 0) {
+        const int why = errno;
         for (int i = 0; i < 2; i++) {
             close(out[i]);
             close(error[i]);
         }
-        fault_set(f, STATUS_FAULT, "the deriving program cannot be started");
+        fault_set(f, STATUS_FAULT,
+                  "the deriving program cannot be started (%s); close other programs",
+                  strerror(why));
         return STATUS_FAULT;
     }
     if (s->process == 0) {
@@ -64,7 +72,8 @@ static status start(const derive_question *q, script *s, fault *f)
     s->errors = fdopen(error[0], "r");
     if (s->output != NULL && s->errors != NULL)
         return STATUS_OK;
-    fault_set(f, STATUS_FAULT, "the output of the deriving program cannot be read");
+    fault_set(f, STATUS_FAULT, "the output of the deriving program cannot be read (%s)",
+              strerror(errno));
     return STATUS_FAULT;
 }
 
@@ -102,8 +111,10 @@ static status read_lines(FILE *from, derived_value **out, int *count, fault *f)
             !take_text(&rest, v->unit, sizeof v->unit) || !take_number(&rest, &v->uncertainty) ||
             !take_text(&rest, v->convention, sizeof v->convention) ||
             !take_text(&rest, v->source, sizeof v->source))
-            return fault_set(f, STATUS_FAULT,
-                             "the deriving program printed '%.80s', which is not a value", line);
+            return fault_set(
+                f, STATUS_FAULT,
+                "the deriving program printed '%.80s' instead of a value; correct the program",
+                line);
         ++*count;
     }
     return STATUS_OK;

@@ -58,10 +58,11 @@ static void expect(const sweep *s, truths *t, verdict *v)
             continue;
         if (is_beyond(r, v))
             snprintf(v->reason, sizeof v->reason,
-                     "the limit is %+.3g %% from %s, beyond the %.3g %% of known deviation %.60s",
+                     "the limit differs by %+.3g %% from %s, but known deviation %.60s covers at "
+                     "most %.3g %%",
                      100 * v->departure,
-                     v->predicted != NULL ? "the derived one" : "the reference value",
-                     100 * r->largest_error, r->name);
+                     v->predicted != NULL ? "the derived limit" : "the reference value", r->name,
+                     100 * r->largest_error);
         else
             v->expected = v->kind;
     }
@@ -78,7 +79,7 @@ static status check_cells(const sweep *s, int index, evaluation *out, fault *f)
         flaw c = {.series = index, .mesh = i};
         if (!record_is_consistent(&one->cell[i], what, formulation_newton(&one->formulation),
                                   c.why))
-            TRY(memory_append(&out->flaw, &out->flaws, &c, sizeof c, "flaws of cells", f));
+            TRY(memory_append(&out->flaw, &out->flaws, &c, sizeof c, "flaws of runs", f));
     }
     return STATUS_OK;
 }
@@ -105,8 +106,8 @@ static status check_unit(const sweep_point *p, const truth *row, fault *f)
         if (strcmp(here->name, row->quantity) == 0 && strcmp(here->unit, row->unit) != 0)
             return fault_set(f, STATUS_FAULT,
                              "case %s: the unit of %s is '%s', but that of its reference value is "
-                             "'%s'; correct the table and build again",
-                             p->type->name, here->name, here->unit, row->unit);
+                             "'%s'; correct reference/tables/%s.csv and build again",
+                             p->type->name, here->name, here->unit, row->unit, p->type->name);
     }
     return STATUS_OK;
 }

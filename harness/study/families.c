@@ -460,9 +460,7 @@ static const char *quantity_at(const void *context, int i)
     return i < s->quantities ? s->quantity[i].name : NULL;
 }
 
-/* Reports words that match nothing. The message suggests the nearest name among the quantities of
- * the point or, if none is near, among all names. */
-static status check_words(const sweep_point *p, const char *select, const select_words *words,
+status narrow_check_words(const sweep_point *p, const char *select, const select_words *words,
                           fault *f)
 {
     char word[SELECT_WORD];
@@ -477,19 +475,23 @@ static status check_words(const sweep_point *p, const char *select, const select
                      select, word, near, p->type->name);
 }
 
+status narrow_to_nothing(const char *select, const char *name, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED,
+                     "-k '%.100s' selects no quantity of %.60s; 'beamwork list %.60s' shows the "
+                     "quantities",
+                     select, name, name);
+}
+
 static status narrow(sweep *s, const char *select, kept *k, fault *f)
 {
     select_words words;
     TRY(select_begin(select, &words, f));
     mark(s, select, &words, k);
-    TRY(check_words(&s->point[k->point], select, &words, f));
+    TRY(narrow_check_words(&s->point[k->point], select, &words, f));
     drop(s, k); /* omissions still depend on all quantities */
     const sweep_point *p = &s->point[k->point];
-    return p->scene.quantities > 0 ? STATUS_OK
-                                   : fault_set(f, STATUS_REFUSED,
-                                               "-k '%.100s' selects no quantity of %.60s; "
-                                               "'beamwork list %.60s' shows the quantities",
-                                               select, p->type->name, p->type->name);
+    return p->scene.quantities > 0 ? STATUS_OK : narrow_to_nothing(select, p->type->name, f);
 }
 
 status narrow_to(sweep *s, const char *select, fault *f)

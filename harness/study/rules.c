@@ -247,7 +247,7 @@ void rules_free(rule *r, int count)
 status columns_broken(const table_columns *r, const char *column)
 {
     return fault_set(r->f, STATUS_FAULT,
-                     "%s: column %s of %s is missing or damaged; build it again ('make all')",
+                     "%s: column %s of %s is missing or damaged; build the file again ('make all')",
                      r->path, column, r->name);
 }
 

@@ -103,7 +103,7 @@ static status work_off(progress *p, workload *w, cell_pool *c, fault *f)
 static status run_parallel(const sweep_request *request, workload *w, cell_pool *c, fault *f)
 {
     progress p =
-        progress_begin(request->progress, request->things != NULL ? request->things : "cells",
+        progress_begin(request->progress, request->things != NULL ? request->things : "runs",
                        w->count, clock_wall_seconds());
     const status outcome = work_off(&p, w, c, f);
     progress_end(&p);
@@ -118,9 +118,10 @@ static status check_all_done(const workload *w, fault *f)
     if (w->out_of_memory)
         return fault_set(f, STATUS_FAULT, "out of memory for measuring rounding scatter");
     if (w->finished < w->due)
-        return fault_set(f, STATUS_FAULT,
-                         "the worker processes ended before all cells were run (%d of %d)",
-                         w->finished, w->due);
+        return fault_set(
+            f, STATUS_FAULT,
+            "all worker processes ended after %d of %d runs; use fewer processes (--jobs)",
+            w->finished, w->due);
     return STATUS_OK;
 }
 

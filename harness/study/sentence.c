@@ -32,7 +32,8 @@ static void uncertainty_of(const verdict *v, char text[2 * ROUNDING_TEXT])
     const int by_truth = size > 0 && fabs(v->error) * size >= apart * (1 - 1e-9);
     char digits[ROUNDING_TEXT];
     rounding_digits(v->fit.limit_uncertainty * (by_truth ? 100 / size : 1), 2, digits);
-    snprintf(text, 2 * ROUNDING_TEXT, "%s%s", digits, by_truth ? " %" : " in its unit");
+    snprintf(text, 2 * ROUNDING_TEXT, "%s%s", digits,
+             by_truth ? " %" : " in the unit of the quantity");
 }
 
 static void undecided(const verdict *v, char *text, size_t size)
@@ -43,9 +44,10 @@ static void undecided(const verdict *v, char *text, size_t size)
         return;
     }
     uncertainty_of(v, uncertainty);
-    snprintf(text, size,
-             "undecided: the limit is %+.3g %% off, but known only to %s (%s, %d meshes)",
-             100 * v->error, uncertainty, limit_kind_name(v->fit.kind), v->fit.meshes);
+    snprintf(
+        text, size,
+        "undecided: the error of the limit is %+.3g %%, with an uncertainty of %s (%s, %d meshes)",
+        100 * v->error, uncertainty, limit_kind_name(v->fit.kind), v->fit.meshes);
 }
 
 /* Describes a biased limit. If it is neither the reference value nor the limit derived for the
@@ -86,8 +88,8 @@ static void other_model(const verdict *v, char *text, size_t size)
     const int agreed = v->model_truth != NULL && strcmp(v->model_truth->kind, "agreement") == 0;
     if (v->model_truth != NULL && isfinite(v->model_error))
         snprintf(text, size, "%s; its limit is %+.3g %% from %s%s%s", v->reason,
-                 100 * v->model_error, agreed ? "that on which " : "the ",
-                 agreed ? v->model_truth->source : v->model_truth->kind, agreed ? "" : " value");
+                 100 * v->model_error, agreed ? "that on which " : "the reference value (",
+                 agreed ? v->model_truth->source : v->model_truth->kind, agreed ? "" : ")");
     else
         snprintf(text, size, "%s", v->reason);
 }
@@ -175,8 +177,7 @@ static void failures(const evaluation *j, char *text, size_t size)
                "formulations violate the interface requirements");
     count_part(text, size, &parts, j->unexpected, "verdict differs from the expected one",
                "verdicts differ from the expected ones");
-    count_part(text, size, &parts, count_undecided(j), "of them is undecided",
-               "of them are undecided");
+    count_part(text, size, &parts, count_undecided(j), "is undecided", "are undecided");
     count_part(text, size, &parts, j->regressions, "result is worse than in the previous run",
                "results are worse than in the previous run");
     count_part(text, size, &parts, j->disagreements, "value differs from its stored value",

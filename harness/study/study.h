@@ -582,6 +582,8 @@ status checksum_of_file(const char *path, char out[CHECKSUM_LENGTH + 1], fault *
  * altered. */
 status checksum_check(const char *path, fault *f);
 
+/* Reports that pipe2 or fork has failed, with the reason from errno. Returns FAULT. */
+status child_not_started(fault *f);
 /* The child calls this function first. The child then ends with its parent, even if the parent is
  * killed or has already ended, and at an alarm. */
 void child_begin(pid_t parent);
@@ -811,6 +813,12 @@ int equal_error_met(const equal_error *);
  * selected combination (formulations/formulations.h). Call before the run. select NULL: all.
  * REFUSED: the selection is malformed, has a word that matches no name, or selects nothing. */
 status narrow_to(sweep *s, const char *select, fault *f);
+/* Reports words of a selection that match nothing. The message suggests the nearest name among the
+ * quantities of the point or, if none is near, among all names. REFUSED: there are such words. */
+status narrow_check_words(const sweep_point *p, const char *select, const select_words *words,
+                          fault *f);
+/* Reports that the selection contains no quantity of the case `name`. Returns REFUSED. */
+status narrow_to_nothing(const char *select, const char *name, fault *f);
 /* Like narrow_to, for a scene before planning. If no formulation has been chosen (type NULL), words
  * that may be names of formulations have no effect. */
 status narrow_scene(scene *, const case_type *, const double parameter[], const formulation *,
@@ -1020,7 +1028,7 @@ typedef struct progress {
 progress progress_begin(FILE *to, const char *things, int count, double now);
 /* Returns 1 if the next output is due. */
 int progress_is_due(const progress *, double now);
-/* Prints "cells 12 of 40, 25 %, about 3 min left: WHAT". share: completed fraction of the work, 0
+/* Prints "runs 12 of 40, 25 %, about 3 min left: WHAT". share: completed fraction of the work, 0
  * to 1. If `share` is large enough, the remaining time is estimated from it. */
 void progress_show(progress *, double now, int done, double share, const char *what);
 /* Clears the line. */

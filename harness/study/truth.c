@@ -195,7 +195,7 @@ static status check_row(const table_columns *r, const case_type *type, int i, co
     if (parameters_hash_next(type, value, any, before) != hash)
         return fault_set(r->f, STATUS_FAULT,
                          "%s: row %d of %s is stale: the defaults of the case have changed; "
-                         "correct reference/defaults.csv and its tables",
+                         "correct reference/defaults.csv and the table of the case",
                          r->path, i + 1, r->name);
     return STATUS_OK;
 }

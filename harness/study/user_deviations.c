@@ -156,7 +156,7 @@ static void check_name(deviations_reader *r)
 {
     const char *name = r->row->field[RULE];
     if (strchr(name, ' ') != NULL)
-        WRONG(r, RULE, "the name of a rule must be one word");
+        WRONG(r, RULE, "the name '%.60s' of a rule contains a space; give one word", name);
     for (int i = 0; i < r->t->rules; i++)
         if (strcmp(r->t->rule[i].name, name) == 0)
             WRONG(r, RULE, "a rule '%.60s' already exists (%.100s); give this rule another name",
@@ -185,8 +185,7 @@ static void check(deviations_reader *r, double *largest)
     const char *text = r->row->field[LARGEST_ERROR];
     for (size_t i = 0; i < sizeof needed / sizeof needed[0]; i++)
         if (r->row->field[needed[i]][0] == '\0')
-            WRONG(r, needed[i], "column %s is empty; a known deviation requires an entry",
-                  names[i]);
+            WRONG(r, needed[i], "column %s is empty; fill it in", names[i]);
     check_grounds(r);
     if (!r->good)
         return;
@@ -222,10 +221,10 @@ static int check_condition(deviations_reader *r, const rule *one)
     const case_type **all = all_cases(r->run);
     const int bad = all == NULL || rules_bad_condition(one, all, word);
     if (bad)
-        WRONG(
-            r, CONDITION,
-            "condition '%.60s' is neither a feature nor a comparison with a parameter of the cases",
-            word);
+        WRONG(r, CONDITION,
+              "condition '%.60s' is neither a feature nor a comparison with a parameter of the "
+              "cases; correct the condition ('beamwork list CASE' shows the parameters)",
+              word);
     free(all);
     return !bad;
 }
@@ -371,7 +370,8 @@ static status add_row(int number, char *line, int columns, user_table *out, mist
 {
     user_table_row row = {.line = number};
     if (!line_is_text(line) || !quotes_are_even(line)) {
-        mistakes_add(m, number, 1, "the line is not UTF-8 text, or a quote is not closed");
+        mistakes_add(m, number, 1,
+                     "the line is not UTF-8 text, or a quote is not closed; correct the line");
         return STATUS_OK;
     }
     user_table_row *more = realloc(out->row, ((size_t)out->rows + 1) * sizeof *more);
@@ -381,10 +381,10 @@ static status add_row(int number, char *line, int columns, user_table *out, mist
         return fault_set(f, STATUS_FAULT, "out of memory for %.100s", m->file);
     const int fields = line_split(row.text, row.field, columns);
     if (fields != columns) {
-        mistakes_add(
-            m, number, 1,
-            "the number of fields in the line (%d) differs from the number of columns (%d)", fields,
-            columns);
+        mistakes_add(m, number, 1,
+                     "the number of fields in the line (%d) differs from the number of columns "
+                     "(%d); correct the commas and quotes",
+                     fields, columns);
         free(row.text);
         return STATUS_OK;
     }
@@ -409,8 +409,9 @@ static status read_lines(FILE *from, const char *columns, char **line, user_tabl
     ssize_t length;
     while ((length = getline(line, &room, from)) >= 0) {
         if (strlen(*line) != (size_t)length) {
-            mistakes_add(m, number + 1, 1,
-                         "the file is not a text file, because it contains a zero byte");
+            mistakes_add(
+                m, number + 1, 1,
+                "the file is not a text file, because it contains a zero byte; give a CSV file");
             return STATUS_OK;
         }
         char *text = line_trim(*line);

@@ -46,7 +46,7 @@ static void take_number(truths_reader *r, int column, double *out)
 {
     const char *text = r->row->field[column];
     if (!line_number(text, out))
-        WRONG(r, column, "%s '%.40s' is not a finite number", names[column], text);
+        WRONG(r, column, "%s '%.40s' is not a finite number; give one", names[column], text);
 }
 
 static void take_elements(truths_reader *r, int *out)
@@ -59,8 +59,8 @@ static void take_elements(truths_reader *r, int *out)
         return;
     if (*end != '\0' || count < 1 || count > INT_MAX)
         WRONG(r, ELEMENTS,
-              "elements '%.40s' is not a positive whole number; leave the field empty for a value "
-              "of the continuum",
+              "elements '%.40s' is not a positive whole number; give one, or leave the field empty "
+              "for a value of the continuum",
               text);
     else
         *out = (int)count;
@@ -153,7 +153,7 @@ static void take_row(truths_reader *r, const case_type *type, truth *out)
     if (out->on_curve)
         take_number(r, AT, &out->at);
     if (field[SOURCE][0] == '\0')
-        WRONG(r, SOURCE, "a reference value requires a source");
+        WRONG(r, SOURCE, "the source is empty; name a publication or a program");
     check_formulation(r);
     check_quantity(r, type, out->parameter);
 }
@@ -165,7 +165,8 @@ static void check_row(truths_reader *r, const truth *row)
         if (same(names[i], wrong) && i == ELEMENTS)
             WRONG(r, i,
                   "a value of one mesh requires a formulation and elements, a predicted limit "
-                  "requires a formulation, and any other reference value must have neither");
+                  "requires a formulation, and any other reference value must have neither; fill "
+                  "or empty these columns");
         else if (same(names[i], wrong))
             WRONG(r, i, "%s '%.40s' is unknown; 'beamwork explain truth' lists the known words",
                   wrong, r->row->field[i]);

@@ -157,14 +157,14 @@ status worker_start(const workload *w, int self, worker *out, fault *f)
     int ends[2];
     const pid_t parent = getpid();
     if (pipe2(ends, O_CLOEXEC) != 0)
-        return fault_set(f, STATUS_FAULT, "cannot start a worker process: no pipe can be created");
+        return child_not_started(f);
     w->board->at[self] = -1;
     *out = (worker){.from = -1};
     out->process = fork();
     if (out->process < 0) {
         close(ends[0]);
         close(ends[1]);
-        return fault_set(f, STATUS_FAULT, "cannot start a worker process");
+        return child_not_started(f);
     }
     if (out->process == 0) {
         child_begin(parent);
@@ -320,6 +320,12 @@ static void default_alarm(void)
     sigaddset(&alarm_only, SIGALRM);
     signal(SIGALRM, SIG_DFL);
     sigprocmask(SIG_UNBLOCK, &alarm_only, NULL);
+}
+
+status child_not_started(fault *f)
+{
+    return fault_set(f, STATUS_FAULT, "cannot start a process (%s); use fewer processes (--jobs)",
+                     strerror(errno));
 }
 
 void child_begin(pid_t parent)

@@ -95,13 +95,12 @@ void table_omitted(FILE *to, const sweep_point *p)
     if (whole && words[0] == '\0')
         paragraph_printf(
             to, fprintf(to, "omitted: "), INDENT,
-            "nothing; omit=none has no effect and can be removed, so that stored values are shown");
+            "nothing; remove omit=none, which has no effect, to see the stored values");
     else if (whole)
-        paragraph_printf(
-            to, fprintf(to, "omitted: "), INDENT,
-            "nothing, although the source of the case omits %s; the stored values belong "
-            "to another model and are not shown",
-            words);
+        paragraph_printf(to, fprintf(to, "omitted: "), INDENT,
+                         "nothing, whereas the source of the case omits %s; the stored values are "
+                         "not shown, because they belong to that model",
+                         words);
 }
 
 void table_theory(FILE *to, const scene *s, const element_type *type)

@@ -192,7 +192,7 @@ static void write_why(FILE *to, int at, const sweep *s, const truths *t, int qua
 {
     paragraph words;
     FILE *text = paragraph_begin(&words, to);
-    fputs("values: no reference value and no agreement: ", text);
+    fputs("values: no reference value and no agreement of formulations: ", text);
     families_why(text, s, 0, quantity, t);
     paragraph_end(&words, at, 4);
 }

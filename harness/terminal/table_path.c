@@ -130,9 +130,9 @@ static void method(FILE *to, const scene_motion *how)
     if (how->tolerance <= 0)
         fputs(", without a bound on the time-integration error", to);
     else if (how->scheme == SCENE_RADAU)
-        fprintf(to, ", each step to %g of the largest displacement", how->tolerance);
+        fprintf(to, ", tolerance %g of the largest displacement in each step", how->tolerance);
     else
-        fprintf(to, " to %g of the largest displacement", how->tolerance);
+        fprintf(to, ", tolerance %g of the largest displacement", how->tolerance);
 }
 
 static void steps_line(FILE *to, const motion_extent *e, const scene_motion *how)
@@ -165,9 +165,10 @@ static void steps_line(FILE *to, const motion_extent *e, const scene_motion *how
     if (iterations > 0)
         fprintf(text, "; %.1f iterations per step, at most %d", (double)iterations / steps, most);
     if (last->time < end * (1 - 1e-9))
-        fprintf(text,
-                "; the motion ends before %g s; give a smaller step, a tolerance or more elements",
-                end);
+        fprintf(
+            text,
+            "; the motion stopped before %g s; give a smaller step, a tolerance or more elements",
+            end);
     paragraph_end(&words, at, MOTION_INDENT);
 }
 
@@ -187,12 +188,11 @@ static void energy_line(FILE *to, const motion_extent *e)
     paragraph words;
     FILE *text = paragraph_begin(&words, to);
     if (isnan(last->balance[SCENE_ENERGY])) {
-        fprintf(
-            text,
-            "not computed, because forces with a history need not derive from an energy; a gain "
-            "of energy is therefore not detected; %.6g J at the end are kinetic; work since 0 s "
-            "%.6g J",
-            last->balance[SCENE_KINETIC], last->balance[SCENE_WORK]);
+        fprintf(text,
+                "not computed, because the forces of elements with a history need not derive from "
+                "an energy, so a gain of energy is not detected; kinetic energy at the end %.6g J, "
+                "work since 0 s %.6g J",
+                last->balance[SCENE_KINETIC], last->balance[SCENE_WORK]);
         paragraph_end(&words, at, MOTION_INDENT);
         return;
     }
@@ -224,11 +224,10 @@ static void damping_line(FILE *to, const motion_extent *e)
         when = one->time;
     }
     if (part > account_stated)
-        paragraph_printf(
-            to, fprintf(to, "numerical damping: "), MOTION_INDENT,
-            "until %.4g s the integrator has lost %.3g J of energy, %.2g %% of %.3g J; "
-            "use a smaller step or tolerance to lose less",
-            when, lost, 100 * part, of);
+        paragraph_printf(to, fprintf(to, "numerical damping: "), MOTION_INDENT,
+                         "until %.4g s the integrator has dissipated %.3g J, %.2g %% of the energy "
+                         "(%.3g J); use a smaller step or tolerance",
+                         when, lost, 100 * part, of);
 }
 
 /* Returns the largest deviation of a vector from its initial value. */
@@ -250,12 +249,11 @@ static void momentum_line(FILE *to, const motion_extent *e)
 {
     const motion_record *last = &e->record[e->end - 1];
     const int at = fprintf(to, "momenta: ");
-    paragraph_printf(
-        to, at, MOTION_INDENT,
-        "%.6g kg m/s at the end, %.6g kg m^2/s about the origin; largest changes: %.2g and "
-        "%.2g from those at %g s",
-        length_at(last, SCENE_PX), length_at(last, SCENE_LX), change_of(e, SCENE_PX),
-        change_of(e, SCENE_LX), e->record[e->first].at.time);
+    paragraph_printf(to, at, MOTION_INDENT,
+                     "at the end %.6g kg m/s, and %.6g kg m^2/s about the origin; largest changes "
+                     "%.2g and %.2g since %g s",
+                     length_at(last, SCENE_PX), length_at(last, SCENE_LX), change_of(e, SCENE_PX),
+                     change_of(e, SCENE_LX), e->record[e->first].at.time);
 }
 
 /* Reports each load whose factor at the end of the preceding path differs from its factor at the
@@ -271,12 +269,11 @@ static void jump_lines(FILE *to, const scene *s, int analysis, double path)
         function_at(&load->function, 0, value);
         const double held = along_path_factor(load, path);
         if (fabs(held - value[0]) > 1e-9 * fmax(fabs(held), fabs(value[0])))
-            paragraph_printf(
-                to, fprintf(to, "load: "), MOTION_INDENT,
-                "%s has factor %g where the path ends, but %g where the motion begins, "
-                "so it jumps; for a load of the motion only, give path: [0, 1], factor: "
-                "[0, 0] in addition to its function",
-                scene_name(s, SCENE_LOADS, i).text, held, value[0]);
+            paragraph_printf(to, fprintf(to, "load: "), MOTION_INDENT,
+                             "the factor of %s is %g at the end of the path, but %g at the start "
+                             "of the motion, so the load jumps; if it acts only in the motion, "
+                             "give path: [0, 1], factor: [0, 0] in addition to its function",
+                             scene_name(s, SCENE_LOADS, i).text, held, value[0]);
     }
 }
 

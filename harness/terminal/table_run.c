@@ -22,7 +22,7 @@ static void failed_series(FILE *to, const sweep *s, int index, int *lines)
     if (last == NULL)
         return;
     if ((*lines)++ == 0)
-        fprintf(to, "\ncells without a solution\n");
+        fprintf(to, "\nruns without a solution\n");
     const int at = fprintf(to, "  %s", p->type->name);
     paragraph_printf(to, at, 4, "%s%s%s, %s, n = %s: %s: %s", p->text[0] != '\0' ? " (" : "",
                      p->text, p->text[0] != '\0' ? ")" : "", one->formulation.key, meshes,
@@ -43,8 +43,8 @@ static void failed_cells(FILE *to, const sweep *s)
 static void coverage_lines(FILE *to, const evaluation *j)
 {
     if (j->coverages > 0)
-        fprintf(to, "\nlimits within their uncertainty of exact values, "
-                    "with all meshes and without the 1, 2, 3 finest\n");
+        fprintf(to, "\nlimits within their uncertainty of exact values: all meshes, and without "
+                    "the 1, 2, 3 finest\n");
     for (int i = 0; i < j->coverages; i++) {
         coverage sum = {.type = j->coverage[i].type};
         int before = 0;
@@ -82,8 +82,8 @@ static void contradictions(FILE *to, const sweep *s, const evaluation *j)
         const sweep_point *p = &s->point[s->series[v->series].point];
         fprintf(to, "\n%s", p->type->name);
         paragraph_printf(to, (int)strlen(p->type->name), 2,
-                         "%s%s, %s: the published value %.10g +- %.1g contradicts limits (%d), the "
-                         "first of them %.10g (%s)",
+                         "%s%s, %s: limits that contradict the published value %.10g +- %.1g: %d, "
+                         "such as %.10g (%s)",
                          p->text[0] != '\0' ? ": " : "", p->text, v->contradicted->quantity,
                          v->contradicted->value, v->contradicted->uncertainty, count, v->fit.limit,
                          s->series[v->series].formulation.key);
@@ -152,8 +152,8 @@ static void print_verdicts(FILE *to, const evaluation *j)
 void table_run(FILE *to, const sweep *s, const evaluation *j, double seconds)
 {
     const int contradicted = count_contradicted(j);
-    fprintf(to, "%d cells, and %d more to measure their rounding scatter, in %.3g s",
-            sweep_cells(s), noise_cells(s), seconds);
+    fprintf(to, "%d runs, and %d more to measure rounding scatter, in %.3g s", sweep_cells(s),
+            noise_cells(s), seconds);
     if (s->unfinished > 0)
         fprintf(to, s->partial ? "; %d more are missing" : "; interrupted, %d more were not run",
                 s->unfinished);
@@ -163,7 +163,7 @@ void table_run(FILE *to, const sweep *s, const evaluation *j, double seconds)
         fprintf(to, "%d of %d stored discrete values agree\n", j->agreements - j->disagreements,
                 j->agreements);
     if (j->waiting > 0)
-        fprintf(to, "reference values that require a formulation with their physics: %d\n",
+        fprintf(to, "reference values without a formulation that supports their physics: %d\n",
                 j->waiting);
     if (j->unread > 0)
         fprintf(to,
@@ -391,7 +391,8 @@ static void print_legend(FILE *to, screen look, const overview *o)
         "\nA mark is the worst verdict%s; the number counts the quantities with this verdict.\n",
         o->joined ? " over all parameters and options" : " over all parameters");
     if (o->accepted < o->columns)
-        fprintf(to, "(new): not accepted yet; its verdicts do not affect the exit status.\n");
+        fprintf(to, "(new): the formulation is not accepted yet; its verdicts do not affect the "
+                    "exit status.\n");
 }
 
 void table_overview(FILE *to, screen look, const overview *o)

@@ -123,7 +123,7 @@ static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
 {
     for (int i = 0; i < r->quantities; i++)
         if (r->quantity[i].curve.points > 0 && r->quantity[i].rounding > 1e-9)
-            fprintf(to, "%-*s %s %.1e of its largest\n", NAME, s->quantity[i].name,
+            fprintf(to, "%-*s %s %.1e of its largest value\n", NAME, s->quantity[i].name,
                     s->quantity[i].what.kind == SCENE_RESPONSE ? "omitted modes at most"
                                                                : "round-off",
                     r->quantity[i].rounding);
@@ -392,5 +392,5 @@ void table_follow(FILE *to, const char *parameter, const follow_curves *c)
             fprintf(to, ", %.2g %% apart\n", 100 * e->gap);
     }
     if (between > 0)
-        fprintf(to, "%d intermediate values where shapes change fast\n", between);
+        fprintf(to, "intermediate values, added where mode shapes change fast: %d\n", between);
 }

@@ -92,8 +92,8 @@ static void print_numbers(FILE *to, const series *one, const verdict *v)
     rounding_percent(v->error, error);
     paragraph_printf(
         to, 0, INDENT,
-        "limit %s +- %s, off by %s; reference %s +- %s (%s, %s); finest mesh, n = %d: %s", limit,
-        uncertainty, error, truth_text, known, v->truth->kind, v->truth->source,
+        "limit %s +- %s, error %s; reference value %s +- %s (%s, %s); finest mesh, n = %d: %s",
+        limit, uncertainty, error, truth_text, known, v->truth->kind, v->truth->source,
         one->mesh[verdict_meshes(one, v->quantity) - 1], finest);
 }
 
@@ -124,7 +124,7 @@ static void print_disagreement(FILE *to, const sweep *s, const agreement *a, int
     const series *one = &s->series[a->series];
     const sweep_point *p = &s->point[one->point];
     print_subject(to, number, p, one, p->scene.quantity[a->quantity].name);
-    paragraph_printf(to, 0, INDENT, "n = %d: %.12g differs from the stored %.12g (%s)",
+    paragraph_printf(to, 0, INDENT, "n = %d: %.12g differs from the stored value %.12g (%s)",
                      one->mesh[a->mesh], a->value, a->truth->value, a->truth->source);
     print_command(to, p, one, p->scene.quantity[a->quantity].name);
 }
@@ -150,7 +150,7 @@ static void print_rules(FILE *to, const truths *t, int *number)
                       r->from != NULL ? " (" : "", r->from != NULL ? r->from : "",
                       r->from != NULL ? ")" : "",
                       r->observed == 0 ? "was not observed"
-                                       : "names a derived limit that no verdict has met");
+                                       : "names a derived limit with which no limit agrees");
         paragraph_printf(to, 0, INDENT, "formulations: %s", r->formulations);
         paragraph_printf(to, 0, INDENT, "cases: %s", r->cases);
         paragraph_printf(to, 0, INDENT, "quantities: %s", r->quantities);
@@ -184,7 +184,7 @@ void table_breaches(FILE *to, screen look, const evaluation *j)
         fputs(" by ", to);
         const char *key = j->breach[i].formulation;
         paragraph words;
-        paragraph_printf(to, 22, INDENT, "%s: %s; for the full report:", key, j->breach[i].why);
+        paragraph_printf(to, 22, INDENT, "%s: %s; full report:", key, j->breach[i].why);
         FILE *line = paragraph_begin(&words, to);
         fprintf(line, "beamwork element-test -f %s", key);
         print_element(line, formulations_named(key, strcspn(key, ":")));
@@ -397,7 +397,9 @@ static void write_errors(FILE *to, const sweep *s, int quantity, int reference)
         to, at - 1, 4,
         "largest error over the curve, relative to the largest value of the curve; reference: the "
         "finest mesh%s",
-        running > 1 ? "; error of the finest mesh: relative to that of another formulation" : "");
+        running > 1
+            ? "; error of the finest mesh: relative to the finest mesh of another formulation"
+            : "");
     for (int i = 0; i < s->seriess; i++) {
         const series *one = &s->series[i];
         if (one->missing[0] != '\0')

@@ -78,12 +78,14 @@ static void add_difference(const verdict *v, char *text, size_t size)
 {
     const truth *other = v->model_truth;
     if (v->kind == VERDICT_OTHER_MODEL && strcmp(other->kind, "agreement") != 0)
-        snprintf(text, size, "; %+.3g %% from the %s value", 100 * v->model_error, other->kind);
+        snprintf(text, size, "; %+.3g %% from the reference value (%s)", 100 * v->model_error,
+                 other->kind);
     else if (other->theory[0] != '\0')
         snprintf(text, size, "; %+.3g %% from %s", 100 * v->model_error, other->theory);
     else
         snprintf(text, size, "; %+.3g %% from %s (%s)", 100 * v->model_error,
-                 strcmp(other->kind, "agreement") == 0 ? "where families agree" : "another model",
+                 strcmp(other->kind, "agreement") == 0 ? "the value on which families agree"
+                                                       : "another model",
                  other->kind);
 }
 

@@ -269,7 +269,7 @@ class Measured(Tested):
             self.assertLess(max(map(abs, found[name]["error"])), 1e-9, name)
         self.assertEqual([name for name, m in found.items() if m["locks"]], [])
         self.assertAlmostEqual(found["vibration: first bending mode"]["order"], 7.2, delta=0.2)
-        self.assertIn("not offered: warping", found["torsion, warping held"]["words"])
+        self.assertIn("not supported: warping", found["torsion, warping held"]["words"])
 
     def test_torsion_constant(self):
         found = self.measured(("c->shear_modulus * c->It / l3", "c->shear_modulus * c->Ip / l3"), code=1)

@@ -27,14 +27,14 @@ class OmitTest(SceneCase):
             self.assertEqual([q["quantity"] for q in solved["quantities"] if q.get("truth") is not None], [], case)
         for case in ("angle_column", "elastica", "elbow", "hexapod", "moment_buckling", "sheet_wagner"):
             said = " ".join(self.answered("solve", case, *WHOLE).stdout.split())
-            left_out = re.search("omitted: nothing, although the source of the case omits ([a-z_, ]*); the stored values", said)
+            left_out = re.search("omitted: nothing, whereas the source of the case omits ([a-z_, ]*); the stored values", said)
             text = " ".join(self.answered("solve", case).stdout.split())
             self.assertEqual("omitted: " in text, left_out is not None, case)
             if left_out:
                 self.assertIn("omitted: " + left_out[1], text)
                 changed += 1
             else:
-                self.assertIn("omitted: nothing; omit=none has no effect and can be removed", said)
+                self.assertIn("omitted: nothing; remove omit=none, which has no effect", said)
         self.assertEqual(changed, 3)
 
     def test_as_the_scene(self):

@@ -76,7 +76,8 @@ class Places(Folder):
             path = self.folder / f"{work[0]}.h5"
             done = subprocess.run(f"{shlex.join([PROGRAM, *work, '-o', str(path)])} >&-", shell=True, check=False,
                                   stderr=subprocess.PIPE, text=True)
-            self.assertEqual((done.returncode, done.stderr), (4, "beamwork: standard output cannot be written\n"))
+            self.assertEqual((done.returncode, done.stderr),
+                             (4, "beamwork: standard output cannot be written (Bad file descriptor); redirect it to another location\n"))
             with h5py.File(path) as file:
                 self.assertTrue(list(file))
         path = self.folder / "s.json"
@@ -356,7 +357,7 @@ class Screen(ProgramTest):
             words = re.escape(marks.split()[0][0]) + " limit outside the tolerance "
             self.assertRegex(text, f"(?m)^{words}")
             self.columns(text)
-            self.assertRegex(text, r"\d+ cells, and \d+ more to measure their rounding scatter, in [\d.]+ s\n")
+            self.assertRegex(text, r"\d+ runs, and \d+ more to measure rounding scatter, in [\d.]+ s\n")
             self.assertEqual(text.isascii(), env is ASCII)
 
     def test_verdict_sentence(self):

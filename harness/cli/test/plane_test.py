@@ -255,11 +255,11 @@ class OtherModel(ProgramTest):
             one = self.series(*leaf)[0]["beamw_vlasov"]
             self.assertEqual((one["other_model"], one["not_modelled"]), (False, "shear"), load)
             self.assertLess(one["model_change"], 1e-4)
-            self.assertIn("without shear, which changes no value", one["model_words"])
+            self.assertIn("without shear; the omission changes no value", one["model_words"])
             for quantity in one["quantities"]:
                 self.assertNotEqual(quantity["verdict"], "other model")
             text = self.answered("solve", *leaf, "-f", "beamw_vlasov", "-n", "2").stdout
-            self.assertEqual(text.count("without shear, which changes no value"), 1)
+            self.assertEqual(text.count("without shear; the omission changes no value"), 1)
 
     def test_no_load_at_all(self):
         """Without loads, every value is zero, so missing physics has no effect."""

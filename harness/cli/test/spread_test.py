@@ -133,7 +133,7 @@ class Verify(SpreadTest):
         second.write_bytes(content)
         done = self.merged(code=5)
         for path in (first, second):
-            self.assertIn(f"{path}: the file is truncated, damaged or altered; delete it; it counts as missing",
+            self.assertIn(f"{path}: the file is truncated, damaged or altered; delete it (this batch counts as missing)",
                           done.stderr)
         self.assertIn(" 2 computed now", self.shard("1/1", "verify", "-k", CASES).stdout)
         self.is_as_alone()

@@ -126,9 +126,9 @@ class Grid(ProgramTest):
     def test_screen(self):
         for line in self.done.stdout.splitlines():
             self.assertLessEqual(len(line), 100)
-        self.assertIn("shear_column: 12 points (grid), 2 formulations, 3 meshes: 72 cells",
+        self.assertIn("shear_column: 12 points (grid), 2 formulations, 3 meshes: 72 runs",
                       self.done.stdout)
-        self.assertIn("share of the points within 1 %", self.done.stdout)
+        self.assertIn("share of the points with errors within 1 %", self.done.stdout)
         self.assertIn("worst points with n = 8", self.done.stdout)
 
 
@@ -298,7 +298,7 @@ class Going(ProgramTest):
         words = ("sweep", "elastica", "--vary", "load=1,2", "-f", "beamw", "-n", "1", "-o", self.folder / "e.h5")
         held = os.open(batches, os.O_RDONLY)
         fcntl.flock(held, fcntl.LOCK_EX)
-        self.refused(2, "another 'beamwork sweep' is using it", *words, silent=False)
+        self.refused(2, "another 'beamwork sweep' is using this folder", *words, silent=False)
         os.close(held)
         self.answered(*words)
         self.assertFalse(batches.exists())

@@ -161,7 +161,7 @@ class Import(ProgramTest):
         line, = [x for x in done.stdout.splitlines() if x.startswith("    CalculiX")]
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertIn("no truth; +8.59 % from another model", line)
-        self.refused(2, "the model is not 'beam'", "verify", "--scene", str(leaf), "-f", "beamw", "--imported",
+        self.refused(2, "no imported value has a verdict", "verify", "--scene", str(leaf), "-f", "beamw", "--imported",
                      self.folder / "theirs.h5", "--imported-must-pass")
 
     def test_beside_informs_and_gates_where_asked(self):

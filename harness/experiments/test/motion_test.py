@@ -111,7 +111,7 @@ class Words(ProgramTest):
                          [r["error"] for r in record["runs"]])
         text = run(*asked).stdout
         self.assertIn("free_flight_space (time=7.5), collocation, n = 4, to 7.5 s", text)
-        self.assertIn("the three integrators with the lowest cost for an error of 0.01:", text)
+        self.assertIn("integrators with the lowest cost for an error of 0.01 (at most three):", text)
 
     def test_consistent_mass_is_not_lumped_in_silence(self):
         scene = self.folder / "mine.yaml"

@@ -95,7 +95,7 @@ class Interrupted(Folder):
                                    stderr=end, start_new_session=True)
         os.close(end)
         said = b""
-        while max((int(n) for n in re.findall(rb"cells (\d+) of \d+", said)), default=0) < cells:
+        while max((int(n) for n in re.findall(rb"runs (\d+) of \d+", said)), default=0) < cells:
             said += os.read(terminal, 4096)
         return process, terminal
 

@@ -271,9 +271,8 @@ static void markdown_tests(void)
     flaw flaws[2] = {{.series = 0}};
     char *text = written(&s, &j);
     holds(text, "## beamwork: fail");
-    holds(
-        text,
-        "1 verdicts against reference values in 0 cells; 1 verdicts differ from the expected ones");
+    holds(text,
+          "runs: 0; verdicts against reference values: 1; unexpected verdicts: 1; stored discrete");
     holds(text, "| case_of_test | a=1 | `beam:option=2` | load | **wrong limit** | pass | 2.5 | 2 "
                 "| +25 % | left \\| right below |");
     holds(text, "FAIL: 1 verdict differs from the expected one.");

@@ -93,7 +93,7 @@ class ShortTable(ProgramTest):
             "quantities",
             lambda row: np.isfinite(row["error"]),
             lose,
-            ["worse", "values with an error"],
+            ["worse", "values with a known error"],
         )
 
     def test_work(self):

@@ -143,7 +143,7 @@ class Findings(Own):
                 (("2:8", "prediction"), good.replace("0.1,", "0.1,elastca/w_over_L")),
                 (("2:9", "no cause yet"), good.replace("cause", "")),
                 (("2:10", "no proof"), good.replace("proof", "")),
-                (("2:1", "one word"), good.replace("a,", "a b,", 1)),
+                (("2:1", "give one word"), good.replace("a,", "a b,", 1)),
                 (("2:1", "the list of known deviations"), good.replace("a,", "J66-shear,", 1)),
                 (("2:1", "fields"), good + ",more"), (("2:1", "a quote is not closed"), good + '"')):
             with self.subTest(line=line):

@@ -272,15 +272,16 @@ static void unexpected_tests(void)
     holds(&b,
           "\n 1. made_up (length=2;width=3), element:order=3, load [N]\n"
           "    wrong limit, expected pass\n    converges to a wrong limit: +10 %\n"
-          "    limit 3.300 +- 0.012, off by +10.0000 %; reference 3.0000000000 +- 1.0e-9 (exact, "
-          "book, page 3);\n    finest mesh, n = 4: 3.310\n"
+          "    limit 3.300 +- 0.012, error +10.0000 %; reference value 3.0000000000 +- 1.0e-9 "
+          "(exact, "
+          "book,\n    page 3); finest mesh, n = 4: 3.310\n"
           "    beamwork converge made_up --set length=2 --set width=3 -f element:order=3 -n 2,4 "
           "-k load\n");
 
     b.j.agreements = b.j.disagreements = 1;
     b.j.agreement = &b.a;
     holds(&b, "\n 2. made_up (length=2;width=3), element:order=3, load\n"
-              "    n = 2: 3.5 differs from the stored 3 (book, page 3)\n");
+              "    n = 2: 3.5 differs from the stored value 3 (book, page 3)\n");
 
     b.j.flaws = 1;
     b.j.flaw = &b.c;
