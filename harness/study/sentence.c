@@ -44,10 +44,8 @@ static void undecided(const verdict *v, char *text, size_t size)
         return;
     }
     uncertainty_of(v, uncertainty);
-    snprintf(
-        text, size,
-        "undecided: the error of the limit is %+.3g %%, with an uncertainty of %s (%s, %d meshes)",
-        100 * v->error, uncertainty, limit_kind_name(v->fit.kind), v->fit.meshes);
+    snprintf(text, size, "undecided: error of the limit %+.3g %%, uncertainty %s (%s, %d meshes)",
+             100 * v->error, uncertainty, limit_kind_name(v->fit.kind), v->fit.meshes);
 }
 
 /* Describes a biased limit. If it is neither the reference value nor the limit derived for the

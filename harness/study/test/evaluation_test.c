@@ -381,12 +381,12 @@ static void needs_scatter(void)
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
     bench_expect(&b, VERDICT_UNDECIDED, 1, "alternating values");
-    bench_expect_words(&b, "undecided: the error of the limit is -0.333 %, with an uncertainty of "
-                           "2.0 % (oscillating, 5 meshes)");
+    bench_expect_words(
+        &b, "undecided: error of the limit -0.333 %, uncertainty 2.0 % (oscillating, 5 meshes)");
     b.p.scene.quantity[0].near_zero = 5;
     bench_expect(&b, VERDICT_UNDECIDED, 1, "of a reference value below what counts as near zero");
-    bench_expect_words(&b, "undecided: the error of the limit is -0.2 %, with an uncertainty of "
-                           "0.060 in the unit of the quantity (oscillating, 5 meshes)");
+    bench_expect_words(&b, "undecided: error of the limit -0.2 %, uncertainty 0.060 in the unit of "
+                           "the quantity (oscillating, 5 meshes)");
     b.p.scene.quantity[0].near_zero = 0;
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 1e-6 : -1e-6);

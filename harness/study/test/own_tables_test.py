@@ -98,7 +98,7 @@ class Findings(Own):
         self.assertNotEqual(text, needed.read_text(encoding="utf-8"))
         small = self.folder / "small.csv"
         small.write_text(text, encoding="utf-8")
-        self.assertIn("of known deviation", self.verified("wrong", "--deviations", small, code=1).stdout)
+        self.assertIn("but known deviation", self.verified("wrong", "--deviations", small, code=1).stdout)
 
     def test_a_rule_nobody_shows(self):
         """A rule that is not observed must be reported with its position in the file, if all cells to which it applies
