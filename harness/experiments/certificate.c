@@ -118,10 +118,12 @@ static void handle_end(tester *t, int time_limit)
     c->doing[sizeof c->doing - 1] = '\0';
     if (c->complete && WIFEXITED(how) && WEXITSTATUS(how) == 0)
         return;
-    if (child_ended(how, t->late, time_limit, words, sizeof words))
+    const int late = child_ended(how, t->late, time_limit, words, sizeof words);
+    if (late)
         t->of->late = certificate_part_name(t->part);
-    checks_require(checks_open(c, "every call returns", 0), 0, "%s: %.250s", words,
-                   c->doing[0] != '\0' ? c->doing : "before the first call");
+    checks_require(checks_open(c, "every call returns", 0), 0, "%s: %.250s%s", words,
+                   c->doing[0] != '\0' ? c->doing : "before the first call",
+                   late ? "; if the element is slow, set a longer --time-limit" : "");
 }
 
 static void stop_late(tester *t, int time_limit)

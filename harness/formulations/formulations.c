@@ -70,6 +70,8 @@ static int is_reserved(const char *name)
 
 status formulations_add(const element_type *t, const char *from, fault *f)
 {
+    double options[ELEMENT_MAX_OPTIONS];
+    element_type whole;
     int count = 0;
     if (is_reserved(t->name))
         return fault_set(f, STATUS_REFUSED,
@@ -79,6 +81,8 @@ status formulations_add(const element_type *t, const char *from, fault *f)
     if (formulations_named(t->name, strlen(t->name)) != NULL)
         return fault_set(f, STATUS_REFUSED, "formulation %s already exists; use another name",
                          t->name);
+    parameter_defaults(t->options, options);
+    TRY(adapters_complete(t, options, &whole, f));
     while (formulations_loaded[count] != NULL)
         count++;
     if (count == FORMULATIONS_MOST_LOADED)

@@ -276,6 +276,11 @@ static status read_all(const handshake_reading *r, handshake *out)
     TRY(text_of(r, "source", &t->source));
     TRY(text_of(r, "family", &t->family));
     TRY(gives_of(r, out));
+    if (json_object_get(r->said, "offers") == NULL)
+        return refuse(
+            r, "offers",
+            "give a list of the supported physics, such as [\"shear\", \"geometric\"], or "
+            "[] if there is none");
     TRY(words_of(r, "offers", NULL, &t->offers));
     TRY(words_of(r, "limits", limits, &t->limits));
     TRY(words_of(r, "shear_theories", theories, &t->shear_theories));

@@ -31,6 +31,12 @@ static status inertia_at(const equations *eq, const node_state x[], int i, doubl
         outcome = model_type(m)->inertia(kind->data, x, turning, out);
     }
     eq->run->counters.inertia_evaluations++;
+    if (outcome == STATUS_REFUSED)
+        return fault_set(f, outcome,
+                         "formulation %s: its 'inertia' does not support %s; give mass: lumped, or "
+                         "use another formulation",
+                         model_formulation(m),
+                         turning != NULL ? "rotating frames" : "this element");
     if (outcome != STATUS_OK)
         return fault_set(
             f, outcome,

@@ -107,7 +107,8 @@ FAULTS = {
     "loop": (
         (ENTRY, "    while (isinf(x[0].r[0]) && x[0].R[0] > 0)\n        (void)(volatile int){1};\n"
          + ENTRY),
-        "time limit: there was no result within 2 s: strain and stress of a state that is inf"),
+        "time limit: there was no result within 2 s: strain and stress of a state that is inf; if the element is slow, "
+        "set a longer --time-limit"),
     "bending stiffness": (
         ("c->young * c->Iz / l3}", "1.01 * c->young * c->Iz / l3}"),
         "order: the errors of ", "do not decrease (0.0099, 0.0099, 0.0099", "the limit is wrong"),

@@ -40,7 +40,7 @@ class Refused(Speaker):
                            ("said['nodes'] = 9", "2 to 8"), ("said['places'] = [0, 0.5, 1]", "one number for each node"),
                            ("said.update(nodes=3, places=[0, 1, 1])", "increase from 0"),
                            ("said.update(nodes=4, places=[0, 0.01, 0.02, 1])", "Gauss-Lobatto"), ("said['gives'] = 'all'", "'gives'"),
-                           ("said['offers'] = ['magic']", "'magic'"),
+                           ("said['offers'] = ['magic']", "'magic'"), ("del said['offers']", "a list of the supported physics"),
                            ("said['order'] = dict(statics=[4, 2])", "'order'"),
                            ("said['colour'] = 1", "'colour'"),
                            ("said['options'] = [dict(name='k', default=3, min=0, max=1)]", "'k'"),
@@ -48,6 +48,12 @@ class Refused(Speaker):
                             "'k'"),
                            ("said['name'] = 'collocation'", "already exists")):
             self.refuse(self.speaker(first=line), word)
+
+    def test_list(self):
+        """'list' must reject the same formulations as 'solve'."""
+        for line, word in (("said.update(nodes=3, places=[0, 1, 1])", "increase from 0"),
+                           ("del said['offers']", "a list of the supported physics")):
+            self.refused(2, word, "list", "speaker", "--element", self.speaker(first=line))
 
     def test_ends_before_it_speaks(self):
         self.refuse(self.speaker(first="sys.exit(3)"), "ended with status 3 before its first line")

@@ -21,6 +21,15 @@ quantities: {x: {displacement: {analysis: run, node: c, component: ux}},
   y: {displacement: {analysis: run, node: c, component: uy}},
   z: {displacement: {analysis: run, node: c, component: uz}}}
 %s"""
+# Axial displacement of the end of a rod that rotates about its other end: rho omega^2 L^3/(3 E).
+SPIN = """beamwork: 1
+sections: {s: {rectangle: {width: 0.03, thickness: 0.004}, young: 2e9, shear_modulus: 8e8, density: 3000}}
+nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [0.6, 0, 0]}}
+members: {ab: {from: a, to: b, section: s, y: [0, 1, 0]}}
+omit: [warping, trapeze, wagner_torque]
+analyses: {spin: {rotation: {omega: [0, 0, 20], stations: [1]}}}
+quantities: {u: {displacement: {analysis: spin, node: b, component: ux}}}
+"""
 
 
 class OwnMass(Speaker):
@@ -79,6 +88,21 @@ class OwnMass(Speaker):
         self.assertEqual(here, lumped)
         self.assertGreater(max(abs(here[q] - whole[q]) for q in here), 1e-3)
         self.assertEqual(beam, self.solved(self.python(), "own_mass_py", "deep_beam", 4)[1])
+
+    def test_rotating_frame(self):
+        """If `inertia` refuses rotating frames, the message names the formulation and the remedy, lumped mass."""
+        path = self.folder / "spin.yaml"
+        made = self.folder / "own_mass.so"
+        compile_shared(ROOT / "harness/formulations/test/own_mass.c", made)
+        for more in "", "mass: lumped\n":
+            path.write_text(SPIN + more, encoding="utf-8")
+            solve = ("solve", "--scene", path, "--element", made, "-f", "own_mass", "-n", 4, "--format", "json")
+            if more:
+                value = json.loads(self.answered(*solve).stdout)["quantities"][0]["value"]
+                self.assertLessEqual(abs(value / (3000 * 20**2 * 0.6**3 / 3 / 2e9) - 1), 0.02)
+            else:
+                self.refused(2, "formulation own_mass: its 'inertia' does not support rotating frames; give mass: lumped",
+                             *solve)
 
     def contract(self, element, code=0):
         out = self.answered("element-test", "own_mass_py", "--element", element, "--format", "json", code=code,
