@@ -406,8 +406,8 @@ def taken(functions, words):
         else:
             near = difflib.get_close_matches(word, KEYS, 1)
             value = type(value).__name__ if isinstance(value, np.ndarray) else repr(value)
-            sys.exit(f"serve(): {word}={value} is no {'function' if word in FUNCTIONS else 'key'}"
-                     + (f", did you mean {near[0]}?" if near else f"; keys: {', '.join(KEYS)}"))
+            sys.exit(f"serve(): {word}={value} is no " + ("function; give a function that returns it" if word in FUNCTIONS
+                     else f"key, did you mean {near[0]}?" if near else f"key; keys: {', '.join(KEYS)}"))
     functions = {name: f for name, f in functions.items() if f is not None}
     if "places" in said:
         said["places"] = [float(v) for v in said["places"]]

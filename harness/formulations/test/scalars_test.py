@@ -1,6 +1,7 @@
 """Element types with additional unknowns at their nodes: closed forms of scalars.c, and ancf_slopes.c, in every analysis."""
 import json
 import math
+import re
 import sys
 
 from harness.cli.test.plugin import EXAMPLES, compile_shared
@@ -49,6 +50,33 @@ quantities:
   g2: {frequency: {analysis: loaded, which: 2}}
   h: {response: {analysis: shake, node: tip, component: uy, force: tip, along: uy, at: 10}}
   swung: {displacement: {analysis: swing, node: tip, component: uy}}
+"""
+CONSTANT = FRAME[:FRAME.index("analyses:")].replace(', time: "cos(20*t)"', "").replace(", time: 1", "")
+CASES = CONSTANT.replace("on: tip,", "on: tip, case: live,").replace("on: a,", "on: a, case: dead,") + """
+combinations: {both: {dead: 1.35, live: 1.5}}
+analyses:
+  flat: {linear: {combination: both}}
+  buck: {buckling: {combination: both}}
+  push: {static: {combination: both, stations: [1]}}
+quantities:
+  flat: {displacement: {analysis: flat, node: tip, component: uy}}
+  buck: {critical_factor: {analysis: buck}}
+  push: {displacement: {analysis: push, node: tip, component: uy}}
+"""
+PATH = CONSTANT + """
+analyses:
+  push: {static: {stations: 0..1/2}}
+  go: {continuation: {control: {node: tip, component: uy}, by: arc, to: [-0.3], step: 0.2}}
+  modes: {modal: {about: push, damped: yes}}
+  shake: {harmonic: {frequencies: [3, 10, 40], about: push}}
+  spin: {rotation: {omega: [0, 0, 20], stations: [1]}}
+quantities:
+  factor: {factor_at: {analysis: go}}
+  moved: {displacement: {analysis: go, node: tip, component: ux}}
+  f2: {frequency: {analysis: modes, which: 1}}
+  z2: {damping_ratio: {analysis: modes, which: 1}}
+  h: {response: {analysis: shake, node: tip, component: uy, force: tip, along: uy, at: 10}}
+  spun: {displacement: {analysis: spin, node: tip, component: ux}}
 """
 LOCKING = """beamwork: 1
 sections: {s: {rectangle: {width: 0.1, thickness: 0.1}, young: 2e11, shear_modulus: 7.6923076923076923e10}}
@@ -157,6 +185,40 @@ quantities: {f1: {frequency: {analysis: run}}, f2: {frequency: {analysis: run, w
             self.assertEqual(len(here), 10)
             for name, value in there.items():
                 self.assertAlmostEqual(here[name] / value, 1, delta=2e-3, msg=(scheme, name))
+
+    def test_further_analyses(self):
+        """Load cases, continuations, and modes, responses and rotating frames about a path."""
+        timoshenko = compile_shared(EXAMPLES / "timoshenko.c", self.folder / "timoshenko.so")
+        for scene, count in ((CASES, 3), (PATH, 6)):
+            here = self.solved(self.ancf(), scene, 16, "ancf_slopes")[1]
+            there = self.solved(timoshenko, scene, 16, "timoshenko")[1]
+            self.assertEqual(len(here), count)
+            for name, value in there.items():
+                self.assertAlmostEqual(here[name] / value, 1, delta=2e-3, msg=name)
+
+    def test_restart(self):
+        """A motion that continues another run must end in the same state."""
+        state = str(self.folder / "state.h5")
+        for scheme in ("alpha", "radau"):
+            whole = FRAME[:FRAME.index("analyses:")] + "analyses: {swing: " + FRAME.split("swing: ")[1].split("\n")[0].replace(
+                "INTEGRATOR", scheme) + "}\nquantities: {u: {displacement: {analysis: swing, node: tip, component: uy}}}\n"
+            expected = self.solved(self.ancf(), whole, 4, "ancf_slopes")[1]["u"]
+            self.solved(self.ancf(), whole.replace("[0.05, 0.1]", "[0.05]"), 4, "ancf_slopes", "--save-state", state)
+            found = self.solved(self.ancf(), whole, 4, "ancf_slopes", "--restart", state)[1]["u"]
+            self.assertAlmostEqual(found / expected, 1, delta=1e-11, msg=scheme)
+
+    def test_reduced(self):
+        """Reduced models contain the additional unknowns."""
+        path = self.folder / "scene.yaml"
+        path.write_text(CONSTANT + """analyses: {modes: {modal: {}}}
+quantities: {f: {frequency: {analysis: modes, which: 2}}}
+""", encoding="utf-8")
+        for i, reduced in enumerate(("6", "6:tip")):
+            told = self.answered("solve", "--scene", path, "--element", self.ancf(), "-f", "ancf_slopes", "-n", 4, "--matrices",
+                                 self.folder / str(i), "--state-space", "--reduce", reduced).stderr
+            errors = [float(e) for e in re.findall(r"modes 1 to 6 have relative errors of at most ([\d.e-]+)", told)]
+            self.assertGreater(len(errors), 0, told)
+            self.assertLess(max(errors), 1e-3, told)
 
     def test_locking(self):
         nu, E, A, I, L = 0.3, 2e11, 1e-2, 1e-8 * 1e4 / 12, 2

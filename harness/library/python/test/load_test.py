@@ -112,10 +112,14 @@ except bw.Error as error:
     assert "no strain today" in str(error), error
 else:
     raise AssertionError("solved")
-for wrong in (lambda: bw.load(t.prepare, t.strain, colour=1), lambda: bw.load("./x.so", strains=6)):
+for wrong, told in ((lambda: bw.load(t.prepare, t.strain, colour=1), "colour=1 is no key"),
+                    (lambda: bw.load("./x.so", strains=6), ""),
+                    (lambda: bw.load(t.prepare, t.strain, damping=[[1.0]]),
+                     "is no function; give a function that returns it")):
     try:
         wrong()
     except TypeError as error:
+        assert told in str(error), error
         continue
     raise AssertionError("accepted")
 print("done")
