@@ -295,16 +295,16 @@ class Frame(Model):
         return Answer(states=states, iterations=iterations)
 
     def _state(self, part: Any, linear: bool = False) -> State:
-        """Large rotations are NaN: ROTATION is the sum of the increments of the iterations, which
+        """Large rotations are not known: ROTATION is the sum of the increments of the iterations, which
         depends on the steps, and the elements do not give the rotations of their nodes."""
-        u: dict[str, list[float]] = {}
+        u: dict[str, list[float | None]] = {}
         reaction: dict[str, list[float]] = {}
         supported = self.held | set(self.driven)
         for name, number in self.mesh.node_of.items():
             node = part.Nodes[number + 1]
             u[name] = [float(node.GetSolutionStepValue(v)) for v in self.displacements]
             if not linear and any(x != 0 for x in u[name][3:]):
-                u[name][3:] = [math.nan] * 3
+                u[name][3:] = [None] * 3
             reaction[name] = [
                 float(node.GetSolutionStepValue(v)) if (number, dof) in supported else 0.0
                 for dof, v in enumerate(self.reactions)

@@ -373,7 +373,8 @@ class Frame(Model):
     def _inverse_at(self, model: Any, number: int) -> Any:
         import numpy as np
 
-        inverse = np.linalg.inv(np.array(model.getTangent(k=1.0)))
+        entries = np.array(model.eval("printA -ret -k 1.0").split(), dtype=float)
+        inverse = np.linalg.inv(entries.reshape(math.isqrt(entries.size), -1))
         dofs = model.nodeDOFs(number)
         return [
             [float(inverse[row, column]) if row >= 0 <= column else 0.0 for column in dofs]
