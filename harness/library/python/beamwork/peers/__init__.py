@@ -1,4 +1,4 @@
-"""Other programs as contestants: each peer is a file of this folder, which runs in a process of its own.
+"""Other programs that solve a scene: each peer is a file of this folder, which runs in a process of its own.
 
     python3 -m beamwork.peers bend_45 --peers exudyn,opensees -o theirs.csv
 
