@@ -95,7 +95,7 @@ def _one_process(series: Series, request: Mapping[str, Any], limit: float) -> st
     paths = [str(_HERE.parent.parent), os.environ.get("PYTHONPATH", "")]
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths)), "OMP_NUM_THREADS": "1"}
     with subprocess.Popen([interpreter(), "-m", f"{__name__}.run", series.peer], stdin=subprocess.PIPE,
-                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL,
+                          stdout=subprocess.PIPE, stderr=None if os.environ.get("BEAMWORK_PEERS_STDERR") else subprocess.DEVNULL,
                           env=environment, start_new_session=True) as process:
         assert process.stdin is not None
         try:

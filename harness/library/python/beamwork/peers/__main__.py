@@ -6,7 +6,7 @@ import json
 import pathlib
 import sys
 
-from ..errors import Error
+from ..errors import Error, Refused
 from ..program import run
 from . import chosen, load, names, solve, table
 
@@ -39,6 +39,8 @@ def main() -> int:
             text, _ = run("scene", *([given.case] if given.case else []), format="json", **options,
                           set=dict(word.split("=", 1) for word in given.set))
         scene = json.loads(text)
+        if "beamwork_scene" not in scene:
+            raise Refused(f"{given.data}: no scene; write one with `beamwork scene --format json`")
         meshes = [int(n) for n in given.elements.split(",")] if given.elements else scene["scene"]["meshes"]
         found = [solve(scene, peer, element, [int(n) for n in meshes], given.rounds, given.limit)
                  for peer, element in chosen(given.peers.split(","))]
