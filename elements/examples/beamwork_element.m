@@ -17,7 +17,12 @@ function out = beamwork_element(first, varargin)
 %                           in motions, damped modes and harmonic analyses
 %   [energy, F, K] = force(kind, r, u, R, a)  (1,N), (7n,N), (7n,7n,N); 'force', @force in place of
 %                           strain and stress; with 'gives', 'energy' or 'force' the first of them
-% Derivatives of strains are complex steps: strain must take complex arrays and be analytic (.' for
+%   [place, axes] = line(kind, at, r, u, R, a)      (3,N), (3,3,N), with 'line', @line: position and axes of
+%                           the sections at(1,N), from 0 to 1 along the element, on which loads along it
+%                           do work; not with 'history'
+% With 'scalars', w, nodes have w additional unknowns: a is followed by s(w,n,N), and the coordinates of
+% F and K are those of all nodes, then s. Not with 'line'.
+% Derivatives of strains are complex steps: strain and line must take complex arrays and be analytic (.' for
 % ', no abs, norm, dot, comparison of values). With 'gives', 'e' it is called with real arrays only
 % and beamwork takes differences. For real and for complex arrays there are
 %   beamwork_element('product', A, B)       of matrices (3,3,...) and (3,3,...) or (3,1,...)
@@ -48,6 +53,7 @@ for i = 1:2:numel(words)
 end
 gives = {'e,J,H', 'tangent'};
 if ~isfield(said, 'gives'), said.gives = gives{1 + isfield(call, 'force')}; end
+if isfield(call, 'line'), said.line = true; end
 if isfield(call, 'damping')
     said.damping = true;
     if isfield(call, 'stress'), said.damping = 'only V'; end % without C
@@ -74,7 +80,7 @@ while numel(fread(in, [1 8], 'uint8')) == 8
         if head(1) == 1
             [values, kinds{numbers(1) + 1}] = prepared(said, call, numbers(2), body);
         else
-            values = answer(said, call, kinds, head(1), bitget(head(2), 1:3) == 1, numbers, body);
+            values = answer(said, call, kinds, head(1), bitget(head(2), 1:5) == 1, numbers, body);
         end
         count = 8 * numel(values);
     catch why
@@ -141,6 +147,15 @@ n = 2;
 if isfield(said, 'nodes'), n = said.nodes; end
 if what == 3, first = numel(body); else, first = 16 * n * N; end
 x = reshape(body(1:first), [], N);
+w = 0;
+if isfield(said, 'scalars') && what ~= 3, w = said.scalars; end
+y = reshape(body(first + (1:w * n * N)), w, n, N);
+first = first + w * n * N;
+if what == 8
+    values = sections(call, kinds, mask, numbers, x, n, body(first + 1:end));
+    return;
+end
+mask = mask(1:3);
 q = 0;
 if isfield(said, 'history'), q = said.history; end
 h = [];
@@ -151,7 +166,7 @@ if q > 0 && any(what == [2 4 7])
 end
 s = reshape(body(second + 1:end), [], N);
 if any(what == [6 7])
-    values = histories(call, kinds, what, numbers, x, h, q);
+    values = histories(call, kinds, what, numbers, x, y, h, q);
     return;
 end
 whole = {[], [], []};
@@ -165,16 +180,17 @@ for number = unique(numbers)
         if what == 2
             of_strain = call.strain;
             if q > 0 % P states of each element follow each other
-                of_strain = @(kind, r, u, R, a) call.strain(kind, r, u, R, a, ...
-                    reshape(repmat(reshape(h(:, of), q, 1, []), 1, size(a, 2) / numel(of), 1), q, []));
+                of_strain = @(kind, varargin) call.strain(kind, varargin{:}, ...
+                    repeated(h(:, of), size(varargin{4}, 2)));
             end
-            part = strains(said, of_strain, mask, kind, reshape(x(:, of), 16, n, []), s(:, of));
+            part = strains(said, of_strain, mask, kind, reshape(x(:, of), 16, n, []), ...
+                           y(:, :, of), s(:, of));
         elseif what == 3
             part = energies(call.stress, mask, {kind, x(:, of)}, said.strains, numel(of));
         else
-            state = nodes(reshape(x(:, of), 16, n, []));
+            state = nodes(reshape(x(:, of), 16, n, []), y(:, :, of));
             if q > 0, state = [state, {h(:, of)}]; end
-            part = energies(call.force, mask, [{kind}, state], 7 * n, numel(of));
+            part = energies(call.force, mask, [{kind}, state], (7 + w) * n, numel(of));
         end
         for i = find(mask)
             part{i} = reshape(part{i}, [], numel(of));
@@ -186,13 +202,57 @@ values = [whole{1}(:); whole{2}(:); whole{3}(:)];
 if ~isreal(values), error('beamwork:refused', 'complex numbers where real ones are due'); end
 end
 
-function values = histories(call, kinds, what, numbers, x, h, q)
+function h = repeated(h, count)
+% h(q,N) of each of `count` states (q,count): the states of each element follow each other.
+h = reshape(repmat(reshape(h, size(h, 1), 1, []), 1, count / size(h, 2), 1), size(h, 1), []);
+end
+
+function values = sections(call, kinds, mask, numbers, x, n, body)
+% Place, axes, P, T and H of the sections, as far as the mask asks for them.
+N = numel(numbers);
+at = reshape(body(1:N), 1, N);
+load = reshape(body(N + 1:end), 3, N, 2); % forces, moments
+found = cell(1, 5);
+for k = 1:N % H is different for each element
+    kind = kinds{numbers(k) + 1};
+    motion = @(kind, varargin) moved(call.line, kind, repeated(at(k), size(varargin{4}, 2)), varargin);
+    state = reshape(x(:, k), 16, n, 1);
+    own = strains(struct('strains', 12), motion, [true, false, false], kind, state, zeros(0, n, 1), []);
+    R = reshape(own{1}(4:12), 3, 3);
+    turned = cross(load(:, k, 2) * [1 1 1], R, 1) / 2;
+    part = strains(struct('strains', 12), motion, [false, any(mask(3:5)), mask(5)], kind, state, ...
+                   zeros(0, n, 1), [load(:, k, 1); turned(:)]);
+    [found{1}(:, k), found{2}(:, k)] = deal(own{1}(1:3), reshape(R.', [], 1));
+    if ~any(mask(3:5)), continue; end
+    J = part{2}; % (7n,12)
+    T = zeros(7 * n, 3);
+    for axis = 1:3 % T^T m is half the sum of dR_k . (m x R_k) over the axes R_k
+        dR = J(:, 3 * axis + (1:3));
+        T = T + cross(ones(7 * n, 1) * R(:, axis).', dR, 2) / 2;
+        if mask(5), part{3} = part{3}(:) - reshape(dR * cross_matrix(load(:, k, 2)) * dR.' / 2, [], 1); end
+    end
+    [found{3}(:, k), found{4}(:, k)] = deal(reshape(J(:, 1:3), [], 1), T(:));
+    if mask(5), found{5}(:, k) = part{3}; end
+end
+values = [];
+for i = find(mask), values = [values; found{i}(:)]; end
+if ~isreal(values), error('beamwork:refused', 'complex numbers where real ones are due'); end
+end
+
+function motion = moved(line, kind, at, state)
+% motion(12,N): place and axes.
+N = numel(at);
+[place, axes] = line(kind, at, state{:});
+motion = [sized(place, [3 N], 'line'); reshape(sized(axes, [3 3 N], 'line'), 9, N)];
+end
+
+function values = histories(call, kinds, what, numbers, x, y, h, q)
 % The histories of undeformed elements, or of accepted states that were reached from h.
 N = numel(numbers);
 out = zeros(q, N);
 for number = unique(numbers)
     of = find(numbers == number);
-    state = nodes(reshape(x(:, of), 16, [], numel(of)));
+    state = nodes(reshape(x(:, of), 16, [], numel(of)), y(:, :, of));
     if what == 7
         found = call.commit(kinds{number + 1}, state{:}, h(:, of));
     elseif isfield(call, 'begin')
@@ -214,10 +274,11 @@ end
 value = full(double(value));
 end
 
-function state = nodes(x)
-% {r, u, R, a} of x(16,n,N).
+function state = nodes(x, y)
+% {r, u, R, a} of x(16,n,N), and s = y(w,n,N) if w > 0.
 R = permute(reshape(x(7:15, :, :), 3, 3, size(x, 2), []), [2 1 3 4]);
 state = {x(1:3, :, :), x(4:6, :, :), R, reshape(x(16, :, :), size(x, 2), [])};
+if size(y, 1) > 0, state{5} = y; end
 end
 
 function found = energies(function_of, mask, arguments, m, N)
@@ -231,25 +292,30 @@ end
 if mask(3), found{3} = permute(found{3}, [2 1 3]); end
 end
 
-function found = strains(said, strain, mask, kind, x, s)
-% {e(m,N), J(7n,m,N), H(7n,7n,N)}, as far as they are asked for; H of s(m,N) times the strains.
+function found = strains(said, strain, mask, kind, x, y, s)
+% {e(m,N), J(c,m,N), H(c,c,N)}, as far as they are asked for; H of s(m,N) times the strains. The c
+% coordinates are 7n of the nodes and those of y(w,n,N).
 [~, n, N] = size(x);
-c = 7 * n;
-unit = kind.length .^ repmat([1 1 1 0 0 0 -1].', n, 1); % increments as numbers of order one
-state = nodes(x);
+w = size(y, 1);
+c = (7 + w) * n;
+% increments as numbers of order one
+unit = [kind.length .^ repmat([1 1 1 0 0 0 -1].', n, 1); ones(w * n, 1)];
+state = nodes(x, y);
 found = cell(1, 3);
 if mask(1), found{1} = sized(strain(kind, state{:}), [said.strains N], 'strain'); end
 if ~any(mask(2:3)), return; end
 tiny = 1e-20; % of complex steps
 stride = 2e-3; % of differences of these
-[i, j, move, turn] = steps(n, tiny, stride, mask(3));
-move = move .* reshape(unit, 7, n);
+[i, j, move, turn, slide] = steps(n, w, tiny, stride, mask(3));
+move = move .* reshape(unit(1:7 * n), 7, n);
 P = size(move, 3) * N;
 at = reshape(x, 16, n, 1, N);
-rate = strain(kind, reshape(at(1:3, :, :, :) + move(1:3, :, :), 3, n, P), ...
-              reshape(at(4:6, :, :, :) + move(1:3, :, :), 3, n, P), ...
-              reshape(product(turn, reshape(state{3}, 3, 3, n, 1, N)), 3, 3, n, P), ...
-              reshape(at(16, :, :, :) + move(7, :, :), n, P));
+moving = {reshape(at(1:3, :, :, :) + move(1:3, :, :), 3, n, P), ...
+          reshape(at(4:6, :, :, :) + move(1:3, :, :), 3, n, P), ...
+          reshape(product(turn, reshape(state{3}, 3, 3, n, 1, N)), 3, 3, n, P), ...
+          reshape(at(16, :, :, :) + move(7, :, :), n, P)};
+if w > 0, moving{5} = reshape(reshape(y, w, n, 1, N) + slide, w, n, P); end
+rate = strain(kind, moving{:});
 rate = reshape(imag(sized(rate, [said.strains P], 'strain')), [], P / N, N) / tiny;
 found{2} = permute(rate(:, 1:c, :), [2 1 3]) ./ unit;
 if mask(3) % differences of fourth order, of complex steps
@@ -260,13 +326,13 @@ if mask(3) % differences of fourth order, of complex steps
 end
 end
 
-function [i, j, move, turn] = steps(n, tiny, stride, second)
-% Complex steps of all coordinates, move(7,n,P) and turn(3,3,n,P): from where they are; for second
-% derivatives, those of i where coordinates j have moved by 1, -1, 2, -2 strides, too.
+function [i, j, move, turn, slide] = steps(n, w, tiny, stride, second)
+% Complex steps of all coordinates, move(7,n,P), turn(3,3,n,P) and slide(w,n,P): from where they are; for
+% second derivatives, those of i where coordinates j have moved by 1, -1, 2, -2 strides, too.
 persistent kept;
-if isempty(kept), kept = cell(3, 2); end
-if isempty(kept{n, 1 + second})
-    one = full(eye(7 * n));
+if isempty(kept), kept = cell(8, 2, 7); end
+if isempty(kept{n, 1 + second, 1 + w})
+    one = full(eye((7 + w) * n));
     [i, j] = find(tril(one + 1));
     along = 0 * one;
     d = one;
@@ -274,8 +340,9 @@ if isempty(kept{n, 1 + second})
         along = [along, kron(stride * [1 -1 2 -2], one(:, j))];
         d = [d, repmat(one(:, i), 1, 4)];
     end
-    along = reshape(along, 7, n, []);
-    d = reshape(d, 7, n, []);
+    slide = reshape(along(7 * n + 1:end, :) + 1i * tiny * d(7 * n + 1:end, :), w, n, []);
+    along = reshape(along(1:7 * n, :), 7, n, []);
+    d = reshape(d(1:7 * n, :), 7, n, []);
     psi = along(4:6, :, :); % where they turned by psi, the spatial increment is dexp(psi) d
     t2 = sum(psi .^ 2, 1);
     once = cross(psi, d(4:6, :, :), 1);
@@ -285,9 +352,9 @@ if isempty(kept{n, 1 + second})
     turn = full(eye(3)) + spin .* sine_by_angle(t) + ...
            product(spin, spin) .* sine_by_angle(t / 2) .^ 2 / 2;
     turn = turn + 1i * tiny * product(cross_matrix(d4), turn);
-    kept{n, 1 + second} = {i, j, along + 1i * tiny * d, turn};
+    kept{n, 1 + second, 1 + w} = {i, j, along + 1i * tiny * d, turn, slide};
 end
-[i, j, move, turn] = kept{n, 1 + second}{:};
+[i, j, move, turn, slide] = kept{n, 1 + second, 1 + w}{:};
 end
 
 function A = cross_matrix(v)

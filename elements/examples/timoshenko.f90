@@ -64,6 +64,14 @@ module beamwork
     type(c_ptr) :: energy, F, K, history
   end type
 
+  type, bind(c) :: element_rotating_frame
+    real(c_double) :: omega(3), centre(3)
+  end type
+
+  type, bind(c) :: inertia_output
+    type(c_ptr) :: M, potential, force, N, G, rate, acceleration, taken, C, K
+  end type
+
   type, bind(c) :: line_output
     real(c_double) :: at, force(3), moment(3), r(3), R_(3, 3)
     type(c_ptr) :: P, T, H

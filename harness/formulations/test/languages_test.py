@@ -109,7 +109,7 @@ class Fortran(ProgramTest):
         return [int(line) for line in out.split()]
 
     def test_layout(self):
-        self.assertEqual(len(self.types), 8)
+        self.assertEqual(len(self.types), 10)
         self.assertGreater(sum(map(len, self.types.values())), 80)
         variables = "".join(f"type({name}), target :: v_{name}\n" for name in self.types)
         theirs = "".join(

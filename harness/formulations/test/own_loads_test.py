@@ -1,7 +1,9 @@
 """Loads along elements that compute the motion of their sections themselves: exact displacements of nodes, equilibrium
 of reactions and loads, buckling under distributed loads, and the checks of the interface."""
 import json
+import shutil
 import sys
+import unittest
 
 from harness.cli.test.plugin import EXAMPLES
 from harness.formulations.test.speaker import Speaker
@@ -40,6 +42,26 @@ WEIGHT = MEMBER.replace("hold: all}, b", "hold: all}, b") + """loads: {w: {distr
 analyses: {run: {buckling: {}}}
 quantities: {factor: {critical_factor: {analysis: run}}}
 """
+# own_loads.py in Octave, as changes of timoshenko.m
+OCTAVE = (("function A = turned_back(R)", """function [place, axes] = between(kind, at, r, u, R, a)
+s = reshape(at, 1, 1, []);
+q = s .^ 2 .* (3 - 2 * s);
+[Rp, Rq] = deal(reshape(R(:, :, 1, :), 3, 3, []), reshape(R(:, :, 2, :), 3, 3, []));
+place = (1 - q) .* r(:, 1, :) + q .* r(:, 2, :) + ...
+        kind.length * s .* (1 - s) .* ((1 - s) .* Rp(:, 1, :) - s .* Rq(:, 1, :));
+place = reshape(place, 3, []);
+T = beamwork_element('product', beamwork_element('transpose', Rp), Rq);
+psi = reshape(at .* beamwork_element('rotation_vector', T), 3, 1, []);
+t = sqrt(sum(psi .* psi, 1));
+o = 0 * t;
+spin = [o, -psi(3, 1, :), psi(2, 1, :); psi(3, 1, :), o, -psi(1, 1, :); -psi(2, 1, :), psi(1, 1, :), o];
+turn = full(eye(3)) + beamwork_element('sinc', t) .* spin + ...
+       beamwork_element('sinc', t / 2) .^ 2 / 2 .* beamwork_element('product', spin, spin);
+axes = beamwork_element('product', Rp, turn);
+end
+
+function A = turned_back(R)"""), ("'strain', @strain,", "'strain', @strain, 'line', @between,"),
+          ("fileparts(mfilename('fullpath'))", f"'{EXAMPLES}'"))
 
 
 class OwnLoads(Speaker):
@@ -51,11 +73,11 @@ class OwnLoads(Speaker):
         path.write_text(text.replace(before, after, 1), encoding="utf-8")
         return f"exec:'{sys.executable}' '{path}'"
 
-    def solved(self, text, n=1, name="own_loads", element=None):
+    def solved(self, text, n=1, name="own_loads", element=None, chosen=None):
         path = self.folder / "scene.yaml"
         path.write_text(text, encoding="utf-8")
         element = element or f"exec:'{sys.executable}' '{EXAMPLES / name}.py'"
-        record = json.loads(self.answered("solve", "--scene", path, "--element", element, "-f", f"{name}_py", "-n", n,
+        record = json.loads(self.answered("solve", "--scene", path, "--element", element, "-f", chosen or f"{name}_py", "-n", n,
                                           "--format", "json", env=WITH_MODULES).stdout)
         return record, {q["quantity"]: q["value"] for q in record["quantities"]}
 
@@ -99,6 +121,24 @@ class OwnLoads(Speaker):
         found = self.solved(WEIGHT, 16)[1]["factor"]
         weak = min(EI, YOUNG * HEIGHT * WIDTH**3 / 12)
         self.assertLessEqual(abs(found / (7.8373474 * weak / LENGTH**3) - 1), 5e-3)
+
+    @unittest.skipUnless(shutil.which("octave-cli"), "needs octave-cli")
+    def test_octave(self):
+        """The element in Octave must have the displacements of that in Python, and satisfy the interface."""
+        text = (EXAMPLES / "timoshenko.m").read_text(encoding="utf-8")
+        for before, after in OCTAVE:
+            self.assertIn(before, text)
+            text = text.replace(before, after)
+        path = self.folder / "mine.m"
+        path.write_text(text, encoding="utf-8")
+        element = f"exec:octave-cli -qf '{path}'"
+        for scene in BENT, LINEAR % "q: {distributed: [0, 0.7, 0], on: ab, from: 0, to: 0.4}":
+            expected, found = self.solved(scene, 2)[1], self.solved(scene, 2, "timoshenko", element, "timoshenko_m")[1]
+            for name, value in expected.items():
+                self.assertLessEqual(abs(found[name] / value - 1), 1e-8, name)
+        out = self.answered("element-test", "--element", element, "--format", "json").stdout
+        made = [c["outcome"] for c in json.loads(out)["claims"] if c["family"] == "along"]
+        self.assertEqual(made, ["holds"] * 5 + ["not claimed"] * 2)
 
     def contract(self, element, code=0):
         out = self.answered("element-test", "own_loads_py", "--element", element, "--format", "json", code=code,

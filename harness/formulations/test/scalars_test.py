@@ -2,7 +2,9 @@
 import json
 import math
 import re
+import shutil
 import sys
+import unittest
 
 from harness.cli.test.plugin import EXAMPLES, compile_shared
 from harness.tools.kit.program import ROOT, ProgramTest, environment, run
@@ -107,6 +109,28 @@ def strain(kind, r, u, R, a, s):
 serve(prepare, strain, name="scalars_py", family="example", source="this test", summary="the bar of scalars.c",
       strains=8, scalars=1, offers=["geometric", "large rotations", "mass"], limits=["doubly symmetric"])
 """
+OCTAVE = """1;
+
+function C = prepare(kind)
+EA = kind.section.young * kind.section.A;
+C = diag([1, 1e-3 * ones(1, 5), 1, 1]) * EA / kind.length;
+end
+
+function e = strain(kind, r, u, R, a, s)
+l = kind.length;
+Rp = beamwork_element('transpose', reshape(R(:, :, 1, :), 3, 3, []));
+chord = reshape(beamwork_element('product', Rp, r(:, 2, :) - r(:, 1, :)), 3, []);
+T = beamwork_element('product', Rp, reshape(R(:, :, 2, :), 3, 3, []));
+turned = [reshape(T(3, 2, :), 1, []); reshape(T(1, 3, :), 1, []); reshape(T(2, 1, :), 1, [])];
+s = reshape(s, 2, []);
+e = [chord - [l; 0; 0] - [l * 0.5 * sum(s, 1) / 2; 0 * s]; l * turned; l * s];
+end
+
+addpath('%s');
+beamwork_element(@prepare, 'strain', @strain, 'strains', 8, 'scalars', 1, 'name', 'scalars_m', 'family', 'example', ...
+    'summary', 'the bar of scalars.c', 'source', 'this test', 'offers', {'geometric', 'large rotations', 'mass'}, ...
+    'limits', {'doubly symmetric'});
+""" % EXAMPLES
 
 
 class Scalars(ProgramTest):
@@ -114,7 +138,7 @@ class Scalars(ProgramTest):
     def solved(self, element, scene, n=1, *words, code=0):
         path = self.folder / "scene.yaml"
         path.write_text(scene, encoding="utf-8")
-        names = [w for w in words if ":" in w or w in ("timoshenko", "ancf_slopes", "scalars_py")]
+        names = [w for w in words if ":" in w or w in ("timoshenko", "ancf_slopes", "scalars_py", "scalars_m")]
         name = names[0] if names else "scalars"
         words = [w for w in words if w not in names]
         done = self.answered("solve", "--scene", path, "--element", element, "-f", name, "-n", n, *words, "--format",
@@ -173,6 +197,17 @@ quantities: {f1: {frequency: {analysis: run}}, f2: {frequency: {analysis: run, w
         found = self.solved(element, ONE + LINEAR, 2, "scalars_py")[1]["u"]
         self.assertAlmostEqual(found / (LOAD * LENGTH / EA), (GAMMA + BETA**2) / GAMMA, delta=1e-10)
         done = run("element-test", "--element", element, env=environment(PYTHONPATH=str(EXAMPLES)))
+        for family in ("features", "derivatives", "energy", "many"):
+            self.assertIn(f"\u2714 {family}", done.stdout)
+
+    @unittest.skipUnless(shutil.which("octave-cli"), "needs octave-cli")
+    def test_octave(self):
+        path = self.folder / "bar.m"
+        path.write_text(OCTAVE, encoding="utf-8")
+        element = f"exec:octave-cli -qf '{path}'"
+        found = self.solved(element, ONE + LINEAR, 2, "scalars_m")[1]["u"]
+        self.assertAlmostEqual(found / (LOAD * LENGTH / EA), (GAMMA + BETA**2) / GAMMA, delta=1e-10)
+        done = run("element-test", "--element", element)
         for family in ("features", "derivatives", "energy", "many"):
             self.assertIn(f"\u2714 {family}", done.stdout)
 
