@@ -2,6 +2,7 @@
 skipped by name."""
 import importlib
 import json
+import math
 import unittest
 
 from harness.library.python.test.module import ModuleTest, bw
@@ -59,6 +60,16 @@ class Examples(ModuleTest):
         made = cantilever({"E": 210e9, "G": 210e9 / 2.6, "A": 0.01, "Iy": 1e-5, "Iz": 1e-5, "It": 1e-5, "Ip": 2e-5}, 1,
                           {"moment": [0, 0, 150000]}, ["shear"])
         self.same(self.values("kratos", "corotational", 20, made), (-0.0008495924536316574, 0.03569912736309147, 0), 1e-9)
+
+    def test_mystran(self):
+        """Clamped column of 10 elements: deck SB-BAR-10-BUCKLING-CF-LOAD-LAN-3D of MYSTRAN's benchmarks, whose title names
+        Euler's load."""
+        made = cantilever({"E": 10e6, "G": 10e6 / 2.66, "A": 0.5, "Iy": 104.16666666667, "Iz": 0.041666666666667, "It": 0.1, "Ip": 104.3},
+                          100, {"force": [-1, 0, 0]}, ["shear", "wagner_moments"])
+        made.analyses = {"bent": {"buckling": {}}}
+        made.quantities = {"load": {"critical_factor": {"analysis": "bent"}, "unit": "1"}}
+        got = self.values("mystran", "bar", 10, made)
+        self.assertAlmostEqual(got[0], math.pi**2 * 10e6 * 0.041666666666667 / 4 / 100**2, delta=2e-3)
 
 
 if __name__ == "__main__":

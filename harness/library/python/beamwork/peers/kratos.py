@@ -368,6 +368,8 @@ class Frame(Model):
         """Frequencies from the stiffness and mass matrices of the program's elements."""
         import numpy as np
 
+        if "rotary inertia" not in self.scene.physics:
+            raise Refused("modal: the mass matrix contains the rotary inertia that the scene omits")
         part = self._linear_part()
         strategy = self._strategy(part, linear=True)
         strategy.InitializeSolutionStep()

