@@ -1,6 +1,6 @@
 /* A case: a table of parameters and a function that builds a scene from their values. One file in
  * cases/ defines one const case_type with the symbol case_<file name>. The file is written in C, or
- * it is a scene file that the build reads (cases/format/format_impl.h). */
+ * it is a scene file that the build reads (cases/format/format.h). */
 #ifndef BEAMWORK_CASE_H
 #define BEAMWORK_CASE_H
 

@@ -88,6 +88,27 @@ __attribute__((format(printf, 4, 5)))
 #endif
 void document_mistake(mistakes *m, const document_node *n, int offset, const char *format, ...);
 
+/* A scene file that the build stores in the program (harness/tools/pack_case.c). Its nodes contain
+ * no pointers. */
+
+typedef struct document_packed {
+    int kind, line, column, inset; /* values of document_node */
+    /* String: its position among all strings. List: its first entry, followed by the others. Map:
+     * its first key, followed by the other keys and then by the values. */
+    int first;
+    int count;
+} document_packed;
+
+typedef struct scene_packed {
+    const char *file, *texts;
+    const parameter_type *parameters; /* parameters of the file */
+    const document_packed *node;      /* the first one is the root */
+    int nodes;
+} scene_packed;
+
+/* Builds the scene of a stored file (case_type.build_from). `context` is a scene_packed. */
+status scene_packed_build(const void *context, const double value[], scene *s, fault *f);
+
 /* Two paragraphs that precede the list of keys. */
 extern const char *const key_list_head[2];
 

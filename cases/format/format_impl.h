@@ -262,27 +262,6 @@ const entry_field *keys_any(const entry_field *table);
  * Returns 1 if there are no such errors. */
 int keys_check(const document_node *root, mistakes *m);
 
-/* A scene file that the build stores in the program (harness/tools/pack_case.c). Its nodes contain
- * no pointers. */
-
-typedef struct document_packed {
-    int kind, line, column, inset; /* values of document_node */
-    /* String: its position among all strings. List: its first entry, followed by the others. Map:
-     * its first key, followed by the other keys and then by the values. */
-    int first;
-    int count;
-} document_packed;
-
-typedef struct scene_packed {
-    const char *file, *texts;
-    const parameter_type *parameters; /* parameters of the file */
-    const document_packed *node;      /* the first one is the root */
-    int nodes;
-} scene_packed;
-
-/* Builds the scene of a stored file (case_type.build_from). `context` is a scene_packed. */
-status scene_packed_build(const void *context, const double value[], scene *s, fault *f);
-
 /* Reads a list of numbers or a range: a..b (steps of 1), a..b step c, or a..b/n (n equal parts).
  * The last / precedes n, so a quotient as b must be in parentheses. Both ends are included. Returns
  * the number of values, or -1 after an error. *out belongs to the arena. */

@@ -1007,6 +1007,43 @@ extern const cost_coefficient
  * coefficients are not accurate enough. */
 extern const double counted_cost_noise;
 
+/* Items of the expected cost of a cell (harness/study/run_cost.csv). The cost of an item is
+ * multiplied by the number of its occurrences. */
+typedef enum run_cost_kind {
+    RUN_COST_cell, /* once per cell */
+    RUN_COST_linear,
+    RUN_COST_buckling,
+    /* buckling about a loaded state, including the path to the critical point */
+    RUN_COST_loaded_buckling,
+    RUN_COST_modal,
+    RUN_COST_load_step,
+    RUN_COST_compliance, /* at each station */
+    RUN_COST_continuation,
+    RUN_COST_rotation_step,
+    RUN_COST_rotation_station,
+    RUN_COST_alpha_step, /* transient analysis, by integrator */
+    RUN_COST_conserving_step,
+    RUN_COST_radau_step,
+    RUN_COST_explicit_step,
+    RUN_COST_KINDS
+} run_cost_kind;
+
+/* [s] cost on the reference machine: a fixed part, and a part per element; or factors of both
+ * parts */
+typedef struct run_cost_pair {
+    double once, element;
+} run_cost_pair;
+
+typedef struct run_cost_factor {
+    /* name of the formulation without options; NULL: all formulations without a row */
+    const char *formulation;
+    run_cost_pair factor;
+} run_cost_factor;
+
+/* Generated tables. The last factors apply to formulations without a row. */
+extern const run_cost_pair run_cost_work[RUN_COST_KINDS];
+extern const run_cost_factor run_cost_factors[];
+
 /* Like counted_cost_of, with the committed coefficients. */
 double counted_cost(const formulation *chosen, const cell_result *cell);
 /* Returns 1 if the formulation has separate cost coefficients, 0 if the common coefficients apply.

@@ -51,11 +51,13 @@ for room in $floors; do
               if (!ok) print }')
     [ -z "$hits" ] || { echo "$hits" | sed "s|\$|   <- $page does not list it|"; bad=1; }
 done
-# A file *_impl.h is internal to its folder. Tests of this folder may include it.
+# A file *_impl.h is internal to its folder. Tests of this folder may include it; texts that tools generate may not.
 hits=$(grep -rnE '^[[:space:]]*#[[:space:]]*include[[:space:]]+"[^"]*_impl\.h"' elements cases harness --include='*.c' --include='*.h' 2>/dev/null |
     awk -F '[:"]' '{ home = $4; file = $1; sub("/[^/]*$", "", home); sub("/(test/)?[^/]*$", "", file) }
         file != home { print $0 "   <- this is internal to " home }' || true)
 [ -z "$hits" ] || { echo "$hits"; bad=1; }
+hits=$(grep -rnE 'include .{0,2}"[^"]*_impl\.h' harness/tools --include='*.sh' --include='*.py' --include='*.c' | grep -v '/layers.sh:' || true)
+[ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- generated texts include no internal header|'; bad=1; }
 # The names of types are unique.
 hits=$(grep -rhoE '^\} [a-z_0-9]+;' elements cases harness --include='*.c' --include='*.h' --exclude-dir=test --exclude-dir=tools --exclude-dir=examples | sort | uniq -d)
 [ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- two types have this name|'; bad=1; }

@@ -1,5 +1,5 @@
 /* Writes a scene file of cases/ as C: the case as a constant, its parameters as a table, and its
- * document as a list without pointers (cases/format/format_impl.h).
+ * document as a list without pointers (cases/format/format.h).
  * usage: pack_case FILE.yaml >FILE.c   The file must be a scene at its defaults. */
 #include <stdio.h>
 #include <stdlib.h>
@@ -110,7 +110,7 @@ static void write_packed(const scene_file *file, packing *p)
     p->node[0] = scene_file_document(file);
     place(p);
     printf("/* Generated from %s. */\n", scene_file_path(scene_file_case(file)));
-    puts("#include \"cases/format/format_impl.h\"\n#include <stddef.h>\n");
+    puts("#include \"cases/format/format.h\"\n#include <stddef.h>\n");
     printf("extern const case_type case_%s;\n", scene_file_case(file)->name);
     write_texts(p);
     write_nodes(p);

@@ -16,7 +16,7 @@ import numpy as np
 import yaml
 from scipy.optimize import nnls
 
-# Kinds of work, with the names of harness/study/study_impl.h.
+# Kinds of work, with the names of harness/study/study.h.
 WORK = ("cell", "linear", "buckling", "loaded_buckling", "modal", "load_step", "compliance",
         "continuation", "rotation_step", "rotation_station", "alpha_step", "conserving_step",
         "radau_step", "explicit_step")

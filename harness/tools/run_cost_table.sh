@@ -1,12 +1,12 @@
 #!/bin/sh
-# Writes the table of expected costs (harness/study/study_impl.h) from run_cost.csv.
+# Writes the table of expected costs (harness/study/study.h) from run_cost.csv.
 # usage: run_cost_table.sh OUT.c run_cost.csv   OUT.c is rewritten only if it changes.
 set -eu
 mkdir -p "$(dirname "$1")"
 awk -F, '
 BEGIN {
     print "/* Generated from harness/study/run_cost.csv. */"
-    print "#include \"harness/study/study_impl.h\""
+    print "#include \"harness/study/study.h\""
     print "#include <stddef.h>"
 }
 /^#/ || /^table,/ { next }

@@ -75,7 +75,7 @@ class Table(unittest.TestCase):
         lines = (ROOT / "harness/study/run_cost.csv").read_text(encoding="utf-8").splitlines()
         rows = list(csv.DictReader(line for line in lines if not line.startswith("#")))
         work = [row["name"] for row in rows if row["table"] == "work"]
-        header = (ROOT / "harness/study/study_impl.h").read_text(encoding="utf-8")
+        header = (ROOT / "harness/study/study.h").read_text(encoding="utf-8")
         self.assertEqual(tuple(work), run_cost.WORK)
         self.assertEqual(re.findall(r"RUN_COST_([a-z_]+)[,;]", header), work)
         named = [row["name"] for row in rows if row["table"] == "formulation"]
