@@ -45,15 +45,15 @@ typedef struct handshake {
     int damping;
     int line; /* 1: the process computes the motion of sections between the nodes */
     element_constants constants; /* constants of the type */
+    /* texts and options to which the type points; the caller frees it after success */
+    void *memory;
 } handshake;
 
-/* Reads the first line of a process. who: start of every error message. After success,
- * handshake_free frees the memory to which the type points. After an error, nothing needs to be
- * freed. The owner sets type.constants. REFUSED: the line does not follow the protocol. */
+/* Reads the first line of a process. who: start of every error message. After an
+ * error, nothing needs to be freed. The owner sets type.constants. REFUSED: the line does not
+ * follow the protocol. */
 status handshake_read(const char *program_name, const char *line, size_t length, handshake *out,
                       fault *f);
-/* Frees the memory to which the type of a handshake points. Accepts a type filled with zeros. */
-void handshake_free(element_type *);
 
 /* Requests to the process of a formulation and its answers. protocol.md describes their format. */
 

@@ -4,12 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reads the options into *out, a table that the caller frees, even after REFUSED. *out is NULL if
- * the list is NULL or empty. REFUSED: as for handshake_read. */
-static status handshake_options(const char *program_name, const json_t *list,
-                                const parameter_type **out, fault *f);
-static void handshake_options_free(const parameter_type *table); /* accepts NULL */
-
 typedef struct word_bit {
     const char *word;
     unsigned bit;
@@ -44,11 +38,37 @@ static const char *const keys[] = {"beamwork", "name",           "summary", "sou
                                    "limits",   "shear_theories", "options", "inertia", "history",
                                    "places",   "damping",        "line",    "scalars"};
 
+/* Memory to which the type points: it outlives the JSON. */
+typedef struct handshake_memory {
+    parameter_type option[ELEMENT_MAX_OPTIONS + 1];
+    char *end; /* of the copied texts */
+    char text[];
+} handshake_memory;
+
 typedef struct handshake_reading {
     const char *program_name;
     json_t *said;
+    handshake_memory *memory;
     fault *f;
 } handshake_reading;
+static status handshake_options(const handshake_reading *, const parameter_type **out);
+
+/* Allocates the memory of a description with this number of characters. A string is shorter than
+ * the characters that describe it; omitted units and summaries of options need a few more. */
+static handshake_memory *memory_alloc(size_t length)
+{
+    handshake_memory *memory = calloc(1, sizeof *memory + length + 4 * (size_t)ELEMENT_MAX_OPTIONS);
+    if (memory != NULL)
+        memory->end = memory->text;
+    return memory;
+}
+
+static const char *copy(handshake_memory *memory, const char *text)
+{
+    char *start = memory->end;
+    memory->end = stpcpy(start, text) + 1;
+    return start;
+}
 
 static status refuse(const handshake_reading *r, const char *key, const char *what)
 {
@@ -56,7 +76,6 @@ static status refuse(const handshake_reading *r, const char *key, const char *wh
                      r->program_name, key, what);
 }
 
-/* Copies a string, because the JSON is freed before the type. */
 static status text_of(const handshake_reading *r, const char *key, const char **out)
 {
     const char *text = json_string_value(json_object_get(r->said, key));
@@ -66,8 +85,8 @@ static status text_of(const handshake_reading *r, const char *key, const char **
         if ((unsigned char)*c < ' ')
             return refuse(r, key,
                           "give one line of text, without tabs or other control characters");
-    *out = strdup(text);
-    return *out != NULL ? STATUS_OK : fault_set(r->f, STATUS_FAULT, "out of memory");
+    *out = copy(r->memory, text);
+    return STATUS_OK;
 }
 
 static status name_of(const handshake_reading *r, const char **out)
@@ -299,17 +318,7 @@ static status read_all(const handshake_reading *r, handshake *out)
     TRY(orders_of(r, out->constants.order));
     TRY(inertia_of(r, out));
     TRY(terms_of(r, out));
-    return handshake_options(r->program_name, json_object_get(r->said, "options"), &t->options[0],
-                             r->f);
-}
-
-void handshake_free(element_type *t)
-{
-    free((void *)t->name);
-    free((void *)t->summary);
-    free((void *)t->source);
-    free((void *)t->family);
-    handshake_options_free(t->options[0]);
+    return handshake_options(r, &t->options[0]);
 }
 
 status handshake_read(const char *program_name, const char *line, size_t length, handshake *out,
@@ -317,29 +326,32 @@ status handshake_read(const char *program_name, const char *line, size_t length,
 {
     json_error_t why;
     const handshake_reading r = {program_name,
-                                 json_loadb(line, length, JSON_REJECT_DUPLICATES, &why), f};
+                                 json_loadb(line, length, JSON_REJECT_DUPLICATES, &why),
+                                 memory_alloc(length), f};
     *out = (handshake){.type = {.abi = ELEMENT_ABI, .size = sizeof(element_type)}};
-    if (!json_is_object(r.said)) {
-        json_decref(r.said);
-        return fault_set(f, STATUS_REFUSED,
-                         "%.100s: began with '%.60s', which is not a line of JSON as in "
-                         "harness/formulations/protocol.md; print other text to standard error",
-                         program_name, line);
-    }
-    const status outcome = read_all(&r, out);
+    const status outcome =
+        r.memory == NULL ? fault_set(f, STATUS_FAULT, "out of memory")
+        : !json_is_object(r.said)
+            ? fault_set(f, STATUS_REFUSED,
+                        "%.100s: began with '%.60s', which is not a line of JSON as in "
+                        "harness/formulations/protocol.md; print other text to standard error",
+                        program_name, line)
+            : read_all(&r, out);
     json_decref(r.said);
-    if (outcome != STATUS_OK)
-        handshake_free(&out->type);
+    if (outcome == STATUS_OK)
+        out->memory = r.memory;
+    else
+        free(r.memory);
     return outcome;
 }
 
 static const char *const options_keys[] = {"name", "summary", "default", "choices",
                                            "min",  "max",     "unit"};
 
-static status options_refuse(const char *program_name, const char *name, const char *what, fault *f)
+static status options_refuse(const handshake_reading *r, const char *name, const char *what)
 {
-    return fault_set(f, STATUS_REFUSED, "%.100s: option '%.40s' of its first line: %.120s",
-                     program_name, name, what);
+    return fault_set(r->f, STATUS_REFUSED, "%.100s: option '%.40s' of its first line: %.120s",
+                     r->program_name, name, what);
 }
 
 static int is_word(const char *text)
@@ -356,110 +368,87 @@ static int has_other_keys(const json_t *one)
     return known != json_object_size(one);
 }
 
-static const char *copy_or(const json_t *text, const char *absent)
+static const char *copy_or(handshake_memory *memory, const json_t *text, const char *absent)
 {
-    return strdup(json_is_string(text) ? json_string_value(text) : absent);
+    return copy(memory, json_is_string(text) ? json_string_value(text) : absent);
 }
 
-/* Joins the words of a choice to "a|b"; NULL: the member is not a list of words, or out of memory.
- * */
-static const char *join(const json_t *list)
+/* Joins the words of a choice to "a|b"; NULL: the member is not a list of words. */
+static const char *join(handshake_memory *memory, const json_t *list)
 {
-    size_t length = 1;
+    char *start = memory->end;
+    if (json_array_size(list) == 0)
+        return NULL;
     for (size_t i = 0; i < json_array_size(list); i++) {
-        if (!is_word(json_string_value(json_array_get(list, i))))
+        const char *word = json_string_value(json_array_get(list, i));
+        if (!is_word(word))
             return NULL;
-        length += json_string_length(json_array_get(list, i)) + 1;
-    }
-    char *out = json_array_size(list) > 0 ? calloc(length, 1) : NULL, *to = out;
-    for (size_t i = 0; out != NULL && i < json_array_size(list); i++) {
-        const json_t *word = json_array_get(list, i);
         if (i > 0)
-            *to++ = '|';
-        memcpy(to, json_string_value(word), json_string_length(word));
-        to += json_string_length(word);
+            memory->end[-1] = '|';
+        copy(memory, word);
     }
-    return out;
+    return start;
 }
 
-static status read_choice(const char *program_name, const json_t *one, parameter_type *out,
-                          fault *f)
+static status read_choice(const handshake_reading *r, const json_t *one, parameter_type *out)
 {
     const json_t *list = json_object_get(one, "choices");
     const char *chosen = json_string_value(json_object_get(one, "default"));
     int found = 0;
-    out->choices = join(list);
-    out->unit = copy_or(NULL, "");
+    out->choices = join(r->memory, list);
+    out->unit = "";
     for (size_t i = 0; chosen != NULL && i < json_array_size(list) && !found; i++) {
         const char *word = json_string_value(json_array_get(list, i));
         found = word != NULL && strcmp(word, chosen) == 0;
         out->value = (double)i;
     }
-    return out->choices != NULL && out->unit != NULL && found
+    return out->choices != NULL && found
                ? STATUS_OK
-               : options_refuse(program_name, out->name,
-                                "'choices' must be words, and 'default' must be one of them", f);
+               : options_refuse(r, out->name,
+                                "'choices' must be words, and 'default' must be one of them");
 }
 
-static status read_number(const char *program_name, const json_t *one, parameter_type *out,
-                          fault *f)
+static status read_number(const handshake_reading *r, const json_t *one, parameter_type *out)
 {
     const json_t *value = json_object_get(one, "default"), *min = json_object_get(one, "min"),
                  *max = json_object_get(one, "max");
-    out->unit = copy_or(json_object_get(one, "unit"), "1");
+    out->unit = copy_or(r->memory, json_object_get(one, "unit"), "1");
     out->value = json_number_value(value);
     out->min = json_number_value(min);
     out->max = json_number_value(max);
     const int is_valid = json_is_number(value) && json_is_number(min) && json_is_number(max) &&
-                         out->min <= out->value && out->value <= out->max && out->unit != NULL;
+                         out->min <= out->value && out->value <= out->max;
     return is_valid ? STATUS_OK
-                    : options_refuse(program_name, out->name,
-                                     "give numbers 'min' <= 'default' <= 'max', or 'choices'", f);
+                    : options_refuse(r, out->name,
+                                     "give numbers 'min' <= 'default' <= 'max', or 'choices'");
 }
 
-static status read_one(const char *program_name, const json_t *one, parameter_type *out, fault *f)
+static status read_one(const handshake_reading *r, const json_t *one, parameter_type *out)
 {
     if (!is_word(json_string_value(json_object_get(one, "name"))))
         return options_refuse(
-            program_name, "",
-            "its 'name' must be a word of lowercase letters, digits and underscores", f);
-    out->name = copy_or(json_object_get(one, "name"), "");
-    out->summary = copy_or(json_object_get(one, "summary"), "");
-    if (out->name == NULL || out->summary == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory");
+            r, "", "its 'name' must be a word of lowercase letters, digits and underscores");
+    out->name = copy_or(r->memory, json_object_get(one, "name"), "");
+    out->summary = copy_or(r->memory, json_object_get(one, "summary"), "");
     if (has_other_keys(one))
         return options_refuse(
-            program_name, out->name,
-            "the keys of an option are name, default, min, max, unit, choices, summary", f);
-    return json_object_get(one, "choices") != NULL ? read_choice(program_name, one, out, f)
-                                                   : read_number(program_name, one, out, f);
+            r, out->name,
+            "the keys of an option are name, default, min, max, unit, choices, summary");
+    return json_object_get(one, "choices") != NULL ? read_choice(r, one, out)
+                                                   : read_number(r, one, out);
 }
 
-static status handshake_options(const char *program_name, const json_t *list,
-                                const parameter_type **out, fault *f)
+static status handshake_options(const handshake_reading *r, const parameter_type **out)
 {
+    const json_t *list = json_object_get(r->said, "options");
     const size_t count = json_array_size(list);
     *out = NULL;
     if ((list != NULL && !json_is_array(list)) || count > ELEMENT_MAX_OPTIONS)
-        return options_refuse(program_name, "", "'options' must be a list of at most 6 options", f);
+        return options_refuse(r, "", "'options' must be a list of at most 6 options");
     if (count == 0)
         return STATUS_OK;
-    parameter_type *table = calloc(count + 1, sizeof *table);
-    if (table == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory");
-    *out = table;
+    *out = r->memory->option;
     for (size_t i = 0; i < count; i++)
-        TRY(read_one(program_name, json_array_get(list, i), &table[i], f));
+        TRY(read_one(r, json_array_get(list, i), &r->memory->option[i]));
     return STATUS_OK;
-}
-
-static void handshake_options_free(const parameter_type *table)
-{
-    for (const parameter_type *p = table; p != NULL && p->name != NULL; p++) {
-        free((void *)p->name);
-        free((void *)p->summary);
-        free((void *)p->unit);
-        free((void *)p->choices);
-    }
-    free((void *)table);
 }

@@ -149,6 +149,7 @@ static status start_again(process *p, fault *f)
         again.constants.history == p->constants.history &&
         again.constants.scalars == p->constants.scalars && again.damping == p->damping &&
         again.line == (p->type.line != NULL);
+    free(again.memory);
     return same ? STATUS_OK
                 : channel_break(&p->to,
                                 "its first line differs when it is started again; print the same "
@@ -280,6 +281,7 @@ static status begin(process *p, const char *command, fault *f)
     TRY(outcome);
     p->type = said.type;
     p->constants = said.constants;
+    p->memory = said.memory;
     p->whole = said.whole;
     p->type.constants = &p->constants;
     p->type.data_size = data_size;
@@ -313,7 +315,7 @@ static status process_load(const char *command, const element_type **out, fault 
     const status outcome = begin(p, command, f);
     if (outcome != STATUS_OK) {
         channel_end(&p->to);
-        handshake_free(&p->type);
+        free(p->memory);
         free(p);
         return outcome;
     }

@@ -9,7 +9,8 @@ enum { PROCESS_KINDS = 65536 }; /* number of kinds; larger numbers are taken mod
 typedef struct process {
     element_type type;
     element_constants constants;
-    int whole; /* 1: the process computes the energy or the forces of whole elements */
+    void *memory; /* texts and options of the type */
+    int whole;    /* 1: the process computes the energy or the forces of whole elements */
     int damping;
     channel to;
     long kinds; /* number of kinds that the running process has prepared */
