@@ -179,11 +179,11 @@ const char *substitute_for_message(const document_node *n, const scope *names, a
     return substitute_text(n, 1, names, a, m);
 }
 
-const document_node *substitute_node(const document_node *n, const scope *names, arena *a,
-                                     mistakes *m)
+/* Returns a copy in which the names are replaced, or the node itself if it contains no names. */
+static document_node *substituted(document_node *n, const scope *names, arena *a, mistakes *m);
+
+static document_node *copy_of(const document_node *n, const scope *names, arena *a, mistakes *m)
 {
-    if (!has_name(n))
-        return n;
     document_node *copy = arena_take(a, sizeof *copy);
     if (copy == NULL)
         return NULL;
@@ -199,11 +199,22 @@ const document_node *substitute_node(const document_node *n, const scope *names,
     if (copy->item == NULL || (n->key != NULL && copy->key == NULL))
         return NULL;
     for (int i = 0; i < n->count; i++) {
-        copy->item[i] = (document_node *)substitute_node(n->item[i], names, a, m);
+        copy->item[i] = substituted(n->item[i], names, a, m);
         if (n->key != NULL)
-            copy->key[i] = (document_node *)substitute_node(n->key[i], names, a, m);
+            copy->key[i] = substituted(n->key[i], names, a, m);
         if (copy->item[i] == NULL || (n->key != NULL && copy->key[i] == NULL))
             return NULL;
     }
     return copy;
+}
+
+static document_node *substituted(document_node *n, const scope *names, arena *a, mistakes *m)
+{
+    return has_name(n) ? copy_of(n, names, a, m) : n;
+}
+
+const document_node *substitute_node(const document_node *n, const scope *names, arena *a,
+                                     mistakes *m)
+{
+    return has_name(n) ? copy_of(n, names, a, m) : n;
 }

@@ -207,25 +207,38 @@ int scene_may_spread(const scene *s, int analysis)
     return !s->lumped;
 }
 
-const scene_path *scene_path_of(const scene_analysis *a)
+/* Returns the offset of the path in an analysis; 0: the kind has no path. */
+static size_t path_offset(scene_analysis_kind kind)
 {
-    switch (a->kind) {
+    switch (kind) {
     case SCENE_STATIC:
     case SCENE_ROTATION:
-        return &a->of.walk.path;
+        return offsetof(scene_analysis, of.walk.path);
     case SCENE_CONTINUATION:
-        return &a->of.continuation.path;
+        return offsetof(scene_analysis, of.continuation.path);
     case SCENE_MOTION:
-        return &a->of.motion.path;
+        return offsetof(scene_analysis, of.motion.path);
     case SCENE_HARMONIC:
-        return &a->of.harmonic;
+        return offsetof(scene_analysis, of.harmonic);
     case SCENE_LINEAR:
     case SCENE_BUCKLING:
     case SCENE_MODAL:
     case SCENE_COMPLIANCE:
         break;
     }
-    return NULL;
+    return 0;
+}
+
+const scene_path *scene_path_of(const scene_analysis *a)
+{
+    const size_t offset = path_offset(a->kind);
+    return offset == 0 ? NULL : (const void *)((const char *)a + offset);
+}
+
+scene_path *scene_editable_path(scene_analysis *a)
+{
+    const size_t offset = path_offset(a->kind);
+    return offset == 0 ? NULL : (void *)((char *)a + offset);
 }
 
 int scene_origin_of(const scene *s, int analysis)

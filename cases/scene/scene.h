@@ -224,6 +224,7 @@ int scene_spreads(const scene_analysis *a);
 int scene_may_spread(const scene *s, int analysis);
 /* Returns the path, or NULL if the kind of analysis has no path. */
 const scene_path *scene_path_of(const scene_analysis *a);
+scene_path *scene_editable_path(scene_analysis *a);
 /* Returns the static path, continuation or rotation from whose state a chain of motions starts.
  * Returns SCENE_NONE for the undeformed state. */
 int scene_origin_of(const scene *s, int analysis);

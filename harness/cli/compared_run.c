@@ -82,7 +82,11 @@ static status lap_elsewhere(compared_run *c, double *seconds, fault *f)
         dup2(ends[1], STDOUT_FILENO);
         close(ends[0]);
         close(ends[1]);
-        execv(c->program, (char **)c->argument);
+        char *argument[CONTESTANT_ARGUMENTS] = {
+            NULL}; /* execv requires strings that are not const */
+        for (int i = 0; c->argument[i] != NULL; i++)
+            argument[i] = strdup(c->argument[i]);
+        execv(c->program, argument);
         _exit(EXIT_FAULT);
     }
     close(ends[1]);

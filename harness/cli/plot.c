@@ -56,7 +56,7 @@ static status divide(scene_path *path, double begin, double end, int parts, int 
 static status read_densely(scene *s, int analysis, fault *f)
 {
     scene_analysis *a = &s->analysis[analysis];
-    scene_path *path = (scene_path *)scene_path_of(a);
+    scene_path *path = scene_editable_path(a);
     if (a->kind == SCENE_STATIC && path->stations == 1)
         return divide(path, 0, path->value[0], STATES, 0, f);
     if (a->kind != SCENE_MOTION || path->stations > INSTANTS || takes_stations(s, analysis))

@@ -277,9 +277,13 @@ int batches_cut(int items, const double cost[], double most, int first[])
     return batches;
 }
 
+typedef struct batch_costs {
+    const double *cost;
+} batch_costs;
+
 static int most_expensive_first(const void *left, const void *right, void *context)
 {
-    const double *cost = context;
+    const double *cost = ((const batch_costs *)context)->cost;
     const int a = *(const int *)left, b = *(const int *)right;
     if (cost[a] != cost[b])
         return cost[a] > cost[b] ? -1 : 1;
@@ -288,9 +292,10 @@ static int most_expensive_first(const void *left, const void *right, void *conte
 
 void batches_order(int batches, const double cost[], int order[])
 {
+    batch_costs by = {cost};
     for (int i = 0; i < batches; i++)
         order[i] = i;
-    qsort_r(order, (size_t)batches, sizeof *order, most_expensive_first, (void *)cost);
+    qsort_r(order, (size_t)batches, sizeof *order, most_expensive_first, &by);
 }
 
 /* Cost of the batches that have been assigned to a shard. In a heap, the shard with the lowest cost

@@ -509,7 +509,7 @@ static void factor_by_ldl(triangular_problem *p)
 typedef int factors(const triangular_rows *, const double[]);
 typedef void solves(const triangular_factors *, int, int, double[], double[]);
 
-static void hold(const triangular_problem *p, const triangular_groups *g, const int L_row[],
+static void hold(triangular_problem *p, const triangular_groups *g, const int L_row[],
                  factors *factor, solves *solve, const char *name)
 {
     static double value[FILL], D[TRIANGULAR_MOST], diagonal[TRIANGULAR_MOST],
@@ -538,11 +538,11 @@ static void hold(const triangular_problem *p, const triangular_groups *g, const 
         solve(&t, sides, STRIDE, x, work);
         for (int c = 0; c < sides; c++) {
             double *one = y + c * STRIDE;
-            ldl_perm(p->n, work, one, (int *)p->path);
-            ldl_lsolve(p->n, work, (int *)p->begin, (int *)p->L_row, (double *)p->L_value);
-            ldl_dsolve(p->n, work, (double *)p->D);
-            ldl_ltsolve(p->n, work, (int *)p->begin, (int *)p->L_row, (double *)p->L_value);
-            ldl_permt(p->n, one, work, (int *)p->path);
+            ldl_perm(p->n, work, one, p->path);
+            ldl_lsolve(p->n, work, p->begin, p->L_row, p->L_value);
+            ldl_dsolve(p->n, work, p->D);
+            ldl_ltsolve(p->n, work, p->begin, p->L_row, p->L_value);
+            ldl_permt(p->n, one, work, p->path);
         }
         gsl_test(memcmp(x, y, sizeof x) != 0, "%s: %d solutions of %d", name, sides, p->n);
     }

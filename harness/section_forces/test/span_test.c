@@ -100,9 +100,9 @@ static int slope(double s, const double y[], double dy[], void *context)
     return GSL_SUCCESS;
 }
 
-static void integrate(const rod *b, double to, double y[STATE])
+static void integrate(rod *b, double to, double y[STATE])
 {
-    gsl_odeiv2_system system = {slope, NULL, STATE, (void *)b};
+    gsl_odeiv2_system system = {slope, NULL, STATE, b};
     gsl_odeiv2_driver *d = gsl_odeiv2_driver_alloc_y_new(&system, gsl_odeiv2_step_rk8pd,
                                                          1e-3 * b->length, 1e-14, 1e-13);
     double s = 0;
@@ -144,12 +144,12 @@ static void load(void *context, double x, const span_frame *at, span_load *out)
     }
 }
 
-static void check(const rod *b)
+static void check(rod *b)
 {
     static const double place[] = {0, 0.13, 0.5, 0.77, 1};
     element_request request = {
         .section = &b->section, .length = b->length, .features = b->features};
-    span_problem problem = {.request = &request, .load = load, .context = (void *)b};
+    span_problem problem = {.request = &request, .load = load, .context = b};
     span_grid g;
     span_fields fields;
     fault f = {""};
@@ -210,7 +210,7 @@ int main(void)
                 .Ip = 2};
     const unsigned all = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |
                          FEATURE_WAGNER_MOMENTS | FEATURE_WAGNER_TORQUE;
-    const rod rods[] = {
+    rod rods[] = {
         {"elastica of half a turn",
          wire,
          0,
