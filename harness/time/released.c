@@ -339,10 +339,9 @@ static status fill_matrices(const model *m, double more, damped_kinds *k, run_da
     return STATUS_OK;
 }
 
-/* Allocates the damping data of a run. */
-static status begin(const equations *eq, double more, run_damping *d, fault *f)
+/* Allocates the damping matrices of a model. */
+static status matrices_alloc(const model *m, double more, run_damping *d, fault *f)
 {
-    const model *m = eq->m;
     const size_t all = (size_t)model_stresses(m);
     damped_kinds kinds = {0};
     d->which = malloc(((size_t)model_elements(m) + 1) * sizeof *d->which);
@@ -353,25 +352,32 @@ static status begin(const equations *eq, double more, run_damping *d, fault *f)
     const status outcome = fill_matrices(m, more, &kinds, d, f);
     free(kinds.first);
     free(kinds.eta);
-    TRY(outcome);
-    eq->run->damping = d;
-    damping_follow(eq, 0, d->none, NULL);
-    return STATUS_OK;
+    return outcome;
+}
+
+static void matrices_free(run_damping *d)
+{
+    free(d->which);
+    free(d->matrix);
+    free(d->slowest);
+    free(d->none);
 }
 
 status damping_begin(const equations *eq, run_damping *d, fault *f)
 {
     memset(d, 0, sizeof *d);
-    return damping_acts(eq->m) ? begin(eq, 0, d, f) : STATUS_OK;
+    if (!damping_acts(eq->m))
+        return STATUS_OK;
+    TRY(matrices_alloc(eq->m, 0, d, f));
+    eq->run->damping = d;
+    damping_follow(eq, 0, d->none, NULL);
+    return STATUS_OK;
 }
 
 void damping_end(const equations *eq, run_damping *d)
 {
     eq->run->damping = NULL;
-    free(d->which);
-    free(d->matrix);
-    free(d->slowest);
-    free(d->none);
+    matrices_free(d);
 }
 
 void damping_strains(const model *m, const model_state *s, double e[])
@@ -398,13 +404,11 @@ status damping_matrix(const equations *eq, const model_state *s, double more, sp
     const model *m = eq->m;
     enum { X = MODEL_MAX_COORDINATES, E = ELEMENT_MAX_STRAINS };
     const mesh_pattern *p = assemble_of(eq->run->patterns, C);
-    run_damping *const before = eq->run->damping;
     run_damping d = {0};
     sparse_zero(C);
-    eq->run->damping = NULL;
     const int members = more > 0 || damping_of_elements(m);
-    const status begun = members ? begin(eq, more, &d, f) : STATUS_OK;
-    for (int i = 0; begun == STATUS_OK && members && i < model_elements(m); i++) {
+    const status outcome = members ? matrices_alloc(m, more, &d, f) : STATUS_OK;
+    for (int i = 0; outcome == STATUS_OK && members && i < model_elements(m); i++) {
         const mesh_element *el = model_element(m, i);
         const double *V = run_damping_of(&d, m, i);
         node_state x[ELEMENT_MAX_NODES];
@@ -419,11 +423,10 @@ status damping_matrix(const equations *eq, const model_state *s, double more, sp
         eliminate_matrix(m, s, el, NULL, A);
         assemble_matrix(p, i, A, C);
     }
-    if (begun == STATUS_OK)
+    if (outcome == STATUS_OK)
         dashpots_matrix(m, s, more, C);
-    damping_end(eq, &d);
-    eq->run->damping = before;
-    return begun;
+    matrices_free(&d);
+    return outcome;
 }
 
 /* Computes the increments that correspond to the rates v of a state, with rotations about fixed
