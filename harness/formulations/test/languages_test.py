@@ -1,9 +1,10 @@
-"""The element interface in other languages: the headers in C and C++, and the module in Fortran."""
+"""The element interface in other languages: the headers in C and C++, the module in Fortran, and the example in Rust."""
 import re
 import shutil
 import subprocess
 import unittest
 
+from harness.cli.test.plugin import compile_shared
 from harness.tools.kit.program import ROOT, ProgramTest
 
 STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Werror")
@@ -139,3 +140,22 @@ class Fortran(ProgramTest):
                       self.module)
         abi = re.search(r"ELEMENT_ABI = (\d+)", (ROOT / "elements" / "element.h").read_text("utf-8"))
         self.assertIn(f"abi = {abi[1]}\n", self.module)
+
+
+@unittest.skipIf(shutil.which("rustc") is None, "needs rustc")
+class Rust(ProgramTest):
+
+    def test_example(self):
+        """The beam in Rust must satisfy the interface and have the displacements of the same beam in C."""
+        made = self.folder / "timoshenko_rs.so"
+        done = subprocess.run(["rustc", "-O", "--crate-type", "cdylib", MODULE.with_suffix(".rs"), "-o", made], cwd=self.folder,
+                              check=False, text=True, stderr=subprocess.PIPE)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
+        self.answered("element-test", "--element", made)
+        there = compile_shared(MODULE.with_suffix(".c"), self.folder / "timoshenko.so")
+        found, expected = (
+            {q["quantity"]: q["value"] for q in self.record("solve", "bend_45", "-f", name, "-n", 4, "--element", element)["quantities"]}
+            for name, element in (("timoshenko_rs", made), ("timoshenko", there)))
+        self.assertGreater(len(expected), 2)
+        for name, value in expected.items():
+            self.assertAlmostEqual(found[name] / value, 1, delta=1e-9, msg=name)
