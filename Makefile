@@ -183,7 +183,7 @@ layers: $(OBJECTS) $(PROGRAM_SOURCES:%.c=$(BUILD)/%.o)
 # In C all of them, in Python those that give the program what its readers cannot trust; all: ASAN_PYTHON='$(PYTHON_TESTS)'.
 # Without what only walks through all cases or combinations once more, or the ways of consistent_test on finer meshes.
 ASAN_WITHOUT ?= harness/analysis/test/inputs_test harness/analysis/test/invariants_test harness/analysis/test/rest_test harness/time/test/consistent_mesh_test
-ASAN_PYTHON ?= $(filter harness/cli/test/shells_test.py harness/records/test/files_test.py harness/records/test/matrices_test.py harness/records/test/schema_test.py harness/exchange/test/import_test.py harness/formulations/test/% cases/format/test/%,$(PYTHON_TESTS))
+ASAN_PYTHON ?= $(filter harness/cli/test/shells_test.py harness/records/test/files_test.py harness/records/test/matrices_test.py harness/records/test/schema_test.py harness/import_export/test/import_test.py harness/formulations/test/% cases/format/test/%,$(PYTHON_TESTS))
 # Under the address and undefined-behaviour sanitizers: tests in C, and those of the readers.
 asan:
 	@$(MAKE) --no-print-directory BUILD="$(BUILD)/asan" CFLAGS="-O1 -g -fsanitize=address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer" PLAIN=-O0 PYTHON_TESTS="$(ASAN_PYTHON)" TEST_SOURCES="$(filter-out $(ASAN_WITHOUT:%=%.c),$(TEST_SOURCES))" test

@@ -15,10 +15,10 @@ DOCS = pathlib.Path(__file__).resolve().parent
 ROOT = DOCS.parent
 sys.path.insert(0, str(ROOT))
 from docs import results  # noqa: E402  pylint: disable=wrong-import-position
-from reports.drawing import describe, draw, scene  # noqa: E402  pylint: disable=wrong-import-position
+from reports.structure_drawing import describe, draw, scene  # noqa: E402  pylint: disable=wrong-import-position
 
 # Files that pages include from other places in the repository.
-INCLUDED = ("CHANGELOG.md", "cases/format/scenes.md", "harness/exchange/import.md",
+INCLUDED = ("CHANGELOG.md", "cases/format/scenes.md", "harness/import_export/import.md",
             "harness/experiments/sweep.md", "harness/formulations/protocol.md",
             "harness/tools/cluster/README.md", "reference/ERRATA.md")
 LINK = re.compile(r"\[([^\]]+)\]\((?!https?:)[^)]*\)")

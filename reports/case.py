@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 from reports import answers, data, plots
 from reports.answers import LEVELS
-from reports.drawing import describe, draw, scene
+from reports.structure_drawing import describe, draw, scene
 from reports.site import ROOT
 from reports.verdicts import BY_NAME, UNJUDGED, percent, remarks
 

@@ -41,7 +41,7 @@ LINES = {"mass=lumped": "--", "mass=averaged": ":", "torsion=hyperbolic": "-."}
 RESERVE_LINES = ((0, (6, 1)), (0, (1, 2)), (0, (4, 1, 1, 1)), (0, (8, 3)), (0, (2, 1)))
 
 COLOURS = [(light, dark) for light, dark, _ in TABLE.values()] + list(RESERVE)
-# Colours of drawings of scenes: loads, motions, springs (drawing/canvas.py).
+# Colours of drawings of scenes: loads, motions, springs (structure_drawing/canvas.py).
 MEANINGS = {"#b03a00": "var(--bad,#b03a00)", "#005a94": "var(--accent,#005a94)",
             "#6a5a00": "var(--fair,#6a5a00)"}
 VARIABLES = MEANINGS | {light: f"var(--f{i},{light})" for i, (light, _) in enumerate(COLOURS)}

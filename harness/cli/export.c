@@ -4,8 +4,8 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/exchange/exchange.h"
 #include "harness/formulations/formulations.h"
+#include "harness/import_export/import_export.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
@@ -73,7 +73,7 @@ const verb verb_export = {
     "program. Rectangles and straight walls at right angles become 20-node bricks with reduced "
     "integration; ends and bodies are rigid. Each member has -n elements along its length (default "
     "20), shorter near its ends. A scene that a deck cannot express is rejected. "
-    "harness/exchange/read_back.py converts the printed results to an import file.",
+    "harness/import_export/read_back.py converts the printed results to an import file.",
     "beamwork export --scene cases/examples/leaf_spring_guide.yaml --to calculix -o guide.inp",
     shared,
     own,

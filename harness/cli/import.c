@@ -2,7 +2,7 @@
 #include <string.h>
 
 #include "harness/cli/cli.h"
-#include "harness/exchange/exchange.h"
+#include "harness/import_export/import_export.h"
 #include "harness/records/records.h"
 
 typedef struct import_request {
@@ -121,7 +121,7 @@ const verb verb_import = {
     "FILE...",
     "reads results of other programs, for 'verify --imported'",
     "Reads results of other programs for a case or scene: CSV with a header "
-    "(harness/exchange/import.md). Names, units and parameters are checked, and values are "
+    "(harness/import_export/import.md). Names, units and parameters are checked, and values are "
     "converted. The file given by -o has the schema of the results of verify; 'verify --imported' "
     "shows these values as the results of another program. --format json prints the errors of each "
     "file, for editors.",

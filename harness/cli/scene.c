@@ -5,7 +5,7 @@
 
 #include "cases/format/format.h"
 #include "harness/cli/cli.h"
-#include "harness/exchange/exchange.h"
+#include "harness/import_export/import_export.h"
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 #include "harness/terminal/terminal.h"

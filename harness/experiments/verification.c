@@ -4,7 +4,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "harness/exchange/exchange.h"
+#include "harness/import_export/import_export.h"
 #include "harness/numerics/numerics.h"
 #include "harness/terminal/terminal.h"
 

@@ -125,8 +125,8 @@ status cell_run(const cell_request *, cell_result *, fault *);
 int cell_values(const cell_result *);
 void cell_result_free(cell_result *);
 
-/* Results of another program for a case, read from a file (harness/exchange). beamwork does not run
- * such programs. */
+/* Results of another program for a case, read from a file (harness/import_export). beamwork does
+ * not run such programs. */
 
 enum { IMPORTED_UNIT = 48, IMPORTED_FILE = 256, IMPORTED_WORD = 48 };
 

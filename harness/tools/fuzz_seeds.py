@@ -13,7 +13,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT))
 from harness.tools.kit.scenes import bad_scenes  # noqa: E402  pylint: disable=wrong-import-position
 
-IMPORTS = ROOT / "harness" / "exchange"
+IMPORTS = ROOT / "harness" / "import_export"
 WORDS = ("\0beamw:mass=lumped,newton=displacement", "\0collocation:stages=5",
          "\0geometrically_exact:nodes=3", "\1c_column and not beamw or default", "\1not not a b",
          "\2error=0.01,floor=1e-8,work=0.02", "\2work=1")

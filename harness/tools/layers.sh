@@ -24,7 +24,7 @@ rule elements/section 'elements/(element|beamw|sheet|geometrically_exact|colloca
 rule cases 'harness/|reference/|reports/|elements/(element|beamw|sheet|geometrically_exact|collocation)' 'a case knows no formulation and no solver'
 rule cases/scene 'cases/format/' 'a scene knows no file'
 # Layers of the harness, with the lowest layer first. A layer includes only files of itself and of lower layers.
-floors="numerics formulations model section_forces newton time analysis study records terminal exchange experiments cli library"
+floors="numerics formulations model section_forces newton time analysis study records terminal import_export experiments cli library"
 above=$floors
 for room in $floors; do
     above=${above#"$room"}

@@ -277,8 +277,8 @@ BESIDE = {
         "cases/format/(keys|scene|loads|units|parts|contents|stability|warping)"
         "|harness/cli/(plane|physics)",
     "cases/extremes/|harness/experiments/": "harness/experiments/(extremes|stress)",
-    "cases/textbook/": "cases/format/closed",
-    "harness/cli/": "harness/study/bench|harness/experiments/|harness/exchange/",
+    "cases/format/test/textbook/": "cases/format/closed",
+    "harness/cli/": "harness/study/bench|harness/experiments/|harness/import_export/",
 }
 # Related C tests: those of the folder and some of other folders.
 NEAR = {

@@ -9,8 +9,8 @@ import numpy as np
 
 from harness.tools.kit.program import ROOT, run
 from reports import pictures, shapes
-from reports.drawing import describe, draw, geometry, loads, members, scene
-from reports.drawing.canvas import Canvas, boxes_overlap
+from reports.structure_drawing import describe, draw, geometry, loads, members, scene
+from reports.structure_drawing.canvas import Canvas, boxes_overlap
 from reports.style import plt
 
 

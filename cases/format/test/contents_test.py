@@ -345,7 +345,7 @@ class ExamplesTest(SceneCase):
 
 # The reference values in these files are closed-form solutions. The formulation that `solve` selects must reproduce
 # them, and no wrong value may have the status ok.
-SCENES = sorted((ROOT / "cases" / "textbook").glob("*.yaml"))
+SCENES = sorted((ROOT / "cases" / "format" / "test" / "textbook").glob("*.yaml"))
 CLOSE = 2e-3
 
 # For each scene, a formulation whose elements are too long for their axial force. It must fail without a value.

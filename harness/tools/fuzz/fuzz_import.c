@@ -3,13 +3,13 @@
  * finite values in ascending order. An error must have a position. */
 #include <math.h>
 
-#include "harness/exchange/exchange.h"
+#include "harness/import_export/import_export.h"
 #include "harness/tools/fuzz/fuzz_file.h"
 
 enum { FORMS = 3 };
 
-#define MAPS "harness/exchange/"
-#define DATA "harness/exchange/test/data/"
+#define MAPS "harness/import_export/"
+#define DATA "harness/import_export/test/data/"
 
 static status read_form(int form, const char *path, import_set *set, mistakes *m, fault *f)
 {

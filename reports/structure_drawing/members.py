@@ -2,9 +2,9 @@
 import numpy as np
 
 from reports import shapes
-from reports.drawing import geometry
-from reports.drawing.canvas import BODY, INK, MASS, ROD, SOFT, SPRING, STEEL, number
-from reports.drawing.scene import COMPONENTS
+from reports.structure_drawing import geometry
+from reports.structure_drawing.canvas import BODY, INK, MASS, ROD, SOFT, SPRING, STEEL, number
+from reports.structure_drawing.scene import COMPONENTS
 
 THIN = 0.2  # ratio of thickness to length up to which a wall is drawn as a surface
 SEEN = 2.5  # size on paper from which a section is drawn [pt]

@@ -3,8 +3,8 @@ import itertools
 
 import numpy as np
 
-from reports.drawing import geometry, joints, loads, members
-from reports.drawing.canvas import Canvas, INK, SOFT, STEEL, length
+from reports.structure_drawing import geometry, joints, loads, members
+from reports.structure_drawing.canvas import Canvas, INK, SOFT, STEEL, length
 
 # Main dimensions of a structure, and its axes.
 

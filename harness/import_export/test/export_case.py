@@ -7,7 +7,7 @@ import unittest
 
 import numpy as np
 
-from harness.exchange import read_back
+from harness.import_export import read_back
 from cases.format.test.scene_case import EXAMPLES, SceneCase
 
 CCX = shutil.which("ccx")

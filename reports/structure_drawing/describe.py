@@ -1,9 +1,9 @@
 """Describes the contents of a drawing: supports, motions, loads, springs and sections."""
 import numpy as np
 
-from reports.drawing import geometry, joints, loads
-from reports.drawing.canvas import length, number, vector
-from reports.drawing.members import ends_that_warp, held_of, spring_words
+from reports.structure_drawing import geometry, joints, loads
+from reports.structure_drawing.canvas import length, number, vector
+from reports.structure_drawing.members import ends_that_warp, held_of, spring_words
 
 CONSTANTS = (("A", "m²"), ("Iy", "m⁴"), ("Iz", "m⁴"), ("It", "m⁴"), ("Iw", "m⁶"))
 MOST = 12  # largest number of lines of one kind

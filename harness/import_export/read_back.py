@@ -1,9 +1,9 @@
 """Converts the output of CalculiX for a deck of `beamwork export` to a file that `beamwork import` reads.
 
-    python3 harness/exchange/read_back.py DECK.inp... [-o VALUES.csv]
+    python3 harness/import_export/read_back.py DECK.inp... [-o VALUES.csv]
 
 DECK.dat is next to each deck. Decks of one scene with different meshes form one series, whose limit is that of the
-solid. The lines `**Q` of a deck are explained in exchange_impl.h. The uncertainty of a value is that of its 7
+solid. The lines `**Q` of a deck are explained in import_export_impl.h. The uncertainty of a value is that of its 7
 printed digits.
 """
 import argparse

@@ -1,6 +1,6 @@
-/* exchange/: results of other programs, and input decks for them. */
-#ifndef BEAMWORK_EXCHANGE_H
-#define BEAMWORK_EXCHANGE_H
+/* import_export/: results of other programs, and input decks for them. */
+#ifndef BEAMWORK_IMPORT_EXPORT_H
+#define BEAMWORK_IMPORT_EXPORT_H
 
 #include <stdio.h>
 

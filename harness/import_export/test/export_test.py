@@ -8,8 +8,8 @@ import unittest
 import numpy as np
 
 from cases.format.test.scene_case import EXAMPLES
-from harness.exchange import read_back
-from harness.exchange.test.export_case import (CHANNEL, ExportTest, HEIGHT, INERTIA, LENGTH, PATH,
+from harness.import_export import read_back
+from harness.import_export.test.export_case import (CHANNEL, ExportTest, HEIGHT, INERTIA, LENGTH, PATH,
                                                PERCENT, RECTANGLE, TIP, WALLS, WIDTH, YOUNG,
                                                cantilever, hinge, mesh_of, needs_ccx)
 from harness.tools.kit.program import ROOT, run
@@ -178,7 +178,7 @@ class Answers(ExportTest):
                          deck.read_text(encoding="utf-8"), re.M)[1]
         deck.with_suffix(".dat").write_text(f" displacements (vx,vy,vz) for set\n{node} 0 0 0.25\n",
                                             encoding="utf-8")
-        run(ROOT / "harness/exchange/read_back.py", deck, "-o", out, program=sys.executable)
+        run(ROOT / "harness/import_export/read_back.py", deck, "-o", out, program=sys.executable)
         self.assertIn("# convention: spatial\n", out.read_text(encoding="utf-8"))
         self.answered("import", out, "-o", self.folder / "values.h5")
 
@@ -207,7 +207,7 @@ class Answers(ExportTest):
 
     def test_imported(self):
         deck, out = self.printed(*2 * [([0.25, 0.5, 0.125], [4, 5, 6])]), self.folder / "values.csv"
-        done = run(ROOT / "harness/exchange/read_back.py", deck, "-o", out, program=sys.executable)
+        done = run(ROOT / "harness/import_export/read_back.py", deck, "-o", out, program=sys.executable)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         with open(out, encoding="utf-8") as file:
             self.assertEqual(len(list(csv.reader(file))), 4 + 1 + 4)

@@ -2,7 +2,7 @@
 import numpy as np
 
 from reports import shapes
-from reports.drawing.canvas import ROD, SOFT, number
+from reports.structure_drawing.canvas import ROD, SOFT, number
 
 LINKED = 1.1  # line width of constraints [pt]
 

@@ -3,8 +3,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from reports.drawing.canvas import LOAD, MOTION, number, vector
-from reports.drawing.scene import COMPONENTS
+from reports.structure_drawing.canvas import LOAD, MOTION, number, vector
+from reports.structure_drawing.scene import COMPONENTS
 
 ARROW, SHORT, RADIUS = 38, 20, 15  # [pt]
 ALONG = 9  # number of arrows of a load along a member

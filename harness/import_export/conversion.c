@@ -1,4 +1,4 @@
-#include "harness/exchange/exchange_impl.h"
+#include "harness/import_export/import_export_impl.h"
 
 #include <math.h>
 #include <stdlib.h>

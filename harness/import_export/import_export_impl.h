@@ -1,5 +1,5 @@
-#ifndef BEAMWORK_EXCHANGE_IMPL_H
-#define BEAMWORK_EXCHANGE_IMPL_H
+#ifndef BEAMWORK_IMPORT_EXPORT_IMPL_H
+#define BEAMWORK_IMPORT_EXPORT_IMPL_H
 
 #include <stdio.h>
 
@@ -7,7 +7,7 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 #include "elements/shared/status.h"
-#include "harness/exchange/exchange.h"
+#include "harness/import_export/import_export.h"
 #include "harness/study/study.h"
 
 /* The cross-section of a solid: a lattice of rectangles along the y and z axes of the section, some

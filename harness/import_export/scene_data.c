@@ -1,4 +1,4 @@
-#include "harness/exchange/exchange.h"
+#include "harness/import_export/import_export.h"
 
 #include <jansson.h>
 #include <stdlib.h>

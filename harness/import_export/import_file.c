@@ -1,4 +1,4 @@
-#include "harness/exchange/exchange.h"
+#include "harness/import_export/import_export.h"
 
 #include <errno.h>
 #include <math.h>
