@@ -58,9 +58,10 @@ static void weigh_all(const fields *f, scene_load *what)
     const scene *s = f->b->scene;
     const int before = s->loads, reported = f->b->mistakes->count;
     if (f->placed != NULL)
-        mistake_at(f, "on",
-                   "gravity on all members belongs to the scene, not to a part; move this load to "
-                   "the loads of the scene");
+        mistake_at(
+            f, "on",
+            "gravity with 'on: all' acts on the whole scene, but this load is in a part; move "
+            "it to the loads of the scene");
     for (what->where = 0; what->where < s->members && f->b->mistakes->count == reported;
          what->where++)
         if (is_heavy(s, &s->member[what->where]))
@@ -78,9 +79,10 @@ static void weigh_all(const fields *f, scene_load *what)
 static void check_weight(const fields *f, const scene_load *what)
 {
     if (what->where >= 0 && scene_node_at(f->b->scene, what->where)->body.mass == 0)
-        mistake_at(
-            f, "on",
-            "the node on which gravity acts has no mass; give the node a mass, or name a member");
+        document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
+                         "gravity acts on node '%.40s', which has no mass; give the node a mass, "
+                         "or name a member",
+                         fields_text(f, "on", ""));
 }
 
 static int whole_of(builder *b)
@@ -95,13 +97,16 @@ static int whole_of(builder *b)
 
 static void check_gravity(const fields *f, const scene_load *what, int whole)
 {
-    if (fields_have(f, "at") || what->axes == SCENE_AXES_MEMBER || what->follower)
-        mistake_at(f, "gravity",
-                   "gravity acts at centres of mass, along the axes of the scene; remove 'at', "
-                   "'axes' and 'follower'");
+    const char *key = fields_have(f, "at")              ? "at"
+                      : what->axes == SCENE_AXES_MEMBER ? "axes"
+                      : what->follower                  ? "follower"
+                                                        : NULL;
+    if (key != NULL)
+        document_mistake(f->b->mistakes, document_find(f->map, "gravity"), 0,
+                         "gravity acts at centres of mass, in a fixed direction; remove '%s'", key);
     if (whole >= 0 && !is_on_all(f))
         document_mistake(f->b->mistakes, document_find(f->map, "on"), 0,
-                         "'%.40s' (on: all) already includes this weight; remove one of "
+                         "load '%.40s' (on: all) already includes this weight; remove one of "
                          "the two loads",
                          f->b->list[SCENE_LOADS].entry[whole].name);
 }
@@ -143,19 +148,18 @@ static void check_keys(const fields *f, int given)
         mistake_at(f, "where",
                    given == SCENE_GRAVITY ? "where: this key is for a force or a moment, but "
                                             "gravity acts on the whole member; remove the key"
-                                          : "where: this key is for a force or a moment; give a "
-                                            "distributed load 'from' and 'to' instead");
+                                          : "where: this key is for a force or a moment; for "
+                                            "this load, give 'from' and 'to' instead");
     for (int k = 0; k < 3; k++) {
         if ((spreads(given) && (k < 2 || given != OF_TEMPERATURE)) || !fields_have(f, of_range[k]))
             continue;
-        document_mistake(
-            f->b->mistakes, document_find(f->map, of_range[k]), 0,
-            "%s: this key is for a distributed load; %s", of_range[k],
-            given == OF_TEMPERATURE
-                ? "a temperature is constant from 'from' to 'to'; remove the key"
-            : given == SCENE_GRAVITY
-                ? "gravity acts on the whole member; remove the key"
-                : "a force or a moment within a member acts at one position; use 'where' instead");
+        document_mistake(f->b->mistakes, document_find(f->map, of_range[k]), 0,
+                         "%s: this key is for a distributed load, but %s", of_range[k],
+                         given == OF_TEMPERATURE
+                             ? "a temperature is constant from 'from' to 'to'; remove the key"
+                         : given == SCENE_GRAVITY
+                             ? "gravity acts on the whole member; remove the key"
+                             : "this load acts at one position; remove the key, or give 'where'");
     }
 }
 
@@ -234,8 +238,8 @@ void builder_loads(builder *b)
         turn_load(&f, &what);
         if (fields_have(&f, "feedback") && f.placed != NULL && f.placed->turned)
             mistake_at(&f, "feedback",
-                       "feedback measures along fixed axes, but this part is rotated; "
-                       "move the load to the scene");
+                       "feedback: components are measured along the axes of the scene, but this "
+                       "part is rotated; move the load to the scene");
         read_range(&f, given, &what);
         if (what.kind == SCENE_GRAVITY)
             check_gravity(&f, &what, whole);
@@ -278,27 +282,12 @@ static void turn_stiffness(const placement *placed, double K[36])
         K[i] = (turned[i] + turned[i / 6 + 6 * (i % 6)]) / 2;
 }
 
-/* Reads a 6 x 6 matrix of a spring, given by 36 entries or by its diagonal. Returns 0 if the key is
- * missing. */
-static int spring_matrix(builder *b, const fields *f, const char *key, double out[36])
+/* Reads a 6 x 6 matrix of a spring in the axes of the scene. Returns 0 if the key is missing. */
+static int spring_matrix(const fields *f, const char *key, double out[36])
 {
-    double *given;
-    const document_node *at = document_find(f->map, key);
-    if (at == NULL)
-        return 0;
-    const int count = fields_values(f, key, &given);
-    if (count == 36)
-        memcpy(out, given, 36 * sizeof *out);
-    if (count == 6)
-        for (int k = 0; k < 6; k++)
-            out[7 * k] = given[k];
-    if (count != 6 && count != 36)
-        document_mistake(b->mistakes, at, 0,
-                         "%s: the list has %d numbers; give six, or the 36 entries of a matrix",
-                         key, count);
-    else
+    if (fields_matrix(f, key, out))
         turn_stiffness(f->placed, out);
-    return 1;
+    return fields_have(f, key);
 }
 
 void builder_springs(builder *b)
@@ -306,16 +295,17 @@ void builder_springs(builder *b)
     for (int i = 0; i < b->list[SCENE_SPRINGS].count; i++) {
         const fields f = fields_of(b, &b->list[SCENE_SPRINGS].entry[i]);
         double stiffness[36] = {0}, damping[36] = {0};
-        const int stiff = spring_matrix(b, &f, "stiffness", stiffness),
-                  damps = spring_matrix(b, &f, "damping", damping);
+        const int stiff = spring_matrix(&f, "stiffness", stiffness),
+                  damps = spring_matrix(&f, "damping", damping);
         const document_node *tables = document_find(f.map, "tables");
         if (!stiff && !damps && (tables == NULL || tables->count == 0))
             document_mistake(
                 b->mistakes, f.map, 0,
-                "the spring has neither stiffness nor damping nor tables; give one of them");
+                "spring '%.40s' has no stiffness, damping or tables; give at least one of them",
+                b->list[SCENE_SPRINGS].entry[i].name);
         if (tables != NULL && f.placed != NULL && f.placed->turned)
             document_mistake(b->mistakes, tables, 0,
-                             "tables apply to components along the axes of the scene, but the part "
+                             "tables: the components are along the axes of the scene, but the part "
                              "is rotated; move the spring to the scene, or do not rotate the part");
         const int index = scene_add_spring(b->scene, SCENE_NONE, SCENE_NONE, stiffness);
         builder_call(b, SCENE_SPRINGS, index, i);
@@ -367,9 +357,10 @@ void builder_constraints(builder *b)
         const int form = form_of(&f), two = form == 1;
         if (form < 0) {
             document_mistake(b->mistakes, f.map, 0,
-                             "the keys do not define a constraint; give {equal: [NODE, NODE], "
-                             "components: [ux]}, {node: NODE, component: ux, ratio: -2, of: NODE}, "
-                             "or {diaphragm: [NODE], master: NODE, normal: z}");
+                             "the keys of '%.40s' do not define a constraint; give {equal: [NODE, "
+                             "NODE], components: [ux]}, {node: NODE, component: ux, ratio: -2, of: "
+                             "NODE}, or {diaphragm: [NODE], master: NODE, normal: z}",
+                             b->list[SCENE_CONSTRAINTS].entry[i].name);
             continue;
         }
         if (form == 2) {
@@ -405,8 +396,9 @@ void builder_imperfections(builder *b)
             (shifts != NULL && (shifts->kind != DOCUMENT_MAP || shifts->count == 0))) {
             document_mistake(
                 b->mistakes, f.map, 0,
-                "the keys do not define an imperfection; give {mode_of: ANALYSIS, which: 0, "
-                "amplitude: 2e-3}, or {shifts: {NODE: [dx, dy, dz]}, factor: 1}");
+                "the keys of '%.40s' do not define an imperfection; give {mode_of: ANALYSIS, "
+                "which: 0, amplitude: 2e-3}, or {shifts: {NODE: [dx, dy, dz]}, factor: 1}",
+                b->list[SCENE_IMPERFECTIONS].entry[i].name);
             continue;
         }
         const int index = scene_add_imperfection(b->scene);
@@ -418,7 +410,7 @@ void builder_imperfections(builder *b)
         if (fields_have(&f, "direction") && p->direction[0] == 0 && p->direction[1] == 0 &&
             p->direction[2] == 0)
             document_mistake(b->mistakes, document_find(f.map, "direction"), 0,
-                             "direction = [0, 0, 0]; give a direction, or remove it");
+                             "direction = [0, 0, 0]; give a nonzero vector, or remove the key");
         for (int k = 0; shifts != NULL && k < shifts->count; k++) {
             double shift[3] = {0};
             const int node = fields_entry_of(&f, shifts->key[k], SCENE_NODES);
@@ -518,6 +510,6 @@ void builder_read_cases(builder *b)
             document_mistake(
                 b->mistakes, b->list[SCENE_CASES].entry[i].place, 0,
                 "load case '%.40s' is not used by any combination, analysis or quantity; correct "
-                "the name, or give it a factor of 0 in a combination",
+                "its name, or give the case a factor in a combination (0 to ignore the case)",
                 s->load_case[i].name);
 }

@@ -49,7 +49,9 @@ static void read_warping(const fields *f, scene_member *m)
         return;
     }
     if (n->kind == DOCUMENT_LIST && n->count != 2) {
-        document_mistake(f->b->mistakes, n, 0, "warping: give one value, or [at from, at to]");
+        document_mistake(f->b->mistakes, n, 0,
+                         "warping: the list must have two values; give one value, or [at from, "
+                         "at to]");
         return;
     }
     m->warp_p = warping_of(f, n->kind == DOCUMENT_LIST ? n->item[0] : n);
@@ -83,7 +85,8 @@ static void read_sections(const fields *f, scene_member *m)
     }
     if (n->count != 2) {
         document_mistake(f->b->mistakes, n, 0,
-                         "section: give a name, or two names [at from, at to]");
+                         "section: the list must have two names; give one name, or [at from, at "
+                         "to]");
         return;
     }
     m->section = fields_entry_of(f, n->item[0], SCENE_SECTIONS);
@@ -124,7 +127,7 @@ void builder_members(builder *b)
         fields_read(&f, entry_member, m);
         if (fields_have(&f, "unstressed_length") && m->unstressed_length == 0)
             document_mistake(b->mistakes, document_find(f.map, "unstressed_length"), 0,
-                             "unstressed_length = 0; give a length, or remove it");
+                             "unstressed_length = 0; give a positive length, or remove the key");
         read_sections(&f, m);
         read_warping(&f, m);
         read_released(&release, "from", index, 0);
@@ -141,8 +144,8 @@ static void check_unit(const fields *f, int motion)
     if (angle == 0 && units->given && !own)
         document_mistake(
             f->b->mistakes, given, 0,
-            "unit 'm': lengths of this scene are in %s; write this unit, or remove 'unit'",
-            units->name_of_length);
+            "unit 'm': lengths of this scene are in %s; write 'unit: %s', or remove 'unit'",
+            units->name_of_length, units->name_of_length);
     const scene *s = f->b->scene;
     int angles = 0, lengths = 0;
     for (int i = 0; i < s->nodes; i++)
@@ -152,8 +155,13 @@ static void check_unit(const fields *f, int motion)
         }
     if ((angle == 1 && lengths > 0) || (angle == 0 && angles > 0))
         document_mistake(f->b->mistakes, document_find(f->map, "unit"), 0,
-                         "the motion drives %s; write unit: %s, or drive another component",
-                         angle == 1 ? "a translation" : "an angle", angle == 1 ? "m" : "rad");
+                         "motion '%.40s' prescribes %s; write 'unit: %s', or prescribe another "
+                         "component",
+                         f->b->list[SCENE_DRIVERS].entry[motion].name,
+                         angle == 1 ? "a translation" : "a rotation",
+                         angle == 0     ? "rad"
+                         : units->given ? units->name_of_length
+                                        : "m");
 }
 
 static void check_given(const fields *f)
@@ -162,7 +170,7 @@ static void check_given(const fields *f)
               unknown = fields_have(f, "such_that");
     if (known == unknown)
         document_mistake(f->b->mistakes, f->place, 0,
-                         known ? "the motion has both values and a condition; remove one of them"
+                         known ? "the motion has values and also 'such_that'; remove one of them"
                                : "the motion has no value; give 'path' and 'value', one of 'time', "
                                  "'pieces' and 'table', or 'such_that'");
 }
@@ -238,7 +246,7 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
         }
     document_mistake(
         what->b->mistakes, document_find(what->map, "analysis"), 0,
-        "'%s' is of kind %s and has no %s; name an analysis of a kind that has one: %s%s", a->name,
+        "analysis '%s' (%s) has no %s; name an analysis of a kind that has one: %s%s", a->name,
         scene_analysis_name(a->kind), key, names,
         a->kind == SCENE_HARMONIC && scene_reads_forces(q)
             ? "; or replace the node with two nodes joined by a stiff spring, and multiply the "
@@ -319,7 +327,9 @@ static int write_out(const fields *f, const document_node *n, written_out *to)
             continue;
         }
         if (f->b->mistakes->count == errors && to->used + 60 >= MOST_TEXT)
-            document_mistake(f->b->mistakes, n, at, "too long; split it into pieces");
+            document_mistake(f->b->mistakes, n, at,
+                             "the function is longer than %d characters; split it into pieces",
+                             MOST_TEXT - 1);
         return 0;
     }
     put(to, "", 0, at);
@@ -352,13 +362,17 @@ static void add_pieces(const fields *f, const document_node *list, int index, bu
         piece.map = list->item[i];
         const int last = i == list->count - 1, ends = fields_have(&piece, "until");
         const double until = fields_number(&piece, "until", 0);
-        if (!last && !(ends && until > before))
+        if (!last && !ends)
             document_mistake(f->b->mistakes, piece.map, 0,
-                             "a piece must end after the previous piece; give a later until: TIME");
+                             "only the last piece has no end; give 'until', the end of this piece");
+        if (!last && ends && !(until > before))
+            document_mistake(f->b->mistakes, piece.map, 0,
+                             "until = %g, but the previous piece ends at %g; give a later time",
+                             until, before);
         if (last && ends)
             document_mistake(f->b->mistakes, document_find(piece.map, "until"), 0,
-                             "the last piece has no end; remove 'until', or add the "
-                             "piece after it");
+                             "the last piece must have no end; remove 'until', or add another "
+                             "piece");
         before = until;
         add_piece(&piece, document_find(piece.map, "is"), until, index, add);
     }
@@ -421,10 +435,15 @@ static void add_table(const fields *f, int index, builder_piece *add, int spline
     for (int k = 1; k < count; k++)
         ascends &= at[k] > at[k - 1];
     if (count != values || count < 2 || !ascends) {
-        document_mistake(f->b->mistakes, document_find(f->map, "at"), 0,
-                         "a table needs at least two ascending times and a value for each, but "
-                         "'at' has %d numbers and 'value' has %d",
-                         count, values);
+        if (!ascends)
+            document_mistake(f->b->mistakes, document_find(f->map, "at"), 0,
+                             "the times in 'at' do not ascend; sort the rows of the table, and "
+                             "remove repeated times");
+        else
+            document_mistake(f->b->mistakes, document_find(f->map, "at"), 0,
+                             "the lengths of 'at' and 'value' are %d and %d; give the same number "
+                             "of times and values, at least two",
+                             count, values);
         return;
     }
     double *m = arena_take(f->b->arena, 2 * (size_t)count * sizeof *m);
@@ -466,7 +485,7 @@ int builder_stations(const fields *f, const char *values, double **path, double 
         return count;
     document_mistake(
         f->b->mistakes, document_find(f->map, fields_have(f, values) ? values : "path"), 0,
-        "'path' has %d values, but '%s' has %d; give the same number of values for both", stations,
-        values, count);
+        "the lengths of 'path' and '%s' are %d and %d; give both the same number of values", values,
+        stations, count);
     return 0;
 }

@@ -84,9 +84,7 @@ static void read_directions(const fields *axes, scene_node *n)
     const double *a = x ? n->axes[0] : n->axes[1], *b = x && y ? n->axes[1] : z,
                  lengths = vec3_norm(a) * vec3_norm(b);
     if (!(lengths > 0 && fabs(vec3_dot(a, b)) <= 1e-9 * lengths))
-        document_mistake(axes->b->mistakes, axes->place, 0,
-                         "axes: the directions are not perpendicular; give two "
-                         "perpendicular directions");
+        mistake_axes(axes->b->mistakes, axes->place);
 }
 
 static void read_member_axes(const fields *axes, int node, scene_node *n)
@@ -100,13 +98,15 @@ static void read_member_axes(const fields *axes, int node, scene_node *n)
     double R[9], chord[3];
     if (m->p != node && m->q != node) {
         document_mistake(axes->b->mistakes, name, 0,
-                         "axes: %.40s does not end at the node; name a member that ends there",
+                         "axes: neither end of member '%.40s' is at this node; name a member with "
+                         "an end at this node",
                          name->text);
         return;
     }
     if (vec3_norm(m->curvature) > 0) {
         document_mistake(axes->b->mistakes, name, 0,
-                         "axes: %.40s is curved; give directions, as {x: [...], y: [...]}",
+                         "axes: member '%.40s' is curved; give directions, as {x: [...], y: "
+                         "[...]}",
                          name->text);
         return;
     }
@@ -139,8 +139,8 @@ static void turn_about_axes(const fields *f, scene_node *n)
     if (moving > 1) {
         document_mistake(
             f->b->mistakes, f->place, 0,
-            "axes: only none, one or all three rotations may be free; for other combinations, "
-            "write rotation: {sequence: [{axis: [...], angle: free}, ...]}");
+            "axes: at most one rotation may be free or prescribed, or all three free; for other "
+            "combinations, write rotation: {sequence: [{axis: [...], angle: free}, ...]}");
         return;
     }
     n->rotation = SCENE_ROTATION_SEQUENCE;
@@ -179,7 +179,8 @@ static void read_drive(const fields *f, int node, int own)
             continue;
         if ((ours < SCENE_RX ? n->translation[ours] : n->angle[ours - SCENE_RX]) == SCENE_HELD)
             document_mistake(f->b->mistakes, document_find(drive.map, component[c]), 0,
-                             "%s is both fixed and prescribed; remove one of them", component[c]);
+                             "'hold' and 'drive' both contain %s; remove it from one of them",
+                             component[c]);
         scene_drive(f->b->scene, node, ours, motion);
     }
 }
@@ -250,11 +251,13 @@ static void check_masters(const fields *f, const scene_node *n)
     const document_node *rotation = document_find(f->map, "rotation");
     if (document_find(rotation, "vector") != NULL && f->placed != NULL && f->placed->turned)
         document_mistake(f->b->mistakes, rotation, 0,
-                         "rotation: in a rotated part, rotation components are not along the axes "
-                         "of the scene; use a node of the scene, and connect the node to the part");
+                         "rotation: a rotation vector is given along the axes of the scene, but "
+                         "this part is rotated; use a node of the scene, and connect it to the "
+                         "part");
     if (rotation != NULL && (held || fields_have(f, "fork")))
         document_mistake(f->b->mistakes, rotation, 0,
-                         "'rotation' sets all rotations; remove rx, ry, rz and forks");
+                         "'rotation' defines all three rotations; remove rx, ry and rz from 'hold' "
+                         "and 'drive', and remove 'fork'");
 }
 
 /* Rotates the inertia tensor of a body with its instance, I <- A I A^T. */
@@ -322,7 +325,7 @@ static void read_walls(const fields *f, section_spec *spec)
     spec->walls = count;
     if (spec->points > SECTION_MAX_POINTS || count > SECTION_MAX_WALLS || count == 0) {
         document_mistake(f->b->mistakes, f->place, 0,
-                         "the section has %d points and %d walls; give 1 to %d of each",
+                         "number of points: %d, number of walls: %d; give 1 to %d of each",
                          spec->points, count, SECTION_MAX_WALLS);
         spec->points = spec->walls = 0;
         return;
@@ -365,27 +368,11 @@ static void read_rest(const fields *f, section_spec *spec)
         spec->zeros |= SECTION_ZERO_SHEAR;
 }
 
-/* Reads a matrix of a section: 36 numbers, or the six diagonal entries. */
-static void read_matrix(const fields *f, const char *key, double out[36])
-{
-    double *given;
-    const int count = fields_values(f, key, &given);
-    if (count == 36)
-        memcpy(out, given, 36 * sizeof *out);
-    for (int k = 0; k < 6 && count == 6; k++)
-        out[7 * k] = given[k];
-    if (fields_have(f, key) && count != 6 && count != 36)
-        document_mistake(f->b->mistakes, document_find(f->map, key), 0,
-                         "%s: the list has %d numbers; give the 36 entries of a matrix, or the six "
-                         "of its diagonal",
-                         key, count);
-}
-
 static void read_matrices(const fields *f, section_spec *spec)
 {
     spec->kind = SECTION_MATRICES;
-    read_matrix(f, "stiffness", spec->constants.stiffness);
-    read_matrix(f, "mass", spec->constants.mass);
+    fields_matrix(f, "stiffness", spec->constants.stiffness);
+    fields_matrix(f, "mass", spec->constants.mass);
 }
 
 /* Sections given by matrices have no material and no overrides, and only they have a mass
@@ -404,7 +391,8 @@ static void check_material(const fields *f)
                                  material[i].key, material[i].about);
         if (fields_have(f, "mass"))
             document_mistake(m, document_find(f->map, "mass"), 0,
-                             "a mass matrix requires a stiffness matrix; give a density");
+                             "mass: a mass matrix requires 'stiffness'; add it, or give 'density' "
+                             "instead of 'mass'");
         return;
     }
     for (size_t i = 0; i < sizeof other / sizeof other[0]; i++)
@@ -445,9 +433,9 @@ void builder_sections(builder *b)
                                  of_walls[k]);
         }
         if (spec.kind != SECTION_RECTANGLE && fields_have(&f, "shear_factor"))
-            document_mistake(
-                b->mistakes, document_find(f.map, "shear_factor"), 0,
-                "a shear factor applies only to a rectangle; remove it, or use 'given'");
+            document_mistake(b->mistakes, document_find(f.map, "shear_factor"), 0,
+                             "a shear factor applies only to a rectangle; remove it, or give Dy "
+                             "and Dz in 'given'");
         if (b->mistakes->count == 0) {
             known = section_compute(&spec, &computed, &why) == STATUS_OK;
             if (!known)
@@ -485,7 +473,7 @@ static scene_alpha alpha_of(const fields *f)
         return (scene_alpha){pair[0], pair[1]};
     if (fields_have(f, "hht"))
         return (scene_alpha){0, between(f, "hht", 0, 0, 1. / 3,
-                                        "alpha of Hilber, Hughes and Taylor, from 0 to 1/3")};
+                                        "the alpha of Hilber, Hughes and Taylor, from 0 to 1/3")};
     if (fields_word(f, "trapezoidal", "no|yes", 0))
         return (scene_alpha){0, 0};
     return scene_alpha_of_radius(between(f, "rho", 0.9, 0, 1, "a spectral radius from 0 to 1"));
@@ -511,7 +499,9 @@ static void check_parameters(const fields *f, scene_scheme scheme)
     for (int i = 0; i < 4 && scheme != SCENE_ALPHA && !chosen; i++)
         if (fields_have(f, of_alpha[i]))
             document_mistake(f->b->mistakes, document_find(f->map, of_alpha[i]), 0,
-                             "%s applies only to the integrator alpha; remove it", of_alpha[i]);
+                             "'%s' applies only to the integrator alpha; remove it, or give "
+                             "'integrator: alpha'",
+                             of_alpha[i]);
 }
 
 /* Returns the integrator. Some sets of parameters of alpha are named integrators, which `motion -u`
@@ -523,8 +513,8 @@ static scene_scheme scheme_of(const fields *f)
     for (int i = 0; i < 2; i++)
         if (strcmp(given, set[i][0]) == 0) {
             document_mistake(f->b->mistakes, document_find(f->map, "integrator"), 0,
-                             "integrator: %s is alpha with a parameter; give 'integrator: alpha' "
-                             "and '%s'",
+                             "integrator: %s is alpha with a certain parameter; give 'integrator: "
+                             "alpha' and '%s'",
                              given, set[i][1]);
             return SCENE_ALPHA;
         }
@@ -542,7 +532,8 @@ static void read_steps(const fields *f, scene_motion *how)
         how->tolerance = how->scheme == SCENE_RADAU ? usual_of_radau : usual_tolerance;
     if (!steps && how->tolerance == 0)
         document_mistake(f->b->mistakes, document_find(f->map, "tolerance"), 0,
-                         "without a tolerance, all steps are equal; give 'step' [s]");
+                         "tolerance: 0 means equal steps; give 'step' [s], or a positive "
+                         "tolerance");
 }
 
 void builder_in_time(const fields *f, scene_motion *how)

@@ -36,6 +36,21 @@ static int is_kept(const unit_system *u, const char *unit)
     return strcmp(own, unit) == 0 && (strcmp(unit, "K") == 0 || strcmp(unit, "rad") == 0);
 }
 
+static void mistake_unit(const fields *f, const document_node *unit, const char *own)
+{
+    if (strcmp(own, "1") == 0)
+        document_mistake(f->b->mistakes, unit, 0,
+                         "unit '%.40s': the quantity is a plain number; remove 'unit', or give a "
+                         "'factor' in this unit, such as the load that a load factor multiplies",
+                         unit->text);
+    else
+        document_mistake(f->b->mistakes, unit, 0,
+                         "unit '%.40s': the value is in %s%s; write 'unit: %s', or give a "
+                         "'factor' that converts the value",
+                         unit->text, own, f->b->units.given ? ", in the units of this scene" : "",
+                         own);
+}
+
 static void read_unit(const fields *f, scene_quantity *q)
 {
     const document_node *unit = document_find(f->map, "unit");
@@ -50,12 +65,7 @@ static void read_unit(const fields *f, scene_quantity *q)
         const int factor = strcmp(own, "1") == 0,
                   kept = factor && is_kept(&f->b->units, unit->text);
         if (strcmp(unit->text, own) != 0 && !kept && (f->b->units.given || !factor))
-            document_mistake(
-                f->b->mistakes, unit, 0,
-                "unit '%.40s': %sthe value is in %s; correct or remove 'unit', or %s%s%s",
-                unit->text, f->b->units.given ? "with the units of this scene " : "", own,
-                factor ? "write 'unit: " : "give a factor", factor ? unit->text : "",
-                factor ? ", factor: 1' if the load has the value 1 in this unit" : "");
+            mistake_unit(f, unit, own);
     }
     if (unit != NULL && strlen(unit->text) >= sizeof q->unit)
         document_mistake(f->b->mistakes, unit, 0,
@@ -71,8 +81,9 @@ static void read_abscissa_of(const fields *x, scene_quantity *q)
     for (size_t i = 0; i < sizeof own / sizeof own[0]; i++)
         if (fields_have(x, own[i]))
             document_mistake(x->b->mistakes, document_find(x->map, own[i]), 0,
-                             "a curve over a quantity uses the %s of that quantity; set it there",
-                             own[i]);
+                             "x: the curve uses the %s of the quantity on its abscissa; remove "
+                             "'%s', and set it there",
+                             own[i], own[i]);
     scene_set_curve_over(q, over >= 0 ? x->b->list[SCENE_QUANTITIES].entry[over].name : "", "");
 }
 
@@ -94,7 +105,7 @@ static void read_members(const fields *what, scene_quantity *q)
     if (n == NULL)
         return;
     if (n->kind != DOCUMENT_LIST || n->count == 0) {
-        document_mistake(what->b->mistakes, n, 0, "quantities: give a list of their names");
+        document_mistake(what->b->mistakes, n, 0, "quantities: give a list of names of quantities");
         return;
     }
     for (int i = 0; i < n->count; i++) {
@@ -169,7 +180,7 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
         read_abscissa(entry, q);
     else if (fields_have(entry, "x"))
         document_mistake(entry->b->mistakes, document_find(entry->map, "x"), 0,
-                         "an abscissa requires a curve; add take: curve, or remove it");
+                         "x: an abscissa requires a curve; add 'take: curve', or remove 'x'");
 }
 
 /* Rejects a range of stations or a level that the quantity does not use. */
@@ -184,7 +195,7 @@ static void check_when(const fields *f, const scene_quantity *q)
     if (s->analysis[q->analysis].kind != SCENE_MOTION)
         document_mistake(f->b->mistakes, document_find(f->map, "when"), 0,
                          "when: this key gives the window of a motion, but %s is not a motion; "
-                         "remove it, or name a motion",
+                         "remove the key, or name a motion",
                          scene_called(s, SCENE_ANALYSES, q->analysis).text);
     else if (q->transform == SCENE_HISTORY && !scene_is_passed(q, SCENE_MOTION))
         document_mistake(f->b->mistakes, document_find(f->map, "when"), 0,
@@ -240,7 +251,8 @@ static void check_wanted(builder *b)
             fields_whole(&f, "wanted", 0, 1, ENTRY_MOST_ORDER) < requested)
             document_mistake(
                 b->mistakes, document_find(f.map, "wanted"), 0,
-                "the quantities require %d modes of this analysis; write %d, or remove the key",
+                "wanted: the quantities require %d modes of this analysis; give at least %d, or "
+                "remove the key",
                 requested, requested);
     }
 }
@@ -254,7 +266,7 @@ static void read_overs(const fields *what, scene_quantity *q)
         document_mistake(what->b->mistakes, n, 0,
                          "combinations: this key lists the combinations of an envelope; %s",
                          count == 0 ? "name a combination, or remove the key for all combinations"
-                                    : "add envelope: max, min or largest, or write combination:");
+                                    : "add 'envelope', or give one 'combination'");
     for (int i = 0; i < count; i++) {
         const int over =
             fields_entry_of(what, n->kind == DOCUMENT_LIST ? n->item[i] : n, SCENE_COMBINATIONS);
@@ -272,8 +284,8 @@ static void complete(const fields *what, const quantity_type *type, scene_quanti
         document_mistake(what->b->mistakes, document_find(what->map, key), 0, "%s", wrong);
     if (fields_have(what, "side") && !fields_have(what, "where"))
         document_mistake(what->b->mistakes, document_find(what->map, "side"), 0,
-                         "side: this key selects the side of a position where a load acts; add "
-                         "'where', or remove it");
+                         "side: this key selects the side of the position 'where' at which a load "
+                         "acts; add 'where', or remove 'side'");
     if (q->analysis >= 0 && !scene_gives(s->analysis[q->analysis].kind, q))
         builder_no_quantity(what, type->key, q);
 }
@@ -511,7 +523,7 @@ void units_check(const document_node *unit, mistakes *m)
         return;
     for (size_t i = 0; i < sizeof foreign / sizeof foreign[0]; i++)
         if (strcmp(foreign[i].unit, unit->text) == 0) {
-            document_mistake(m, unit, 0, "unit '%s': all values are SI; %s", unit->text,
+            document_mistake(m, unit, 0, "unit '%s': values are in SI units; %s", unit->text,
                              foreign[i].remedy);
             return;
         }
@@ -568,9 +580,10 @@ static int units_read_unit(const document_node *n, const char *word, size_t leng
     } else {
         document_mistake(
             m, n, 0,
-            "units: '%.*s' is unknown; give one of m, cm, mm, um, in, ft and one of N, mN, kN, "
-            "MN, lbf, and for stress Pa, kPa, MPa, GPa or psi, such as mm, N, MPa",
-            (int)length, word);
+            "units: '%.*s' is %s; give one of m, cm, mm, um, in, ft and one of N, mN, kN, MN, lbf, "
+            "and for stress Pa, kPa, MPa, GPa or psi, such as mm, N, MPa",
+            (int)length, word,
+            L != NULL || F != NULL || S != NULL ? "the second unit of its kind" : "unknown");
         return 0;
     }
     return 1;

@@ -48,8 +48,9 @@ static void report_syntax(document_reader *r)
             strstr(context, "mapping") != NULL ? "'{'" : "'['", (int)p->context_mark.line + 1,
             (int)p->context_mark.column + 1, problem);
     else
-        mistakes_add(r->mistakes, line, column, "%s%s%s; correct indentation, colons and quotes",
-                     context, context[0] != '\0' ? ": " : "", problem);
+        mistakes_add(r->mistakes, line, column,
+                     "invalid YAML (%s%s%s); correct indentation, colons and quotes", context,
+                     context[0] != '\0' ? ": " : "", problem);
 }
 
 /* Reads the next event, which the caller must delete. Returns 1, or 0 after a syntax error. */
@@ -64,7 +65,7 @@ static int next(document_reader *r, yaml_event_t *event)
 static document_node *new_node(document_reader *r, document_kind kind, yaml_mark_t at)
 {
     if (r->nodes++ >= MOST_NODES)
-        return refuse(r, at, "the file has more than 100000 entries; write a smaller one");
+        return refuse(r, at, "the file has more than 100000 entries; write a smaller file");
     document_node *n = arena_take(r->arena, sizeof *n);
     if (n == NULL) {
         r->mistakes->out_of_memory = 1;
@@ -145,8 +146,8 @@ static int check_key(document_reader *r, const document_node *map, const documen
     for (int i = 0; i < map->count; i++)
         if (strcmp(map->key[i]->text, key->text) == 0) {
             document_mistake(r->mistakes, key, 0,
-                             "'%.60s' is also in line %d; rename or remove one", key->text,
-                             map->key[i]->line);
+                             "the key '%.60s' is also in line %d; rename or remove one of them",
+                             key->text, map->key[i]->line);
             return 0;
         }
     return 1;
@@ -177,7 +178,7 @@ static int read_entries(document_reader *r, document_node *n, int depth, yaml_ev
         }
         if (n->count == DOCUMENT_ENTRIES) {
             document_mistake(r->mistakes, item, 0,
-                             "a list or map has more than 10000 entries; write a smaller one");
+                             "the list or map has more than 10000 entries; write a smaller one");
             return 0;
         }
         if (!add_entry(r, n, key, item))
@@ -191,7 +192,7 @@ static document_node *read_collection(document_reader *r, const yaml_event_t *ev
     const int map = event->type == YAML_MAPPING_START_EVENT;
     if (depth == DOCUMENT_DEPTH)
         return refuse(r, event->start_mark,
-                      "lists and maps are nested deeper than 16; simplify the file");
+                      "lists and maps are nested more than 16 levels deep; simplify the file");
     document_node *n = new_node(r, map ? DOCUMENT_MAP : DOCUMENT_LIST, event->start_mark);
     const yaml_event_type_t end = map ? YAML_MAPPING_END_EVENT : YAML_SEQUENCE_END_EVENT;
     return n != NULL && read_entries(r, n, depth, end) ? n : NULL;
@@ -201,7 +202,7 @@ static document_node *read_node(document_reader *r, const yaml_event_t *event, i
 {
     static const char anchor[] = "anchors are not supported; write the entry at each place where "
                                  "it is needed, or use 'for', 'let' or 'parts'";
-    static const char tag[] = "tags are not supported; remove the tag: the key determines "
+    static const char tag[] = "tags are not supported; remove it, because the key determines "
                               "whether a value is a string, a number or a word";
     switch (event->type) {
     case YAML_ALIAS_EVENT:
@@ -268,7 +269,7 @@ document_node *document_read(const char *bytes, size_t size, arena *a, mistakes 
 {
     document_reader r = {.arena = a, .mistakes = m};
     if (size > DOCUMENT_BYTES) {
-        mistakes_add(m, 1, 1, "the file is larger than 1 MB; write a smaller one");
+        mistakes_add(m, 1, 1, "the file is larger than 1 MB; write a smaller file");
         return NULL;
     }
     if (!yaml_parser_initialize(&r.parser)) {
@@ -421,7 +422,8 @@ void mistakes_print(const mistakes *m, FILE *to)
     for (int i = 0; i < m->count; i++)
         fprintf(to, "%s:%d:%d: %s\n", m->file, m->list[i].line, m->list[i].column, m->list[i].text);
     if (m->more > 0)
-        fprintf(to, "%s: more errors: %d; correct those above first\n", m->file, m->more);
+        fprintf(to, "%s: number of further errors: %d; correct those above first\n", m->file,
+                m->more);
     if (m->out_of_memory)
         fprintf(to, "%s: out of memory\n", m->file);
 }
@@ -448,7 +450,8 @@ status mistakes_json(const mistakes *m, FILE *to, fault *f)
     const int written = all != NULL && json_dumpf(all, to, JSON_INDENT(1)) == 0;
     json_decref(all);
     if (!written)
-        return fault_set(f, STATUS_FAULT, "the list of errors cannot be written");
+        return fault_set(f, STATUS_FAULT,
+                         "the list of errors cannot be written; free memory or disk space");
     fputc('\n', to);
     return STATUS_OK;
 }

@@ -24,7 +24,7 @@ static int report_unknown(const name_context *c, const char *text, int from, int
                               "sin and exp, and the names of 'parameters' and 'let'"
                         : known == NULL && strcmp(name, "t") == 0
                             ? "; the time t is available only in functions of time"
-                            : "; define it under 'parameters' or 'let', above",
+                            : "; define it above, under 'parameters' or 'let'",
                         remedy));
     return 0;
 }
@@ -40,8 +40,8 @@ static int constant(const name_context *c, const char *text, int *at, int length
     *at = behind + rest;
     if (known == NULL)
         expression_wrong(why, from,
-                         "section '%.*s' is unknown here; a section can be named only after the "
-                         "list of sections",
+                         "section '%.*s' is unknown here; correct its name, or move the expression "
+                         "out of 'parameters', 'sections' and the scene's 'let'",
                          length - 1 < 40 ? length - 1 : 40, text + from);
     else if (index < 0)
         expression_wrong(why, behind, "a section has no constant '%.*s'; its constants are %s",
@@ -93,7 +93,7 @@ int expression_number(const document_node *n, const scope *names, mistakes *m, d
     *out = 0;
     if (n->kind == DOCUMENT_TEXT)
         return expression_part(n, 0, (int)strlen(n->text), names, m, out);
-    document_mistake(m, n, 0, "found a %s where one number is expected",
+    document_mistake(m, n, 0, "this is a %s; give a number or an expression",
                      n->kind == DOCUMENT_LIST ? "list" : "map");
     return 0;
 }
@@ -153,7 +153,8 @@ static int divide(const document_node *n, double from, double to, int at, const 
         return -1;
     if (by_ratio && !(from > 0 && to > 0) && !(from < 0 && to < 0)) {
         document_mistake(m, n, 0,
-                         "no equal ratios lead from %g to %g; give nonzero ends of the same sign, "
+                         "a range with equal ratios cannot go from %g to %g; give nonzero ends of "
+                         "the same sign, "
                          "or remove ':log'",
                          from, to);
         return -1;

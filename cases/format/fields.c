@@ -59,6 +59,22 @@ int fields_values(const fields *f, const char *key, double **out)
     return count > 0 ? count : 0;
 }
 
+int fields_matrix(const fields *f, const char *key, double out[36])
+{
+    double *given;
+    const int count = fields_values(f, key, &given);
+    if (count == 36)
+        memcpy(out, given, 36 * sizeof *out);
+    for (int k = 0; k < 6 && count == 6; k++)
+        out[7 * k] = given[k];
+    if (fields_have(f, key) && count != 6 && count != 36)
+        document_mistake(f->b->mistakes, document_find(f->map, key), 0,
+                         "%s: the number of entries is %d; give the six entries of the diagonal, "
+                         "or all 36",
+                         key, count);
+    return count == 6 || count == 36;
+}
+
 const char *fields_text(const fields *f, const char *key, const char *otherwise)
 {
     const document_node *n = document_find(f->map, key);
@@ -98,7 +114,7 @@ int fields_word_of(const fields *f, const document_node *n, const char *what, co
     word_list those;
     snprintf(all, sizeof all, "; give one of %s", choices);
     if (known != NULL && known->word != NULL)
-        document_mistake(f->b->mistakes, n, 0, "%s: the parameter %s is '%.40s'%s", what, n->text,
+        document_mistake(f->b->mistakes, n, 0, "%s: %s has the value '%.40s'%s", what, n->text,
                          known->word, all);
     else
         document_mistake(f->b->mistakes, n, 0, "%s: no '%.40s' here%s", what, n->text,
@@ -195,7 +211,8 @@ int fields_entry_of(const fields *f, const document_node *n, scene_list list)
     const named_list those = {f->b, list};
     char remedy[FAULT_TEXT];
     if (n->kind != DOCUMENT_TEXT) {
-        document_mistake(f->b->mistakes, n, 0, "the name of a %s is expected", what[list]);
+        document_mistake(f->b->mistakes, n, 0,
+                         "one %s name is expected; give a name, not a list or map", what[list]);
         return SCENE_NONE;
     }
     int port;
@@ -204,12 +221,13 @@ int fields_entry_of(const fields *f, const document_node *n, scene_list list)
     if (found >= 0)
         return found;
     if (!substitute_is_left(text) && !f->b->list[list].incomplete)
-        document_mistake(f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
-                         mistakes_remedy(choice_nearest(text, entry_at, &those),
-                                         list == SCENE_CASES
-                                             ? "; no load belongs to it; add case: NAME to a load"
-                                             : "; add it, or correct the name",
-                                         remedy));
+        document_mistake(
+            f->b->mistakes, n, 0, "no %s '%.40s'%s", what[list], text,
+            mistakes_remedy(choice_nearest(text, entry_at, &those),
+                            list == SCENE_CASES
+                                ? "; correct the name, or add 'case' to a load or motion"
+                                : "; add it, or correct the name",
+                            remedy));
     return SCENE_NONE;
 }
 

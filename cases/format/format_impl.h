@@ -90,6 +90,11 @@ extern const char *const placement_list[PLACEMENT_LISTS];
 void placement_unroll(const document_node *root, const scope *names, arena *a, mistakes *m,
                       unrolled *list[], int count[]);
 
+/* Reports that the value of a parameter is below its minimum or above its maximum. */
+void mistake_parameter(mistakes *m, const document_node *n, const parameter_type *p, double value);
+/* Reports that two axes are not perpendicular, or that one of them is the zero vector. */
+void mistake_axes(mistakes *m, const document_node *axes);
+
 /* Transform a vector (v <- R v) or a position (p <- origin + R p) to the axes of the scene. If the
  * placement is NULL, nothing changes. */
 void placement_turn(const placement *, double v[3]);
@@ -161,6 +166,9 @@ int fields_vector(const fields *f, const char *key, int count, double out[]);
 /* Reads a list or range. Returns the number of values, or 0 if the key is missing or after an
  * error. *out belongs to the arena. */
 int fields_values(const fields *f, const char *key, double **out);
+/* Reads a 6 x 6 matrix, given by its 36 entries or by the six of its diagonal. Returns 0 and does
+ * not change `out` if the key is missing or after an error. */
+int fields_matrix(const fields *f, const char *key, double out[36]);
 const char *fields_text(const fields *f, const char *key, const char *otherwise);
 /* Returns the index in "a|b|c" of the value of the key: a word, or a parameter whose value is a
  * word. Returns `otherwise` if the key is missing. */

@@ -94,7 +94,9 @@ const char *const key_list_head[2] = {
     "units, or those of 'units'. [EXPR, ...] may be a range: a..b, a..b step c, a..b/n, a..b/n:log "
     "(equal ratios). A "
     "word may be the name of a parameter.",
-    "Keys of every entry (NAME: {...}, - {...}); $i is replaced in names and strings:"};
+    "Keys of every entry (NAME: {...}, - {...}), except those of parameters, parts and refuse; "
+    "$NAME "
+    "is replaced by its value in names and strings:"};
 
 typedef struct key_rows {
     FILE *to;

@@ -21,7 +21,7 @@ static const entry_field nothing[] = {{.name = NULL}};
 
 const entry_field keys_parameter[] = {
     {"value", ENTRY_FORMS, .needed = 1,
-     .summary = "default: an expression of constants, or a word"},
+     .summary = "default value: an expression of constants, or a word"},
     {"unit", ENTRY_TEXT, .summary = "SI unit; 1: a plain number", .usual = "1"},
     {"min", ENTRY_NUMBER, .summary = "minimum", .left_out = "no limit"},
     {"max", ENTRY_NUMBER, .summary = "maximum", .left_out = "no limit"},
@@ -48,8 +48,9 @@ const entry_field keys_truth[] = {
     {"at", ENTRY_NUMBER, .summary = "abscissa of a point of a curve",
      .left_out = "none: a single value"},
     {"model", ENTRY_WORD, .words = "plate|solid",
-     .summary = "different model to which the value belongs; the value is shown but never affects "
-                "the exit status",
+     .summary =
+         "model, other than beams, to which the value belongs; it is shown but never affects "
+         "the exit status",
      .left_out = "beams"},
     {"convention", ENTRY_TEXT, .summary = "moment convention", .left_out = "that of the analysis"},
     {.name = NULL}};
@@ -57,22 +58,23 @@ const entry_field keys_truth[] = {
 const entry_field keys_part[] = {
     {"let", ENTRY_NAMES, .below = keys_let, .summary = "values derived for the part",
      .left_out = "none"},
-    {"nodes", ENTRY_ENTRIES, .below = entry_node, .summary = "NAME is INSTANCE.NAME in the scene",
-     .left_out = "none"},
+    {"nodes", ENTRY_ENTRIES, .below = entry_node,
+     .summary = "nodes; NAME is INSTANCE.NAME in the scene", .left_out = "none"},
     {"members", ENTRY_ENTRIES, .below = entry_member,
      .summary = "members between nodes or ports of the part", .left_out = "none"},
-    {"springs", ENTRY_ENTRIES, .below = entry_spring, .summary = "in the axes of the part",
+    {"springs", ENTRY_ENTRIES, .below = entry_spring, .summary = "springs, in the axes of the part",
      .left_out = "none"},
-    {"loads", ENTRY_ENTRIES, .below = entry_load, .summary = "in the axes of the part",
+    {"loads", ENTRY_ENTRIES, .below = entry_load, .summary = "loads, in the axes of the part",
      .left_out = "none"},
     {"places", ENTRY_FORMS, .summary = "[NAME, ...]: ports that each instance connects to nodes",
      .left_out = "none"},
     {.name = NULL}};
 
-static const entry_field axes[] = {
-    {"x", ENTRY_VECTOR, .needed = 1, .count = 3, .summary = "the part's x axis in the scene"},
-    {"z", ENTRY_VECTOR, .needed = 1, .count = 3, .summary = "the part's z axis in the scene"},
-    {.name = NULL}};
+static const entry_field axes[] = {{"x", ENTRY_VECTOR, .needed = 1, .count = 3,
+                                    .summary = "direction of the part's x axis in the scene"},
+                                   {"z", ENTRY_VECTOR, .needed = 1, .count = 3,
+                                    .summary = "direction of the part's z axis in the scene"},
+                                   {.name = NULL}};
 
 static const entry_field angles[] = {
     {"x", ENTRY_NUMBER, .group = 1, .unit = "rad", .summary = "about x", .left_out = "no turn"},
@@ -87,12 +89,12 @@ const entry_field keys_instance[] = {
     {"part", ENTRY_NAME, .needed = 1, .summary = "name of the part"},
     {"at", ENTRY_VECTOR, .needed = 1, .count = 3, .unit = "m",
      .summary = "position of the origin of the part"},
-    {"axes", ENTRY_MAP, .group = 1, .below = axes, .summary = "its axes",
+    {"axes", ENTRY_MAP, .group = 1, .below = axes, .summary = "axes of the part",
      .left_out = "those of the scene"},
     {"turn", ENTRY_MAP, .group = 1, .below = angles,
-     .summary = "rotation of the part about one axis", .left_out = "none"},
-    {"connect", ENTRY_NAMES, .below = outer, .summary = "PLACE: NODE",
-     .left_out = "none; required for each interface"},
+     .summary = "rotation of the part about one axis of the scene", .left_out = "none"},
+    {"connect", ENTRY_NAMES, .below = outer, .summary = "PORT: NODE",
+     .left_out = "none; required for each port of the part"},
     {.name = NULL}};
 
 const entry_field keys_loop[] = {
@@ -114,8 +116,8 @@ const entry_field keys_root[] = {
     {"summary", ENTRY_TEXT, .summary = "description in one line", .left_out = "none"},
     {"source", ENTRY_TEXT, .summary = "origin of the scene", .left_out = "none"},
     {"units", ENTRY_FORMS,
-     .summary = "length, force and stress, such as mm, N, MPa; masses are then in force s^2/length "
-                "(t), times in s, angles in rad",
+     .summary = "units of length, force and stress, such as mm, N, MPa; masses are in force "
+                "s^2/length (here t), times in s, angles in rad",
      .left_out = "SI"},
     {"parameters", ENTRY_ENTRIES, .below = keys_parameter,
      .summary = "parameters that --set can change", .left_out = "none"},
@@ -128,32 +130,31 @@ const entry_field keys_root[] = {
      .left_out = "those of the instances"},
     {"members", ENTRY_ENTRIES, .below = entry_member, .summary = "beams",
      .left_out = "those of the instances"},
-    {"springs", ENTRY_ENTRIES, .below = entry_spring, .summary = "between nodes, or to the ground",
-     .left_out = "none"},
+    {"springs", ENTRY_ENTRIES, .below = entry_spring,
+     .summary = "springs between nodes, or to the ground", .left_out = "none"},
     {"motions", ENTRY_ENTRIES, .below = entry_driver,
      .summary = "prescribed values along a path or as functions of time", .left_out = "none"},
     {"loads", ENTRY_ENTRIES, .below = entry_load, .summary = "forces and moments",
      .left_out = "none"},
     {"constraints", ENTRY_ENTRIES, .below = entry_constraint,
-     .summary = "components of nodes that are equal, or in a ratio", .left_out = "none"},
+     .summary = "components of nodes that are equal or in a ratio; diaphragms", .left_out = "none"},
     {"imperfections", ENTRY_ENTRIES, .below = entry_imperfection,
-     .summary = "stress-free initial shape of the structure", .left_out = "none"},
+     .summary = "stress-free initial deviations from the ideal shape", .left_out = "none"},
     {"combinations", ENTRY_ENTRIES, .below = entry_combination,
      .summary = "{CASE: FACTOR, ...}: load cases that act together", .left_out = "none"},
     {"analyses", ENTRY_ENTRIES, .below = entry_analysis, .summary = "analyses to run",
      .left_out = "a static analysis to the end of the paths of the motions; a linear analysis if "
-                 "there are no motions"},
+                 "no motion has a path"},
     {"quantities", ENTRY_ENTRIES, .below = entry_quantity, .summary = "requested results",
-     .left_out = "the usual quantities of each analysis: displacements of loaded or driven nodes, "
-                 "and the first eigenvalue"},
+     .left_out = "the usual quantities of each analysis, such as displacements of loaded or driven "
+                 "nodes, or the first eigenvalue"},
     {"truths", ENTRY_LIST, .below = keys_truth, .summary = "reference values", .left_out = "none"},
     {"plane", ENTRY_WORD, .words = SCENE_PLANE_CHOICES,
      .summary = "plane to which all nodes, including those of the mesh, are confined",
      .left_out = "none"},
     {"omit", ENTRY_FORMS, .words = PHYSICS "|all|none",
-     .summary = "omitted physics: a word, a list of words, or a map {WORD: "
-                "yes, WORD: {NAME: VALUE}}: WORD is then omitted only if "
-                "parameter NAME has this VALUE",
+     .summary = "omitted physics: a word, a list of words, or a map {WORD: yes, WORD: {NAME: "
+                "VALUE}}: with a condition, WORD is omitted only if NAME has this VALUE",
      .left_out = "none: all physics that sections, loads and analyses require is included"},
     {"shear_theory", ENTRY_WORD, .words = "haringx|engesser|own",
      .summary = "shear theory in stability problems; own: the theory of each formulation",
@@ -164,7 +165,7 @@ const entry_field keys_root[] = {
      .usual = "consistent"},
     {"needs", ENTRY_WORDS, .words = PHYSICS "|engesser|haringx",
      .summary = "key of earlier versions: physics that is not listed is omitted, except warping; "
-                "use omit instead",
+                "use 'omit' instead",
      .left_out = "as given by omit"},
     {"meshes", ENTRY_FORMS,
      .summary = "elements per member: [EXPR, ...], or a choice of lists: {NAME: {VALUE: [...]}}",
@@ -202,11 +203,11 @@ static void check_map(const document_node *map, const known_keys *known, const d
 static void report_kind(const document_node *n, const document_node *name, const char *expected,
                         mistakes *m)
 {
-    static const char *const is[] = {"a text", "a list", "a map"};
+    static const char *const is[] = {"a string", "a list", "a map"};
     const int text = n->kind == DOCUMENT_TEXT, empty = text && n->text[0] == '\0';
     char *end = NULL;
     const int number = text && !empty && isfinite(strtod(n->text, &end)) && *end == '\0';
-    document_mistake(m, n, 0, "%.60s is %s; %s is expected", name->text,
+    document_mistake(m, n, 0, "%.60s is %s, but must be %s", name->text,
                      empty    ? "empty"
                      : number ? "a number"
                               : is[n->kind],
@@ -264,7 +265,7 @@ static void check_value(const document_node *n, const entry_field *k, const docu
     case ENTRY_WHOLE:
         if (n->kind != DOCUMENT_TEXT)
             report_kind(n, name,
-                        k->kind == ENTRY_NUMBER || k->kind == ENTRY_WHOLE ? "a number" : "a text",
+                        k->kind == ENTRY_NUMBER || k->kind == ENTRY_WHOLE ? "a number" : "a string",
                         m);
         break;
     case ENTRY_WORDS:
@@ -315,8 +316,8 @@ static const char *elsewhere(const entry_field *table, const char *name)
     for (size_t i = 0; i < sizeof acting / sizeof acting[0]; i++)
         if (strcmp(name, acting[i]) == 0 && (table == entry_analysis || table == entry_quantity))
             return table == entry_analysis
-                       ? "; write it within the kind: {static: {combination: NAME}}"
-                       : "; write it next to analysis: {analysis: NAME, "
+                       ? "; write it within the kind of analysis: {static: {combination: NAME}}"
+                       : "; write it next to 'analysis': {analysis: NAME, "
                          "combination: NAME}";
     return NULL;
 }
@@ -327,8 +328,8 @@ static const char *remedy_of(const known_keys *known, const char *name, char tex
 {
     const char *other = elsewhere(known->table, name);
     const char *near = other == NULL ? choice_nearest(name, name_at, known) : NULL;
-    return mistakes_remedy(near, other != NULL ? other : "; 'beamwork scene --schema' lists all",
-                           text);
+    return mistakes_remedy(
+        near, other != NULL ? other : "; 'beamwork scene --schema' lists all keys", text);
 }
 
 /* Returns 1 if an invalid key of the map is probably a misspelt form of the missing key. */
@@ -381,12 +382,13 @@ static void check_missing(const document_node *map, const known_keys *known,
         char group[FAULT_TEXT];
         group_words(known->table, k->group, group);
         if (there > 1 && k->group > 0)
-            document_mistake(m, first, 0, "%.40s: only one of %.200s is allowed", name->text,
-                             group);
+            document_mistake(m, first, 0, "%.40s: only one of %.200s is allowed; remove the others",
+                             name->text, group);
         if (there > 0 || meant || !k->needed)
             continue;
         if (k->group > 0)
-            document_mistake(m, name, 0, "%.40s: one of %.200s is missing", name->text, group);
+            document_mistake(m, name, 0, "%.40s: one of %.200s is missing; add one", name->text,
+                             group);
         else
             document_mistake(m, name, 0, "%.40s: '%s' is missing (%s)", name->text, k->name,
                              entry_summary(k));

@@ -259,10 +259,10 @@ static void passing(FILE *to, const scene_quantity *q)
         fprintf(to, ", time at which it is %s",
                 q->reduction == SCENE_MAX_TIME ? "largest" : "least");
     else if (q->reduction == SCENE_CROSSING)
-        fprintf(to, ", time at which it %s %.10g, number %d", way[p->direction], p->level,
+        fprintf(to, ", time at which it %s %.10g (crossing %d)", way[p->direction], p->level,
                 p->order + 1);
     else
-        fprintf(to, ", %s at which it %s %.10g",
+        fprintf(to, ", %s with which it %s %.10g",
                 q->reduction == SCENE_PERIOD ? "period" : "frequency", way[p->direction], p->level);
     if (p->from > 0 || p->until > 0)
         fprintf(to, ", from %.10g s on", p->from);
@@ -272,23 +272,23 @@ static void passing(FILE *to, const scene_quantity *q)
 
 static void along_path(FILE *to, const scene *s, const scene_quantity *q, const scene_analysis *a)
 {
-    const char *name = a->kind == SCENE_ROTATION ? "speeds of rotation of the axes" : path_name(a);
+    const char *name = a->kind == SCENE_ROTATION ? "speeds of rotation" : path_name(a);
     switch (q->reduction) {
     case SCENE_LAST:
     case SCENE_AT:
         at_station(to, s, q, a);
         break;
     case SCENE_MAX:
-        fprintf(to, ", largest value along the %s", name);
+        fprintf(to, ", largest value over the %s", name);
         break;
     case SCENE_MIN:
-        fprintf(to, ", smallest value along the %s", name);
+        fprintf(to, ", smallest value over the %s", name);
         break;
     case SCENE_CURVE:
         if (q->transform == SCENE_HISTORY)
-            fprintf(to, ", along the %s, over %s [%s]", name, q->x.name, q->x.unit);
+            fprintf(to, ", over the %s, as a curve over %s [%s]", name, q->x.name, q->x.unit);
         else
-            fprintf(to, ", %s of its stations%s, over %s [%s]",
+            fprintf(to, ", %s of its values at the stations%s, over %s [%s]",
                     q->transform == SCENE_PSD ? "power spectral density" : "spectrum of amplitudes",
                     q->passing.taper == SCENE_TAPER_HANN ? " with Hann's window" : "", q->x.name,
                     q->x.unit);
@@ -332,7 +332,7 @@ static void meaning_state(FILE *to, const scene *s, const scene_quantity *q)
     const double instant = scene_instant_of(s, q->analysis);
     const scene_analysis *path = a->kind == SCENE_MODAL && !isnan(instant) ? NULL : path_of(s, a);
     if (!isnan(instant))
-        fprintf(to, ", about %.10g s of the motion", instant);
+        fprintf(to, ", about the state at %.10g s of the motion", instant);
     if (path != NULL)
         along_path(to, s, q, path);
     else if (a->kind == SCENE_LINEAR)

@@ -15,8 +15,10 @@ static void check_version(const scene_file *file, mistakes *m)
 {
     const document_node *n = document_find(file->root, "beamwork");
     if (strcmp(n->text, "1") != 0)
-        document_mistake(m, n, 0, "unknown format version '%.20s'; this program reads version %d",
-                         n->text, VERSION);
+        document_mistake(
+            m, n, 0,
+            "format version '%.20s' is unknown; write 'beamwork: %d', or use a newer program",
+            n->text, VERSION);
     else if (strcmp(file->root->key[0]->text, "beamwork") != 0)
         document_mistake(m, file->root, 0,
                          "'beamwork: 1' must be the first key; move it to the top");
@@ -255,8 +257,7 @@ static int named_value(const scene_file *file, const fields *f, const document_n
         *value = fields_word_of(f, those->item[i], p->name, p->choices, 0);
     else if (expression_number(those->item[i], NULL, m, value) &&
              !(*value >= p->min && *value <= p->max))
-        document_mistake(m, those->item[i], 0, "%s = %g is outside its range %g .. %g", p->name,
-                         *value, p->min, p->max);
+        mistake_parameter(m, those->item[i], p, *value);
     return index;
 }
 
@@ -303,12 +304,13 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
     fields_word(f, "model", "plate|solid", 0);
     if (!(t.uncertainty >= 0))
         document_mistake(m, document_find(f->map, "uncertainty"), 0,
-                         "the uncertainty is %g; give a positive value, or remove the uncertainty",
+                         "uncertainty = %g; give a positive value, or remove the key",
                          t.uncertainty);
     if ((strcmp(t.kind, "predicted") == 0) != (t.formulation[0] != '\0'))
         document_mistake(m, f->place, 0,
-                         "kind 'predicted' requires a formulation, and other kinds must not name "
-                         "one; add or remove 'formulation'");
+                         "the reference value of %.40s is of kind %.40s %s 'formulation'; %s it",
+                         t.quantity, t.kind, t.formulation[0] != '\0' ? "and has" : "without",
+                         t.formulation[0] != '\0' ? "remove" : "add");
     const scene_quantity *q = quantity_of(s, t.quantity);
     if (q == NULL)
         fields_entry(f, "quantity", SCENE_QUANTITIES);

@@ -28,12 +28,30 @@ static int is_switch(const document_node *choices)
            choices->item[1]->kind == DOCUMENT_TEXT && strcmp(choices->item[1]->text, "1") == 0;
 }
 
+void mistake_parameter(mistakes *m, const document_node *n, const parameter_type *p, double value)
+{
+    const char *unit = p->unit != NULL && strcmp(p->unit, "1") != 0 ? p->unit : "";
+    const int below = value < p->min;
+    document_mistake(m, n, 0, "%s = %g%s%s is %s its %s %g; correct one of them", p->name, value,
+                     unit[0] != '\0' ? " " : "", unit, below ? "below" : "above",
+                     below ? "minimum" : "maximum", below ? p->min : p->max);
+}
+
+/* Reports that the default of a parameter is not one of its choices. */
+static void mistake_choice(mistakes *m, const document_node *value, const char *name,
+                           const char *choices)
+{
+    document_mistake(m, value, 0,
+                     "%s: the default is not one of the choices %s; correct one of them", name,
+                     choices);
+}
+
 static void read_switch(parameter_type *p, const document_node *value, mistakes *m)
 {
     p->unit = "1";
     p->max = 1;
     if (expression_number(value, NULL, m, &p->value) && p->value != 0 && p->value != 1)
-        document_mistake(m, value, 0, "%s: the default is not one of its choices 0|1", p->name);
+        mistake_choice(m, value, p->name, "0|1");
 }
 
 /* Converts [a, b, c] to "a|b|c". Returns NULL after an error. */
@@ -62,8 +80,7 @@ static void read_choice(parameter_type *p, const document_node *value, mistakes 
     p->unit = "";
     p->value = index >= 0 ? index : 0;
     if (index < 0)
-        document_mistake(m, value, 0, "%s: the default is not one of its choices %s", p->name,
-                         p->choices);
+        mistake_choice(m, value, p->name, p->choices);
 }
 
 /* Reads a numerical parameter. Its unit is not checked if any_unit is 1, because the scene has its
@@ -82,9 +99,7 @@ static void read_number(parameter_type *p, const document_node *entry, int any_u
                          "%s: max = %g is below min = %g; correct one of them", p->name, p->max,
                          p->min);
     else if (read && !(p->value >= p->min && p->value <= p->max))
-        document_mistake(m, at, 0, "%s = %g%s%s is outside its range %g .. %g", p->name, p->value,
-                         strcmp(p->unit, "1") == 0 ? "" : " ",
-                         strcmp(p->unit, "1") == 0 ? "" : p->unit, p->min, p->max);
+        mistake_parameter(m, at, p, p->value);
     /* a range from 0 to 1 without a unit would be mistaken for a switch in --set */
     if (p->min == 0 && p->max == 1)
         p->max = nextafter(1, 2);
@@ -147,8 +162,9 @@ static void check_name(const builder *b, scene_list list, int i)
     const unrolled *entry = &b->list[list].entry[i];
     const size_t length = strlen(entry->name);
     if (length == 0 || length >= SCENE_NAME)
-        document_mistake(b->mistakes, entry->place, 0, "the name has %zu characters; use 1 to %d",
-                         length, SCENE_NAME - 1);
+        document_mistake(b->mistakes, entry->place, 0,
+                         "the name '%.40s' has %zu characters; use 1 to %d", entry->name, length,
+                         SCENE_NAME - 1);
     for (int k = 0; k < i; k++)
         if (strcmp(b->list[list].entry[k].name, entry->name) == 0) {
             document_mistake(
@@ -230,7 +246,7 @@ static int is_omitted(const fields *f, const document_node *n)
         return 1;
     document_mistake(
         f->b->mistakes, n, 0,
-        "give yes, or the parameter values for which the physics is omitted: {NAME: VALUE}");
+        "omit: give yes, or the values for which this physics is omitted: {NAME: VALUE}");
     return 0;
 }
 
@@ -266,9 +282,11 @@ static void read_physics(builder *b)
     for (int i = 0; i < b->root->count; i++)
         if (strcmp(b->root->key[i]->text, "omit") == 0 ||
             strcmp(b->root->key[i]->text, "shear_theory") == 0)
-            document_mistake(b->mistakes, b->root->key[i], 0,
-                             "%s: 'needs' of earlier versions is also given; remove 'needs'",
-                             b->root->key[i]->text);
+            document_mistake(
+                b->mistakes, b->root->key[i], 0,
+                "%s: this key and 'needs' of earlier versions exclude each other; remove "
+                "'needs'",
+                b->root->key[i]->text);
     read_needs(&f);
 }
 
@@ -301,13 +319,14 @@ static void read_meshes(builder *b)
         return;
     }
     if (count > SCENE_MESHES)
-        document_mistake(b->mistakes, n, 0, "the list has %d meshes; give at most %d", count,
-                         SCENE_MESHES);
+        document_mistake(b->mistakes, n, 0, "meshes: the list has %d values; give at most %d",
+                         count, SCENE_MESHES);
     for (int i = 0; i < count && i < SCENE_MESHES; i++) {
         mesh[i] = value[i] >= 1 && value[i] <= 1e7 ? (int)value[i] : 1;
         if (mesh[i] != value[i])
-            document_mistake(b->mistakes, n, 0,
-                             "a mesh has %g elements; give positive whole numbers", value[i]);
+            document_mistake(
+                b->mistakes, n, 0,
+                "meshes: %g elements per member; give whole numbers from 1 to 10000000", value[i]);
     }
     scene_meshes(b->scene, count < SCENE_MESHES ? count : SCENE_MESHES, mesh);
 }

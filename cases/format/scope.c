@@ -85,7 +85,8 @@ int scope_accepts(const scope *names, const document_node *key, mistakes *m)
         return 0;
     }
     if (scope_find(names, key->text, length) != NULL) {
-        document_mistake(m, key, 0, "the name '%s' is in use; choose another", key->text);
+        document_mistake(m, key, 0, "the name '%s' is already defined; choose another one",
+                         key->text);
         return 0;
     }
     return 1;
@@ -141,7 +142,7 @@ static int value_text(const document_node *n, int at, size_t length, int for_mes
     }
     if (known != NULL) {
         document_mistake(m, n, at,
-                         "$%s is %g, but only whole numbers and words can be part of names; count "
+                         "$%s is %g, but only whole numbers and words can be inserted; count "
                          "with a loop name, and compute the value with 'let'",
                          known->name, known->number);
         return 0;

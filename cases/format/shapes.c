@@ -496,7 +496,7 @@ static void known_profiles(const char *name, char *text, size_t size)
 
 static void profile(const fields *f, section_spec *spec)
 {
-    char name[40] = "", known[FAULT_TEXT / 2];
+    char name[40] = "", known[FAULT_TEXT / 2 + 40];
     const char *text = fields_text(f, "profile", "");
     size_t used = 0;
     for (const char *c = text; *c != '\0' && used + 1 < sizeof name; c++)

@@ -31,6 +31,40 @@ static int wrong(const table_file *t, const char *what, const char *which, const
     return 0;
 }
 
+/* Checks the number of columns of a row. */
+static int check_columns(const table_file *t, int count)
+{
+    if (count > COLUMNS)
+        return wrong(t, "the row has more than 256 columns", "", "; keep those that are needed");
+    if (t->begun && count != t->columns)
+        return wrong(t, "the number of columns differs from that in the first row", "",
+                     "; write decimals with points, and commas between columns");
+    return 1;
+}
+
+/* Reads the next line that is not blank and does not start with #. Returns NULL at the end of the
+ * file, or after an error, which sets *good to 0. */
+static char *next_line(table_file *t, FILE *from, int *good)
+{
+    while (fgets(t->text, sizeof t->text, from) != NULL) {
+        t->line++;
+        const size_t length = strlen(t->text);
+        char *line = line_trim(t->text);
+        if (length + 1 == sizeof t->text)
+            *good = wrong(t, "a line has more than 8000 characters", "",
+                          "; remove the columns that are not used");
+        else if (!line_is_text(line))
+            *good = wrong(t, "the line is not UTF-8 text", "", "; save the file as CSV in UTF-8");
+        if (!*good)
+            return NULL;
+        if (*line != '\0' && *line != '#')
+            return line;
+    }
+    if (ferror(from))
+        *good = wrong(t, "the rest of the file cannot be read", "", "; check the file");
+    return NULL;
+}
+
 /* Splits the line at commas or semicolons or, if there are none, at blanks. */
 static int split(table_file *t, char *line)
 {
@@ -116,8 +150,8 @@ static int begin(table_file *t)
 static int read_row(table_file *t, char *line)
 {
     const int count = split(t, line);
-    if (count > COLUMNS)
-        return wrong(t, "more than 256 columns", "", "; keep those that are needed");
+    if (!check_columns(t, count))
+        return 0;
     if (!t->begun) {
         t->columns = count;
         const int header = begin(t);
@@ -126,19 +160,16 @@ static int read_row(table_file *t, char *line)
         if (header)
             return 1;
     }
-    if (count != t->columns)
-        return wrong(t, "the number of columns differs from that in the first row", "",
-                     "; write decimals with points, and commas between columns");
     for (int k = 0; k < 2; k++) {
         double value;
         const char *field = t->field[t->column[k]];
         if (!line_number(field, &value))
-            return wrong(t, "no number: '", field, "'");
+            return wrong(t, "'", field, "' is not a number; correct it");
         if (k == 0 && t->list[0]->count > 0 && !(value > t->last))
             return wrong(t, "the values of 'at' do not ascend at ", field,
                          "; sort the rows, and remove repeated ones");
         if (t->list[k]->count == DOCUMENT_ENTRIES)
-            return wrong(t, "more than 10000 rows", "", "; write a smaller table");
+            return wrong(t, "the table has more than 10000 rows", "", "; remove rows");
         if (k == 0)
             t->last = value;
         if (!add_number(t, k, value))
@@ -147,26 +178,14 @@ static int read_row(table_file *t, char *line)
     return 1;
 }
 
-/* Blank lines and lines that start with # are ignored. */
 static int read_rows(table_file *t, FILE *from)
 {
-    while (fgets(t->text, sizeof t->text, from) != NULL) {
-        t->line++;
-        if (strlen(t->text) + 1 == sizeof t->text)
-            return wrong(t, "a line has more than 8000 characters", "",
-                         "; remove the columns that are not used");
-        char *line = line_trim(t->text);
-        if (!line_is_text(line))
-            return wrong(t, "no readable text", "", "; save the file as CSV in UTF-8");
-        if (*line != '\0' && *line != '#' && !read_row(t, line))
-            return 0;
-    }
-    if (ferror(from))
-        return wrong(t, "cannot be read further", "", "");
-    if (t->list[0]->count < 2)
-        return wrong(t, "the file ends with fewer than two rows", "",
-                     "; a table needs at least two");
-    return 1;
+    int good = 1;
+    for (char *line; good && (line = next_line(t, from, &good)) != NULL;)
+        good = read_row(t, line);
+    return good && t->list[0]->count < 2
+               ? wrong(t, "the file has fewer than two rows of numbers", "", "; add rows")
+               : good;
 }
 
 /* State of a file of `shifts`: a header, which gives the order of columns, and rows NODE, dx, dy,
@@ -195,8 +214,8 @@ static int read_shift(shift_file *s, char *line)
     static const char *const name[4] = {"node", "dx", "dy", "dz"};
     table_file *t = &s->t;
     const int count = split(t, line);
-    if (count > COLUMNS)
-        return wrong(t, "more than 256 columns", "", "; keep those that are needed");
+    if (!check_columns(t, count))
+        return 0;
     if (!t->begun) {
         t->columns = count;
         t->begun = 1;
@@ -207,15 +226,12 @@ static int read_shift(shift_file *s, char *line)
                     s->column[k] = i;
             if (s->column[k] < 0)
                 return wrong(t, "no column '", name[k],
-                             "'; the first row names the columns node, dx, dy and dz");
+                             "'; write node, dx, dy and dz in the first row");
         }
         return 1;
     }
-    if (count != t->columns)
-        return wrong(t, "the number of columns differs from that in the first row", "",
-                     "; write decimals with points, and commas between columns");
     if (s->map->count == DOCUMENT_ENTRIES)
-        return wrong(t, "more than 10000 rows", "", "; write a smaller table");
+        return wrong(t, "the table has more than 10000 rows", "", "; remove rows");
     document_node *shift = arena_take(t->arena, sizeof *shift),
                   *key = text_node(t, t->field[s->column[0]]), *map = s->map;
     map->key = arena_grow(t->arena, map->key, map->count, sizeof(document_node *));
@@ -226,7 +242,7 @@ static int read_shift(shift_file *s, char *line)
     for (int k = 1; k < 4; k++) {
         double value;
         if (!line_number(t->field[s->column[k]], &value))
-            return wrong(t, "no number: '", t->field[s->column[k]], "'");
+            return wrong(t, "'", t->field[s->column[k]], "' is not a number; correct it");
         t->list[0] = shift;
         if (!add_number(t, 0, value))
             return 0;
@@ -238,21 +254,12 @@ static int read_shift(shift_file *s, char *line)
 
 static int read_shifts_from(shift_file *s, FILE *from)
 {
-    table_file *t = &s->t;
-    while (fgets(t->text, sizeof t->text, from) != NULL) {
-        t->line++;
-        if (strlen(t->text) + 1 == sizeof t->text)
-            return wrong(t, "a line has more than 8000 characters", "",
-                         "; remove the columns that are not used");
-        char *line = line_trim(t->text);
-        if (!line_is_text(line))
-            return wrong(t, "no readable text", "", "; save the file as CSV in UTF-8");
-        if (*line != '\0' && *line != '#' && !read_shift(s, line))
-            return 0;
-    }
-    if (ferror(from))
-        return wrong(t, "cannot be read further", "", "");
-    return s->map->count > 0 ? 1 : wrong(t, "no rows", "", "; give one per node");
+    int good = 1;
+    for (char *line; good && (line = next_line(&s->t, from, &good)) != NULL;)
+        good = read_shift(s, line);
+    return good && s->map->count == 0
+               ? wrong(&s->t, "the file has no rows of numbers", "", "; give one row per node")
+               : good;
 }
 
 /* Opens a file. Its path is relative to the folder of the scene file. */
@@ -275,7 +282,7 @@ static FILE *open_file(table_file *t, const char *beside)
     const document_node *file = t->place;
     if (file->kind != DOCUMENT_TEXT) {
         document_mistake(t->mistakes, file, 0,
-                         "'file' is the path of a CSV file, relative to the scene file");
+                         "file: give the path of a CSV file, relative to the scene file");
         return NULL;
     }
     if (beside == NULL) {
@@ -288,7 +295,7 @@ static FILE *open_file(table_file *t, const char *beside)
     FILE *from = open_beside(beside, file->text, t->arena);
     if (from == NULL)
         document_mistake(t->mistakes, file, 0,
-                         "%.120s cannot be read: %s; paths are relative to the scene file",
+                         "%.120s cannot be read: %s; give a path relative to the scene file",
                          file->text, strerror(errno));
     return from;
 }
@@ -322,8 +329,8 @@ static void read_table(document_node *map, const char *beside, arena *a, mistake
     for (int k = 0; k < 2; k++)
         if (t.of[k] == NULL || t.of[k]->kind != DOCUMENT_TEXT) {
             document_mistake(m, t.of[k] != NULL ? t.of[k] : file, 0,
-                             "if 'file' is given, 'at' and 'value' must name columns of the file, "
-                             "by header or by number");
+                             "with 'file', give columns of the file in 'at' and 'value', by header "
+                             "or by number");
             return;
         }
     FILE *from = open_file(&t, beside);

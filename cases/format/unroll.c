@@ -19,7 +19,8 @@ static void add(unroller *u, const scope *names)
 {
     const document_node *place = u->key != NULL ? u->key : u->value;
     if (u->count == UNROLL_MOST) {
-        document_mistake(u->mistakes, place, 0, "loops expand to more than %d entries; reduce them",
+        document_mistake(u->mistakes, place, 0,
+                         "the loops expand to more than %d entries; reduce their ranges",
                          UNROLL_MOST);
         u->failed = 1;
         return;
@@ -145,7 +146,7 @@ static const scope *find(const document_node *key, const scope *names, mistakes 
     if (known == NULL)
         document_mistake(m, key, 0, "unknown name '%.40s'%s", key->text,
                          mistakes_remedy(scope_nearest(names, key->text),
-                                         "; a name of 'parameters', 'let' or 'for' is expected",
+                                         "; give a name from 'parameters', 'let' or 'for'",
                                          remedy));
     return known;
 }
@@ -159,8 +160,10 @@ static int has_value(const scope *known, const document_node *n, const scope *na
     const int is_text = n->kind == DOCUMENT_TEXT;
     if (is_text && (known->choices == NULL || choice_index(known->choices, n->text) >= 0))
         return strcmp(known->word, n->text) == 0;
-    document_mistake(m, n, 0, "%s has no such value; give one of %s", known->name,
-                     known->choices != NULL ? known->choices : "its words");
+    document_mistake(m, n, 0, "%s cannot be %s%.40s%s; give %s%s", known->name, is_text ? "'" : "",
+                     is_text ? n->text : "a list or map", is_text ? "'" : "",
+                     known->choices != NULL ? "one of " : "a word",
+                     known->choices != NULL ? known->choices : "");
     return -1;
 }
 
@@ -217,7 +220,8 @@ const document_node *choose_value(const document_node *n, const scope *names, mi
     const document_node *found = known != NULL ? entry_of(known, n->item[0], names, m) : NULL;
     if (found == NULL && m->count == before)
         document_mistake(m, n->key[0], 0,
-                         "the choice has no entry for the value of %s; add one, or 'else: ...'",
+                         "the choice has no entry for the current value of %s; add one, or "
+                         "'else: ...'",
                          n->key[0]->text);
     return found != NULL ? choose_value(found, names, m) : NULL;
 }
@@ -250,6 +254,13 @@ const document_node *placement_port(const placement *p, const char *name)
     return p != NULL ? document_find(p->connect, name) : NULL;
 }
 
+void mistake_axes(mistakes *m, const document_node *axes)
+{
+    document_mistake(m, axes, 0,
+                     "axes: the two directions are not perpendicular, or one of them is zero; give "
+                     "two perpendicular directions");
+}
+
 /* Reads `axes: {x: [3], z: [3]}`, which are orthogonal and of any length. */
 static void read_axes(const document_node *axes, const scope *names, mistakes *m, placement *p)
 {
@@ -261,8 +272,7 @@ static void read_axes(const document_node *axes, const scope *names, mistakes *m
         return;
     if (!(fabs(vec3_dot(x, z)) <= 1e-9 * vec3_norm(x) * vec3_norm(z)) ||
         rotation_triad(x, y, p->R) != 0)
-        document_mistake(m, axes, 0,
-                         "x and z are not perpendicular; give two perpendicular directions");
+        mistake_axes(m, axes);
     p->turned = 1;
 }
 
@@ -284,31 +294,39 @@ static void read_turn(const document_node *turn, const scope *names, mistakes *m
     p->turned = 1;
 }
 
+static int is_port(const document_node *places, const char *name)
+{
+    for (int i = 0; places != NULL && i < places->count; i++)
+        if (places->item[i]->kind == DOCUMENT_TEXT && strcmp(places->item[i]->text, name) == 0)
+            return 1;
+    return 0;
+}
+
 /* Checks that `connect` contains all ports of the part and no other names. */
 static void check_ports(const document_node *part, const unrolled *instance, const placement *p,
                         mistakes *m)
 {
     const document_node *places = document_find(part, "places");
     const int ports = places != NULL && places->kind == DOCUMENT_LIST ? places->count : 0;
-    int connected = 0;
+    const document_node *wrong = places != NULL && places->kind != DOCUMENT_LIST ? places : NULL;
     for (int i = 0; i < ports; i++) {
         const document_node *one = places->item[i];
         if (one->kind != DOCUMENT_TEXT)
-            document_mistake(m, one, 0, "places: a list of names is expected");
+            wrong = one;
         else if (placement_port(p, one->text) == NULL)
             document_mistake(m, instance->place, 0,
-                             "%.40s: '%.40s' is not connected; add connect: {%.40s: NODE}",
-                             instance->name, one->text, one->text);
-        else
-            connected++;
+                             "port '%.40s' of instance '%.40s' is not connected; add connect: "
+                             "{%.40s: NODE}",
+                             one->text, instance->name, one->text);
     }
-    if (places != NULL && places->kind != DOCUMENT_LIST)
-        document_mistake(m, places, 0, "places: a list of names is expected");
-    else if (p->connect != NULL && p->connect->count > connected)
-        document_mistake(m, p->connect, 0,
-                         "'connect' names a port that the part does not have (ports in 'places': "
-                         "%d, connected: %d); connect only the ports of the part",
-                         ports, p->connect->count);
+    if (wrong != NULL)
+        document_mistake(m, wrong, 0, "places: a list of names is expected");
+    for (int i = 0; p->connect != NULL && wrong == NULL && i < p->connect->count; i++)
+        if (!is_port(places, p->connect->key[i]->text))
+            document_mistake(m, p->connect, 0,
+                             "connect: the part has no port '%.40s'; connect only the ports in its "
+                             "'places'",
+                             p->connect->key[i]->text);
 }
 
 static const placement *read_placement(const document_node *part, const unrolled *instance,
@@ -346,9 +364,10 @@ static void add_entries(const document_node *part, const placement *p, const sco
             unroll_entries(document_find(part, placement_list[k]), names, a, m, &own);
         for (int i = 0; i < entries; i++) {
             if (count[k] >= UNROLL_MOST) {
-                document_mistake(m, own[i].place, 0,
-                                 "instances expand to more than %d entries; reduce them",
-                                 UNROLL_MOST);
+                document_mistake(
+                    m, own[i].place, 0,
+                    "the instances expand to more than %d entries; reduce their number",
+                    UNROLL_MOST);
                 return;
             }
             own[i].name = full_name(p, own[i].name, a);

@@ -51,8 +51,8 @@ status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
     write_physics(&w);
     write_meshes(&w);
     return w.unwritable ? fault_set(f, STATUS_REFUSED,
-                                    "%s: a number is infinite, which scene files cannot express; "
-                                    "give finite values",
+                                    "scene %s contains a number that is not finite; give finite "
+                                    "numbers, because scene files cannot express others",
                                     head->name)
                         : STATUS_OK;
 }

@@ -35,16 +35,18 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 
 static status check(const scene *s, const scene_quantity *q, fault *f)
 {
+    static const char *const component[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
     const scene_reading *what = &q->what.of.reading;
     const scene_release *there = &s->member[what->node[MEMBER]].release[what->component[END]];
     for (int i = 0; i < there->count; i++)
         if (there->component[i] == what->component[COMPONENT])
             return STATUS_OK;
-    return fault_set(f, STATUS_REFUSED,
-                     "quantity %s: %s does not release that component at its end '%s'; name a "
-                     "released component, or request the deflection of that end",
-                     q->name, scene_called(s, SCENE_MEMBERS, what->node[MEMBER]).text,
-                     what->component[END] ? "to" : "from");
+    return fault_set(
+        f, STATUS_REFUSED,
+        "quantity %s: %s does not release %s at its end '%s'; name a released component, "
+        "or request the deflection of that end",
+        q->name, scene_called(s, SCENE_MEMBERS, what->node[MEMBER]).text,
+        component[what->component[COMPONENT]], what->component[END] ? "to" : "from");
 }
 
 static double read(const scene_quantity *q, const quantity_state *state)

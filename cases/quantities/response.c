@@ -111,11 +111,11 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     if ((r->driver != SCENE_NONE) + (r->forced != SCENE_NONE) + (r->reference != SCENE_NONE) +
             (r->unbalanced != SCENE_NONE) !=
         1)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "quantity %s: the input is missing; name a node with 'force' or 'unbalance', a motion "
-            "with 'drive', or a load that has feedback with 'reference'",
-            q->name);
+        return fault_set(f, STATUS_REFUSED,
+                         "quantity %s: exactly one input is required; name a node with 'force' or "
+                         "'unbalance', a "
+                         "motion with 'drive', or a load that has feedback with 'reference'",
+                         q->name);
     if (r->reference != SCENE_NONE && s->load[r->reference].feedback.node == SCENE_NONE)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: load %s has no feedback and therefore no reference; name a "

@@ -43,6 +43,10 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     meaning_member(to, s, c->member);
 }
 
+static const char no_points[] =
+    "the section is given by constants or matrices and has no stress points; describe it by "
+    "dimensions or walls, or request 'internal'";
+
 /* Returns 1 if the section of the member has stress points. A section given by constants has no
  * stress points. */
 static int has_points(const scene *s, int member)
@@ -59,20 +63,15 @@ static const char *complete(const scene *s, scene_quantity *q, const char **key)
     c->whole = isnan(c->place);
     c->place = c->whole ? 0 : c->place;
     *key = "member";
-    return has_points(s, c->member)
-               ? NULL
-               : "the section is given by constants or matrices and has no stress points; describe "
-                 "it by dimensions or walls, or request 'internal'";
+    return has_points(s, c->member) ? NULL : no_points;
 }
 
 static status check(const scene *s, const scene_quantity *q, fault *f)
 {
     if (has_points(s, q->what.of.stress.member))
         return STATUS_OK;
-    return fault_set(f, STATUS_REFUSED,
-                     "quantity %s: the section of %s is given by constants or matrices and has no "
-                     "stress points; describe it by dimensions or walls, or request a resultant",
-                     q->name, scene_called(s, SCENE_MEMBERS, q->what.of.stress.member).text);
+    return fault_set(f, STATUS_REFUSED, "quantity %s, %s: %s", q->name,
+                     scene_called(s, SCENE_MEMBERS, q->what.of.stress.member).text, no_points);
 }
 
 static double read(const scene_quantity *q, const quantity_state *state)

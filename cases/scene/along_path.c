@@ -81,7 +81,8 @@ along_path_words along_path_end(const scene *s, int acting)
                  "; no load changes along the path; give a load that increases");
     else
         snprintf(out.text, sizeof out.text,
-                 "; nothing changes outside path %g to %g, because %s is constant there; extend "
+                 "; nothing changes outside path parameters %g to %g, because %s is constant "
+                 "there; extend "
                  "its values, or remove its 'path' and 'factor' so that it increases with the path",
                  c.begin, c.end, c.last.text);
     return out;
@@ -104,8 +105,8 @@ static int is_straight(int stations, const double path[], const double value[])
 status along_path_proportional(const scene *s, int acting, fault *f)
 {
     static const char words[] =
-        "its values between path 0 and 1 do not vary linearly, so a critical load for a linear "
-        "prestress has no meaning; follow a static path";
+        "its values do not vary linearly between path parameters 0 and 1, as a critical load about "
+        "the undeformed state requires; name a static analysis in 'about'";
     for (int i = 0; i < s->loads; i++) {
         const scene_load *load = &s->load[i];
         if (load->stations > 0 && !is_straight(load->stations, load->path, load->factor) &&
@@ -395,22 +396,22 @@ static int has_spin(const scene *s, int analysis, char *owner_name, int size)
 static const char *const
     no_potential = "has no potential, so the tangent stiffness is not symmetric, "
                    "and flutter is possible; request the analysis about a static "
-                   "path, or use a motion",
+                   "path, or use a motion analysis",
     *const not_symmetric = "has no potential, so the stiffness is not symmetric; use "
-                           "damped modes (damped: yes), a harmonic analysis, a static "
-                           "path or a motion",
-    *const no_tangent = "has a different stiffness on each side, but this analysis "
-                        "requires a single stiffness at rest; request it about a "
-                        "static path that loads one side",
+                           "damped modes (damped: yes), a harmonic, a static or a "
+                           "motion analysis",
+    *const no_tangent = "has a different stiffness in each direction, but this analysis "
+                        "requires a single stiffness at rest; use a static analysis, or "
+                        "request this analysis about a static path that loads one direction",
     *const no_feedback = "acts only in motions, harmonic analyses and damped modes (damped: yes); "
                          "to switch it off in other analyses, add path: [0, 1], factor: [0, 0] to "
-                         "its load; about an instant of a motion, add loops: open",
+                         "the load; about an instant of a motion, add loops: open to the analysis",
     *const no_strains = "has stresses that the undeformed state does not have; request "
                         "the analysis about a static or a linear analysis",
     *const no_drive =
-        "is prescribed, but a continuation changes only loads; remove it, or use a static path",
-    *const no_spin = "rotates, but this analysis omits the Coriolis forces on moving masses; use a "
-                     "'rotation' analysis with that omega for frequencies";
+        "is prescribed, but a continuation changes only loads; remove it, or use a static analysis",
+    *const no_spin = "causes Coriolis forces on moving masses, which this analysis omits; for "
+                     "frequencies, use a 'rotation' analysis with the same omega";
 
 /* The columns are:
  *   - linear; static; continuation;
@@ -532,7 +533,7 @@ static status check_unknown(const scene *s, int analysis, scene_column column, f
             (column == SCENE_OF_LINEAR || column == SCENE_OF_BUCKLING))
             return fault_set(f, STATUS_REFUSED,
                              "%s (%s) and motion %s: the value of the motion is unknown, and only "
-                             "a static path determines such a value; use a static path",
+                             "a static path determines such a value; use a static analysis",
                              scene_called(s, SCENE_ANALYSES, analysis).text,
                              scene_column_name[column], s->driver[d].name);
     return STATUS_OK;

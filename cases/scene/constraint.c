@@ -140,6 +140,14 @@ static int is_condition(const scene *s, int node, int component, int motion)
     return 0;
 }
 
+static status refuse_attached(const scene *s, int constraint, int node, fault *f)
+{
+    const scene_words other = scene_called(s, SCENE_NODES, s->node[node].attached);
+    return fault_set(f, STATUS_REFUSED, "%s: %s is rigidly connected to %s; name %s instead",
+                     scene_called(s, SCENE_CONSTRAINTS, constraint).text,
+                     scene_called(s, SCENE_NODES, node).text, other.text, other.text);
+}
+
 /* Finds the coordinate that represents the component of a node, and the motion that prescribes the
  * coordinate. */
 static status coordinate_of(const scene *s, int constraint, int node, int component,
@@ -148,13 +156,11 @@ static status coordinate_of(const scene *s, int constraint, int node, int compon
     const scene_node *n = &s->node[node];
     const int angle = component < SCENE_RX ? 0 : angle_of(s, node, component);
     if (n->attached != SCENE_NONE)
-        return fault_set(f, STATUS_REFUSED, "%s: %s moves with %s; name the latter instead",
-                         scene_called(s, SCENE_CONSTRAINTS, constraint).text,
-                         scene_called(s, SCENE_NODES, node).text,
-                         scene_called(s, SCENE_NODES, n->attached).text);
+        return refuse_attached(s, constraint, node, f);
     if (leaves_plane(s, node, component))
         return refuse(s, constraint, node, component,
-                      "leaves the plane of the scene and is therefore fixed; remove it", f);
+                      "leaves the plane of the scene and is therefore fixed; remove this component",
+                      f);
     *coordinate = component;
     if (component >= SCENE_RX && turns_together(n, &s->constraint[constraint]) &&
         s->plane == SCENE_SPACE) {
@@ -171,11 +177,12 @@ static status coordinate_of(const scene *s, int constraint, int node, int compon
     *motion = component < SCENE_RX ? n->translation[component] : n->angle[angle];
     if (*motion == SCENE_HELD)
         return refuse(s, constraint, node, component,
-                      "is both fixed and constrained; remove one of them", f);
+                      "is both fixed and constrained; free it, or remove it from the constraint",
+                      f);
     if (is_condition(s, node, component, *motion))
         return refuse(s, constraint, node, component,
                       "is driven by a motion of unknown value, or determines such a value; remove "
-                      "the constraint",
+                      "it from the constraint",
                       f);
     return STATUS_OK;
 }
@@ -229,7 +236,7 @@ static status join(const scene *s, int constraint, int k, int component, scene_t
     const double ratio = c->ratio * first.ratio / other.ratio;
     if (first.node == other.node && first.coordinate == other.coordinate)
         return refuse(s, constraint, c->node[k], component,
-                      "already follows from other constraints; remove it", f);
+                      "already follows from other constraints; remove it from this one", f);
     if (motion_at(s, first) >= 0 && motion_at(s, other) >= 0)
         return refuse(s, constraint, c->node[k], component,
                       "is driven twice, by a motion and by the constraint; remove one of them", f);
@@ -257,8 +264,7 @@ static status check_across(const scene *s, int i, int node, fault *f)
             "%s: a diaphragm requires a three-dimensional scene; connect the nodes by part_of",
             owner_name.text);
     if (n->attached != SCENE_NONE)
-        return fault_set(f, STATUS_REFUSED, "%s: %s moves with %s; name that node", owner_name.text,
-                         node_name.text, scene_called(s, SCENE_NODES, n->attached).text);
+        return refuse_attached(s, i, node, f);
     if (scene_node_axes(n, R))
         return fault_set(f, STATUS_REFUSED,
                          "%s: %s has its own axes, but a diaphragm uses those of the "
@@ -307,15 +313,18 @@ static status check_names(const scene *s, int i, fault *f)
     int single = c->components != 0 && (c->components & (c->components - 1)) == 0;
     if (c->components == 0 || c->components >> ALL != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "%s: no components are given; give ux, uy, uz, rx, ry, rz",
+                         "%s: no components are given; give one or more of ux, uy, uz, rx, ry, rz",
                          owner_name.text);
     if (diaphragm && (c->master < 0 || c->master >= s->nodes || c->normal < 0 || c->normal > 2))
-        return fault_set(f, STATUS_REFUSED, "%s: the master node does not exist; add it first",
-                         owner_name.text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: the master node or the normal is invalid; name an existing node and x, y or "
+            "z",
+            owner_name.text);
     if (c->nodes < (diaphragm ? 1 : 2))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the constraint has fewer than two nodes; name two or more",
-                         owner_name.text);
+                         "%s: the constraint has too few nodes; name at least %s", owner_name.text,
+                         diaphragm ? "one" : "two");
     if (!isfinite(c->ratio) || !(fabs(c->ratio) >= 1e-6 && fabs(c->ratio) <= 1e6))
         return fault_set(f, STATUS_REFUSED,
                          "%s: ratio = %g; give a magnitude from 1e-6 to 1e6, or fix the component",
@@ -365,7 +374,7 @@ status scene_validate_constraints(const scene *s, fault *f)
         return STATUS_OK;
     scene_tie *tie = malloc((size_t)(ALL * s->nodes + 1) * sizeof *tie);
     if (tie == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for constraints");
+        return fault_memory(f, "constraints");
     const status outcome = scene_ties(s, tie, f);
     free(tie);
     return outcome;

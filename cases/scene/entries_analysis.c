@@ -12,7 +12,7 @@
      ENTRY_IN(scene_analysis, acting.load_case),                                                   \
      .of = SCENE_CASES},                                                                           \
     {                                                                                              \
-        "combination", ENTRY_NAME, .group = 3, .summary = "combination of load cases that acts",   \
+        "combination", ENTRY_NAME, .group = 3, .summary = "combination whose load cases act",      \
             .left_out = (otherwise), ENTRY_IN(scene_analysis, acting.combination),                 \
             .of = SCENE_COMBINATIONS                                                               \
     }
@@ -65,15 +65,16 @@ static const entry_field spin[] = {OMEGA(of.walk.frame), {.name = NULL}},
          .group = 2,                                                                               \
          .words = "own|fixed",                                                                     \
          .summary =                                                                                \
-             "about an instant of a motion: axes of the small motions. own: the axes of each "     \
-             "node, which rotate with the node",                                                   \
+             "axes of small motions about an instant of a motion. own: those of each node, which " \
+             "rotate with the node; fixed: those of the scene",                                    \
          .usual = "own",                                                                           \
          ENTRY_IN(scene_analysis, axes)},                                                          \
     {                                                                                              \
         "axes_of", ENTRY_NAME, .group = 2,                                                         \
-            .summary = "about an instant of a motion: node with which the axes of all small "      \
-                       "motions rotate",                                                           \
-            .left_out = "see axes", ENTRY_IN(scene_analysis, axes_of), .of = SCENE_NODES           \
+            .summary =                                                                             \
+                "node with which the axes of all small motions about an instant of a motion "      \
+                "rotate",                                                                          \
+            .left_out = "as given by axes", ENTRY_IN(scene_analysis, axes_of), .of = SCENE_NODES   \
     }
 
 #define STEPS                                                                                      \
@@ -135,7 +136,7 @@ static const entry_field modes[] = {
     {"wanted", ENTRY_NUMBER, .summary = "number of modes",
      .left_out = "as required by the quantities"},
     {"damped", ENTRY_WORD, .words = "no|yes",
-     .summary = "modes with the damping of members and springs and that given by `damping`",
+     .summary = "yes: the modes include the damping of members and springs and that of 'damping'",
      .usual = "no", ENTRY_IN(scene_analysis, damped)},
     LOOPS,
     PROPORTIONAL,

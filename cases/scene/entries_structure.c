@@ -16,7 +16,7 @@ static const entry_field fork_[] = {
     {"axis", ENTRY_DIRECTION, .needed = 1, .count = 3, .summary = "axis of the section",
      ENTRY_IN(scene_node, axis[0])},
     {"web", ENTRY_DIRECTION, .needed = 1, .count = 3,
-     .summary = "direction of the web, which the guides of the fork hold",
+     .summary = "direction of the web between the guides of the fork",
      ENTRY_IN(scene_node, axis[1])},
     {.name = NULL}};
 
@@ -52,7 +52,7 @@ const entry_field entry_node[] = {
     {"part_of", ENTRY_NAME, .summary = "node to which this node is rigidly connected",
      .left_out = "no rigid connection", ENTRY_IN(scene_node, attached), .of = SCENE_NODES},
     {"axes", ENTRY_MAP, .below = axes,
-     .summary = "axes of hold, drive and reactions of the node, for inclined supports",
+     .summary = "axes of 'hold', 'drive' and the reactions of the node, for inclined supports",
      .left_out = "axes of the scene"},
     {"hold", ENTRY_WORDS, .words = "all|" ENTRY_COMPONENTS,
      .summary = "fixed components; a single fixed rotation is about an axis fixed in space",
@@ -280,7 +280,7 @@ const entry_field entry_constraint[] = {
 
 const entry_field entry_imperfection[] = {
     {"mode_of", ENTRY_NAME,
-     .summary = "buckling or modal analysis that provides the mode, of the perfect structure",
+     .summary = "buckling or modal analysis of the perfect structure, which provides the mode",
      .left_out = "none, with 'shifts'", ENTRY_IN(scene_imperfection, analysis),
      .of = SCENE_ANALYSES},
     {"which", ENTRY_WHOLE,
@@ -298,7 +298,7 @@ const entry_field entry_imperfection[] = {
     {"shifts", ENTRY_FORMS, .unit = "m",
      .summary = "{NODE: [dx, dy, dz], ...}, or {file: CSV} with the columns node, dx, dy, dz",
      .left_out = "none, with 'mode_of'"},
-    {"factor", ENTRY_NUMBER, .summary = "of all shifts", .usual = "1",
+    {"factor", ENTRY_NUMBER, .summary = "factor of all shifts", .usual = "1",
      ENTRY_IN(scene_imperfection, factor)},
     {.name = NULL}};
 
@@ -364,7 +364,8 @@ static const entry_field constants[] = {
     {"wagner_z", ENTRY_NUMBER, .unit = "m^5", .summary = "int z (y^2 + z^2) dA",
      .left_out = "unknown: assumed to be 0", ENTRY_IN(section_spec, constants.wagner_z),
      ZERO(SECTION_ZERO_WAGNER_Z)},
-    {"wagner_torque", ENTRY_NUMBER, .unit = "m^6", .summary = "c of the energy E c kx^4 per length",
+    {"wagner_torque", ENTRY_NUMBER, .unit = "m^6",
+     .summary = "c in the energy E c kx^4 per length of the twist kx",
      .left_out = "unknown: assumed to be 0", ENTRY_IN(section_spec, constants.wagner_torque),
      ZERO(SECTION_ZERO_WAGNER_TORQUE)},
     {"D", ENTRY_VECTOR, .count = 9, .group = 1,
@@ -397,8 +398,8 @@ static const entry_field given[] = {
      .mirrors = "-"},
     {"It", ENTRY_NUMBER, .unit = "m^4", .summary = "torsion constant", GIVEN(It)},
     {"Ip", ENTRY_NUMBER, .unit = "m^4", .summary = "polar moment", GIVEN(Ip)},
-    {"wagner_torque", ENTRY_NUMBER, .unit = "m^6", .summary = "c of the energy E c kx^4 per length",
-     GIVEN(wagner_torque)},
+    {"wagner_torque", ENTRY_NUMBER, .unit = "m^6",
+     .summary = "c in the energy E c kx^4 per length of the twist kx", GIVEN(wagner_torque)},
     {.name = NULL}};
 
 /* Dimensions refer to the centre lines of the walls. */

@@ -178,7 +178,7 @@ static status check_word(const entry_field *k, int value, fault *f)
         choice_name(k->words, index, word, sizeof word);
     return word[0] != '\0' || value == entry_word(k, k->usual)
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED, "%s: the value %d has no meaning; give one of %.100s",
+               : fault_set(f, STATUS_REFUSED, "%s: the value %d is invalid; give one of %.100s",
                            k->name, value, k->words);
 }
 

@@ -259,16 +259,22 @@ static int takes(reader *r, char sign)
     return 1;
 }
 
+static status wrong_nested(const reader *r)
+{
+    return WRONG(r, r->at,
+                 "the expression is nested too deeply; simplify it, or compute parts with 'let'");
+}
+
 /* Appends an operation, which changes the number of values on the stack by `grows`. */
 static status emit(reader *r, jet_operation what, double number, int grows)
 {
     if (r->to->count == MOST)
-        return WRONG(r, r->at, "too long; split it into pieces");
+        return WRONG(r, r->at,
+                     "the expression has too many operations; simplify it, or compute parts with "
+                     "'let'");
     r->to->step[r->to->count++] = (instruction){what, number};
     r->depth += grows;
-    return !r->in_time || r->depth < HIGHEST
-               ? STATUS_OK
-               : WRONG(r, r->at, "too deeply nested; compute parts with 'let'");
+    return !r->in_time || r->depth < HIGHEST ? STATUS_OK : wrong_nested(r);
 }
 
 /* Returns the address of the last value if it is a single number, or NULL if it depends on t.
@@ -347,7 +353,7 @@ static status read_literal(reader *r)
     const int from = r->at, length = number_length(r->text + from, r->end - from);
     char digits[NUMBER_TEXT];
     if (length == 0 || (length == 1 && !is_digit(r->text[from])))
-        return WRONG(r, from, "decimal point without digits; write a number");
+        return WRONG(r, from, "a decimal point has no digits; write a number");
     if (length >= NUMBER_TEXT)
         return WRONG(r, from, "the number has more than 60 characters; shorten it");
     memcpy(digits, r->text + from, (size_t)length);
@@ -361,7 +367,7 @@ static status read_literal(reader *r)
         return WRONG(r, from, "'%s' is too large; the largest number is 1.8e308", digits);
     if (here(r) != '\0' && expression_name_length(r->text + r->at) > 0)
         return WRONG(r, r->at,
-                     "'%.20s' after a number; numbers have no unit: write 20e-3 for 20 mm in SI "
+                     "'%.20s' follows a number; numbers have no unit: write 20e-3 for 20 mm in SI "
                      "units, 45*deg for 45 degrees, and * between factors",
                      r->text + r->at);
     return emit(r, JET_NUMBER, value, 1);
@@ -380,7 +386,7 @@ static status read_arguments(reader *r, const expression_function *f, int word, 
             return WRONG(
                 r, word, "%s accepts only numbers, but its argument contains t; %s", f->name,
                 f->kinked
-                    ? "the function has kinks, at which time steps must end; give pieces instead"
+                    ? "give 'pieces', because time steps must end at the kinks of this function"
                     : "write it with atan or sqrt");
         if ((*count)++ == 0 || given == NULL)
             continue;
@@ -425,9 +431,9 @@ static status read_name(reader *r)
     }
     if (f == NULL && r->find == NULL)
         return WRONG(r, from,
-                     "unknown name; known names are %spi, deg, and functions such "
+                     "the name '%.*s' is unknown; give one of %spi, deg, and functions such "
                      "as sin, cosh, exp, sqrt",
-                     r->in_time ? "t, " : "");
+                     (int)length, r->text + from, r->in_time ? "t, " : "");
     if (f == NULL)
         return r->find(r->names, r->text, &r->at, &value, r->mistake)
                    ? emit(r, JET_NUMBER, value, 1)
@@ -454,16 +460,13 @@ static status read_primary(reader *r)
     return c == '\0'
                ? WRONG(r, from,
                        "the expression ends where a number, a name or '(' is expected; complete it")
-               : WRONG(r, from, "found '%c' where a number, a name or '(' is expected",
+               : WRONG(r, from, "found '%c' where a number, a name or '(' is expected; correct it",
                        c >= ' ' ? c : '?');
 }
 
 static status deeper(reader *r)
 {
-    return ++r->nested <= DEEPEST ? STATUS_OK
-                                  : WRONG(r, r->at,
-                                          "signs, powers or parentheses are nested too deeply; "
-                                          "split the expression with 'let'");
+    return ++r->nested <= DEEPEST ? STATUS_OK : wrong_nested(r);
 }
 
 static status read_signed(reader *r);
@@ -533,9 +536,11 @@ static status read_all(reader *r)
     const char rest = here(r);
     if (rest == '\0')
         return STATUS_OK;
-    return rest == '.' ? WRONG(r, r->at, "found a range where one number is expected")
-                       : WRONG(r, r->at, "'%.20s' after the expression; is an operator missing?",
-                               r->text + r->at);
+    return rest == '.'
+               ? WRONG(r, r->at, "this is a range; give one number")
+               : WRONG(r, r->at,
+                       "'%.20s' follows a complete expression; add an operator, or remove it",
+                       r->text + r->at);
 }
 
 status expression_value(const char *text, int from, int end, expression_name *find,

@@ -46,7 +46,7 @@ status function_check(const scene_function *s, fault *f)
         if (s->piece[i].is == NULL) {
             TRY(formula_read(s->piece[i].text, &again, f));
             formula_free(again);
-            return fault_set(f, STATUS_FAULT, "out of memory for a function of time");
+            return fault_memory(f, "a function of time");
         }
         if (i > 0 && i < s->pieces - 1 && !(s->piece[i].until > s->piece[i - 1].until))
             return fault_set(f, STATUS_REFUSED,

@@ -70,7 +70,8 @@ static status check_shifts(const scene *s, int i, fault *f)
             return fault_set(f, STATUS_REFUSED, "%s: a shifted node does not exist; add it first",
                              owner_name);
         if (!isfinite(v[0]) || !isfinite(v[1]) || !isfinite(v[2]))
-            return fault_set(f, STATUS_REFUSED, "%s: the shift of %s is not finite", owner_name,
+            return fault_set(f, STATUS_REFUSED,
+                             "%s: the shift of %s is not finite; give finite numbers", owner_name,
                              scene_called(s, SCENE_NODES, p->node[k]).text);
         if (normal != SCENE_NONE && v[normal] != 0)
             return fault_set(f, STATUS_REFUSED,
@@ -94,8 +95,7 @@ status scene_validate_imperfections(const scene *s, fault *f)
                                                       : check_shifts(s, i, f));
     return used ? STATUS_OK
                 : fault_set(f, STATUS_REFUSED,
-                            "%s: no analysis uses this imperfection, because an analysis whose "
-                            "base state is that of the mode uses the perfect structure; add an "
-                            "analysis with another base state",
+                            "%s: no analysis uses this imperfection; add one whose base state is "
+                            "not that of the analysis of the mode",
                             scene_called(s, SCENE_IMPERFECTIONS, 0).text);
 }

@@ -77,8 +77,8 @@ ROW("feedback", ENTRY_MAP, .below = feedback,
     .left_out = "none")
 /* SCENE_NONE if the scene has no load cases */
 KEY(int, load_case, , "case", ENTRY_NAME,
-    .summary = "any name for the load case to which the load belongs; give a case for all loads or "
-               "for none",
+    .summary = "name of the load case to which the load belongs; give a case for all loads or for "
+               "none",
     .left_out = "none", .of = SCENE_CASES)
 #undef KEY
 #undef ROW

@@ -10,7 +10,8 @@ ROW("section", ENTRY_FORMS, .needed = 1,
 KEY(double, y_axis, [3], "y", ENTRY_DIRECTION, .needed = 1, .count = 3,
     .summary = "direction of the section's y axis", .mirrors = "---")
 ROW("warping", ENTRY_FORMS,
-    .summary = "free, fixed or {shared: NAME}; for different ends [at from, at to]",
+    .summary =
+        "warping at the ends: free, fixed or {shared: NAME}; [at from, at to] if they differ",
     .left_out =
         "fixed if all six components of the node are fixed or driven, or the node is part_of a "
         "body, and no rotation is released; shared if two members continue in one line; "

@@ -89,10 +89,11 @@ static status check_loads(const scene *s, fault *f)
 {
     for (int i = 0; i < s->loads; i++)
         if (s->cases > 0 && s->load[i].load_case == SCENE_NONE)
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: this load has no load case, but other loads have one; give it "
-                             "case: NAME, such as %s",
-                             scene_called(s, SCENE_LOADS, i).text, s->load_case[0].name);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: this load has no load case, but other loads or motions have one; add "
+                "a case, such as case: %s",
+                scene_called(s, SCENE_LOADS, i).text, s->load_case[0].name);
     for (int i = 0; i < s->drivers; i++)
         if (s->driver[i].value == NULL && s->driver[i].load_case != SCENE_NONE)
             return fault_set(
@@ -109,8 +110,8 @@ static status check_combination(const scene *s, int i, fault *f)
     if (c->terms == 0)
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: it contains no load case of this scene, so no load acts; give the combination "
-            "{CASE: FACTOR}, or the same 'if' conditions as the loads have",
+            "%s: it contains no load case of this scene; give {CASE: FACTOR}, or the 'if' "
+            "conditions of the loads",
             owner_name.text);
     for (int k = 0; k < s->cases; k++)
         if (strcmp(s->load_case[k].name, c->name) == 0)
@@ -126,9 +127,10 @@ static status check_combination(const scene *s, int i, fault *f)
                              owner_name.text, k);
         for (int j = 0; j < k; j++)
             if (c->term[j].load_case == c->term[k].load_case)
-                return fault_set(f, STATUS_REFUSED,
-                                 "%s: load case %s is listed twice; add up its factors",
-                                 owner_name.text, s->load_case[c->term[k].load_case].name);
+                return fault_set(
+                    f, STATUS_REFUSED,
+                    "%s: load case %s is listed twice; list it once, with the sum of the factors",
+                    owner_name.text, s->load_case[c->term[k].load_case].name);
     }
     return STATUS_OK;
 }
@@ -161,7 +163,8 @@ status scene_validate_acting(const scene *s, int i, fault *f)
         return fault_set(
             f, STATUS_REFUSED,
             "%s: its base state is that of %s, whose loads also act here; remove the key '%s'",
-            scene_called(s, SCENE_ANALYSES, i).text, scene_name(s, SCENE_ANALYSES, a->follows).text,
+            scene_called(s, SCENE_ANALYSES, i).text,
+            scene_called(s, SCENE_ANALYSES, a->follows).text,
             a->acting.combination != SCENE_NONE ? "combination" : "case");
     if (own > 0 && !loaded)
         return fault_set(f, STATUS_REFUSED,
@@ -173,7 +176,7 @@ status scene_validate_acting(const scene *s, int i, fault *f)
                          "%s: its base state is that of %s, which solves every load case and "
                          "combination; in that analysis, select one with %s",
                          scene_called(s, SCENE_ANALYSES, i).text,
-                         scene_name(s, SCENE_ANALYSES, a->follows).text, example(s).text);
+                         scene_called(s, SCENE_ANALYSES, a->follows).text, example(s).text);
     if (s->cases == 0 || own > 0 || !loaded || a->follows != SCENE_NONE || scene_solves_all(s, i))
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
@@ -189,7 +192,7 @@ status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f)
     const int all = scene_solves_all(s, q->analysis),
               has_envelope =
                   q->envelope != SCENE_ENVELOPE_NONE || scene_acting_number(s, q->acting) > 0;
-    const scene_words of = scene_name(s, SCENE_ANALYSES, q->analysis);
+    const scene_words of = scene_called(s, SCENE_ANALYSES, q->analysis);
     if (all && !has_envelope)
         return fault_set(f, STATUS_REFUSED,
                          "quantity %s: %s solves every load case and combination; select one with "

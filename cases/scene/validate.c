@@ -42,8 +42,7 @@ static status check_member(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_MEMBERS, i).text);
     if (!(across > 0) || !(across * length - along * along > 1e-12 * across * length))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: its y axis is parallel to the member; give a direction "
-                         "that is not parallel to it",
+                         "%s: its y axis is zero or parallel to the member; give another direction",
                          scene_called(s, SCENE_MEMBERS, i).text);
     if (scene_member_tapers(m))
         TRY(check_taper(s, i, f));
@@ -94,7 +93,9 @@ static const char *table_mistake(const scene_table *t)
     for (int i = 0; i < n; i++)
         if (!isfinite(t->at.value[i]) || !isfinite(t->value.value[i]) ||
             (i > 0 && !(t->at.value[i] > t->at.value[i - 1])))
-            return "the values of 'at' do not ascend; give finite, ascending numbers";
+            return "'at' does not ascend, or a number is not finite; give finite numbers, "
+                   "ascending in "
+                   "'at'";
     for (int i = 1; i < n; i++)
         if (!(t->value.value[i] >= t->value.value[i - 1]))
             return "the values of 'value' decrease, which is unstable; give values that do not "
@@ -168,7 +169,7 @@ static status check_driver(const scene *s, int i, fault *f)
     if (!is_used(s, i))
         return fault_set(
             f, STATUS_REFUSED,
-            "driver %s prescribes no coordinate; use it to prescribe a coordinate, or remove it",
+            "driver %s prescribes no coordinate; name it in 'drive' of a node, or remove it",
             d->name);
     if (d->value == NULL) {
         const int known = d->condition_driver >= 0 && d->condition_driver < s->drivers &&
@@ -179,11 +180,12 @@ static status check_driver(const scene *s, int i, fault *f)
                              "a node and a driver with known values",
                              d->name);
         if (!is_conditioned(s, d))
-            return fault_set(f, STATUS_REFUSED,
-                             "driver %s: the coordinate in its condition is not driven by %s at "
-                             "%s; drive it there as well",
-                             d->name, s->driver[d->condition_driver].name,
-                             scene_called(s, SCENE_NODES, d->condition_node).text);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "driver %s: the coordinate in its condition is not prescribed by %s at "
+                "%s; prescribe it there as well",
+                d->name, s->driver[d->condition_driver].name,
+                scene_called(s, SCENE_NODES, d->condition_node).text);
         return STATUS_OK;
     }
     for (int k = 0; k < d->stations; k++) {
@@ -207,7 +209,7 @@ static status check_range(const scene *s, int i, fault *f)
     const double *r = load->range;
     if (load->varies && (!spread || within))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: only a distributed load can vary along its member; give one vector",
+                         "%s: only a distributed load can vary along its member; remove 'to_value'",
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->lumped && (!scene_load_along(load) || within))
         return fault_set(f, STATUS_REFUSED,

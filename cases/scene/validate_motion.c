@@ -107,6 +107,14 @@ static double along_table(int stations, const double at[], const double value[],
     return value[k - 1] + part * (value[k] - value[k - 1]);
 }
 
+static status refuse_path(scene_words owner_name, const char *what, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED,
+                     "%s: its %s are given over a path, but the motion does not follow a path; "
+                     "give a function of time, or name a static analysis in 'about'",
+                     owner_name.text, what);
+}
+
 /* Checks that a driver starts at its current value and velocity. */
 static status check_driver(const scene *s, int d, int i, fault *f)
 {
@@ -128,11 +136,7 @@ static status check_driver(const scene *s, int d, int i, fault *f)
                                             before->value[before->stations - 1]);
     if (driver->function.pieces == 0) {
         if (before == NULL && (driver->stations > 1 || driver->value[0] != 0))
-            return fault_set(
-                f, STATUS_REFUSED,
-                "driver %s: its values are given over a path, but the motion does not follow a "
-                "path; give a function of time, or name a static path in 'about'",
-                driver->name);
+            return refuse_path(scene_called(s, SCENE_DRIVERS, d), "values", f);
         return STATUS_OK;
     }
     if (!function_finite(&driver->function, end, 2, &time))
@@ -208,11 +212,7 @@ static status check_load(const scene *s, int l, int i, fault *f)
     if (load->function.pieces == 0) {
         if (load->stations > 0 && s->analysis[i].follows == SCENE_NONE &&
             load->feedback.node == SCENE_NONE)
-            return fault_set(
-                f, STATUS_REFUSED,
-                "%s: its factors are given over a path, but the motion does not follow a path; "
-                "give a function of time, or name a static path in 'about'",
-                scene_called(s, SCENE_LOADS, l).text);
+            return refuse_path(scene_called(s, SCENE_LOADS, l), "factors", f);
         return STATUS_OK;
     }
     if (!function_finite(&load->function, path->value[path->stations - 1], 0, &time))
@@ -325,10 +325,11 @@ static status check_path(const scene *s, const scene_analysis *a, int i, fault *
 static status check_compliance(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     if (a->follows != SCENE_NONE && scene_path_of(&s->analysis[a->follows]) == NULL)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: a compliance is computed about a static path or the undeformed "
-                         "structure; name a static analysis",
-                         scene_called(s, SCENE_ANALYSES, i).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: a compliance is computed about a path or the undeformed structure; name a "
+            "static analysis, or remove 'about'",
+            scene_called(s, SCENE_ANALYSES, i).text);
     const scene_compliance *what = scene_compliance_of(a);
     const scene_node *n = what->node >= 0 && what->node < s->nodes ? &s->node[what->node] : NULL;
     static const char *const component_name[] = {"ux", "uy", "uz", "rx", "ry", "rz"};
@@ -377,8 +378,8 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
         return fault_set(
             f, STATUS_REFUSED,
             "%s: a harmonic analysis is about the last state of a static path or a rotation, or "
-            "about "
-            "a linear analysis, but %s is a %s analysis; name one of these, or remove 'about'",
+            "about a linear analysis, but %s is a %s analysis; name one of these, or remove "
+            "'about'",
             scene_called(s, SCENE_ANALYSES, i).text, scene_name(s, SCENE_ANALYSES, a->follows).text,
             scene_analysis_name(about));
     return fault_set(f, STATUS_REFUSED,
@@ -410,11 +411,12 @@ static status check_about_motion(const scene *s, const scene_analysis *a, int i,
     const scene_words owner_name = scene_called(s, SCENE_ANALYSES, i);
     const scene_words motion = scene_name(s, SCENE_ANALYSES, a->follows);
     if (a->kind != SCENE_MODAL && a->kind != SCENE_HARMONIC)
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: its base state belongs to a motion, whose forces are not in "
-                         "equilibrium without inertia forces; follow a static path, or use modal: "
-                         "{damped: yes} or a harmonic analysis, which include inertia forces",
-                         owner_name.text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: its base state belongs to a motion, whose forces are not in "
+            "equilibrium without inertia forces; name a static analysis, or use modal: "
+            "{damped: yes} or a harmonic analysis, which include inertia forces",
+            owner_name.text);
     if (a->kind == SCENE_MODAL && !a->damped)
         return fault_set(f, STATUS_REFUSED,
                          "%s: at an instant of a motion (%s), velocities cause forces that "
@@ -490,9 +492,11 @@ status scene_validate_analysis(const scene *s, int i, fault *f)
 {
     const scene_analysis *a = &s->analysis[i];
     if (a->follows != SCENE_NONE && (a->follows < 0 || a->follows >= i))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: the analysis named by 'about' comes later; name an earlier analysis",
-                         scene_called(s, SCENE_ANALYSES, i).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: the analysis named by 'about' does not precede this one; name an earlier "
+            "analysis",
+            scene_called(s, SCENE_ANALYSES, i).text);
     if (a->follows != SCENE_NONE && a->kind != SCENE_MOTION &&
         s->analysis[a->follows].kind == SCENE_MOTION)
         TRY(check_about_motion(s, a, i, f));
@@ -580,7 +584,7 @@ static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
                    ? STATUS_OK
                    : fault_set(f, STATUS_REFUSED,
                                "quantity %s: a taper applies to spectra only; write take: spectrum "
-                               "or psd, or remove it",
+                               "or psd, or remove 'taper'",
                                q->name);
     if (s->analysis[q->analysis].kind != SCENE_MOTION)
         return fault_set(

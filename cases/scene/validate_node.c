@@ -32,16 +32,18 @@ static status check_fork(const scene *s, int i, fault *f)
     const double *axis = n->axis[0], *web = n->axis[1], lengths = vec3_norm(axis) * vec3_norm(web);
     for (int k = 0; k < 3; k++)
         if (n->angle[k] != SCENE_FREE)
-            return fault_set(f, STATUS_REFUSED,
-                             "%s: the supports are inconsistent, because there is a fork and r%c "
-                             "is %s; remove one of them, or give a sequence of angles",
-                             scene_called(s, SCENE_NODES, i).text, "xyz"[k],
-                             n -> angle[k] == SCENE_HELD ? "fixed" : "driven");
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s: its fork determines all rotations, but r%c is also %s; remove one "
+                "of them, or give 'rotation' with a sequence",
+                scene_called(s, SCENE_NODES, i).text, "xyz"[k],
+                n -> angle[k] == SCENE_HELD ? "fixed" : "driven");
     if (!(lengths > 0) || !(fabs(vec3_dot(axis, web)) <= 1e-9 * lengths))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: the axis and the web of the fork are not perpendicular; give two "
-                         "perpendicular directions",
-                         scene_called(s, SCENE_NODES, i).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: the axis and the web of the fork are zero or not perpendicular; give two "
+            "perpendicular directions",
+            scene_called(s, SCENE_NODES, i).text);
     if (!has_member_along(s, i, axis))
         return fault_set(f, STATUS_REFUSED,
                          "%s: no member at this node runs along the axis of its fork; give the "
@@ -123,10 +125,10 @@ status scene_validate_node(const scene *s, int i, fault *f)
     const double lengths = vec3_norm(n->axes[0]) * vec3_norm(n->axes[1]);
     if (vec3_norm(n->axes[0]) > 0 &&
         !(lengths > 0 && fabs(vec3_dot(n->axes[0], n->axes[1])) <= 1e-9 * lengths))
-        return fault_set(
-            f, STATUS_REFUSED,
-            "%s: the axes of its supports are not perpendicular; give two perpendicular axes",
-            scene_called(s, SCENE_NODES, i).text);
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the axes of its supports are zero or not perpendicular; give two "
+                         "perpendicular axes",
+                         scene_called(s, SCENE_NODES, i).text);
     if (n->rotation == SCENE_ROTATION_FORK) {
         TRY(check_fork(s, i, f));
     }
@@ -135,7 +137,11 @@ status scene_validate_node(const scene *s, int i, fault *f)
     }
     if (n->attached == SCENE_NONE)
         return STATUS_OK;
-    if (n->attached == i || s->node[n->attached].attached != SCENE_NONE)
+    if (n->attached == i)
+        return fault_set(f, STATUS_REFUSED,
+                         "%s: the node is attached to itself; name another node in 'part_of'",
+                         scene_called(s, SCENE_NODES, i).text);
+    if (s->node[n->attached].attached != SCENE_NONE)
         return fault_set(f, STATUS_REFUSED,
                          "%s: the node is attached to %s, which is itself attached to another "
                          "node; name the last node in this chain",

@@ -42,9 +42,9 @@ status scene_validate_release(const scene *s, int member, fault *f)
         if (times[0][c] && times[1][c])
             return fault_set(
                 f, STATUS_REFUSED,
-                "%s: both ends release %s, so nothing prevents it from %s; release it at one end",
+                "%s: both ends release %s, so the member can %s; release %s at one end only",
                 scene_called(s, SCENE_MEMBERS, member).text, name[c],
-                c == SCENE_RX ? "rotating about its axis" : "shifting");
+                c == SCENE_RX ? "rotate freely about its axis" : "move freely", name[c]);
     return STATUS_OK;
 }
 
@@ -269,12 +269,12 @@ status scene_validate_turns(const scene *s, int node, fault *f)
     return vec3_norm(axis) > 0
                ? fault_set(f, STATUS_REFUSED,
                            "%s: all members at this node release its rotation about "
-                           "(%.3g, %.3g, %.3g), so it can rotate freely; remove one "
+                           "(%.3g, %.3g, %.3g), so the node can rotate freely; remove one "
                            "release, or fix this rotation",
                            scene_called(s, SCENE_NODES, node).text, axis[0], axis[1], axis[2])
                : fault_set(f, STATUS_REFUSED,
-                           "%s: all members at this node release its rotations, so it can "
-                           "rotate freely; remove one release, or fix its rotations",
+                           "%s: all members at this node release its rotations, so the node "
+                           "can rotate freely; remove one release, or fix its rotations",
                            scene_called(s, SCENE_NODES, node).text);
 }
 

@@ -147,13 +147,13 @@ static void check_refusals(void)
     check_refused("sin(t", 6, "arguments of sin are not closed");
     check_refused("sin t", 1, "sin is a function; write sin(...)");
     check_refused("(t", 1, "'(' is not closed");
-    check_refused("t)", 2, "')' after the expression; is an operator missing?");
-    check_refused("t t", 3, "is an operator missing?");
-    check_refused("2 + x*t", 5, "unknown name; known names are t, pi");
+    check_refused("t)", 2, "')' follows a complete expression; add an operator");
+    check_refused("t t", 3, "add an operator");
+    check_refused("2 + x*t", 5, "the name 'x' is unknown; give one of t, pi");
     check_refused("abs(t)", 1,
-                  "abs accepts only numbers, but its argument contains t; the function has kinks");
-    check_refused("max(t, 1)", 1, "give pieces");
-    check_refused("2*max(1, t)", 3, "give pieces");
+                  "abs accepts only numbers, but its argument contains t; give 'pieces'");
+    check_refused("max(t, 1)", 1, "give 'pieces'");
+    check_refused("2*max(1, t)", 3, "give 'pieces'");
     check_refused("atan2(t, 1)", 1,
                   "only numbers, but its argument contains t; write it with atan");
     check_refused("sin(t, 1)", 1, "sin takes one argument, not 2");
@@ -163,8 +163,8 @@ static void check_refusals(void)
     check_refused("3mm", 2, "20e-3 for 20 mm");
     check_refused("2*t + 4t", 8, "* between factors");
     check_refused("2 t", 3, "* between factors");
-    check_refused("0x10", 2, "'x10' after a number");
-    check_refused(".", 1, "decimal point without digits");
+    check_refused("0x10", 2, "'x10' follows a number");
+    check_refused(".", 1, "a decimal point has no digits");
     check_refused("1e999*t", 1, "too large");
     check_refused("1e-999*t", 1, "too small");
     check_refused("1e300*1e300*t", 6, "too large for a number");
@@ -172,11 +172,11 @@ static void check_refusals(void)
     check_refused("t/(1 - 1)", 2, "division by zero");
     check_refused("t + 0^-1", 6, "0^-1 has no value");
     check_refused("sqrt(-1)*t", 1, "sqrt has no value for its arguments");
-    check_refused("1..2", 2, "a range where one number");
+    check_refused("1..2", 2, "this is a range");
     check_refused("t*#", 3, "'#' where a number");
     memset(deep, '(', sizeof deep - 1);
     deep[sizeof deep - 1] = '\0';
-    check_refused(deep, 61, "are nested too deeply");
+    check_refused(deep, 61, "is nested too deeply");
     for (int i = 0; i < 1801; i++)
         wide[i] = i % 2 ? '+' : 't';
     wide[1801] = '\0';

@@ -302,7 +302,7 @@ static const refusal refusals[] = {
     {damping, "member 0: ", "damping = -0.001; give at least 0"},
     {idle_driver, "driver push", "prescribes no coordinate"},
     {unknown_driver, "driver sought: ", "motion: no driver is named"},
-    {condition_not_driven, "driver sought: ", "the coordinate in its condition is not driven"},
+    {condition_not_driven, "driver sought: ", "the coordinate in its condition is not prescribed"},
     {condition_nowhere, "driver sought: ", "node: node 9 does not exist"},
     {value_of_driver, "driver push: ", "value 1 is NaN or Inf"},
     {path_of_driver, "driver push: ", "must ascend"},

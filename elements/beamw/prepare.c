@@ -3,6 +3,8 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/shared/beam_constants.h"
+
 enum { OPTION_MASS, OPTION_TORSION, OPTION_INSIDE };
 
 const parameter_type beamw_prepare_mass[] = {
@@ -36,14 +38,6 @@ element_order beamw_prepare_order(element_analysis analysis, const double option
                : (element_order){2, 4};
 }
 
-static status length_of(const element_request *request, fault *f)
-{
-    if (!(request->length > 0) || !isfinite(request->length))
-        return fault_set(f, STATUS_REFUSED, "the element length is %g m; it must be positive",
-                         request->length);
-    return STATUS_OK;
-}
-
 /* Completes the data: mass, uniform torsion, and list of nonzero terms. Returns REFUSED if the
  * stiffness overflows. */
 static status finish(const element_request *request, const beamw_stiffness_fields *fields,
@@ -57,9 +51,7 @@ static status finish(const element_request *request, const beamw_stiffness_field
     beamw_variants_list(out);
     for (int i = 0; i < 64; i++)
         if (!isfinite(out->S[i]))
-            return fault_set(f, STATUS_REFUSED,
-                             "element of length %g m: its stiffness overflows; use fewer elements",
-                             request->length);
+            return beam_overflow(request->length, f);
     return STATUS_OK;
 }
 
@@ -67,7 +59,7 @@ status beamw_prepare_variant(const element_request *request, beamw_stiffness_she
                              beamw_prepare_modes modes, element_data *out, fault *f)
 {
     const section *c = request->section;
-    TRY(length_of(request, f));
+    TRY(beam_length_check(request->length, f));
     beamw_stiffness_fields fields;
     memset(out, 0, sizeof *out);
     out->l0 = request->length;
@@ -84,7 +76,7 @@ status beamw_prepare_consistent(const element_request *request, beamw_consistent
                                 fault *f)
 {
     const section *c = request->section;
-    TRY(length_of(request, f));
+    TRY(beam_length_check(request->length, f));
     const int flexible = (request->features & FEATURE_SHEAR) != 0,
               warping = (request->features & FEATURE_WARPING) != 0;
     const beamw_twist t = beamw_twist_of(c, request->length, flexible,

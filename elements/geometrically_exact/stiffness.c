@@ -280,10 +280,11 @@ status exact_stiffness_prepare(const element_request *request, int nodes, exact_
     out->r[1] = c.bend_y;
     out->r[2] = c.bend_z;
     if (exact_fields_eliminate(&f, X) != 0)
-        return fault_set(
-            fault_out, STATUS_REFUSED,
-            "element of length %g m: its shear flexibility cannot be separated from bending",
-            request->length);
+        return fault_set(fault_out, STATUS_REFUSED,
+                         "element of length %g m: its shear flexibility cannot be separated from "
+                         "bending; use fewer "
+                         "elements",
+                         request->length);
     condense(&c, &f, X, out);
     condense_twist(&f, X, out);
     condense_modified(out);

@@ -42,8 +42,8 @@ static status check_stiffness(const double C[36], fault *f)
     for (int i = 0; i < N; i++)
         if (!(C[7 * i] > 0))
             return fault_set(f, STATUS_REFUSED,
-                             "section: the stiffness of %s, entry (%d, %d), is %g; it must be "
-                             "positive",
+                             "section: the stiffness of %s, entry (%d, %d), is %g; give a "
+                             "positive value",
                              stress[i], i + 1, i + 1, C[7 * i]);
     for (int i = 0; i < 36; i++)
         scaled[i] = C[i] / sqrt(C[7 * (i / N)] * C[7 * (i % N)]);

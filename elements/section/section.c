@@ -94,10 +94,11 @@ static status rectangle(const section_spec *s, section *out, fault *f)
     const double w = s->width, h = s->height;
     if (!(w > 0) || !isfinite(w))
         return fault_set(f, STATUS_REFUSED,
-                         "section: the width of the rectangle is %g m; it must be positive", w);
+                         "section: the width of the rectangle is %g m; give a positive width", w);
     if (!(h > 0) || !isfinite(h))
-        return fault_set(f, STATUS_REFUSED,
-                         "section: the thickness of the rectangle is %g m; it must be positive", h);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "section: the thickness of the rectangle is %g m; give a positive thickness", h);
     const double wide = fmax(w, h), thin = fmin(w, h);
     out->A = w * h;
     out->Iy = h * w * w * w / 12;
@@ -127,13 +128,14 @@ static status tube(const section_spec *s, section *out, fault *f)
     const double R = s->diameter / 2, t = s->wall_thickness;
     if (!(R > 0) || !isfinite(R))
         return fault_set(f, STATUS_REFUSED,
-                         "section: the diameter of the tube is %g m; it must be positive",
+                         "section: the diameter of the tube is %g m; give a positive diameter",
                          s->diameter);
     if (!(t > 0) || !(t <= R))
-        return fault_set(f, STATUS_REFUSED,
-                         "section: the wall thickness of the tube is %g m; it must be positive and "
-                         "at most half the diameter, %g m",
-                         t, R);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "section: the wall thickness of the tube is %g m; give a positive value, at "
+            "most half the diameter, %g m",
+            t, R);
     const double r = R - t, ring = t * (2 * R - t), square = R * R + r * r, m = R * r / square;
     out->A = PI * ring;
     out->Iy = out->Iz = PI / 4 * ring * square;
@@ -155,7 +157,7 @@ static status invert_on_support(const double from[9], double to[9], const char *
     static const char *const axis[] = {"y", "z", "w"};
     for (int i = 0; i < n; i++) {
         if (!(from[4 * index[i]] > 0))
-            return fault_set(f, STATUS_REFUSED, "section: %s_%s = %g must be positive", name,
+            return fault_set(f, STATUS_REFUSED, "section: %s_%s = %g; give a positive value", name,
                              axis[index[i]], from[4 * index[i]]);
         scale[i] = sqrt(from[4 * index[i]]);
     }
@@ -229,15 +231,14 @@ static status check_material(const section_spec *s, fault *f)
 {
     if (!(s->young > 0) || !isfinite(s->young))
         return fault_set(f, STATUS_REFUSED,
-                         "section: young = %g Pa; the modulus of elasticity must be positive",
-                         s->young);
+                         "section: young = %g Pa; give a positive modulus of elasticity", s->young);
     if (!(s->shear_modulus > 0) || !isfinite(s->shear_modulus))
         return fault_set(f, STATUS_REFUSED,
-                         "section: shear_modulus = %g Pa; it must be positive, and Poisson's ratio "
-                         "must be between -1 and 0.5",
+                         "section: shear_modulus = %g Pa; give a positive shear modulus",
                          s->shear_modulus);
     if (!(s->density >= 0) || !isfinite(s->density))
-        return fault_set(f, STATUS_REFUSED, "section: density = %g kg/m^3; it must not be negative",
+        return fault_set(f, STATUS_REFUSED,
+                         "section: density = %g kg/m^3; give zero or a positive density",
                          s->density);
     return STATUS_OK;
 }
@@ -253,8 +254,8 @@ static status check_constants(const section *c, fault *f)
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         if (!(all[i].value > 0 || (all[i].may_vanish && all[i].value == 0)) ||
             !isfinite(all[i].value))
-            return fault_set(f, STATUS_REFUSED, "section: %s = %g; it must be %s", all[i].name,
-                             all[i].value, all[i].may_vanish ? "positive or zero" : "positive");
+            return fault_set(f, STATUS_REFUSED, "section: %s = %g; give %s value", all[i].name,
+                             all[i].value, all[i].may_vanish ? "zero or a positive" : "a positive");
     if (!isfinite(c->ys) || !isfinite(c->zs))
         return fault_set(f, STATUS_REFUSED,
                          "section: the shear centre (%g, %g) m is not finite; give finite values",

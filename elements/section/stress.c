@@ -201,9 +201,10 @@ status stress_points_of(const section_spec *spec, const section *constants, stre
     case SECTION_MATRICES:
         break;
     }
-    return fault_set(f, STATUS_REFUSED,
-                     "a section given by constants has no points for stresses; describe it by "
-                     "dimensions or walls, or request resultants");
+    return fault_set(
+        f, STATUS_REFUSED,
+        "a section given by constants or matrices has no stress points; describe it by "
+        "dimensions or walls, or request resultants");
 }
 
 /* Stresses at a fibre: normal stress, and shear stresses in y and z. */

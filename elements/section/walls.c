@@ -77,10 +77,11 @@ status tree_grow(const section_spec *s, section_tree *t, fault *f)
     memset(t, 0, sizeof *t);
     TRY(connect(s, t, f));
     if (t->cells < s->cells)
-        return fault_set(f, STATUS_REFUSED,
-                         "section: the walls close %d of the %d cells; correct the number of "
-                         "cells, or close the cells at shared points",
-                         t->cells, s->cells);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "section: number of cells: %d closed by walls, %d given; correct the number "
+            "of cells, or close the cells at shared points",
+            t->cells, s->cells);
     for (int c = 0; c < t->cells; c++) {
         const int k = s->walls - t->cells + c;
         t->round[c][t->wall[k]] = 1;
@@ -235,9 +236,11 @@ static status check_walls(const section_spec *s, fault *f)
 {
     if (s->walls < 1 || s->walls > SECTION_MAX_WALLS || s->points < 2 ||
         s->points > SECTION_MAX_POINTS)
-        return fault_set(f, STATUS_REFUSED,
-                         "section: there are %d walls and %d points; give 1 to %d walls", s->walls,
-                         s->points, SECTION_MAX_WALLS);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "section: number of walls: %d, number of points: %d; give 1 to %d walls and "
+            "2 to %d points",
+            s->walls, s->points, SECTION_MAX_WALLS, SECTION_MAX_POINTS);
     for (int w = 0; w < s->walls; w++) {
         const int a = s->wall[w].from, b = s->wall[w].to;
         if (a < 0 || a >= s->points || b < 0 || b >= s->points)
@@ -247,11 +250,11 @@ static status check_walls(const section_spec *s, fault *f)
                              w, a < 0 || a >= s->points ? a : b, s->points);
         if (!(s->wall[w].thickness > 0) || !isfinite(s->wall[w].thickness))
             return fault_set(f, STATUS_REFUSED,
-                             "section: the thickness of wall %d is %g m; it must be positive", w,
-                             s->wall[w].thickness);
+                             "section: the thickness of wall %d is %g m; give a positive thickness",
+                             w, s->wall[w].thickness);
         if (!(tree_wall_length(s, w) > 0) || !isfinite(tree_wall_length(s, w)))
             return fault_set(f, STATUS_REFUSED,
-                             "section: the length of wall %d is %g m; it must be positive", w,
+                             "section: the length of wall %d is %g m; move its end points apart", w,
                              tree_wall_length(s, w));
     }
     return STATUS_OK;

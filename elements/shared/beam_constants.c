@@ -5,14 +5,28 @@
 
 #include "elements/math/dense.h"
 
+status beam_length_check(double length, fault *f)
+{
+    return length > 0 && isfinite(length)
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "the length of an element is %g m; move the nodes of the member apart",
+                           length);
+}
+
+status beam_overflow(double length, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED,
+                     "element of length %g m: its stiffness overflows; use fewer elements", length);
+}
+
 status beam_constants_of(const element_request *request, beam_constants *out, fault *f)
 {
     const section *c = request->section;
     const unsigned has = request->features;
     const double l0 = request->length, EI = c->young * fmin(c->Iy, c->Iz), E = c->young / EI,
                  G = c->shear_modulus / EI;
-    if (!(l0 > 0) || !isfinite(l0))
-        return fault_set(f, STATUS_REFUSED, "the element length is %g m; it must be positive", l0);
+    TRY(beam_length_check(l0, f));
     memset(out, 0, sizeof *out);
     out->energy = EI / l0;
     out->EA = E * c->A * l0 * l0;
@@ -50,9 +64,7 @@ status beam_constants_of(const element_request *request, beam_constants *out, fa
                           out->EIw,    out->F[0], out->F[4], out->F[8], out->torque};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++)
         if (!isfinite(all[i]))
-            return fault_set(f, STATUS_REFUSED,
-                             "element of length %g m: its stiffness overflows; use fewer elements",
-                             l0);
+            return beam_overflow(l0, f);
     return STATUS_OK;
 }
 

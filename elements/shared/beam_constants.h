@@ -40,6 +40,11 @@ status beam_coupled_of(const section *profile, double l0, double EI, beam_consta
  * number of the pivot that fails. */
 int beam_coupled_inverse(int n, const double A[], double inverse[]);
 
+/* Returns REFUSED unless the length [m] of the element is finite and positive. */
+status beam_length_check(double length, fault *f);
+/* Reports that the stiffness of an element of this length [m] overflows. */
+status beam_overflow(double length, fault *f);
+
 /* Reports that a matrix of an element of this length [m] could not be inverted. */
 status beam_coupled_too_stiff(double length, fault *f);
 

@@ -33,6 +33,17 @@ status fault_set(fault *f, status s, const char *format, ...)
     return s;
 }
 
+status fault_memory(fault *f, const char *format, ...)
+{
+    char what[FAULT_TEXT];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(what, sizeof what, format, arguments);
+    va_end(arguments);
+    return fault_set(f, STATUS_FAULT, "out of memory for %s; free memory, or use a smaller model",
+                     what);
+}
+
 const char *status_name(status s)
 {
     static const char *const names[] = {"ok",    "not_converged", "singular", "refused",

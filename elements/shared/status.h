@@ -34,6 +34,13 @@ __attribute__((format(printf, 3, 4)))
 status
 fault_set(fault *f, status s, const char *format, ...);
 
+/* Writes "out of memory for" and the formatted text, then a remedy. Returns STATUS_FAULT. */
+#if defined(__GNUC__)
+__attribute__((format(printf, 2, 3)))
+#endif
+status
+fault_memory(fault *f, const char *format, ...);
+
 /* not defined in C++, where other headers may use the name */
 #ifndef __cplusplus
 /* Returns from the calling function if the call failed. Suitable only for functions that have

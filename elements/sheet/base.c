@@ -3,6 +3,7 @@
 
 #include "elements/math/dense.h"
 #include "elements/math/scalar.h"
+#include "elements/shared/beam_constants.h"
 #include "elements/sheet/potential.h"
 #include "elements/sheet/sheet.h"
 
@@ -56,7 +57,7 @@ status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *o
     if ((request->features & FEATURE_CURVATURE) && request->curvature[0] != 0)
         return fault_set(f, STATUS_REFUSED,
                          "initial torsion %g 1/m: the Wagner torque is not defined with initial "
-                         "torsion; remove one of them",
+                         "torsion; remove the torsion, or omit wagner_torque",
                          request->curvature[0]);
     quadrature_points(SHEET_WAGNER_POINTS, x, w);
     for (int i = 0; i < SHEET_WAGNER_POINTS; i++) {
@@ -90,9 +91,7 @@ status sheet_base_prepare(const element_request *request, sheet_base_shear shear
     sheet_elastic_stiffness(&c, l0, Phi_y, Phi_z, out->S);
     for (int i = 0; i < SHEET_STRAINS * SHEET_STRAINS; i++)
         if (!isfinite(out->S[i]))
-            return fault_set(f, STATUS_REFUSED,
-                             "element of length %g m: the stiffness overflows; use fewer elements",
-                             l0);
+            return beam_overflow(l0, f);
     sheet_strains_set_rest(request, &out->table);
     field_mass_prepare(request, 2, &out->mass);
     return STATUS_OK;

@@ -15,6 +15,7 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
+#include "elements/shared/beam_constants.h"
 #include "elements/sheet/deformation.h"
 
 /* With the antisymmetric cubic c = x - 3x^2 + 2x^3 and r = Phi/(2 + 2 Phi), the deflection for end
@@ -119,8 +120,7 @@ status sheet_strains_prepare(const element_request *request, double Phi_y, doubl
     const int amplitude = (request->features & FEATURE_WARPING) != 0;
     double x[POINTS], w[POINTS], Q[SHEET_STRAINS_LISTED][N * N] = {{0}};
     memset(out, 0, sizeof *out);
-    if (!(l0 > 0) || !isfinite(l0))
-        return fault_set(f, STATUS_REFUSED, "the element length is %g m; it must be positive", l0);
+    TRY(beam_length_check(l0, f));
     quadrature_points(POINTS, x, w);
     out->Lambda[N * 0 + SHEET_LOCAL_U] = 1;
     out->Lambda[N * 1 + SHEET_LOCAL_PX] = l0;

@@ -188,11 +188,18 @@ static status refuse(const element_type *given, const char *what, fault *f)
     return fault_set(f, STATUS_REFUSED, "formulation %s: %s", given->name, what);
 }
 
+static status refuse_count(const element_type *given, const char *what, int count, int least,
+                           int most, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED, "formulation %s: the number of %s is %d; give %d to %d",
+                     given->name, what, count, least, most);
+}
+
 static status check_history(const element_type *given, const double options[], fault *f)
 {
     const int count = element_history(given, options);
     if (count < 0 || count > ELEMENT_MAX_HISTORY)
-        return refuse(given, "the number of history values must be from 0 to 256", f);
+        return refuse_count(given, "history values", count, 0, ELEMENT_MAX_HISTORY, f);
     if (given->force != NULL && count == 0 && given->limits & LIMIT_NOT_OBJECTIVE)
         return refuse(given,
                       "with 'force' and without 'history', strains are relative to the first node "
@@ -201,7 +208,8 @@ static status check_history(const element_type *given, const double options[], f
     if (count == 0 && given->limits & LIMIT_PATH_DEPENDENT)
         return refuse(given, "LIMIT_PATH_DEPENDENT requires 'history'", f);
     if (absolute_is(given, options) && element_nodes(given, options) > ABSOLUTE_NODES)
-        return refuse(given, "an element with 'force' and 'history' has at most 7 nodes", f);
+        return refuse_count(given, "nodes, with 'force' and 'history',",
+                            element_nodes(given, options), 2, ABSOLUTE_NODES, f);
     if (count > 0 && given->force != NULL && given->leaves & LEAVES_FORCE)
         return refuse(given,
                       "with 'history', an energy is given by 'strain' and 'stress'; give these, or "
@@ -227,7 +235,10 @@ static status check_places(const element_type *given, const double options[], fa
     for (int k = 1; k < nodes; k++)
         good = good && place[k] > place[k - 1];
     if (!good)
-        return refuse(given, "'places' must increase from 0 at the first node to 1 at the last", f);
+        return refuse(
+            given,
+            "'places' do not increase from 0 to 1; give 0 for the first node, and 1 for the last",
+            f);
     lumped_shares(nodes, place, share);
     for (int k = 0; k < nodes; k++)
         if (!(share[k] > 0))
@@ -244,9 +255,8 @@ static status check_scalars(const element_type *given, const double options[], f
     const int count = element_scalars(given, options),
               all = element_nodes(given, options) * (NODE_COORDINATES + count);
     if (count < 0 || count > ELEMENT_MAX_SCALARS)
-        return fault_set(f, STATUS_REFUSED,
-                         "formulation %s: a node must have 0 to %d additional unknowns",
-                         given->name, ELEMENT_MAX_SCALARS);
+        return refuse_count(given, "additional unknowns of a node", count, 0, ELEMENT_MAX_SCALARS,
+                            f);
     if (all > ELEMENT_MAX_COORDINATES)
         return fault_set(f, STATUS_REFUSED,
                          "formulation %s: %d coordinates of an element exceed %d; use fewer nodes "
@@ -285,13 +295,12 @@ static status check(const element_type *given, const double options[], fault *f)
                       "'strain' and 'stress' instead of 'force', or remove 'damping'",
                       f);
     if (nodes < 2 || nodes > ELEMENT_MAX_NODES)
-        return fault_set(f, STATUS_REFUSED, "formulation %s: an element must have 2 to %d nodes",
-                         given->name, ELEMENT_MAX_NODES);
+        return refuse_count(given, "nodes", nodes, 2, ELEMENT_MAX_NODES, f);
     TRY(check_places(given, options, f));
     if (given->force == NULL && (element_strains(given, options) < 1 ||
                                  element_strains(given, options) > ELEMENT_MAX_STRAINS))
-        return fault_set(f, STATUS_REFUSED, "formulation %s: an element must have 1 to %d strains",
-                         given->name, ELEMENT_MAX_STRAINS);
+        return refuse_count(given, "strains", element_strains(given, options), 1,
+                            ELEMENT_MAX_STRAINS, f);
     TRY(check_scalars(given, options, f));
     return check_history(given, options, f);
 }

@@ -86,7 +86,8 @@ status formulations_add(const element_type *t, const char *from, fault *f)
     while (formulations_loaded[count] != NULL)
         count++;
     if (count == FORMULATIONS_MOST_LOADED)
-        return fault_set(f, STATUS_REFUSED, "at most %d formulations can be loaded",
+        return fault_set(f, STATUS_REFUSED,
+                         "at most %d formulations can be loaded; remove some --element",
                          FORMULATIONS_MOST_LOADED);
     formulations_loaded[count] = t;
     loaded_from[count] = from;
@@ -220,11 +221,16 @@ status formulation_parse(const char *text, formulation *out, fault *f)
     return STATUS_OK;
 }
 
+static status too_many(int most, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED, "too many formulations; give at most %d", most);
+}
+
 static status add_all(int most, formulation list[], int *count, fault *f)
 {
     for (int i = 0; formulations_at(i) != NULL; i++) {
         if (*count == most)
-            return fault_set(f, STATUS_REFUSED, "too many formulations; give at most %d", most);
+            return too_many(most, f);
         formulation_default(formulations_at(i), &list[(*count)++]);
     }
     return STATUS_OK;
@@ -235,11 +241,12 @@ status formulation_list_add(const char *text, int most, formulation list[], int 
     if (strcmp(text, "all") == 0)
         return add_all(most, list, count, f);
     if (*count == most)
-        return fault_set(f, STATUS_REFUSED, "too many formulations; give at most %d", most);
+        return too_many(most, f);
     TRY(formulation_parse(text, &list[*count], f));
     for (int i = 0; i < *count; i++)
         if (strcmp(list[i].key, list[*count].key) == 0)
-            return fault_set(f, STATUS_REFUSED, "a formulation is given twice; give it only once");
+            return fault_set(f, STATUS_REFUSED, "formulation %s is given twice; give it only once",
+                             list[i].key);
     ++*count;
     return STATUS_OK;
 }

@@ -53,7 +53,7 @@ static status copy(const char *path, const element_type *loaded, const element_t
             path, loaded->size, sizeof(element_type));
     element_type *t = calloc(1, sizeof *t);
     if (t == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %.100s", path);
+        return fault_memory(f, "%.100s", path);
     memcpy(t, loaded, loaded->size);
     /* a type with a shear theory supports the feature of this theory */
     t->offers |= t->shear_theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0;
@@ -134,7 +134,7 @@ static status start_again(process *p, fault *f)
     char *line = malloc(HANDSHAKE_MOST + 1);
     handshake again;
     if (line == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
+        return fault_memory(f, "a formulation");
     status outcome = channel_start(&p->to, line, f);
     if (outcome == STATUS_OK)
         outcome = handshake_read(p->to.program_name, line, strlen(line), &again, f);
@@ -199,7 +199,7 @@ static status ask_prepare(process *p, const element_request *request, element_da
     channel_begin(&p->to);
     char *to = channel_add(&p->to, size);
     if (to == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
+        return fault_memory(f, "a formulation");
     put(&to, head, sizeof head);
     put(&to, &request->length, sizeof(double));
     put(&to, request->curvature, sizeof request->curvature);
@@ -260,8 +260,8 @@ static status check_machine(const char *command, fault *f)
     memcpy(&first, &one, 1);
     return first == 1 ? STATUS_OK
                       : fault_set(f, STATUS_REFUSED,
-                                  "exec:%.100s: the protocol requires a little-endian machine, but "
-                                  "this machine is big-endian",
+                                  "exec:%.100s: this machine is big-endian; use a little-endian "
+                                  "machine, as the protocol requires",
                                   command);
 }
 
@@ -270,7 +270,7 @@ static status begin(process *p, const char *command, fault *f)
     char *line = malloc(HANDSHAKE_MOST + 1);
     handshake said;
     if (line == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
+        return fault_memory(f, "a formulation");
     status outcome = channel_init(&p->to, command, f);
     p->to.limit = limit;
     if (outcome == STATUS_OK)
@@ -307,11 +307,12 @@ static status process_load(const char *command, const element_type **out, fault 
         count++;
     if (count == PROCESS_MOST)
         return fault_set(f, STATUS_REFUSED,
-                         "at most %d formulations can run in their own processes", PROCESS_MOST);
+                         "at most %d formulations can run in their own processes; give fewer",
+                         PROCESS_MOST);
     TRY(check_machine(command, f));
     process *p = calloc(1, sizeof *p);
     if (p == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
+        return fault_memory(f, "a formulation");
     const status outcome = begin(p, command, f);
     if (outcome != STATUS_OK) {
         channel_end(&p->to);

@@ -28,7 +28,7 @@ status words_split(const char *command, char ***words, fault *f)
     char **out = malloc(list + strlen(command) + WORDS_MOST + 1);
     int count = 0;
     if (out == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a command");
+        return fault_memory(f, "a command");
     char *to = (char *)out + list;
     const char *from = command + strspn(command, " \t\n"), *why = NULL;
     while (from != NULL && *from != '\0' && count < WORDS_MOST) {
@@ -39,7 +39,7 @@ status words_split(const char *command, char ***words, fault *f)
     }
     out[count] = NULL;
     if (from == NULL)
-        why = "a quotation mark is not closed";
+        why = "a quotation mark is not closed; close it";
     else if (*from != '\0')
         why = "too many words; write them into a script";
     else if (count == 0 || out[0][0] == '\0')
@@ -110,9 +110,10 @@ static status set_value(const assignment_list *l, const parameter_type *p, const
     if (p->choices == NULL) {
         const int plain = strcmp(p->unit, "1") == 0, flag = plain && p->min == 0 && p->max == 1;
         if (number < p->min || number > p->max)
-            return fault_set(f, STATUS_REFUSED, "%s %s of %s: %g%s%s is outside its range %g .. %g",
-                             l->what, p->name, l->owner, number, plain ? "" : " ",
-                             plain ? "" : p->unit, p->min, p->max);
+            return fault_set(
+                f, STATUS_REFUSED,
+                "%s %s of %s: %g%s%s is outside the range %g .. %g; give a value in it", l->what,
+                p->name, l->owner, number, plain ? "" : " ", plain ? "" : p->unit, p->min, p->max);
         if (flag && number != 0 && number != 1)
             return fault_set(f, STATUS_REFUSED, "%s %s of %s: %g is not valid; give 0 or 1",
                              l->what, p->name, l->owner, number);

@@ -227,7 +227,7 @@ status channel_init(channel *c, const char *command, fault *f)
     const size_t room = strlen(command) + 80;
     *c = (channel){.program_name = malloc(room), .limit = 120};
     if (c->program_name == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
+        return fault_memory(f, "a formulation");
     snprintf(c->program_name, room, "exec:%s", command);
     pthread_mutex_init(&c->lock, NULL);
     return words_split(command, &c->words, f);
@@ -238,7 +238,7 @@ status channel_call(channel *c, const char *name, fault *f)
     const size_t room = strlen(name) + 20;
     char *program_name = malloc(room);
     if (program_name == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a formulation");
+        return fault_memory(f, "a formulation");
     snprintf(program_name, room, "formulation %s", name);
     free(c->program_name);
     c->program_name = program_name;
@@ -295,7 +295,9 @@ static status breach(channel *c, child_event what, const char *when, fault *f)
 {
     char why[200], how[100];
     if (what == CHILD_LATE) {
-        snprintf(why, sizeof why, "its process did not answer within %d s%s", c->limit, when);
+        snprintf(why, sizeof why,
+                 "its process did not answer within %d s%s; make it answer in this time", c->limit,
+                 when);
     } else if (what == CHILD_WROTE) {
         snprintf(why, sizeof why,
                  "its process wrote more than an answer to standard output%s; print other text to "
@@ -320,8 +322,11 @@ static status first_line(channel *c, char line[], fault *f)
         if (what != CHILD_DONE)
             return breach(c, what, " before its first line", f);
         if (count == HANDSHAKE_MOST && memchr(line, '\n', count) == NULL)
-            return channel_break(c, "the output of its process did not begin with a line of JSON",
-                                 f);
+            return channel_break(
+                c,
+                "the output of its process did not begin with a line of JSON; print other "
+                "text to standard error",
+                f);
     }
     char *end = memchr(line, '\n', count);
     if (end != line + count - 1 && line[0] == '{')
@@ -374,7 +379,7 @@ void *channel_add(channel *c, size_t count)
 
 static status no_memory(fault *f)
 {
-    return fault_set(f, STATUS_FAULT, "out of memory for a mesh in a request");
+    return fault_memory(f, "a mesh in a request");
 }
 
 /* Reads the line that follows an outcome other than ok. */

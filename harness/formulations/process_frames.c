@@ -25,7 +25,8 @@ static status known(const frame_question *q, fault *f)
     if (lost && c->trouble[0] != '\0')
         return fault_set(f, STATUS_FAULT, "%s", c->trouble);
     if (lost)
-        return channel_break(c, "its process was restarted between two requests", f);
+        return channel_break(
+            c, "its process was restarted between two requests; run the command again", f);
     return many ? channel_break(
                       c, "a request has more than 65536 kinds of elements; use fewer elements", f)
                 : STATUS_OK;

@@ -128,7 +128,7 @@ status deck_write(const deck_request *r, FILE *to, fault *f)
     TRY(deck_check(r, f));
     brick *bricks = calloc((size_t)s->members, sizeof *bricks);
     if (bricks == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a mesh of solids");
+        return fault_memory(f, "a mesh of solids");
     const status outcome = write_with(r, bricks, to, f);
     free(bricks);
     return outcome;
@@ -413,7 +413,7 @@ static status path_points_of(const scene *s, int analysis, path_points *out, fau
     const double last = stations->value[stations->stations - 1];
     *out = (path_points){.value = calloc((size_t)most_points(s, stations), sizeof(double))};
     if (out->value == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a path");
+        return fault_memory(f, "a path");
     for (int i = 0; i < stations->stations; i++)
         insert(out, stations->value[i], last);
     for (int i = 0; i < s->quantities; i++)

@@ -418,10 +418,10 @@ static status fill(const scene *s, series *one, fault *f)
 {
     TRY(find_meshes(one, one->imported, f));
     if (!make_cells(s, one))
-        return fault_set(f, STATUS_FAULT, "out of memory for imported values");
+        return fault_memory(f, "imported values");
     for (int i = 0; i < one->imported->rows; i++)
         if (!take_row(s, one, &one->imported->row[i]))
-            return fault_set(f, STATUS_FAULT, "out of memory for imported values");
+            return fault_memory(f, "imported values");
     return STATUS_OK;
 }
 
@@ -439,7 +439,7 @@ status import_cells_add(sweep *s, int point_index, imported *found, fault *f)
     series *more = realloc(s->series, (size_t)(s->seriess + 1) * sizeof *more);
     if (more == NULL) {
         imported_free(found);
-        return fault_set(f, STATUS_FAULT, "out of memory for series");
+        return fault_memory(f, "series");
     }
     s->series = more;
     const int place = series_end(s, point_index);

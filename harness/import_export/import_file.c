@@ -71,8 +71,7 @@ static void take_header(file_reader *r, const char *key, const char *value)
     if (strcmp(key, "beamwork-import") == 0) {
         if (strcmp(value, "1") != 0)
             mistakes_add(r->m, r->line, 1,
-                         "unknown format version '%.20s'; this program reads only version 1",
-                         value);
+                         "format version '%.20s' is unknown; write '# beamwork-import: 1'", value);
         r->versioned = 1;
     } else if (strcmp(key, "program") == 0)
         take_text(h->program, &h->program_line, r, value);
@@ -203,17 +202,13 @@ static void read_row(file_reader *r, char *const field[], int count)
 {
     const char *at[COLUMNS] = {0};
     imported_row row;
-    if (count > r->fields) {
-        mistakes_add(r->m, r->line, 1, "the row has %d fields, but there are %d columns", count,
-                     r->fields);
-        return;
-    }
-    for (int i = 0; i < count; i++)
+    for (int i = 0; i < count && count <= r->fields; i++)
         if (r->place[i] >= 0)
             at[r->place[i]] = field[i];
     if (at[QUANTITY] == NULL || at[UNIT] == NULL) {
-        mistakes_add(r->m, r->line, 1, "the row has %d fields, but there are %d columns", count,
-                     r->fields);
+        mistakes_add(r->m, r->line, 1,
+                     "number of fields in the row: %d, number of columns: %d; correct the row",
+                     count, r->fields);
         return;
     }
     take_fields(r, at, &row);

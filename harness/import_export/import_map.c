@@ -234,7 +234,7 @@ static status read_values(map_reader *r, const document_node *values, const char
     const import_header h = header_of(r);
     wanted *list = calloc((size_t)values->count + 1, sizeof *list);
     if (list == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a map");
+        return fault_memory(f, "a map");
     for (int i = 0; i < values->count; i++)
         list[i] = read_value(r, values->key[i], values->item[i]);
     r->block = import_block_open(into, &h, map, r->m);

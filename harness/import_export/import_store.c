@@ -102,6 +102,8 @@ static imported *gather_rows(const value_row *first, int count)
     return out;
 }
 
+static const char remedy[] = "write it with 'beamwork import FILE -o'";
+
 static status damaged(const store_reader *r, const char *where)
 {
     return fault_set(r->f, STATUS_FAULT,
@@ -128,13 +130,14 @@ static status take_series(store_reader *r, const char *of, const tables *t, cons
         return STATUS_OK;
     }
     if (is_there(r->s, place, first->formulation))
-        return fault_set(r->f, STATUS_REFUSED,
-                         "%.100s: %.60s/%.60s of %.100s is already in this run; give it only once",
-                         r->path, of, parameters[0] != '\0' ? parameters : "default",
-                         first->formulation);
+        return fault_set(
+            r->f, STATUS_REFUSED,
+            "%.100s: results of %.60s/%.60s with %.100s have already been read; give them only "
+            "once",
+            r->path, of, parameters[0] != '\0' ? parameters : "default", first->formulation);
     imported *found = gather_rows(first, count);
     if (found == NULL)
-        return fault_set(r->f, STATUS_FAULT, "out of memory for imported values");
+        return fault_memory(r->f, "imported values");
     found->gates = r->gates;
     return import_cells_add(r->s, place, found, r->f);
 }
@@ -205,20 +208,16 @@ static status read_file(store_reader *r, hid_t file)
         strcmp(schema, SCHEMA_NAME) != 0 ||
         !table_reader_attribute_count(file, "schema_version", &version) ||
         version < SCHEMA_OLDEST || version > SCHEMA_VERSION)
-        return fault_set(
-            r->f, STATUS_FAULT,
-            "%.120s: the file is not a results file; write it with 'beamwork import FILE -o'",
-            r->path);
+        return fault_set(r->f, STATUS_FAULT, "%.120s: the file is not a results file; %s", r->path,
+                         remedy);
     const hid_t cases = H5Gopen2(file, "cases", H5P_DEFAULT);
     const status outcome = read_cases(r, cases);
     if (cases >= 0)
         H5Gclose(cases);
     TRY(outcome);
     if (r->left->all == 0)
-        return fault_set(r->f, STATUS_REFUSED,
-                         "%.120s: the file contains no imported results; write it with 'beamwork "
-                         "import FILE -o'",
-                         r->path);
+        return fault_set(r->f, STATUS_REFUSED, "%.120s: the file contains no imported results; %s",
+                         r->path, remedy);
     return STATUS_OK;
 }
 
@@ -230,9 +229,8 @@ status import_store_read(const char *path, int gates, sweep *s, import_left *lef
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
     const hid_t file = H5Fopen(path, H5F_ACC_RDONLY, H5P_DEFAULT);
     if (file < 0)
-        return fault_set(f, STATUS_FAULT,
-                         "%.120s: cannot be read as HDF5; write it with 'beamwork import FILE -o'",
-                         path);
+        return fault_set(f, STATUS_FAULT, "%.120s: the file cannot be read as HDF5; %s", path,
+                         remedy);
     const status outcome = read_file(&r, file);
     H5Fclose(file);
     return outcome;

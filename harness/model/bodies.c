@@ -123,7 +123,7 @@ status discrete_build(model *m, fault *f)
     m->mesh.discrete = calloc((size_t)count, sizeof *m->mesh.discrete);
     m->founded = calloc((size_t)founded + 1, sizeof *m->founded);
     if (m->mesh.discrete == NULL || m->founded == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for rigid bodies and springs");
+        return fault_memory(f, "rigid bodies and springs");
     for (int i = 0; i < m->scene->nodes; i++)
         if (scene_has_body(&m->scene->node[i])) {
             begin(1, &i, &m->mesh.discrete[m->mesh.discretes]);

@@ -221,7 +221,7 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
     TRY(kinematics_state_alloc(m, out, f));
     double *increment = calloc((size_t)m->mesh.vertices * 6 + 1, sizeof *increment);
     if (increment == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a picture");
+        return fault_memory(f, "a picture");
     kinematics_state_copy(m, from, *out);
     increments_of(m, from, x, increment);
     if (*scale == 0)

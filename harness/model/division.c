@@ -61,7 +61,7 @@ status division_make(const scene *s, int elements, division *out, fault *f)
     out->place = malloc((2 * members + most + 1) * sizeof *out->place);
     if (cuts == NULL || out->first == NULL || out->each == NULL || out->place == NULL) {
         free(cuts);
-        return fault_set(f, STATUS_FAULT, "out of memory for the division of members");
+        return fault_memory(f, "the division of members");
     }
     const int count = list_cuts(s, cuts);
     int used = 0;
@@ -181,7 +181,7 @@ status profile_scene(model *m, fault *f)
     const scene *s = m->scene;
     m->section = calloc((size_t)(s->sections > 0 ? s->sections : 1), sizeof *m->section);
     if (m->section == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for sections");
+        return fault_memory(f, "sections");
     for (int i = 0; i < s->sections; i++) {
         TRY(scene_constants(s, i, &m->section[i], f));
         missing_omit(&m->section[i], m->omits);
@@ -270,7 +270,7 @@ static status fill_all(model *m, int tapers, const taper *list, const int *membe
 {
     section *all = realloc(m->section, (size_t)(sections + 1) * sizeof *all);
     if (all == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for %d sections", sections);
+        return fault_memory(f, "%d sections", sections);
     m->section = all;
     for (int i = 0; i < tapers; i++) {
         TRY(fill(m, member[i], &list[i], f));
@@ -287,7 +287,7 @@ status profile_members(model *m, int *sections, fault *f)
     status outcome = STATUS_FAULT;
     *sections = m->scene->sections;
     if (list == NULL || member == NULL || m->profile == NULL) {
-        fault_set(f, outcome, "out of memory for the sections of members");
+        fault_memory(f, "the sections of members");
     } else {
         const int tapers = list_tapers(m, list, member, sections);
         outcome = tapers > 0 ? fill_all(m, tapers, list, member, *sections, f) : STATUS_OK;

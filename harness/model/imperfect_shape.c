@@ -104,7 +104,7 @@ static status fill(const model *m, const double x[], model_imperfect *p, fault *
     }
     free(increment);
     free(vertex);
-    return room ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for imperfections");
+    return room ? STATUS_OK : fault_memory(f, "imperfections");
 }
 
 status model_imperfect_alloc(const model *m, const double x[], model_imperfect **out, fault *f)
@@ -116,7 +116,7 @@ status model_imperfect_alloc(const model *m, const double x[], model_imperfect *
     model_imperfect *p = calloc(1, sizeof *p);
     *out = p;
     if (p == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for imperfections");
+        return fault_memory(f, "imperfections");
     p->own = p->lines = *s;
     p->lines.node = copy_of(s->node, (size_t)s->nodes * sizeof *s->node);
     for (int i = 0; i < s->imperfections; i++)
@@ -133,7 +133,7 @@ status model_imperfect_alloc(const model *m, const double x[], model_imperfect *
     if (p->lines.node == NULL || p->own.node == NULL || p->own.member == NULL ||
         p->own.load == NULL || p->own.imperfection == NULL || p->first == NULL ||
         p->place == NULL || p->shift == NULL || p->turn == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for imperfections");
+        return fault_memory(f, "imperfections");
     return fill(m, x, p, f);
 }
 

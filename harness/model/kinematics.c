@@ -422,7 +422,7 @@ static status block_alloc(size_t size, model_state **out, fault *f)
     }
     free(s);
     *out = NULL;
-    return fault_set(f, STATUS_FAULT, "out of memory for a state");
+    return fault_memory(f, "a state");
 }
 
 status kinematics_nodes_alloc(const model *m, const model_state *from, model_state **out, fault *f)

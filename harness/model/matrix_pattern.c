@@ -173,9 +173,7 @@ static status compress(const model *m, mesh_pattern *p, fault *f)
     }
     free(work);
     return good ? STATUS_OK
-                : fault_set(f, STATUS_FAULT,
-                            "out of memory for the matrix of a model with %d coordinates",
-                            p->matrix.n);
+                : fault_memory(f, "the matrix of a model with %d coordinates", p->matrix.n);
 }
 
 /* Lists the positions of the stored entries of an element's matrix in entry[columns^2], and returns
@@ -213,7 +211,7 @@ static status add_layout(mesh_pattern *p, int entries, const mesh_entry entry[],
 {
     mesh_layout one = {entries, malloc(((size_t)entries + 1) * sizeof *entry)};
     if (one.entry == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the positions of matrix entries");
+        return fault_memory(f, "the positions of matrix entries");
     memcpy(one.entry, entry, (size_t)entries * sizeof *entry);
     const status outcome = memory_append(&p->layout, &p->layouts, &one, sizeof one,
                                          "the positions of matrix entries", f);
@@ -228,9 +226,7 @@ static status find_places(const model *m, mesh_pattern *p, fault *f)
     p->element = m->mesh.element;
     p->layout_of = malloc(((size_t)m->mesh.elements + 1) * sizeof *p->layout_of);
     if (p->layout_of == NULL)
-        return fault_set(f, STATUS_FAULT,
-                         "out of memory for the matrix of a model with %d coordinates",
-                         p->matrix.n);
+        return fault_memory(f, "the matrix of a model with %d coordinates", p->matrix.n);
     for (int i = 0; i < m->mesh.elements; i++) {
         const int entries = entries_of(&m->mesh.element[i], p, entry);
         p->layout_of[i] = find_layout(p, entries, entry);
@@ -267,7 +263,7 @@ struct assemble_patterns {
 status assemble_patterns_alloc(assemble_patterns **out, fault *f)
 {
     *out = calloc(1, sizeof **out);
-    return *out != NULL ? STATUS_OK : fault_set(f, STATUS_FAULT, "out of memory for patterns");
+    return *out != NULL ? STATUS_OK : fault_memory(f, "patterns");
 }
 
 void assemble_patterns_free(assemble_patterns *all)

@@ -149,7 +149,7 @@ static status set_inner(const model *m, const element_request *request, mesh_kin
         return STATUS_OK;
     k->inner = malloc(FIELD_INNER * FIELD_INNER * sizeof *k->inner);
     if (k->inner == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for an element");
+        return fault_memory(f, "an element");
     field_inner(request, &k->field, k->inner);
     return STATUS_OK;
 }
@@ -201,7 +201,7 @@ static status kind_of(model *m, const unstressed *own, int profile, double lengt
     k->data_size = m->mesh.type->data_size(&request);
     k->data = calloc(1, k->data_size);
     if (k->data == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for an element");
+        return fault_memory(f, "an element");
     *out = *end = m->mesh.kinds++;
     field_prepare(&request, m->mesh.nodes, &k->field);
     TRY(set_inner(m, &request, k, f));
@@ -553,8 +553,8 @@ static status allocate(model *m, fault *f)
     snprintf(what, sizeof what, "%.0f elements", total);
     TRY(memory_check(total * per_element, what, "give fewer", f));
     if (total > most)
-        return fault_set(f, STATUS_REFUSED, "%.0f elements are too many; at most %.0f are possible",
-                         total, most);
+        return fault_set(f, STATUS_REFUSED, "%.0f elements are too many; give at most %.0f", total,
+                         most);
     const int ends = release_count(s);
     m->mesh.first_release = s->nodes + (int)total * (m->mesh.nodes - 1) - s->members;
     m->mesh.vertices = m->mesh.first_release + ends;
@@ -580,7 +580,7 @@ static status profiles(model *m, fault *f)
     TRY(profile_members(m, &sections, f));
     m->kind_of_section = malloc(((size_t)sections + 1) * sizeof *m->kind_of_section);
     if (m->kind_of_section == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for the sections of members");
+        return fault_memory(f, "the sections of members");
     for (int i = 0; i < sections; i++)
         m->kind_of_section[i] = NONE;
     return STATUS_OK;
@@ -626,6 +626,6 @@ status mesh_build(model *m, fault *f)
     free(named);
     free(first);
     if (!good)
-        return fault_set(f, STATUS_FAULT, "out of memory for warping coordinates");
+        return fault_memory(f, "warping coordinates");
     return STATUS_OK;
 }

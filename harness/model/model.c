@@ -188,7 +188,7 @@ static status join_nodes(model *m, fault *f)
     const int n = m->scene->nodes;
     int *joined = m->mesh.joined = malloc((size_t)(2 * n + 1) * sizeof *joined);
     if (joined == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for constraints");
+        return fault_memory(f, "constraints");
     for (int i = 0; i < n; i++)
         joined[2 * i] = i;
     for (int k = 0; k < 6 * n; k++) {
@@ -217,9 +217,10 @@ static status build(model *m, const model_request *request, fault *f)
     const element_type *type = request->type;
     char words[200];
     if (missing_refused(s, type, words, sizeof words))
-        return fault_set(f, STATUS_REFUSED,
-                         "formulation %s does not support %s, which scene %s requires", type->name,
-                         words, s->name);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "formulation %s does not support %s, which scene %s requires; use another formulation",
+            type->name, words, s->name);
     m->omits = missing_omits(s, type) | request->omit;
     TRY(profile_scene(m, f));
     m->features = (features_needed_of(s, type) & ~m->omits) | (type->offers & FEATURE_CURVATURE);
@@ -229,12 +230,12 @@ static status build(model *m, const model_request *request, fault *f)
     m->mesh.driver_coordinate =
         malloc(((size_t)s->drivers + 1) * sizeof *m->mesh.driver_coordinate);
     if (m->mesh.driver_coordinate == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for drivers");
+        return fault_memory(f, "drivers");
     TRY(divide(m, f));
     if (s->constraints > 0) {
         m->mesh.tie = malloc((size_t)(6 * s->nodes + 1) * sizeof *m->mesh.tie);
         if (m->mesh.tie == NULL)
-            return fault_set(f, STATUS_FAULT, "out of memory for constraints");
+            return fault_memory(f, "constraints");
         TRY(scene_ties(s, m->mesh.tie, f));
         TRY(join_nodes(m, f));
     }
@@ -270,7 +271,7 @@ status model_alloc_imperfect(const model_request *request, const model_imperfect
     model *m = calloc(1, sizeof *m);
     *out = NULL;
     if (m == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a model");
+        return fault_memory(f, "a model");
     m->scene = request->scene;
     m->imperfect = imperfect;
     m->given = m->mesh.type = request->type;

@@ -35,7 +35,7 @@ status turns_build(model *m, fault *f)
     const scene *s = m->scene;
     m->turn = malloc(((size_t)first_between(m) + (size_t)s->quantities + 1) * sizeof *m->turn);
     if (m->turn == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for rotations");
+        return fault_memory(f, "rotations");
     m->mesh.turns = 0;
     for (int i = 0; i < s->nodes; i++)
         m->turn[m->mesh.turns++] = (mesh_turn){NONE, i};

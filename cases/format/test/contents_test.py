@@ -244,7 +244,7 @@ quantities:
         bare = one.replace(", density: 7800", "").replace("mass: 0.01, centre: [0.02, 0, 0]", "hold: []")
         for text, words in ((one + "  twice: {gravity: [0, 0, 1], on: tip}\n", "already includes this weight"),
                             (one + "  twice: {gravity: [0, 0, 1], on: leaf}\n", "already includes this weight"),
-                            (one.replace("on: all", "on: all, follower: true"), "remove 'at', 'axes' and 'follower'"),
+                            (one.replace("on: all", "on: all, follower: true"), "remove 'follower'"),
                             (one.replace("gravity:", "force:"), "no node 'all'"),
                             (bare, "the scene has no mass")):
             self.refused(2, words, "scene", "--scene", self.scene(text))

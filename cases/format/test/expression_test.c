@@ -217,7 +217,7 @@ static void check_refused(void)
                {"a: |\n  x\n  y\n", 1, 4, "control character"},
                {"a: \"\\0\"\n", 1, 4, "control character"},
                {"a: \xff\xfe\n", 1, 1, "UTF-8"},
-               {"a: [[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]\n", 1, 19, "deeper"},
+               {"a: [[[[[[[[[[[[[[[[[[1]]]]]]]]]]]]]]]]]]\n", 1, 19, "nested more than"},
                {"a: b: c\n", 1, 5, "correct"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         arena a = {0};
@@ -265,7 +265,7 @@ static void check_bad_loops(void)
                {"n_$i: {for: {i: 0..99999}}\n", 17, "more than 10000"},
                {"n_$i: {for: {pi: 0..2}}\n", 14, "function or constant"},
                {"n_$i$j: {for: {i: 0..999, j: 0..999}}\n", 1, "loops expand to more than"},
-               {"n_$i: {for: {i: 0..2}, let: {i: 3}}\n", 30, "is in use"},
+               {"n_$i: {for: {i: 0..2}, let: {i: 3}}\n", 30, "is already defined"},
                {"n_$i: {for: {i: 0..2}, let: {b: 3*x}}\n", 35, "unknown name 'x'"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         arena a = {0};

@@ -164,10 +164,10 @@ static void check_motion(void)
         {acceleration, SCENE_RMS,
          "acceleration of node_1 (1, 0, 0) along x, root mean square over time"},
         {scene_orientation_entry(1, 0, 2), SCENE_MAX,
-         "entry xz of the rotation matrix of node_1 (1, 0, 0), largest value along the motion"},
+         "entry xz of the rotation matrix of node_1 (1, 0, 0), largest value over the motion"},
         {scene_relative_to(1, SCENE_UY, 0), SCENE_MIN,
          "displacement of node_1 (1, 0, 0) along y as seen from node_0 (0, 0, 0), smallest value "
-         "along the motion"},
+         "over the motion"},
         {scene_balance_of(SCENE_LZ), SCENE_LAST,
          "angular momentum about the z axis, 2 s after the start of the motion"},
         {scene_balance_of(SCENE_DISSIPATED), SCENE_LAST,

@@ -66,17 +66,17 @@ class TableFileTest(SceneCase):
 
     def test_mistakes(self):
         for text, told in (
-                ("t,ux\n0,0\n0.1,x\n", "drive.csv:3: no number: 'x'"),
-                ("t,ux\n0,0\n0.1,nan\n", "drive.csv:3: no number: 'nan'"),
+                ("t,ux\n0,0\n0.1,x\n", "drive.csv:3: 'x' is not a number"),
+                ("t,ux\n0,0\n0.1,nan\n", "drive.csv:3: 'nan' is not a number"),
                 ("t,ux\n0,0\n0.1\n", "drive.csv:3: the number of columns differs from that in the first row"),
                 ("t,ux\n0,0\n\n0,1\n", "drive.csv:4: the values of 'at' do not ascend at 0"),
-                ("t,ux\n0,0\n", "drive.csv:2: the file ends with fewer than two rows"),
-                ("", "drive.csv:1: the file ends with fewer than two rows"),
+                ("t,ux\n0,0\n", "drive.csv:2: the file has fewer than two rows of numbers"),
+                ("", "drive.csv:1: the file has fewer than two rows of numbers"),
                 ("t,uy\n0,0\n1,1\n", "drive.csv:1: column 'ux' does not exist; the columns are t, uy"),
                 ("t,ux,ux\n0,0,0\n1,1,1\n", "drive.csv:1: two columns have the name 'ux'"),
                 ("0,0\n1,1\n", "drive.csv:1: column 't' does not exist, because the file has no header; give the number of the column, 1 to 2"),
-                ("t;ux\n0,5;0\n1,5;1\n", "drive.csv:2: no number: '5;0'"),
-                ("t,ux\n" + "".join(f"{i},0\n" for i in range(10001)), "drive.csv:10002: more than 10000 rows"),
+                ("t;ux\n0,5;0\n1,5;1\n", "drive.csv:2: '5;0' is not a number"),
+                ("t,ux\n" + "".join(f"{i},0\n" for i in range(10001)), "drive.csv:10002: the table has more than 10000 rows"),
                 ("t,ux\n0," + 9000 * " " + "0\n", "drive.csv:2: a line has more than 8000 characters")):
             with self.subTest(text[:30]):
                 self.files()
@@ -90,15 +90,15 @@ class TableFileTest(SceneCase):
         self.files()
         (self.folder / "in/drive.csv").write_text("0,nan\n1,0\n2,1\n", encoding="utf-8")
         done = run("scene", "--scene", self.filled({**FILES, "SHAKE": "{file: in/drive.csv, at: 1, value: 2}"}))
-        self.assertIn("drive.csv:1: no number: 'nan'", done.stderr)
+        self.assertIn("drive.csv:1: 'nan' is not a number", done.stderr)
 
     def test_misused(self):
         self.files()
         for table, told in (("{file: none.csv, at: t, value: ux}", "none.csv cannot be read: No such file"),
                             ("{file: in, at: t, value: ux}", "cannot be read"),
-                            ("{file: in/drive.csv, at: t}", "'at' and 'value' must name columns of the file"),
-                            ("{file: in/drive.csv, at: [0, 1], value: ux}", "'at' and 'value' must name columns of the file"),
-                            ("{file: [a], at: t, value: ux}", "'file' is the path of a CSV file"),
+                            ("{file: in/drive.csv, at: t}", "with 'file', give columns of the file"),
+                            ("{file: in/drive.csv, at: [0, 1], value: ux}", "with 'file', give columns of the file"),
+                            ("{file: [a], at: t, value: ux}", "file: give the path of a CSV file"),
                             ("{at: t, value: ux}", "a list of numbers"),
                             ("{file: in/drive.csv, at: t, value: ux, unit: mm}", "has no key 'unit'")):
             with self.subTest(table):

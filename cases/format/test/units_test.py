@@ -464,7 +464,7 @@ class Doubtful(SceneCase):
         factor."""
         self.assertRegex(self.answered("solve", "--scene", self.scene(WARM), "-f", "beamw", "-n", 8).stdout,
                          r"\ndT +\S+ K")
-        self.refused(2, "or write 'unit: MPa, factor: 1' if the load has the value 1 in this unit", "solve", "--scene",
+        self.refused(2, "remove 'unit', or give a 'factor' in this unit", "solve", "--scene",
                      self.scene(WARM.replace("unit: K", "unit: MPa")))
 
 

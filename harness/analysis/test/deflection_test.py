@@ -179,7 +179,7 @@ class Deflections(ProgramTest):
     def test_refused(self):
         done = run("solve", "--scene", self.written(HINGED.replace("member: rod, end: to, component: ux",
                                                                    "member: rod, end: from, component: ux")), "-n", 1)
-        self.assertIn("member rod does not release that component at its end 'from'", done.stdout + done.stderr)
+        self.assertIn("member rod does not release ux at its end 'from'", done.stdout + done.stderr)
 
 
 if __name__ == "__main__":

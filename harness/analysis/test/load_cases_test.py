@@ -206,7 +206,7 @@ quantities:
             (head.replace("on: all, case: dead", "on: all") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
              ["no load case 'dead'"]),
             (head.replace("on: c, case: wind", "on: c") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
-             ["hit: this load has no load case", "give it case: NAME"]),
+             ["hit: this load has no load case", "add a case, such as case: "]),
             (head.replace("on: c, case: wind", "on: c, case: wnd") + "analyses: {x: {linear: {}}}\n"
              + u.replace("WHICH", "case: wind,"), ["'wnd' is not used by any"]),
             (head.replace("lift: {", "dead: {") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
@@ -220,7 +220,7 @@ quantities:
             (head + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "combination: ULS, case: dead,"),
              ["only one of case, combination, envelope"]),
             (head + "analyses: {x: {linear: {}, combination: ULS}}\n" + u, ["within the kind"]),
-            (head + "analyses: {x: {linear: {}}}\n" + u.replace("{displacement", "{envelope: max, displacement"), ["next to analysis"]),
+            (head + "analyses: {x: {linear: {}}}\n" + u.replace("{displacement", "{envelope: max, displacement"), ["next to 'analysis'"]),
             (HEAD.replace("PRETENSION", "") + loads(FACTORS) + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "envelope: max,"),
              ["u: x has no load cases"]),
         )
@@ -298,7 +298,7 @@ quantities:
 
     def test_refused(self):
         for old, new, words in (("[M_with, M_against], select", "[M_with, none], select", "no quantity 'none'"),
-                                ("[M_with, M_against], select", "[], select", "give a list of their names"),
+                                ("[M_with, M_against], select", "[], select", "give a list of names of quantities"),
                                 ("max}, factor: -1}", "max}, when: {from: 0.1}}", "when: this key is only for quantities of motions"),
                                 ("select: min}, unit: N m}", "select: min}, unit: N}", "unit 'N': the quantities of the envelope are in N m"),
                                 ("[M_with, M_against], select", "[M_with, M], select", "M is an envelope"),

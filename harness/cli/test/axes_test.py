@@ -164,8 +164,8 @@ quantities: {r: {response: {analysis: h, node: b, component: ux, of: reaction, d
         text = EXAMPLE.read_text()
         for new, words in (("axes: {x: [1, 1, 0]}", "give two of x, y and z, or a member"),
                            ("axes: {x: [1, 1, 0], y: [1, 0, 0]}", "not perpendicular"),
-                           ("axes: {member: left}", "left does not end at the node"),
-                           ("axes: {x: [1, 1, 0], z: [0, 0, 1]}, drive: {rx: go}", "none, one or all three rotations may be free"),
+                           ("axes: {member: left}", "neither end of member 'left' is at this node"),
+                           ("axes: {x: [1, 1, 0], z: [0, 0, 1]}, drive: {rx: go}", "at most one rotation may be free or prescribed"),
                            ("axes: {x: [1, 1, 0], y: [0, 0, 1]}, rotation: {vector: [go, go, go]}", None)):
             path = self.folder / "bad.yaml"
             changed = text.replace("axes: {x: [cos(slope), sin(slope), 0], z: [0, 0, 1]}", new)

@@ -358,7 +358,7 @@ quantities: {u: {displacement: {analysis: L, node: b, component: ux}}}
                            ("{equal: [a, b], components: ux}", "x: ux of node a is both fixed and constrained"),
                            ("{equal: [b, c], components: uz}", "uz of node b is both fixed"),
                            ("{equal: [b, c], components: uy}", "uy of node c is driven twice"),
-                           ("{equal: [b, d], components: ux}", "node d moves with node c; name the latter instead"),
+                           ("{equal: [b, d], components: ux}", "node d is rigidly connected to node c; name node c instead"),
                            ("{equal: [b, c], components: rz}", "rz of node b is not a rotation about a fixed axis"),
                            ("{equal: [c, e], components: rz}", "rz of node e is not a rotation about a fixed axis"),
                            ("{equal: [b, c, e], components: ux}, y: {equal: [e, b], components: [ux]}",

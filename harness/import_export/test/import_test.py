@@ -262,7 +262,7 @@ class Import(ProgramTest):
             "rivals.h5: 1 of 2 series belong to cases or parameters that were not run; the first is elastica/default/rival",
             done.stderr)
         (self.folder / "copy.h5").write_bytes((self.folder / "theirs.h5").read_bytes())
-        self.refused(2, "is already in this run; give it only once", *select, "--imported",
+        self.refused(2, "have already been read; give them only once", *select, "--imported",
                      self.folder / "theirs.h5", "--imported", self.folder / "copy.h5")
         self.refused(2, "is given twice; give it only once", *select, "--imported",
                      self.folder / "theirs.h5", "--imported", self.folder / "theirs.h5")

@@ -208,7 +208,7 @@ omit: [shear]
                 self.assertAlmostEqual(one[name] / two[name], 1, delta=1e-9, msg=(formulation, name))
                 self.assertEqual(one[name], three[name])
         for bad, words in (("no;node;dx;dy", "survey.csv:1: no column 'dz'"),
-                           ("node;dx;dy;dz\ntop;0;0;x", "survey.csv:2: no number: 'x'"),
+                           ("node;dx;dy;dz\ntop;0;0;x", "survey.csv:2: 'x' is not a number"),
                            ("node;dx;dy;dz\n", "no rows"), ("node;dx;dy;dz\nnone;0;0;1", "no node 'none'"),
                            ("node;dx;dy;dz\ntop;0;0;1\ntop;0;0;1", "node top is shifted twice")):
             (self.folder / "survey.csv").write_text(bad + "\n", encoding="utf-8")
@@ -255,7 +255,7 @@ quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}
                      self.scene(column("[0, 1e-3]") + "plane: xy\n" + pushed(0.5)))
         self.refused(2, "amplitude", "scene", "--scene",
                      self.scene(column("[1e-3]") + pushed(0.5)))
-        self.refused(2, "direction = [0, 0, 0]; give a direction, or remove it", "scene", "--scene",
+        self.refused(2, "direction = [0, 0, 0]; give a nonzero vector, or remove the key", "scene", "--scene",
                      self.scene(self.FRAME.replace("NODE", "").replace("MORE", "").replace("LEFT", "knee").replace("RIGHT", "top")
                                 .replace("1e-4}}", "1e-4, direction: [0, 0, 0]}}")))
 
