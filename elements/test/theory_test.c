@@ -1,4 +1,4 @@
-/* Compares the energies of elements with those in elements/*.md. */
+/* Compares the energies of elements with those on the pages of the elements. */
 #include <gsl/gsl_integration.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
