@@ -20,7 +20,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     const int component = q->what.of.entry.row;
     fputs("stiffness", to);
     meaning_node(to, s, "of", scene_compliance_of(&s->analysis[q->analysis])->node);
-    fprintf(to, ": small %s %c for a unit %s, while all other components are free",
+    fprintf(to, ": %s %c per small %s, while all other components are free",
             meaning_load(component), meaning_axis(component),
             component < SCENE_RX ? "displacement" : "rotation");
 }

@@ -66,7 +66,7 @@ static const entry_field spin[] = {OMEGA(of.walk.frame), {.name = NULL}},
          .words = "own|fixed",                                                                     \
          .summary =                                                                                \
              "axes of small motions about an instant of a motion. own: those of each node, which " \
-             "rotate with the node; fixed: those of the scene",                                    \
+             "rotate with the node; fixed: axes fixed in space",                                   \
          .usual = "own",                                                                           \
          ENTRY_IN(scene_analysis, axes)},                                                          \
     {                                                                                              \

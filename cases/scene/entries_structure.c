@@ -370,9 +370,9 @@ static const entry_field constants[] = {
      ZERO(SECTION_ZERO_WAGNER_TORQUE)},
     {"D", ENTRY_VECTOR, .count = 9, .group = 1,
      .summary = "matrix of shear rigidities/G, in the order y, z, omega",
-     .left_out = "inverse of F; without either: rigid in shear"},
+     .left_out = "inverse of F; without D and F: rigid in shear"},
     {"F", ENTRY_VECTOR, .count = 9, .group = 1, .summary = "inverse of D",
-     .left_out = "inverse of D; without either: rigid in shear"},
+     .left_out = "inverse of D; without D and F: rigid in shear"},
     {.name = NULL}};
 
 #define GIVEN(constant)                                                                            \

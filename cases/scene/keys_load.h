@@ -1,9 +1,9 @@
 /* Keys of a load, in the format of keys_member.h. The first six keys select the kind of the load
  * (entry_of_load). */
 ROW("force", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
-    .summary = "at a node, or at the position 'where' of a member")
+    .summary = "force at a node, or at the position 'where' of a member")
 ROW("moment", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N m",
-    .summary = "at a node, or at the position 'where' of a member")
+    .summary = "moment at a node, or at the position 'where' of a member")
 ROW("distributed", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N/m",
     .summary = "force per length of a member")
 ROW("distributed_moment", ENTRY_VECTOR, .needed = 1, .group = 1, .count = 3, .unit = "N",
@@ -18,7 +18,7 @@ KEY(double, temperature, , "temperature", ENTRY_NUMBER, .needed = 1, .group = 1,
  * together */
 KEY(double, tension, , "tension", ENTRY_NUMBER, .needed = 1, .group = 1, .unit = "N",
     .summary =
-        "force that pulls the node and the node 'towards' together, along the line between them")
+        "force that pulls the nodes 'on' and 'towards' together, along the line between them")
 KEY(int, towards, , "towards", ENTRY_NAME, .summary = "second node of a tension",
     .left_out = "none; required with tension", .of = SCENE_NODES)
 /* elongation over the whole range, instead of a temperature */

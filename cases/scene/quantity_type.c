@@ -10,7 +10,7 @@ static const entry_field abscissa[] = {
      .left_out = "the path, time or frequency"},
     {"name", ENTRY_TEXT, .summary = "name of the abscissa", .left_out = "path, time or frequency"},
     {"unit", ENTRY_TEXT, .summary = "unit of the abscissa",
-     .left_out = "1; if the factor is 1, s for time and Hz for frequency"},
+     .left_out = "s for time and Hz for frequency if the factor is 1; otherwise 1"},
     {"factor", ENTRY_NUMBER, .summary = "abscissa = factor * value + offset", .usual = "1"},
     {"offset", ENTRY_NUMBER, .summary = "offset of the abscissa", .usual = "0"},
     {.name = NULL}};

@@ -1205,7 +1205,7 @@ double along_path_factor(const scene_load *, double path);
 double along_path_rate(const scene_load *, double path);
 /* Returns the value of a known driver [m or rad]. */
 double along_path_value(const scene_driver *, double path);
-/* Text for messages: "; nothing changes outside path 0 to 1 ...", or "" if loads change on the
+/* Text for messages: "; nothing changes outside path parameters 0 to 1 ...", or "" if loads change on the
  * whole path. */
 typedef struct along_path_words {
     char text[256];
@@ -1622,8 +1622,8 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
     {"side",                                                                                       \
      ENTRY_WORD,                                                                                   \
      .words = "from|to",                                                                           \
-     .summary = "side of 'where', towards that node; resultants jump where a "                     \
-                "load acts",                                                                       \
+     .summary = "side of the position 'where', towards the end 'from' or 'to'; resultants jump "   \
+                "where a load acts",                                                               \
      .usual = "to",                                                                                \
      ENTRY_IN(scene_quantity, what.of.member),                                                     \
      .first = 1,                                                                                   \

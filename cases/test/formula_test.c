@@ -180,7 +180,7 @@ static void check_refusals(void)
     for (int i = 0; i < 1801; i++)
         wide[i] = i % 2 ? '+' : 't';
     wide[1801] = '\0';
-    check_refused(wide, 258, "split it into pieces");
+    check_refused(wide, 258, "too many operations");
 }
 
 static void formula_tests(void)

@@ -218,7 +218,7 @@ static const refusal refusals[] = {
     {driver_jumps, "driver push: ", "the value jumps at 1 s"},
     {driver_hits, "driver push: ", "the velocity jumps at 1 s"},
     {driver_without_acceleration, "driver push: ", "at 0 s its value, velocity or acceleration"},
-    {driver_unread, "driver push: ", "character 5: unknown name"},
+    {driver_unread, "driver push: ", "character 5: the name 'x' is unknown"},
     {pieces_fall, "load 0: ", "piece 2 ends at 1 s, not after"},
     {load_without_value, "load 0: ", "at 0 s the factor is not finite"},
     {idle_function, "load 0: ", "no analysis is a motion"},
@@ -387,7 +387,7 @@ static const refusal node_refusals[] = {
     {no_web, "node 1: ", "not perpendicular"},
     {fork_across, "node 1: ", "no member at this node runs along"},
     {body_of_body, "node 1: ", "attached to node 2, which is itself attached to another"},
-    {body_of_itself, "node 2: ", "attached to node 2, which is itself attached to another"},
+    {body_of_itself, "node 2: ", "attached to itself"},
     {body_of_nothing, "node 2: ", "part_of: node 9 does not exist"},
     {body_held, "node 2: ", "from moving with node 1"},
     {negative_mass, "node 1: ", "mass = -"},
@@ -544,7 +544,7 @@ static void largest_of_frequencies(scene *s)
 }
 
 static const refusal wanted_refusals[] = {
-    {follows_itself, "analysis 0: ", "comes later"},
+    {follows_itself, "analysis 0: ", "does not precede this one"},
     {stations, "analysis 0: ", "must ascend"},
     {no_station, "analysis 0: ", "has no stations"},
     {spin, "analysis 0: ", "omega = "},
@@ -552,7 +552,7 @@ static const refusal wanted_refusals[] = {
     {step, "analysis 0: ", "the initial step is 0 and the largest step is 0.1"},
     {smaller_step, "analysis 0: ", "the initial step is 0.1 and the largest step is 0.05"},
     {compliance_nowhere, "analysis 1: ", "node: no node is named; name one"},
-    {compliance_of_compliance, "analysis 2: ", "computed about a static path"},
+    {compliance_of_compliance, "analysis 2: ", "computed about a path"},
     {critical_about_linear, "analysis 2: ", "name a static analysis, or remove 'about'"},
     {critical_about_buckling, "analysis 2: ", "name a static analysis, or remove 'about'"},
     {frequencies_about_rotation, "analysis 2: ", "request the frequencies of the rotation itself"},
@@ -561,9 +561,9 @@ static const refusal wanted_refusals[] = {
     {station_of_frequencies_about_a_path, "quantity f: ", "for an earlier state, add a path"},
     {two_names, "quantity u: ", "two quantities have this name"},
     {no_analysis, "quantity u: ", "analysis: analysis 1 does not exist"},
-    {no_coordinate, "quantity u: ", "component: the value 6 has no meaning"},
+    {no_coordinate, "quantity u: ", "component: the value 6 is invalid"},
     {not_of_a_path, "quantity frequency: ", "does not provide this kind"},
-    {no_entry, "quantity entry: ", "column: the value 6 has no meaning"},
+    {no_entry, "quantity entry: ", "column: the value 6 is invalid"},
     {no_driver, "quantity angle: ", "motion: driver 1 does not exist"},
 };
 

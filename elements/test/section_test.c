@@ -424,7 +424,7 @@ static void cells_refusals(void)
     spec.cells = 0;
     refusal(&spec, "wall 3 (points 3-0) closes a cell; open the cell, or give the number");
     spec.cells = 2;
-    refusal(&spec, "close 1 of the 2 cells");
+    refusal(&spec, "number of cells: 1 closed by walls, 2 given");
     spec = two_cells(0, 0);
     spec.cells = 1;
     refusal(&spec, "closes a cell; correct the number");

@@ -425,7 +425,7 @@ static void refusals(const element_type *type)
          .features = FEATURE_WAGNER_TORQUE | FEATURE_CURVATURE,
          .curvature = {0.1, 0, 0}},
     };
-    static const char *const reported_name[] = {"length is 0 m", "length is nan m", "overflows",
+    static const char *const reported_name[] = {"element is 0 m", "element is nan m", "overflows",
                                                 "torsion"};
     for (size_t i = 0; i < sizeof bad / sizeof bad[0]; i++) {
         element_data *d = calloc(1, type->data_size(&bad[i]));

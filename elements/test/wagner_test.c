@@ -439,7 +439,7 @@ static void stress_tests(void)
     stress_points p;
     fault f = {""};
     gsl_test(stress_points_of(&given, &given.constants, &p, &f) != STATUS_REFUSED ||
-                 strstr(f.text, "no points") == NULL,
+                 strstr(f.text, "no stress points") == NULL,
              "given constants are refused (%s)", f.text);
 }
 

@@ -112,7 +112,7 @@ static status set_value(const assignment_list *l, const parameter_type *p, const
         if (number < p->min || number > p->max)
             return fault_set(
                 f, STATUS_REFUSED,
-                "%s %s of %s: %g%s%s is outside the range %g .. %g; give a value in it", l->what,
+                "%s %s of %s: %g%s%s is outside its range %g .. %g; give a value in it", l->what,
                 p->name, l->owner, number, plain ? "" : " ", plain ? "" : p->unit, p->min, p->max);
         if (flag && number != 0 && number != 1)
             return fault_set(f, STATUS_REFUSED, "%s %s of %s: %g is not valid; give 0 or 1",

@@ -137,7 +137,7 @@ static status check_load(const scene *s, int load, fault *f)
                          scene_called(s, SCENE_LOADS, load).text);
     if (!rigid_moves(s, l->where))
         return fault_set(
-            f, STATUS_REFUSED, "%s: no solid ends at its %s; apply the load to the moving body",
+            f, STATUS_REFUSED, "%s: no solid ends at %s; apply the load to the moving body",
             scene_called(s, SCENE_LOADS, load).text, scene_called(s, SCENE_NODES, l->where).text);
     if (l->kind == SCENE_MOMENT && export_is_static(s) != SCENE_NONE &&
         rigid_single_axis(&s->node[l->where]) == SCENE_NONE &&

@@ -261,7 +261,7 @@ static status build(model *m, const model_request *request, fault *f)
             m, f, "path independence: results depend on the path and its steps"));
     if (process_serves(type))
         TRY(coordinates_note_left_out(
-            m, f, "in the times: the time taken by the process of the formulation"));
+            m, f, "in all run times: that of the process of the formulation"));
     return allocate(m, f);
 }
 

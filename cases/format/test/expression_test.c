@@ -79,11 +79,11 @@ static void check_mistakes(const scope *names)
                {"1e-999", 10, "too small"},
                {"1e300*1e300", 15, "too large"},
                {"1..3", 11, "range"},
-               {"1 2", 12, "operator missing"},
+               {"1 2", 12, "add an operator"},
                {"corner", 10, "a number is expected"},
                {"__import__(\"os\")", 10, "unknown name '__import__'"},
                {"2*t", 12, "the time t is available only in functions of time"},
-               {".", 10, "point without digits"}};
+               {".", 10, "point has no digits"}};
     for (size_t i = 0; i < sizeof all / sizeof all[0]; i++) {
         mistakes m = {.file = "f"};
         double value;

@@ -235,7 +235,7 @@ class DividedMember(ProgramTest):
                         "side: from, resultant: Qy}}\n", encoding="utf-8")
         done = run("solve", "--scene", path, "-f", "collocation", "-n", "1")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("add 'where', or remove it", done.stderr)
+        self.assertIn("add 'where', or remove 'side'", done.stderr)
 
     def test_a_tension_on_a_member(self):
         path = self.folder / "scene.yaml"

@@ -587,7 +587,7 @@ quantities:
                 (BEAM.replace("5, 8, 20", "-1, 8, 20") % ("hold: all", "", "", "", FORCED), "give zero or positive"),
                 (BEAM.replace("5, 8, 20", "0, 8, 20") % ("hold: [uz, rx, ry]", "", "", "", FORCED), "at 0 Hz the structure is free to move"),
                 (BEAM % ("hold: all", "", "", "", "  u: {response: {analysis: steady, node: tip, component: uy}}"),
-                 "the input is missing"),
+                 "exactly one input is required"),
                 (BEAM % ("hold: all", "", "", ", damping: {mass: -1}", FORCED), "mass = -1; give at least 0"),
                 (BEAM % ("hold: all", "", "  modes: {modal: {damping: {mass: 1}}}", "", FORCED), "damping")):
             done = run("solve", "--scene", self.scene(text), "-f", "collocation", "-n", 2)

@@ -192,15 +192,15 @@ quantities:
         u = "quantities: {u: {displacement: {analysis: x, WHICH node: c, component: uy}}}\n"
         rows = (
             (head + "analyses: {x: {static: {stations: [1]}}}\n" + u, ["does not select one", "combination: ULS"]),
-            (head + "analyses: {x: {linear: {}}}\n" + u, ["u: x solves every load case", "combination: ULS"]),
+            (head + "analyses: {x: {linear: {}}}\n" + u, ["u: analysis x solves every load case", "combination: ULS"]),
             (head + "analyses: {x: {linear: {combination: ULS}}}\n" + u.replace("WHICH", "combination: SLS,"),
-             ["u: x is solved only for combination ULS"]),
+             ["u: analysis x is solved only for combination ULS"]),
             (head + "analyses: {x: {linear: {combination: SUL}}}\n" + u, ["no combination 'SUL'", "'ULS'"]),
             (head + "analyses: {x: {linear: {case: ded}}}\n" + u, ["no load case 'ded'", "'dead'"]),
             (head + "analyses: {x: {linear: {}}, y: {modal: {about: x}}}\n"
-             + u.replace("WHICH", "case: dead,"), ["its base state is that of x, which solves every"]),
+             + u.replace("WHICH", "case: dead,"), ["its base state is that of analysis x, which solves every"]),
             (head + "analyses: {w: {static: {stations: [1], case: wind}}, x: {motion: {stations: [1], about: w, case: dead}}}\n" + u,
-             ["base state is that of w, whose loads also act here; remove the key 'case'"]),
+             ["base state is that of analysis w, whose loads also act here; remove the key 'case'"]),
             (head.replace(", case: dead", "") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
              ["no load case 'dead'"]),
             (head.replace("on: all, case: dead", "on: all") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
@@ -212,7 +212,7 @@ quantities:
             (head.replace("lift: {", "dead: {") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
              ["dead: a load case has the same name"]),
             (head.replace("lift: {wind: -2}", "lift: {}") + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "case: wind,"),
-             ["lift", "no load acts"]),
+             ["lift", "it contains no load case"]),
             (head.replace("lift: {wind: -2}", "lift: {wnid: -2}") + "analyses: {x: {linear: {}}}\n"
              + u.replace("WHICH", "case: wind,"), ["no load case 'wnid'", "'wind'"]),
             (head + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "combination: ULS, combinations: [SLS],"),
@@ -222,7 +222,7 @@ quantities:
             (head + "analyses: {x: {linear: {}, combination: ULS}}\n" + u, ["within the kind"]),
             (head + "analyses: {x: {linear: {}}}\n" + u.replace("{displacement", "{envelope: max, displacement"), ["next to 'analysis'"]),
             (HEAD.replace("PRETENSION", "") + loads(FACTORS) + "analyses: {x: {linear: {}}}\n" + u.replace("WHICH", "envelope: max,"),
-             ["u: x has no load cases"]),
+             ["u: analysis x has no load cases"]),
         )
         for text, words in rows:
             done = run("solve", "--scene", "/dev/stdin", "-f", "collocation", "-n", 2, input=text.replace("WHICH ", ""))
