@@ -254,6 +254,35 @@ static void field_tests(void)
     fixed_ends();
 }
 
+/* The field of n nodes contains every polynomial of degree n: Lagrange's polynomials of the
+ * positions have degree n - 1, and the slopes of the nodes add the highest power. */
+static void polynomials(void)
+{
+    const section c = angle();
+    for (int nodes = 3; nodes <= ELEMENT_MAX_NODES; nodes++)
+        for (int unequal = 0; unequal < 2; unequal++) {
+            displacement_field f;
+            double largest = 0;
+            prepare(&c, nodes, shear, &f);
+            for (int k = 1; k < nodes - 1 && unequal; k++)
+                f.place[k] += 0.2 * f.place[k] * (1 - f.place[k]);
+            for (int degree = 0; degree <= nodes; degree++)
+                for (double x = 0.05; x < 1; x += 0.3) {
+                    field_rows at;
+                    double sum = 0;
+                    field_at(&f, x, &at);
+                    for (int k = 0; k < nodes; k++) {
+                        const double slope =
+                            degree > 0 ? degree * pow(f.place[k], degree - 1) / f.l0 : 0;
+                        sum += at.part[k] * pow(f.place[k], degree) + at.lean[k] * slope;
+                    }
+                    largest = fmax(largest, fabs(sum - pow(x, degree)));
+                }
+            gsl_test(!(largest < 1e-12), "%d %s nodes: polynomials, error %g", nodes,
+                     unequal ? "unequal" : "equal", largest);
+        }
+}
+
 static const double inner_l0 = 0.8;
 
 static void add_inner(int i, int j, double value, double B[FIELD_INNER * FIELD_INNER])
@@ -523,6 +552,7 @@ static void status_tests(void)
 int main(void)
 {
     field_tests();
+    polynomials();
     field_inner_tests();
     sheet_coefficients_tests();
     status_tests();

@@ -223,6 +223,28 @@ quantities: {{u: {TIP % 'uy'}}}
         self.near(self.solved(text, n=1)["u"], -3 * exact, 1e-4)
         self.near(self.solved(text, n=4)["u"], -3 * exact, 1e-8)
 
+    def test_arc_on_a_foundation(self):
+        """A stiff arc moves like a rigid body on its foundation, whose axes turn along it."""
+        k, sections = (5.0, 20.0), HEAD.replace(f"young: {E}", "young: 1e16").replace(f"shear_modulus: {G}", "shear_modulus: 1e16")
+        text = sections + f"""plane: xy
+nodes: {{a: {{at: [0, 0, 0]}}, b: {{at: [1, 1, 0]}}}}
+members: {{m: {{from: a, to: b, section: s, y: [0, 1, 0], curvature: [0, 0, 1], foundation: {{translation: [{k[0]}, {k[1]}, 0]}}}}}}
+loads: {{F: {{force: [0, -3, 0], on: b}}}}
+analyses: {{run: {{linear: {{}}}}}}
+quantities: {{x: {TIP % 'ux'}, y: {TIP % 'uy'}}}
+"""
+
+        def part(t, i, j):  # of the stiffness for rigid motions ux, uy, rz about a
+            moved = numpy.array([[1, 0, math.cos(t) - 1], [0, 1, math.sin(t)]])
+            axes = numpy.array([[math.cos(t), math.sin(t)], [-math.sin(t), math.cos(t)]]) @ moved
+            return float(axes[:, i] * k @ axes[:, j])
+
+        K = [[scipy.integrate.quad(part, 0, math.pi / 2, (i, j))[0] for j in range(3)] for i in range(3)]
+        u = numpy.linalg.solve(K, [0, -3, -3])
+        found = self.solved(text)
+        self.near(found["x"], u[0] - u[2], 1e-4)
+        self.near(found["y"], u[1] + u[2], 1e-4)
+
     def test_motion(self):
         roots = [scipy.optimize.brentq(lambda z: math.cos(z) + 1 / math.cosh(z), (k - 1) * math.pi + 1e-3, k * math.pi)
                  for k in range(1, 9)]

@@ -154,7 +154,8 @@ class Rust(ProgramTest):
         self.answered("element-test", "--element", made)
         there = compile_shared(MODULE.with_suffix(".c"), self.folder / "timoshenko.so")
         found, expected = (
-            {q["quantity"]: q["value"] for q in self.record("solve", "bend_45", "-f", name, "-n", 4, "--element", element)["quantities"]}
+            {q["quantity"]: q["value"]
+             for q in self.record("solve", "bend_45", "-f", name, "-n", 4, "--element", element)["quantities"]}
             for name, element in (("timoshenko_rs", made), ("timoshenko", there)))
         self.assertGreater(len(expected), 2)
         for name, value in expected.items():
