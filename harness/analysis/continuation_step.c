@@ -193,7 +193,7 @@ status continuation_step_look(continuation *p, const double along[], path_point 
 
 status continuation_step_check(const path_point *at, fault *f)
 {
-    return at->lost ? fault_set(f, STATUS_SINGULAR, "the stiffness matrix is singular") : STATUS_OK;
+    return at->lost ? factor_report_singular(f) : STATUS_OK;
 }
 
 status continuation_step_end(continuation *p, path_point *out, const step_record *record, fault *f)

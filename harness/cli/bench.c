@@ -46,10 +46,11 @@ static int answer(const command_line *l, void *request)
     if (r->of.scene_path != NULL && case_input_find(&r->of) == NULL)
         return r->of.refusal;
     if (r->error != NULL || r->solver.keep_all)
-        return message_fail(STATUS_REFUSED, "--error and --all-dofs require --against");
+        return message_fail(STATUS_REFUSED,
+                            "--error and --all-dofs require --against; add it, or remove them");
     if (strcmp(r->format, "json") == 0)
         return message_fail(STATUS_REFUSED,
-                            "--format json requires --against; without it, give text or csv");
+                            "--format json requires --against; give text or csv, or add --against");
     if (!is_named(r) && (r->of.set.count > 0 || r->meshes.count > 0))
         return message_fail(STATUS_REFUSED, "--set and -n require a case; name the case");
     const status outcome = measure(r, &b, &f);
@@ -71,12 +72,12 @@ static const verb_option own[] = {
      .traits = OPTION_OUTPUT},
     {"dense", 0, NULL, "also time the published algorithm (newton=dense) on every mesh", IN(dense)},
     {"against", 0, "OTHER",
-     "compare in alternating runs with another formulation, at equal error or, with -n, on these "
-     "meshes; or compare with another program (a path that contains a '/'), at equal n",
+     "compare with another formulation in alternating runs, at equal error or, with -n, on these "
+     "meshes; or with another build of beamwork (a path that contains a '/'), on the same mesh",
      IN(against), .traits = OPTION_INPUT},
     {"error", 0, "R[,R...]",
      "with --against: errors at which to compare, such as 1%,0.1% (default: the errors among 10, "
-     "1, 0.1 and 0.01 % that both formulations reach)",
+     "1, 0.1 and 0.01 % that both formulations achieve)",
      IN(error)},
     {"inject-slowdown", 0, "PERCENT",
      "add this percentage to the time of OTHER, to check that the comparison detects the slowdown",
@@ -91,15 +92,14 @@ const verb verb_bench = {
     "[CASE...]",
     "measures error against run time, and the lowest cost for a given error",
     "Times every formulation and mesh of the named cases; without a case, of all cases at all "
-    "parameter points that have a reference value (select with -k). Each time is the minimum of "
+    "parameter points that have a reference value (select with -k). Each time is the shortest of "
     "many repetitions in five alternating rounds on one processor, separately for set-up and "
-    "solution, and is shown with the error. If the rounds of two times overlap, the comparison is "
-    "undecided. With --against FORMULATION, both formulations run alternately at equal error until "
-    "the difference is significant or the comparison stays undecided. Each formulation uses the "
-    "smallest number of "
-    "elements from which the errors of all quantities (or those selected with -k) are within the "
-    "tolerance, or the meshes given by -n. With --against PROGRAM, the same run is also timed with "
-    "another build of beamwork.",
+    "solution. If the rounds of two times overlap, their comparison is undecided. --against "
+    "FORMULATION runs two formulations alternately until the difference of their times is "
+    "significant or the comparison stays undecided. For each error, a formulation uses the "
+    "smallest number of elements at and above which the errors of all quantities (-k selects) are "
+    "not larger; -n gives the meshes instead. --against PROGRAM times the same run with another "
+    "build of beamwork.",
     "beamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
     "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"
     "beamwork bench --scene leaf.yaml --against ../before/beamwork",

@@ -70,7 +70,8 @@ static void show_equal_error(const error_comparison *d, double level, const mesh
                  high = b_is_faster ? 1 / v->low : v->high;
     const int at = printf("at %g %%: ", 100 * level);
     if (!m->measured) {
-        snprintf(line, sizeof line, "not reached by %s%s%s with the meshes of the case",
+        snprintf(line, sizeof line,
+                 "this error is not achieved by %s%s%s with the meshes of the case",
                  m->at.mesh[0] < 0 ? d->s.series[0].formulation.key : "",
                  m->at.mesh[0] < 0 && m->at.mesh[1] < 0 ? " and " : "",
                  m->at.mesh[1] < 0 ? d->s.series[1].formulation.key : "");
@@ -85,9 +86,8 @@ static void show_equal_error(const error_comparison *d, double level, const mesh
                  slower, low, high);
     else if (reach_unranked(d->s.series[0].formulation.type)[0] != '\0' ||
              reach_unranked(d->s.series[1].formulation.type)[0] != '\0')
-        snprintf(line, sizeof line,
-                 "no rank: compared with %s, %s takes %.2f to %.2f times as long", faster, slower,
-                 low, high);
+        snprintf(line, sizeof line, "not ranked: %s takes %.2f to %.2f times as long as %s", slower,
+                 low, high, faster);
     else
         snprintf(line, sizeof line, "%s is faster: %s takes %.2f to %.2f times as long", faster,
                  slower, low, high);
@@ -187,9 +187,8 @@ static status check(const error_comparison *d, const bench_options *r, fault *f)
 {
     for (int i = 0; i < d->s.seriess; i++)
         if (d->s.series[i].missing[0] != '\0')
-            return fault_set(
-                f, STATUS_REFUSED, "%.60s does not support %.100s, which %.60s requires",
-                d->s.series[i].formulation.key, d->s.series[i].missing, d->s.point[0].type->name);
+            return sweep_unsupported(d->s.series[i].formulation.key, d->s.series[i].missing,
+                                     d->s.point[0].type->name, f);
     if (d->s.seriess != 2)
         return fault_set(f, STATUS_REFUSED,
                          "-k '%.100s' selects only one formulation; use -k to select quantities",
@@ -198,8 +197,8 @@ static status check(const error_comparison *d, const bench_options *r, fault *f)
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
                            "errors cannot be computed, because no quantity has a reference value, "
-                           "or a limit on which formulations agree, for both formulations; give -n "
-                           "to compare two meshes");
+                           "or a limit on which formulations agree, that applies to both "
+                           "formulations; give -n to compare two meshes");
 }
 
 static status compare(error_comparison *d, const bench_options *r, fault *f)
@@ -207,9 +206,9 @@ static status compare(error_comparison *d, const bench_options *r, fault *f)
     static mesh_pair m[LEVELS];
     TRY(check(d, r, f));
     if (choose_levels(d, m) == 0)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "no error from 10 %% to 0.01 %% is reached by both formulations; give --error or -n");
+        return fault_set(f, STATUS_REFUSED,
+                         "both formulations achieve none of the errors 10, 1, 0.1 and 0.01 %%; "
+                         "give --error or -n");
     for (int i = 0; i < d->levels; i++)
         if (equal_error_met(&m[i].at))
             TRY(measure(d, r, m, i, &m[i], f));
@@ -342,11 +341,12 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
     const int is_program = strchr(r->against, '/') != NULL;
     if (is_program && access(r->against, X_OK) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "program %.200s does not exist; give the path of another build's beamwork",
+                         "program %.200s does not exist or is not executable; give the path of "
+                         "beamwork in another build",
                          r->against);
     if (is_program && (r->error != NULL || r->select != NULL))
         return fault_set(f, STATUS_REFUSED,
-                         "another program is compared at equal n; remove --error and -k");
+                         "another program is compared on the same mesh; remove --error and -k");
     if (is_program && (r->slowdown > 0 || r->meshes.count > 1))
         return fault_set(f, STATUS_REFUSED,
                          "--inject-slowdown and a second mesh require --against FORMULATION "
@@ -354,7 +354,8 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
     if (r->meshes.count == 0 && !is_program)
         return against_error(r, type, f);
     if (r->error != NULL || r->select != NULL)
-        return fault_set(f, STATUS_REFUSED, "--error and -k determine the meshes; remove -n");
+        return fault_set(f, STATUS_REFUSED,
+                         "--error and -k determine the meshes; remove -n, or --error and -k");
     return against_meshes(r, type, is_program, f);
 }
 
@@ -370,7 +371,8 @@ int bench_against_run(bench_options *r)
         return message_fail(STATUS_REFUSED,
                             "--against does not write a file; remove -o, or give --format json");
     if (r->format[0] == 'c')
-        return message_fail(STATUS_REFUSED, "--against supports --format text and json");
+        return message_fail(STATUS_REFUSED,
+                            "--against supports only --format text and json; give one of these");
     const case_type *type = case_input_find(&r->of);
     return type != NULL ? message_exit(against_other(r, type, &f), &f) : r->of.refusal;
 }

@@ -21,10 +21,9 @@ static status read_either(const verb_option *o, void *member, const char *value,
     if (length > 4 && strcmp(value + length - 4, ".csv") == 0)
         return option_take(&table, &t->own, value, f);
     if (t->packed != NULL)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "--truths is given twice for files that are not tables (.csv); give only one such "
-            "file, and any number of tables");
+        return fault_set(f, STATUS_REFUSED,
+                         "--truths is given twice with files other than .csv tables; give one such "
+                         "file, and any number of tables");
     t->packed = value;
     return STATUS_OK;
 }
@@ -37,7 +36,7 @@ static const verb_option packed_truths[] = {
 static const verb_option user_truths[] = {
     {"truths", 0, "FILE",
      "file of reference values (default: $BEAMWORK_TRUTHS, or truths.h5 next to the program); "
-     "FILE.csv adds your own reference values; may be repeated",
+     "FILE.csv adds your own reference values and may be repeated",
      .traits = OPTION_REPEATS | OPTION_INPUT, .read = read_either},
     {0}};
 const option_group options_truths = {packed_truths, NULL, NULL, NULL};

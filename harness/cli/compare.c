@@ -90,7 +90,9 @@ static int compare(const command_line *l, const compare_request *r, const stored
         return trouble(f);
     if (c.pairs > 0)
         return comparison_differs(&c) ? DIFFERS : SAME;
-    fault_set(f, STATUS_FAULT, "nothing was compared: %.80s and %.80s have no %s in common",
+    fault_set(f, STATUS_FAULT,
+              "nothing was compared, because %.80s and %.80s have no %s in common; give runs of "
+              "the same cases and formulations",
               l->argument[0], l->argument[1], c.whole ? "run" : "series");
     return trouble(f);
 }
@@ -177,9 +179,9 @@ static int answer(const command_line *l, void *request)
 #define IN(at) .member = offsetof(compare_request, at)
 static const verb_option own[] = {
     {"threshold", 0, "NAME=R[,NAME=R]",
-     "smallest changes that are reported (default error=0.01,floor=1e-8,work=0.02): of an error, "
-     "relative to the error; of a value, relative to its reference value; of a work count, "
-     "relative to the count",
+     "smallest changes that are reported (default error=0.01,floor=1e-8,work=0.02). error: of an "
+     "error, relative to the error; floor: of a value, relative to its reference value or, without "
+     "one, to the value; work: of a work count or cost, relative to it",
      IN(threshold)},
     {"experiment", 0, "NAME",
      "experiment to compare if a file contains several: verify, bench or sweep (default: the first "
@@ -194,17 +196,15 @@ const verb verb_compare = {
     "compare",
     "OLD [NEW]",
     "compares two stored runs: changes for better or worse",
-    "Compares errors and work counts of two runs stored by 'verify -o' (HDF5): run by run, or, if "
-    "one of them is a short table, by mesh series, with the limits at the default parameters. A "
-    "previous run is not a reference value. Two runs of 'sweep -o' are compared point by point, by "
-    "the values of their parameters: errors, values, references (a line '.../reference'), statuses "
-    "and costs (threshold work=); points, formulations and meshes that exist in only one run are "
-    "listed. Results that only one run requested (verify -k, -f, --scene) and formulations that "
-    "are new in one run are counted, but are not reported as changes. If only OLD is given, -o "
-    "writes its short table. --hash prints the SHA-256 of all values, without times, machines and "
-    "versions, and the number of values; two runs with equal hashes have equal results. Exit "
-    "status: 0 the same within the thresholds, 1 a result is worse, better, changed, missing or "
-    "new, 2 trouble (file, usage, nothing in common).",
+    "Compares errors and work counts of two runs stored by 'verify -o' (HDF5), run by run. If one "
+    "of them is a short table, mesh series and the limits at the default parameters are compared. "
+    "Two files of 'sweep -o' are compared at equal points: errors, values, reference values (lines "
+    "'.../reference'), statuses and costs. Points, formulations and meshes of only one file are "
+    "listed. Results that only one run requested (verify -k, -f, --scene) and new formulations are "
+    "counted, but are not reported as changes. With OLD alone, -o writes its short table. --hash "
+    "prints the SHA-256 of all values, without times, machines and versions; runs with equal "
+    "hashes have equal results. Exit status: 0 no change above the thresholds, 1 a result is "
+    "better, worse, changed, missing or new, 2 an error (file, command line, nothing in common).",
     "beamwork compare old.h5 new.h5\n"
     "beamwork compare old_sweep.h5 new_sweep.h5\n"
     "beamwork compare harness/baseline.csv build/results.h5 --threshold error=0.1",

@@ -81,7 +81,7 @@ static void names_formulation_options(const offer *o)
     const size_t name = strcspn(o->begun, ":");
     if (o->begun[name] == '\0') {
         names_formulations(o);
-        offer_text(o, "all", "every one");
+        offer_text(o, "all", "all formulations");
         return;
     }
     const element_type *type = formulations_named(o->begun, name);

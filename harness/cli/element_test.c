@@ -119,14 +119,13 @@ const verb verb_element_test = {
     "element-test",
     "[FORMULATION...|all]",
     "checks a formulation against the interface requirements, and states what to correct",
-    "Checks a formulation against the interface requirements: derivatives compared with finite "
-    "differences, energy, symmetry, rigid motion, calls that run out of memory, array bounds, "
-    "mass; each failure states what to correct. It also measures errors in uniform and linear "
-    "states, locking, orders of convergence, and strains after full turns and load cycles. With "
-    "--element no name is needed. A part that takes longer than the time limit (60 s) fails. Exit "
-    "status: 0 the requirements are satisfied, 1 a requirement is violated, a uniform or linear "
-    "state has a wrong limit (a stiffness of the section is wrong), or an order is below the "
-    "declared order, 2 invalid input, 4 file, disk or memory.",
+    "Checks a formulation against the interface requirements (derivatives against finite "
+    "differences, energy, symmetry, rigid motion, repeated calls, array bounds, mass), and states "
+    "what to correct. It also measures errors in uniform and linear states, locking, orders of "
+    "convergence, and strains after full turns and load cycles. With --element, no name is needed. "
+    "A part that exceeds the time limit (60 s) fails. Exit status: 0 all requirements are "
+    "satisfied; 1 a requirement is violated, a uniform or linear state has a wrong limit, or an "
+    "order is below the declared order; 2 invalid input; 4 file, disk or memory.",
     "beamwork element-test collocation\n"
     "beamwork element-test --element ./mine.so\n"
     "beamwork element-test --element ./mine.so --format latex -o table.tex\n"

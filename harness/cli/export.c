@@ -72,7 +72,7 @@ const verb verb_export = {
     "Writes a case, or your own scene (--scene FILE), as solids in an input deck for another "
     "program. Rectangles and straight walls at right angles become 20-node bricks with reduced "
     "integration; ends and bodies are rigid. Each member has -n elements along its length (default "
-    "20), shorter near its ends. A scene that a deck cannot express is rejected. "
+    "20), shorter near its ends. Scenes that an input deck cannot express are rejected. "
     "harness/import_export/read_back.py converts the printed results to an import file.",
     "beamwork export --scene cases/examples/leaf_spring_guide.yaml --to calculix -o guide.inp",
     shared,

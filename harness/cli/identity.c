@@ -125,7 +125,9 @@ status identity_make(const command_line *l, identity_texts *out, digest *plan, f
     json_decref(words);
     out->origin = write_origin(l);
     if (out->origin == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory, or the command line is not valid UTF-8");
+        return fault_set(
+            f, STATUS_FAULT,
+            "out of memory, or the command line is not valid UTF-8; use file names in UTF-8");
     return add_files(plan, l, f);
 }
 

@@ -27,13 +27,20 @@ static status print_mistakes(const import_request *r, const mistakes *m, fault *
     return STATUS_OK;
 }
 
+/* Reports a file with errors, which have been printed. Returns `outcome`. */
+static status refuse(const char *path, status outcome, fault *f)
+{
+    return fault_set(f, outcome,
+                     "nothing was imported, because %.200s contains errors; correct them", path);
+}
+
 static status read_mapped(const command_line *l, const import_request *r, import_set *set, fault *f)
 {
     mistakes m = {.file = r->map};
     const status outcome = import_map_read(r->map, l->argument, l->arguments, set, &m, f);
     TRY(print_mistakes(r, &m, f));
     if (m.count > 0)
-        fault_set(f, outcome, "nothing was imported, because %.200s contains errors", r->map);
+        refuse(r->map, outcome, f);
     return outcome;
 }
 
@@ -50,8 +57,7 @@ static status read_files(const command_line *l, const import_request *r, import_
             continue;
         outcome = one;
         if (m.count > 0)
-            fault_set(f, one, "nothing was imported, because %.200s contains errors",
-                      l->argument[i]);
+            refuse(l->argument[i], one, f);
         else
             *f = here;
     }
@@ -112,7 +118,7 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(import_request, at)
 static const verb_option own[] = {{"map", 0, "FILE.yaml",
-                                   "map from the columns of files without a header to quantities",
+                                   "for files without a header: map of their columns to quantities",
                                    IN(map), .traits = OPTION_INPUT},
                                   {0}};
 static const verb_group shared[] = {SHARED(output, output), SHARED(record, format), {NULL, 0}};
@@ -120,11 +126,11 @@ const verb verb_import = {
     "import",
     "FILE...",
     "reads results of other programs, for 'verify --imported'",
-    "Reads results of other programs for a case or scene: CSV with a header "
+    "Reads results of other programs for a case or scene from CSV files with a header "
     "(harness/import_export/import.md). Names, units and parameters are checked, and values are "
-    "converted. The file given by -o has the schema of the results of verify; 'verify --imported' "
-    "shows these values as the results of another program. --format json prints the errors of each "
-    "file, for editors.",
+    "converted to the units of the quantities. 'verify --imported' shows the values of the file "
+    "given by -o as results of another program. --format json prints the errors of each file, for "
+    "editors.",
     "beamwork import theirs.csv -o theirs.h5",
     shared,
     own,

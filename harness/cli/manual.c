@@ -148,8 +148,8 @@ void manual_write_program(FILE *to, const manual_program *p)
     fprintf(to, ".Sh SYNOPSIS\n.Nm beamwork\n.Ar VERB\n.Op Ar OPTION ...\n.Nm beamwork\n"
                 ".Cm help\n.Ar VERB\n.Nm beamwork\n.Fl \\-version\n.Sh DESCRIPTION\n");
     roff_text(to, p->question);
-    fprintf(to, "All values are in SI units.\nEach verb has its own page with its options, "
-                "which\n.Ql beamwork VERB \\-h\nprints as well.\n");
+    fprintf(to, "Values are in SI units, unless a scene file selects other units.\nEach verb has "
+                "its own page; its options are also printed by\n.Ql beamwork VERB \\-h .\n");
     write_verbs(to, p->verbs);
     fprintf(to, ".Sh ENVIRONMENT\n");
     write_rows(to, "BEAMWORK_TRUTHS", variables);
@@ -232,7 +232,7 @@ void manual_write_verb(FILE *to, const verb *v)
     fprintf(to, ".Pp\nThe options:\n.Bl -tag -width Ds\n");
     for (int i = 0; (o = verb_option_at(v, i, NULL)) != NULL; i++)
         write_option(to, o);
-    fprintf(to, ".El\n.Sh EXIT STATUS\nThat of\n.Xr beamwork 1 .\n");
+    fprintf(to, ".El\n.Sh EXIT STATUS\nSee\n.Xr beamwork 1 .\n");
     write_verb_examples(to, v->examples);
     write_references(to, v);
 }
@@ -293,9 +293,9 @@ void manual_write_scene(FILE *to)
         {"beamwork", 1}, {"beamwork-scene", 1}, {"beamwork-solve", 1}};
     roff_page(to, "beamwork-scene", 5, "scene files with your structures");
     fprintf(to, ".Sh DESCRIPTION\n");
-    roff_text(to, "A scene file is written in YAML; all values are in SI units, and numbers may be "
-                  "expressions. Nothing is compiled. All errors of a file are reported in one run, "
-                  "with line and column.");
+    roff_text(to, "A scene file is written in YAML. Values are in SI units, unless the key 'units' "
+                  "selects other units. Numbers may be expressions. All errors of a file are "
+                  "reported in one run, with line and column.");
     fprintf(to, ".Pp\n");
     roff_text(to, key_list_head[0]);
     fprintf(to, ".Ss Every entry\n");
@@ -304,7 +304,9 @@ void manual_write_scene(FILE *to)
     write_keys(to, key_list_loops);
     fprintf(to, ".Ss All keys\n");
     write_keys(to, key_list_all);
-    fprintf(to, ".Sh EXAMPLES\nA leaf spring that is clamped and pushed aside:\n.Bd -literal\n");
+    fprintf(
+        to,
+        ".Sh EXAMPLES\nA clamped leaf spring with a transverse force at its tip:\n.Bd -literal\n");
     for (const char *at = example; *at != '\0'; at++) {
         const char *line = at;
         while (*at != '\n')

@@ -145,11 +145,11 @@ const verb verb_merge = {
     "merge",
     "FOLDER...",
     "merges the batches of all shards of verify or sweep into one run",
-    "Merges the batches that shards of verify or sweep wrote with --into, and writes the same "
-    "output as a single run. Use the verb, options and files of the shards. Exit status: that of "
-    "the verb; 2 if batches belong to another request, build or input, or if two batches differ; 5 "
-    "if batches are missing. Missing batches are listed, and nothing is written unless --partial "
-    "is given, which writes the existing part to files named .partial",
+    "Merges the batches that shards of verify or sweep wrote with --into. The output is that of a "
+    "single run; the verb, options and input files are those of the shards. If batches are "
+    "missing, they are listed, and nothing is written; with --partial, the existing part is "
+    "written to files named .partial. Exit status: that of the verb; 2 if batches belong to "
+    "another request, build or input, or if two batches differ; 5 if batches are missing.",
     "beamwork merge parts -o results.h5\n"
     "beamwork merge first/parts second/parts -o results.h5 --junit junit.xml",
     shared,

@@ -92,9 +92,8 @@ static void ended(int code, void *unused)
     (void)unused;
     if (getpid() != program || (code >= EXIT_AS_EXPECTED && code <= EXIT_INTERRUPTED))
         return;
-    write_error(
-        "beamwork: a library or an element ended the program; libraries do so if memory runs "
-        "out\n");
+    write_error("beamwork: a library or an element ended the program, perhaps because memory ran "
+                "out; free memory, and check your own element with 'beamwork element-test'\n");
     output_abandon();
     _exit(EXIT_FAULT);
 }
@@ -140,12 +139,13 @@ static struct {
     int signal;
     const char *what;
     char line[200];
-} mishap[] = {{SIGSEGV, "accessed memory that it does not own", ""},
-              {SIGBUS, "accessed memory that does not exist", ""},
-              {SIGFPE, "divided an integer by zero", ""},
-              {SIGILL, "executed an invalid instruction", ""},
-              {SIGABRT, "aborts", ""},
-              {SIGALRM, "did not finish within the time limit (--time-limit)", ""}};
+} mishap[] = {
+    {SIGSEGV, "accessed memory that it does not own", ""},
+    {SIGBUS, "accessed an unaligned address, or memory beyond the end of a mapped file", ""},
+    {SIGFPE, "divided an integer by zero", ""},
+    {SIGILL, "executed an invalid instruction", ""},
+    {SIGABRT, "aborts", ""},
+    {SIGALRM, "did not finish within the time limit (--time-limit)", ""}};
 
 enum { MISHAPS = sizeof mishap / sizeof mishap[0] };
 
@@ -318,8 +318,14 @@ static void show_usage(const struct argp_state *state)
 
 static void add_argument(command_line *l, const char *text)
 {
-    if (l->arguments == verb_most_arguments(l->verb->arguments))
-        message_refuse("too many arguments; 'beamwork --help' shows the usage");
+    if (l->arguments == verb_most_arguments(l->verb->arguments)) {
+        char words[200];
+        snprintf(
+            words, sizeof words,
+            "there are too many arguments, from '%.60s' on; 'beamwork %.40s -h' shows the usage",
+            text, l->verb->name);
+        message_refuse(words);
+    }
     l->argument[l->arguments++] = text;
 }
 

@@ -92,8 +92,8 @@ static const verb_option own[] = {
      "of them)",
      IN(integrators)},
     {"step", 0, "H[,H...]|H..H",
-     "time steps [s]; in a range A..B, the step is halved from A to B (default: 2, 1, 1/2 and 1/4 "
-     "of the step of the motion)",
+     "time steps [s]; in a range A..B, the step is halved from A to B (default: the step of the "
+     "motion times 2, 1, 1/2 and 1/4)",
      IN(step_lengths)},
     {"tolerance", 0, "R[,R...]|R..R",
      "tolerance for the error of a step, for integrators that estimate the error; in a range A..B, "
@@ -116,11 +116,12 @@ const verb verb_motion = {
     "[CASE]",
     "compares integrators: time-integration error, energy, momenta, cost",
     "Runs a transient analysis with several integrators and several steps or tolerances. Prints "
-    "for each run the time-integration error (relative to radau at 1e-10 on the same mesh) and its "
-    "order, the changes of the energy and the momenta, and the cost. --conservation-only runs long "
-    "motions with large steps and reports whether the energy grows or a step fails. --expected "
-    "compares the verdicts with a table. Exit status: 0 as expected, 1 a verdict differs or no "
-    "motion reaches its end, 2 invalid input, 3 nothing was run, 4 file, disk or memory.",
+    "for each run the time-integration error (relative to radau with tolerance 1e-10 on the same "
+    "mesh) and its order, the changes of the energy and the momenta, and the cost. "
+    "--conservation-only runs long motions with large steps and reports whether the energy grows "
+    "or a step fails. --expected compares the verdicts with a table. Exit status: 0 as expected, 1 "
+    "a verdict differs or no motion reaches its end, 2 invalid input, 3 nothing was run, 4 file, "
+    "disk or memory.",
     "beamwork motion free_flight_space -f collocation -n 8 --integrator alpha,radau "
     "--step 0.1..0.0125\n"
     "beamwork motion --expected harness/experiments/expected.csv",

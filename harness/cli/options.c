@@ -354,8 +354,7 @@ static const verb_option reports[] = {
      offsetof(report_options, propose), OPTION_OUTPUT, .read = NULL},
     {0}};
 static const verb_option solver[] = {
-    {"all-dofs", 0, NULL,
-     "keep all degrees of freedom, which gives the same results with more work",
+    {"all-dofs", 0, NULL, "keep all degrees of freedom; this gives the same results with more work",
      .member = offsetof(solver_options, keep_all)},
     {"threads", 0, "N",
      "number of threads that share the loop over elements (default 1); it does not affect the "
@@ -422,8 +421,12 @@ static status find_scenes(const char *folder, glob_t *found, fault *f)
     if (failed == GLOB_NOMATCH)
         return fault_set(f, STATUS_REFUSED,
                          "%.200s: the folder contains no *.yaml; give a scene file", folder);
-    return failed == 0 ? STATUS_OK
-                       : fault_set(f, STATUS_FAULT, "%.200s: the folder cannot be read", folder);
+    return failed == 0
+               ? STATUS_OK
+               : fault_set(
+                     f, STATUS_FAULT,
+                     "%.200s: the folder cannot be read; make it readable, or give a scene file",
+                     folder);
 }
 
 static status visit_folder(const char *folder, file_visit *visit, const void *context, fault *f)

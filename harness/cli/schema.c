@@ -19,7 +19,7 @@ const char *const results_about[] = {
     "column 'unit'.",
     "curve_x, curve_value: points of all curves of a case, one curve after the other.",
     "shapes/POINT (verify --shapes, solve --shapes; attributes formulation, elements): members "
-    "(nodes p, q, section), first_point, bodies of the nodes (body or -1, held components as "
+    "(nodes p, q, section), first_point, bodies of the nodes (body or -1, fixed components as "
     "bits), released (components at both ends of members, as bits), sections/I (corners of walls, "
     "y and z in m), and of every state kind, analysis, value, scale and [states x points] "
     "position, orientation (quaternion), force, moment, bimoment, nodes.",
@@ -142,8 +142,8 @@ static const verb_group shared[] = {SHARED(record, format), {NULL, 0}};
 const verb verb_schema = {"schema",
                           "",
                           "describes results files: tables, columns, units",
-                          "Describes the results file that experiments share (-o FILE), the file "
-                          "of solve, and the records of JSON and CSV.",
+                          "Describes the files of verify, of the experiments and of solve (-o "
+                          "FILE), and the records of JSON and CSV.",
                           "beamwork schema --format json",
                           shared,
                           NULL,

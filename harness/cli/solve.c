@@ -404,8 +404,8 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(solve_request, at)
 static const verb_option own[] = {
-    {"error", 0, "R", "change from mesh to mesh that counts as negligible (default 0.1%)",
-     IN(error), .read = option_error},
+    {"error", 0, "R", "change between meshes that counts as negligible (default 0.1%)", IN(error),
+     .read = option_error},
     {"steps", 0, "N",
      "initial number of load steps between two stations of a path; the step size adapts", IN(steps),
      .least = 1, .most = 1000000},
@@ -428,10 +428,10 @@ static const verb_option own[] = {
      "and displacements",
      IN(state_space)},
     {"reduce", 0, "MODES[:NODE,...]",
-     "with --state-space: also write reduced models of N modes; with interface nodes, they contain "
-     "the static shapes of these nodes and modes with these nodes fixed (Craig-Bampton); without "
-     "nodes, free modes and the static shapes of the forces; the errors of the reduced models are "
-     "printed",
+     "with --state-space: also write reduced models with this number of modes. With interface "
+     "nodes, a model contains the static shapes of these nodes and modes with these nodes fixed "
+     "(Craig-Bampton); without nodes, free modes and the static shapes of the forces. The errors "
+     "of the models are printed",
      IN(reduce)},
     {"save-state", 0, "FILE",
      "also store the last state of motions (HDF5), from which --restart continues", IN(ends),

@@ -176,8 +176,8 @@ static const verb_option own[] = {
      "equal ratios, or a list of values or words; may be repeated for other parameters",
      IN(vary), .traits = OPTION_REPEATS, .most = CASE_MAX_PARAMETERS},
     {"design", 0, "grid|sobol|halton|random",
-     "points of the sweep: all points of the grid (default), or --points N points that fill the "
-     "box of --vary NAME=A..B",
+     "points of the sweep: all points of the grid (default), or N points (--points N) that fill "
+     "the box of --vary NAME=A..B",
      IN(design)},
     {"points", 0, "N", "number of points of a design that is not a grid", IN(points), .least = 1,
      .most = 1000000000},
@@ -205,21 +205,20 @@ static const verb_group shared[] = {SHARED(case, of),
 const verb verb_sweep = {
     "sweep",
     "CASE",
-    "solves one case over ranges of its parameters: where is the error target met?",
-    "Solves a case, or a structure of your own (--scene FILE), at many points of its parameter "
-    "space and shows where formulations reach an error (--error, default 1 %): the share of points "
-    "for each mesh, the smallest number of elements over the parameters, and the worst points. "
+    "shows where in ranges of parameters an error target is met",
+    "Solves a case, or your own scene (--scene FILE), at many points of its parameter space. Shows "
+    "where formulations achieve a target error (--error, default 1 %): the share of points for "
+    "each mesh, the sufficient number of elements over the parameters, and the worst points. "
     "--vary NAME=A..B/N gives N equal parts, including both ends; A..B/N:log gives equal ratios; "
-    "A,B,C gives these values, or words of a choice. Several --vary options make a grid; the last "
-    "one varies fastest. --design sobol, halton or random with --points N gives N points in the "
-    "box of --vary NAME=A..B (or A..B:log). Errors refer to the reference value stored for the "
-    "point; or, with --compute-references, to one computed there; otherwise to the limit of the "
-    "meshes of all formulations with the same physics. Points whose limit has an uncertainty above "
-    "half of the error are reported. A point at which no scene can be built and a failed run are "
-    "reported as results. -o FILE writes all values to a results file, and the worst points as "
-    "scenes to FILE.worst. Finished batches are stored in FILE.batches until all are complete; the "
-    "same command resumes from them. Exit status: 0 done, 2 invalid input, 4 file, disk or memory, "
-    "5 incomplete.",
+    "A,B,C gives these values or words. Several --vary options make a grid, in which the last "
+    "parameter varies fastest. --design sobol, halton or random with --points N gives N points in "
+    "the box of --vary NAME=A..B (or A..B:log). Errors are relative to the reference value stored "
+    "for the point or, with --compute-references, to a value computed for it; otherwise to the "
+    "limit of the meshes of all formulations with the same physics. Points whose limit has an "
+    "uncertainty above half of the target error are reported, as are points without a scene and "
+    "failed runs. -o FILE writes all values, and the worst points as scenes to FILE.worst. "
+    "Finished batches are stored in FILE.batches until all are complete; the same command resumes "
+    "from them. Exit status: 0 done, 2 invalid input, 4 file, disk or memory, 5 incomplete.",
     "beamwork sweep elastica --vary load=0.5..8/15 -f beamw -f sheet_third -n 1,2,4,8\n"
     "beamwork sweep c_column --vary length=2..12/10 -k buckling_load --compute-references -o "
     "column.h5\n"
@@ -347,8 +346,8 @@ void spread_free(spread_end *out)
 
 static const verb_option shards[] = {
     {"shard", 0, "K/N",
-     "compute only the K-th of N shards, and write each batch to a file in the folder of --into; a "
-     "restart computes only missing batches",
+     "compute only shard K of N, and write each of its batches to a file in the folder of --into; "
+     "a restart computes only missing batches",
      .member = offsetof(shard_options, shard), .traits = OPTION_ASIDE},
     {"into", 0, "FOLDER",
      "folder for the batches of --shard, or for all batches without --shard; the folder is created",

@@ -208,9 +208,9 @@ static status show_scene_of(json_t *list, const case_type *type, const double pa
 
 static status show_scene(json_t *list, const case_type *type, const double parameter[], fault *f)
 {
-    FILE *text = tmpfile();
+    FILE *text = derive_text_file(f);
     if (text == NULL)
-        return fault_set(f, STATUS_FAULT, "a temporary file for the scene cannot be created");
+        return STATUS_FAULT;
     const status outcome = show_scene_of(list, type, parameter, text, f);
     fclose(text);
     if (outcome != STATUS_REFUSED)
@@ -263,7 +263,8 @@ static int answer(const command_line *l, void *request)
     if (type == NULL)
         return r->of.refusal;
     if (r->format[0] == 'c')
-        return message_fail(STATUS_REFUSED, "truth supports --format text and json");
+        return message_fail(STATUS_REFUSED,
+                            "truth supports only --format text and json; give one of these");
     status outcome = case_input_truths(&r->of, &r->truths, &t, &f);
     if (outcome != STATUS_OK)
         return message_fail(outcome, f.text);
@@ -287,10 +288,11 @@ const verb verb_truth = {
     "CASE",
     "prints reference values of a case at a parameter point, computed on demand",
     "Prints the reference values of a parameter point: value, uncertainty, unit, kind, model, "
-    "source. If none is stored for the model of the case, the deriving program computes them. Your "
-    "own scene (--scene FILE) is solved as a network of geometrically exact beams and rigid "
-    "bodies; the output lines can be added to 'truths' of the scene. Exit status: 0 printed, 1 no "
-    "value is stored and no program can compute one, 2 invalid input, 4 file, disk or memory.",
+    "source. If none is stored for the model of the case, the deriving program of the case "
+    "computes them. Your own scene (--scene FILE) is solved as a network of geometrically exact "
+    "beams and rigid bodies; the output lines can be added to 'truths' of the scene. Exit status: "
+    "0 printed, 1 no value is stored and no program can compute one, 2 invalid input, 4 file, disk "
+    "or memory.",
     "beamwork truth elastica --set load=3",
     shared,
     NULL,

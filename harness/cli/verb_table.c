@@ -65,7 +65,7 @@ static const manual_program about = {
                 "elements, and what is its verdict?",
     .examples = examples,
     .statuses = statuses,
-    .of_compare = "compare, like diff: 0 the same, 1 different, 2 trouble.",
+    .of_compare = "compare, like diff: 0 no change, 1 changes, 2 an error.",
 };
 
 static int refuse(const char *name)

@@ -183,9 +183,8 @@ static const verb_option own[] = {
      "has changed by more than 0.001 % (unless an exact value checks the limit as accurately), or "
      "if an imported program is not in this run",
      IN(former), .traits = OPTION_INPUT | OPTION_VERDICT},
-    {"exit-zero", 0, NULL,
-     "exit status 0 whatever the verdicts; the output files contain the result", IN(exit_zero),
-     .traits = OPTION_ASIDE},
+    {"exit-zero", 0, NULL, "exit status 0 for any verdicts; the output files contain the verdicts",
+     IN(exit_zero), .traits = OPTION_ASIDE},
     {"verbose", 'v', NULL, "print every limit, not only the overview", IN(verbose),
      .traits = OPTION_ASIDE},
     {"quiet", 'q', NULL, "print only unexpected verdicts and the final PASS or FAIL sentence",

@@ -273,12 +273,10 @@ static status add_row(const sweep_point *p, const derived_value *v, truths *t, f
 static status ask_scene(const char *script, const sweep_point *p, derived_value **value, int *count,
                         fault *f)
 {
-    FILE *text = tmpfile();
+    FILE *text = derive_text_file(f);
     const write_head head = {p->type->name, p->type->summary, p->type->source};
     if (text == NULL)
-        return fault_set(f, STATUS_FAULT,
-                         "a temporary file for the scene cannot be created; make sure that /tmp is "
-                         "writable and not full");
+        return STATUS_FAULT;
     status outcome = write_scene(text, &p->scene, &head, f);
     if (outcome == STATUS_OK)
         outcome = derive_scene(script, text, value, count, f);

@@ -82,10 +82,7 @@ static status keep_running(parameter_ranges *r, const survey_selected *w, fault 
         if (w->runs[i])
             continue;
         if (r->request.formulations > 0)
-            return fault_set(f, STATUS_REFUSED,
-                             "%.60s does not support %.160s, which %.60s requires; choose another "
-                             "formulation with -f",
-                             r->formulation[i].key, why, r->request.type->name);
+            return sweep_unsupported(r->formulation[i].key, why, r->request.type->name, f);
         if (used < (int)sizeof r->left_out)
             used += snprintf(r->left_out + used, sizeof r->left_out - (size_t)used, "%s%s (%s)",
                              used > 0 ? ", " : "", r->formulation[i].key, why);

@@ -146,6 +146,12 @@ static status choose(matrix_factor *fa, const sparse **a, fault *f)
     return STATUS_OK;
 }
 
+status factor_report_singular(fault *f)
+{
+    return fault_set(f, STATUS_SINGULAR,
+                     "the stiffness matrix is singular; check supports, releases and stiffnesses");
+}
+
 status factor_numeric(matrix_factor *fa, const sparse *a, fault *f)
 {
     const double n = fa->n, lost = 0.25;
@@ -169,7 +175,7 @@ status factor_numeric(matrix_factor *fa, const sparse *a, fault *f)
         outcome = STATUS_SINGULAR;
     }
     if (outcome == STATUS_SINGULAR)
-        fault_set(f, outcome, "the stiffness matrix is singular");
+        factor_report_singular(f);
     else if (outcome == STATUS_FAULT)
         fault_set(f, outcome, "out of memory for the factors of %d unknowns", fa->n);
     return outcome;

@@ -78,6 +78,8 @@ void factor_free(matrix_factor *fa);
 /* Factors the values. SINGULAR: a pivot is zero or not finite, or growth of the factors has
  * destroyed all digits. */
 status factor_numeric(matrix_factor *fa, const sparse *a, fault *f);
+/* Reports a singular stiffness matrix. Returns SINGULAR. */
+status factor_report_singular(fault *f);
 /* Returns 1 if the last values were factored as symmetric. */
 int factor_is_symmetric(const matrix_factor *fa);
 /* Returns the upper triangle of a matrix with by_numbers that was factored as symmetric, otherwise

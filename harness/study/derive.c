@@ -11,6 +11,17 @@
 static const char python[] = "/usr/bin/python3";
 enum { NOT_DERIVABLE = 3, LINE = 600 }; /* as in reference/derive/at.py */
 
+FILE *derive_text_file(fault *f)
+{
+    FILE *text = tmpfile();
+    if (text == NULL)
+        fault_set(f, STATUS_FAULT,
+                  "a temporary file for the scene cannot be created (%s); make sure that /tmp is "
+                  "writable and not full",
+                  strerror(errno));
+    return text;
+}
+
 status derive_script(const char *name, char out[PATH_MAX], fault *f)
 {
     char folder[PATH_MAX];

@@ -475,6 +475,14 @@ status narrow_check_words(const sweep_point *p, const char *select, const select
                      select, word, near, p->type->name);
 }
 
+status sweep_unsupported(const char *key, const char *missing, const char *name, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED,
+                     "%.60s does not support %.160s, which %.60s requires; choose another "
+                     "formulation",
+                     key, missing, name);
+}
+
 status narrow_to_nothing(const char *select, const char *name, fault *f)
 {
     return fault_set(f, STATUS_REFUSED,

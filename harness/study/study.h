@@ -660,6 +660,9 @@ typedef struct derived_value {
     double value, uncertainty; /* [unit] */
 } derived_value;
 
+/* Returns a temporary file for the text of a scene, which the caller closes. NULL: the file cannot
+ * be created, which is reported. */
+FILE *derive_text_file(fault *f);
 /* Writes the path of a program of reference/derive. The folder is BEAMWORK_REFERENCE or that of the
  * other data. FAULT: the path is too long. */
 status derive_script(const char *name, char out[PATH_MAX], fault *f);
@@ -817,6 +820,9 @@ status narrow_to(sweep *s, const char *select, fault *f);
  * quantities of the point or, if none is near, among all names. REFUSED: there are such words. */
 status narrow_check_words(const sweep_point *p, const char *select, const select_words *words,
                           fault *f);
+/* Reports that formulation `key` does not support the physics `missing` of the case `name`. Returns
+ * REFUSED. */
+status sweep_unsupported(const char *key, const char *missing, const char *name, fault *f);
 /* Reports that the selection contains no quantity of the case `name`. Returns REFUSED. */
 status narrow_to_nothing(const char *select, const char *name, fault *f);
 /* Like narrow_to, for a scene before planning. If no formulation has been chosen (type NULL), words

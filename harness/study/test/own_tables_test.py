@@ -234,7 +234,7 @@ class Truths(Own):
             with self.subTest(line=line):
                 self.refused(2, ("t.csv:", *words), "verify", "--truths",
                              self.write("t.csv", ROWS, line))
-        self.refused(2, "given twice for files that are not tables", "verify", "--truths", "a.h5", "--truths", "b.h5")
+        self.refused(2, "given twice with files other than .csv tables", "verify", "--truths", "a.h5", "--truths", "b.h5")
 
 
 FORMULATIONS = ("beamw", "beamw_vlasov", "beamw_consistent", "sheet_second", "sheet_third",
