@@ -29,8 +29,8 @@ endif
 BASE_CFLAGS := -std=c11 -D_GNU_SOURCE -I. -I$(BUILD) -fno-math-errno -ffp-contract=off -fPIC $(WARNINGS)
 
 FORMULATIONS := $(sort $(wildcard elements/*.c))
-CASES := $(sort $(wildcard cases/*.c cases/*.yaml))
-LIBRARY_SOURCES := $(FORMULATIONS) $(filter %.c,$(CASES)) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/*/*.c))
+CASES := $(sort $(wildcard cases/benchmarks/*.c cases/benchmarks/*.yaml))
+LIBRARY_SOURCES := $(FORMULATIONS) $(sort $(wildcard elements/*/*.c cases/*/*.c harness/*/*.c))
 LIBRARY_SOURCES := $(filter-out elements/test/% elements/examples/% cases/test/% harness/tools/% harness/cli/main.c,$(LIBRARY_SOURCES))
 PROGRAM_SOURCES := harness/cli/main.c
 TEST_SOURCES := $(sort $(wildcard elements/test/*_test.c cases/test/*_test.c cases/*/test/*_test.c harness/*/test/*_test.c))
@@ -44,7 +44,7 @@ VERBS := $(BUILD)/verbs.h
 COST_COEFFICIENTS := $(BUILD)/cost_coefficient_table.c
 RUN_COSTS := $(BUILD)/run_cost_table.c
 # Scene files among the cases are read while the program is built, and are C in it.
-PACKED := $(patsubst cases/%.yaml,$(BUILD)/packed/%.o,$(filter %.yaml,$(CASES)))
+PACKED := $(patsubst cases/benchmarks/%.yaml,$(BUILD)/packed/%.o,$(filter %.yaml,$(CASES)))
 PACK_CASE := $(BUILD)/pack_case
 LIBRARY := $(BUILD)/libbeamwork.a
 PROGRAM := $(BUILD)/beamwork
@@ -232,7 +232,7 @@ $(BUILD)/harness/cli/verb_table.o: $(VERBS)
 $(PACK_CASE): $(BUILD)/harness/tools/pack_case.o $(filter $(addprefix $(BUILD)/,cases/format/% cases/scene/% cases/quantities/% elements/math/% elements/section/% elements/shared/%),$(OBJECTS))
 	@$(CC) $(CFLAGS) -o $@ $^ $(LDFLAGS) $(DEP_LIBS)
 
-$(PACKED:.o=.c): $(BUILD)/packed/%.c: cases/%.yaml $(PACK_CASE)
+$(PACKED:.o=.c): $(BUILD)/packed/%.c: cases/benchmarks/%.yaml $(PACK_CASE)
 	@mkdir -p $(@D); $(PACK_CASE) $< >$@
 
 $(COST_COEFFICIENTS): harness/study/cost_coefficients.csv harness/tools/cost_coefficient_table.sh

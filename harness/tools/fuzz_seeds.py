@@ -33,7 +33,7 @@ def save(folder, seeds):
 
 def parameters():
     """Yields every parameter point of the tables, preceded by the number of its case."""
-    for index, path in enumerate(sorted((ROOT / "cases").glob("*.[cy]*"), key=lambda p: p.stem)):
+    for index, path in enumerate(sorted((ROOT / "cases" / "benchmarks").glob("*.[cy]*"), key=lambda p: p.stem)):
         table = ROOT / "reference" / "tables" / f"{path.stem}.csv"
         with open(table if table.exists() else "/dev/null", newline="", encoding="utf-8") as rows:
             for text in sorted({row["parameters"] for row in csv.DictReader(rows)}):

@@ -62,7 +62,7 @@ hits=$(grep -rnE 'include .{0,2}"[^"]*_impl\.h' harness/tools --include='*.sh' -
 hits=$(grep -rhoE '^\} [a-z_0-9]+;' elements cases harness --include='*.c' --include='*.h' --exclude-dir=test --exclude-dir=tools --exclude-dir=examples | sort | uniq -d)
 [ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- two types have this name|'; bad=1; }
 # The harness uses generated lists and names neither a formulation nor a case.
-for file in elements/*.c cases/*.c cases/*.yaml; do
+for file in elements/*.c cases/benchmarks/*; do
     [ -f "$file" ] || continue
     name=$(basename "${file%.*}")
     quoted="\"$name\"|"

@@ -80,7 +80,7 @@ class Papers(unittest.TestCase):
     def test_cases_parameters_and_cells(self):
         defaults = pack.read_defaults(REFERENCE / "defaults.csv")
         for r in rows():
-            self.assertTrue(list((ROOT / "cases").glob(r["case"] + ".[cy]*")), r)
+            self.assertTrue(list((ROOT / "cases" / "benchmarks").glob(r["case"] + ".[cy]*")), r)
             pack.parameter_hash(defaults[r["case"]], r["parameters"], f"papers.csv: {r['item']}")
             given = [bool(r[name]) for name in ("formulation", "elements", "quantity")]
             self.assertIn(sum(given), (0, 3), r)

@@ -18,7 +18,7 @@ LOADED = ROOT / "cases/format/test/good/loaded.yaml"
 
 
 def written():
-    found = {p.stem: ("scene", p.stem) for p in (ROOT / "cases").glob("*.[cy]*")}
+    found = {p.stem: ("scene", p.stem) for p in (ROOT / "cases" / "benchmarks").glob("*.[cy]*")}
     found.update({p.stem: ("scene", "--scene", str(p))
                   for p in (ROOT / "cases" / "examples").glob("*.yaml")})
     return {name: run(*arguments).stdout for name, arguments in sorted(found.items())}

@@ -58,7 +58,7 @@ class BlindSpots(unittest.TestCase):
         return done.returncode == 1
 
     def sample(self, rows):
-        quick = [r for r in rows if not r["parameters"] and list((ROOT / "cases").glob(r["case"] + ".[cy]*"))
+        quick = [r for r in rows if not r["parameters"] and list((ROOT / "cases" / "benchmarks").glob(r["case"] + ".[cy]*"))
                  and r["noticed"] and "motion" not in r["case"] and not blind_spots.passes(r["noticed"])]
         return quick[::max(1, len(quick) // 6)]
 
