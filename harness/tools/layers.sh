@@ -78,6 +78,10 @@ hits=$(grep -rnE 'ctypes|cffi|libbeamwork|subprocess|os\.system' reports --inclu
 [ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- reports read files only|'; bad=1; }
 hits=$(grep -rnE 'ctypes|cffi|libbeamwork|build/beamwork|import (harness|reports|elements)' reference --include='*.py' 2>/dev/null || true)
 [ -z "$hits" ] || { echo "$hits" | sed 's|$|   <- a truth shares no code with what it judges|'; bad=1; }
+# Solutions of one model in several threads share no variables.
+hits=$(printf '%s\n' "$@" | grep -E '(^|/)harness/(model|section_forces|newton|time|analysis)/' | xargs -r objdump -t |
+    awk '/file format/ { file = $1 } / O \.t?(data|bss)(\.rel(\.local)?)?[ \t]/ { print file " " $NF "   <- a variable that outlives the call" }')
+[ -z "$hits" ] || { echo "$hits"; bad=1; }
 /usr/bin/python3 harness/tools/circles.py "$@" || bad=1
 [ $bad = 0 ] && echo "layers: every include points down, nothing in circles"
 exit $bad
