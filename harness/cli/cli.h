@@ -236,6 +236,12 @@ void case_input_report_units(const scene_file *, const double parameter[]);
 /* If the scene file has no analysis, prints a line on stderr that names the default analysis. */
 void case_input_report_analysis(const case_options *, const scene *s);
 
+/* Solves the case on the meshes (none: those of the case) with other programs, "NAME" or
+ * "NAME:ELEMENT" separated by commas, and writes their results as an import to the file `to`.
+ * Refusals are printed. *found: 0 if there are no results. */
+status peers_solve(const case_options *, const case_type *, const mesh_list *, const char *peers,
+                   const char *to, int *found, fault *f);
+
 enum { SCENES_MOST = 64 };
 
 typedef struct scenes_options {

@@ -1,4 +1,5 @@
 #include <stdio.h>
+#include <stdlib.h>
 #include <unistd.h>
 
 #include "harness/cli/cli.h"
@@ -10,7 +11,8 @@ typedef struct converge_request {
     chosen_formulations chosen;
     mesh_list meshes;
     truths_options truths;
-    const char *select, *output, *format;
+    text_list imported; /* stored results of other programs */
+    const char *select, *output, *format, *peers;
     double error;
     int jobs, verbose;
 } converge_request;
@@ -20,6 +22,41 @@ static void report(const converge_request *r, const sweep *s)
     if (s->points == 0)
         return;
     case_input_report_analysis(&r->of, &s->point[0].scene);
+}
+
+typedef struct peers_folder {
+    char folder[32], file[48];
+} peers_folder;
+
+/* Solves the case with other programs, and adds the file with their results to those of
+ * --imported. The caller answer() removes the folder. */
+static status add_peers(converge_request *r, const case_type *type, peers_folder *at, fault *f)
+{
+    int found = 0;
+    if (r->peers == NULL)
+        return STATUS_OK;
+    snprintf(at->folder, sizeof at->folder, "/tmp/beamwork-XXXXXX");
+    if (mkdtemp(at->folder) == NULL) {
+        at->folder[0] = '\0';
+        return fault_set(f, STATUS_FAULT,
+                         "a temporary folder for the results of --peers cannot be created; make "
+                         "sure that /tmp is writable and not full");
+    }
+    snprintf(at->file, sizeof at->file, "%s/peers.h5", at->folder);
+    TRY(peers_solve(&r->of, type, &r->meshes, r->peers, at->file, &found, f));
+    if (found && r->imported.count == COMMAND_MOST_WORDS)
+        return fault_set(f, STATUS_REFUSED, "--imported is given too often");
+    if (found)
+        r->imported.text[r->imported.count++] = at->file;
+    return STATUS_OK;
+}
+
+static void remove_peers(const peers_folder *at)
+{
+    if (at->folder[0] == '\0')
+        return;
+    unlink(at->file);
+    rmdir(at->folder);
 }
 
 /* Plans and runs the convergence study. The caller answer() frees *c, even after a failure. */
@@ -32,6 +69,8 @@ static status converge(converge_request *r, const case_type *type, convergence *
         .meshes = r->meshes.count,
         .level = r->error > 0 ? r->error : REACH_LINE_LEVEL,
         .verbose = r->verbose,
+        .imported = r->imported.text,
+        .importeds = r->imported.count,
         .cells = {.select = r->select,
                   .jobs = r->jobs,
                   .formulations = r->chosen.formulations,
@@ -65,7 +104,11 @@ static int answer(const command_line *l, void *request)
         return r->of.refusal;
     if (r->chosen.formulations == 0)
         named_add(&r->chosen, "all");
-    const status outcome = converge(r, type, &c, &f);
+    peers_folder at = {"", ""};
+    status outcome = add_peers(r, type, &at, &f);
+    if (outcome == STATUS_OK)
+        outcome = converge(r, type, &c, &f);
+    remove_peers(&at);
     const int nothing = sweep_cells(&c.sweep) == 0, solved = has_solution(&c.sweep);
     convergence_free(&c);
     const int code = message_exit(outcome, &f);
@@ -76,6 +119,13 @@ static int answer(const command_line *l, void *request)
 
 #define IN(at) .member = offsetof(converge_request, at)
 static const verb_option own[] = {
+    {"imported", 0, "FILE",
+     "results of other programs, stored by 'beamwork import'; may be repeated", IN(imported),
+     .traits = OPTION_REPEATS | OPTION_INPUT},
+    {"peers", 0, "NAMES",
+     "also solve the case with other programs: NAME or NAME:ELEMENT, separated by commas "
+     "(docs/howto/peers.md)",
+     IN(peers)},
     {"error", 0, "R", "requested error (default 1%)", IN(error), .read = option_error},
     {"verbose", 'v', NULL, "print values, times and limits of each formulation separately",
      IN(verbose), .traits = OPTION_ASIDE},

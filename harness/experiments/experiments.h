@@ -377,6 +377,8 @@ typedef struct convergence_request {
     int meshes;
     double level; /* requested error */
     int verbose;  /* 1: every formulation is printed separately, with values and times */
+    const char *const *imported; /* [importeds] stored results of other programs */
+    int importeds;
     sweep_request cells;
 } convergence_request;
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "cases/format/format.h"
+#include "harness/import_export/import_export.h"
 #include "harness/model/model.h"
 
 static cell_request cell_of(const solution_request *r, const scene *s)
@@ -355,6 +356,15 @@ static status run(const void *requested, void *found, fault *f)
 {
     const convergence_request *r = requested;
     convergence *c = found;
+    import_left left;
+    for (int i = 0; i < r->importeds; i++) {
+        TRY(import_store_read(r->imported[i], 0, &c->sweep, &left, f));
+        if (left.series == left.all)
+            return fault_set(f, STATUS_REFUSED,
+                             "%.150s: the file has no results of this case at these parameters, "
+                             "but of %s",
+                             r->imported[i], left.first);
+    }
     return verification_cells(&r->cells, &c->truths, &c->sweep, f);
 }
 

@@ -178,6 +178,25 @@ class Door(PeerTest):
         place.write_text(text, encoding="utf-8")
         self.answered("import", place, "-o", self.folder / "theirs.h5")
 
+    def test_converge(self):
+        """`converge --peers` shows the results of drivers beside those of formulations, and `--imported` stored results."""
+        self.run_driver("pass")
+        made = scene(peers.load("pynite").ELEMENTS["frame"])
+        made.write(self.folder / "own.yaml")
+        options = {"env": {**os.environ, "BEAMWORK_DRIVERS": str(self.folder), "BEAMWORK_PEERS": sys.executable}}
+        words = ("converge", "--scene", self.folder / "own.yaml", "-f", "beamw", "-n", "1,2", "-k", "ux and not Rux")
+        self.assertIn("fake, bar", self.answered(*words, "--peers", "fake", **options).stdout)
+        self.assertIn("unknown peer", self.answered(*words, "--peers", "nobody", code=2, **options).stderr)
+        done = self.answered("converge", "c_column", "-f", "beamw", "-n", "2,4", "-k", "buckling_load", "--peers", "fake", **options)
+        self.assertIn("does not model it", done.stderr)
+        self.assertNotIn("fake", done.stdout)
+        (self.folder / "t.csv").write_text("# beamwork-import: 1\n# program: theirs\n# case: elastica\n"
+                                           "quantity,unit,elements,value\ntheta,rad,2,0.4612\ntheta,rad,4,0.4613\n", encoding="utf-8")
+        self.answered("import", self.folder / "t.csv", "-o", self.folder / "t.h5")
+        words = ("-f", "beamw", "-n", "2,4", "--imported", self.folder / "t.h5")
+        self.assertIn("theirs", self.answered("converge", "elastica", "-k", "theta", *words).stdout)
+        self.assertIn("elastica", self.answered("converge", "bend_45", *words, code=2).stderr)
+
     def test_failures_have_names(self):
         for body, word in (("os.abort()", "SIGABRT"), ("os._exit(3)", "status 3"), ("raise Failed('no way')", "no way"),
                            ("1/0", "ZeroDivisionError"), ("n = math.nan", "not a finite number")):

@@ -5,6 +5,7 @@ import argparse
 import json
 import pathlib
 import sys
+import tempfile
 
 from ..errors import Error, Refused
 from ..program import run
@@ -22,7 +23,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--rounds", type=int, default=3, help="times are the least of this number of rounds")
     parser.add_argument("--limit", type=float, default=60, help="longest time of one mesh [s]")
     parser.add_argument("--requirements", action="store_true", help="print the Python packages of the peers for pip")
-    parser.add_argument("-o", "--output", help="import file; default: standard output")
+    parser.add_argument("-o", "--output", help="import file (.csv), or the stored import (.h5); default: standard output")
     return parser.parse_args()
 
 
@@ -52,7 +53,15 @@ def main() -> int:
         for why in sorted(told - {""}):
             print(f"{one.program}: {why}", file=sys.stderr)
     written = table(scene, found)
-    if given.output:
+    if not any("values" in run for one in found for run in one.runs):
+        print("beamwork.peers: no program solved the case", file=sys.stderr)
+        return 3
+    if given.output and given.output.endswith(".h5"):
+        with tempfile.TemporaryDirectory() as folder:
+            place = pathlib.Path(folder, "peers.csv")
+            place.write_text(written, encoding="utf-8")
+            run("import", place, output=given.output)
+    elif given.output:
         pathlib.Path(given.output).write_text(written, encoding="utf-8")
     else:
         print(written, end="")
