@@ -187,7 +187,7 @@ static const case_type *named_case(const case_options *r)
 {
     fault f;
     if (r->name == NULL) {
-        message_fail(STATUS_REFUSED, "give a case; 'beamwork list cases' shows them");
+        message_fail(STATUS_REFUSED, "give a case; 'beamwork list cases' shows the cases");
         return NULL;
     }
     const case_type *type = case_find(r->name, &f);

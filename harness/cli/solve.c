@@ -144,9 +144,8 @@ static void report_reduced(const scene *s, const system_matrices *all, const sta
                 "%d modes instead of %d, so that modes with the same frequency stay together; ",
                 r->taken, r->requested);
     if (r->modes > 0)
-        fprintf(stderr,
-                "the natural frequencies of modes 1 to %d have relative errors of at most %.1e",
-                r->modes, frequency);
+        fprintf(stderr, "natural frequencies: %d compared, relative errors at most %.1e", r->modes,
+                frequency);
     else
         fputs("natural frequencies were not compared, because there are no modes or the structure "
               "is free to move",
@@ -177,7 +176,7 @@ static status write_matrices(const solve_request *r, const sweep *s, fault *f)
     char title[256];
     if (r->matrices == NULL || cell->solve.systems.label == NULL) /* already reported */
         return STATUS_OK;
-    snprintf(title, sizeof title, "%s, %s, %d elements per member", s->point[0].scene.name,
+    snprintf(title, sizeof title, "%s, %s, elements per member: %d", s->point[0].scene.name,
              r->chosen.formulation[0].key, r->meshes.elements[0]);
     report_loops(&s->point[0].scene, &cell->solve.systems);
     TRY(system_folder_write(r->matrices, title, &s->point[0].scene, &cell->solve.systems, f));

@@ -201,7 +201,7 @@ static status refuse(const char *name, fault *f)
     const char *near = choice_nearest(name, name_at, NULL);
     return fault_set(
         f, STATUS_REFUSED,
-        "'%.60s' is neither a case nor a formulation%s%s%s'beamwork list' shows them all", name,
+        "'%.60s' is neither a case nor a formulation%s%s%s'beamwork list' shows all of them", name,
         near != NULL ? "; did you mean '" : "", near != NULL ? near : "",
         near != NULL ? "'? " : "; ");
 }

@@ -16,7 +16,7 @@ enum { M = TEST_ELEMENT_STRAINS, N = TEST_ELEMENT_COORDINATES };
 static const char *const check_continuation = "commit does not change the strains",
                          *const claim_forces = "commit does not change the forces",
                          *const check_repetition = "a second commit changes nothing",
-                         *const check_same = "commit gives the same bits again";
+                         *const check_same = "commit gives bit-for-bit equal values again";
 
 /* A committed state, and the history before and after the call of `commit`. */
 typedef struct committed {

@@ -25,22 +25,24 @@ static void write_axis(FILE *to, const parameter_ranges *r, int index)
         used += snprintf(text + used, sizeof text - (size_t)used, "%s%s", i > 0 ? ", " : "", word);
     }
     if (a->count > 0)
-        snprintf(text + used, sizeof text - (size_t)used, ": %d values", a->count);
+        snprintf(text + used, sizeof text - (size_t)used, ": %d value%s", a->count,
+                 a->count == 1 ? "" : "s");
     paragraph_write(to, fprintf(to, "  %s ", a->of->name), 4, text);
 }
 
 void ranges_table_head(FILE *to, const parameter_ranges *r)
 {
+    const long runs = r->design.points * r->formulations * r->meshes;
     char fixed[PARAMETERS_TEXT], seed[60] = "";
     parameters_text(r->request.type, r->base, fixed, sizeof fixed);
     if (r->design.kind == DESIGN_RANDOM)
         snprintf(seed, sizeof seed, ", seed %lu", r->design.seed);
-    paragraph_printf(
-        to, fprintf(to, "%s", r->request.type->name), 2,
-        "%s%s: %ld points (%s%s), %d %s, %d %s: %ld runs", fixed[0] != '\0' ? ", " : "", fixed,
-        r->design.points, design_name(r->design.kind), seed, r->formulations,
-        r->formulations == 1 ? "formulation" : "formulations", r->meshes,
-        r->meshes == 1 ? "mesh" : "meshes", r->design.points * r->formulations * r->meshes);
+    paragraph_printf(to, fprintf(to, "%s", r->request.type->name), 2,
+                     "%s%s: %ld point%s (%s%s), %d %s, %d %s: %ld run%s",
+                     fixed[0] != '\0' ? ", " : "", fixed, r->design.points,
+                     r->design.points == 1 ? "" : "s", design_name(r->design.kind), seed,
+                     r->formulations, r->formulations == 1 ? "formulation" : "formulations",
+                     r->meshes, r->meshes == 1 ? "mesh" : "meshes", runs, runs == 1 ? "" : "s");
     for (int i = 0; i < r->design.axes; i++)
         write_axis(to, r, i);
     if (r->omitted[0] != '\0')
@@ -201,7 +203,7 @@ static void write_failures(FILE *to, const tally *t)
             ran += t->ran[i * r->meshes + k];
         }
         if (failed > 0)
-            fprintf(to, "%s: %ld of %ld runs have no solution\n", r->formulation[i].key, failed,
+            fprintf(to, "%s: runs without a solution: %ld of %ld\n", r->formulation[i].key, failed,
                     ran);
     }
 }

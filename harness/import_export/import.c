@@ -194,7 +194,7 @@ static const scene_quantity *find_quantity(const import_block *b, const imported
     const char *near = choice_nearest(row->quantity, quantity_name, s);
     mistakes_add(b->m, line_of(b, row), 1, "%.40s has no quantity '%.60s'%s%s%s",
                  b->set->sweep.point[b->point].type->name, row->quantity,
-                 near != NULL ? "; did you mean '" : "; 'beamwork list CASE' shows them",
+                 near != NULL ? "; did you mean '" : "; 'beamwork list CASE' shows the quantities",
                  near != NULL ? near : "", near != NULL ? "'?" : "");
     return NULL;
 }

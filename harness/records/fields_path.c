@@ -161,9 +161,10 @@ static const schema_field fields_of_step[] = {
      "number of negative pivots of the tangent; -1 if the tangent is not symmetric",
      STEP(negative_pivots)},
     {"stability", "", FIELD_TEXT,
-     "stability of the last state: stable or unstable (negative pivots); if the tangent is not "
-     "symmetric: unstable (eigenvalues that have passed zero), no divergence (without mass) or "
-     "undecided; in rotating axes: stable, unstable: grows, stable without damping or undecided",
+     "stability of the last state. Symmetric tangent: stable or unstable, by the negative pivots; "
+     "unsymmetric tangent: unstable, by the eigenvalues that have passed zero, no divergence "
+     "(without mass) or undecided; rotating axes: stable, unstable: grows, stable without damping "
+     "or undecided",
      .get = get_stability},
     {"residual", "1", FIELD_DOUBLE,
      "residual before the last iteration of the step, relative to the residual before the first "

@@ -66,7 +66,7 @@ static const schema_field key_of_case[] = {
     {0}};
 static const schema_field fields_of_parameter[] = {
     {"parameter", "", FIELD_TEXT, "name of the parameter", .get = get_name},
-    {"unit", "", FIELD_TEXT, "unit of the value; 1 for a plain number", .get = get_unit},
+    {"unit", "", FIELD_TEXT, "unit of the value; 1: dimensionless", .get = get_unit},
     {"default", "", FIELD_TEXT, "default value", .get = get_default},
     {"min", OWN_UNIT, FIELD_DOUBLE, "minimum", .get = get_min},
     {"max", OWN_UNIT, FIELD_DOUBLE, "maximum", .get = get_max},

@@ -123,8 +123,8 @@ static void write_legend(FILE *to, const overview *o)
                     overview_words((overview_mark)m));
     }
     fprintf(to,
-            "; **!** not as expected. A mark is the worst verdict over all parameters%s; the "
-            "number counts the quantities with this verdict.\n",
+            "; **!** not as expected. A mark shows the worst verdict over all parameters%s; the "
+            "number counts quantities with it.\n",
             o->joined ? " and options" : "");
     if (o->accepted < o->columns)
         fprintf(to, "\n(new): the formulation is not accepted yet; its verdicts do not affect the "

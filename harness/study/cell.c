@@ -404,8 +404,7 @@ void omission_words(const omission *o, char text[OMISSION_TEXT])
         snprintf(text, OMISSION_TEXT, "another model: %s not modelled (its effect is unknown: %s)",
                  o->words, o->why);
     else
-        snprintf(
-            text, OMISSION_TEXT,
-            "another model: %s not modelled (a %s of zero becomes nonzero, or its path changes)",
-            o->words, o->quantity);
+        snprintf(text, OMISSION_TEXT,
+                 "another model: %s not modelled (%s changes from zero, or its path changes)",
+                 o->words, o->quantity);
 }

@@ -328,7 +328,7 @@ const char *user_names_near_case(const case_type *const run[], const char *name,
                                  char text[FAULT_TEXT])
 {
     return mistakes_remedy(choice_nearest(name, case_name_at, run),
-                           "; 'beamwork list cases' shows them, --scene FILE adds one", text);
+                           "; 'beamwork list cases' shows the cases, --scene FILE adds one", text);
 }
 
 static const char *formulation_name_at(const void *context, int i)
@@ -340,8 +340,9 @@ static const char *formulation_name_at(const void *context, int i)
 
 const char *user_names_near_formulation(const char *name, char text[FAULT_TEXT])
 {
-    return mistakes_remedy(choice_nearest(name, formulation_name_at, NULL),
-                           "; 'beamwork list formulations' shows them, --element loads one", text);
+    return mistakes_remedy(
+        choice_nearest(name, formulation_name_at, NULL),
+        "; 'beamwork list formulations' shows the formulations, --element loads one", text);
 }
 
 static const char *quantity_name_at(const void *context, int i)
@@ -353,7 +354,7 @@ static const char *quantity_name_at(const void *context, int i)
 const char *user_names_near_quantity(const scene *s, const char *name, char text[FAULT_TEXT])
 {
     return mistakes_remedy(choice_nearest(name, quantity_name_at, s),
-                           "; 'beamwork list CASE' shows them", text);
+                           "; 'beamwork list CASE' shows the quantities", text);
 }
 
 /* Returns 1 if all quotation marks are closed in the line. Otherwise the field would continue on

@@ -155,7 +155,9 @@ void table_run(FILE *to, const sweep *s, const evaluation *j, double seconds)
     fprintf(to, "%d runs, and %d more to measure rounding scatter, in %.3g s", sweep_cells(s),
             noise_cells(s), seconds);
     if (s->unfinished > 0)
-        fprintf(to, s->partial ? "; %d more are missing" : "; interrupted, %d more were not run",
+        fprintf(to,
+                s->partial ? "; runs that are missing: %d"
+                           : "; interrupted, runs that are missing: %d",
                 s->unfinished);
     fputc('\n', to);
     print_verdicts(to, j);
@@ -386,10 +388,8 @@ static void print_legend(FILE *to, screen look, const overview *o)
         if (used[m])
             print_entry(to, &column, entry);
     }
-    fprintf(
-        to,
-        "\nA mark is the worst verdict%s; the number counts the quantities with this verdict.\n",
-        o->joined ? " over all parameters and options" : " over all parameters");
+    fprintf(to, "\nA mark shows the worst verdict%s; the number counts quantities with it.\n",
+            o->joined ? " over all parameters and options" : " over all parameters");
     if (o->accepted < o->columns)
         fprintf(to, "(new): the formulation is not accepted yet; its verdicts do not affect the "
                     "exit status.\n");

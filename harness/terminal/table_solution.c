@@ -94,16 +94,20 @@ static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
     fputc('\n', to);
 }
 
+static const char *plural(long count)
+{
+    return count == 1 ? "" : "s";
+}
+
 /* Writes the number of load steps, and the number of rejected longer steps. */
 static void count_steps(const counters *c, char text[FAULT_TEXT])
 {
-    const char *plural = c->steps == 1 ? "" : "s";
     text[0] = '\0';
     if (c->rejected_steps > 0)
-        snprintf(text, FAULT_TEXT, " in %ld load step%s (%ld longer rejected)", c->steps, plural,
-                 c->rejected_steps);
+        snprintf(text, FAULT_TEXT, " in %ld load step%s (%ld longer rejected)", c->steps,
+                 plural(c->steps), c->rejected_steps);
     else if (c->steps > 0)
-        snprintf(text, FAULT_TEXT, " in %ld load step%s", c->steps, plural);
+        snprintf(text, FAULT_TEXT, " in %ld load step%s", c->steps, plural(c->steps));
 }
 
 static void unfinished_curves(FILE *to, const sweep_point *p, const solve_result *r)
@@ -311,10 +315,12 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     count_steps(&c->counters, steps);
     const int at = fprintf(to, "%s", status_name(c->solve.status));
     paragraph_printf(to, at, INDENT,
-                     "%s%s; %d elements, %d free coordinates, %ld iterations%s, "
-                     "%ld factorisations, %.3g s set-up, %.3g s solution",
+                     "%s%s; %d element%s, %d free coordinate%s, %ld iteration%s%s, "
+                     "%ld factorisation%s, %.3g s set-up, %.3g s solution",
                      c->solve.reason[0] != '\0' ? ": " : "", c->solve.reason, c->size.elements,
-                     c->size.free, c->counters.iterations, steps, c->counters.factorisations,
+                     plural(c->size.elements), c->size.free, plural(c->size.free),
+                     c->counters.iterations, plural(c->counters.iterations), steps,
+                     c->counters.factorisations, plural(c->counters.factorisations),
                      c->solve.seconds_setup, c->solve.seconds_solve);
     table_stability_paths(to, &p->scene, &c->solve);
     for (int i = 0; i < c->left_out_lines; i++)

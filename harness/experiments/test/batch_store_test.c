@@ -112,7 +112,7 @@ static void foreign(void)
     fill(&of);
     const shard_work right = of.w.w;
     of.w.w.build = "build 2";
-    is_refused(&of, "another build (build 1; this is build 2)");
+    is_refused(&of, "another build (build 1; this build is build 2)");
     of.w.w = right;
     of.w.w.request = "some";
     is_refused(&of, "another request (numbers all)");
@@ -172,7 +172,7 @@ static void nowhere(void)
              "no folder: %s", f.text);
     batch_store_free(&s);
     gsl_test(batch_store_first(of.path, &label, &f) != STATUS_REFUSED ||
-                 strstr(f.text, "--shard K/N --into") == NULL,
+                 strstr(f.text, "--shard K/N and --into") == NULL,
              "an empty folder: %s", f.text);
     gsl_test(numbers_shard(&w, deep.text, 0, 1, &done, &f) != STATUS_FAULT ||
                  strstr(f.text, "cannot be created") == NULL,
