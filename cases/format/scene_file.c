@@ -307,10 +307,11 @@ static file_truth read_one(const scene_file *file, const fields *f, const scene 
                          "uncertainty = %g; give a positive value, or remove the key",
                          t.uncertainty);
     if ((strcmp(t.kind, "predicted") == 0) != (t.formulation[0] != '\0'))
-        document_mistake(m, f->place, 0,
-                         "the reference value of %.40s is of kind %.40s %s 'formulation'; %s it",
-                         t.quantity, t.kind, t.formulation[0] != '\0' ? "and has" : "without",
-                         t.formulation[0] != '\0' ? "remove" : "add");
+        document_mistake(m, f->place, 0, "the reference value of %.40s, of kind %.40s, %s",
+                         t.quantity, t.kind,
+                         t.formulation[0] != '\0'
+                             ? "has 'formulation', which is only for kind predicted; remove it"
+                             : "has no 'formulation'; add it");
     const scene_quantity *q = quantity_of(s, t.quantity);
     if (q == NULL)
         fields_entry(f, "quantity", SCENE_QUANTITIES);

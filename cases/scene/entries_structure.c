@@ -171,7 +171,7 @@ const entry_field entry_spring[] = {
     {.name = NULL}};
 
 static const entry_field condition[] = {
-    {"node", ENTRY_NAME, .needed = 1, .summary = "node whose coordinate is prescribed instead",
+    {"node", ENTRY_NAME, .needed = 1, .summary = "node whose coordinate the condition prescribes",
      ENTRY_IN(scene_driver, condition_node), .of = SCENE_NODES},
     {"component", ENTRY_WORD, .needed = 1, .words = ENTRY_COMPONENTS,
      .summary = "coordinate of the node", ENTRY_IN(scene_driver, condition_component)},
@@ -461,7 +461,7 @@ const entry_field entry_section[] = {
                 "entries, or the six of the diagonal",
      .usual = "[0, 0, 0, 0, 0, 0]"},
     {"shear_factor", ENTRY_FORMS, .summary = "rectangle: k, or [k_y, k_z]",
-     .left_out = "5/6, including the shear of warping"},
+     .left_out = "5/6, also for the shear due to warping"},
     {"thickness_terms", ENTRY_WORD, .words = "no|yes", .summary = "walls: include t^3 terms",
      .usual = "no", ENTRY_IN(section_spec, thickness_terms)},
     {"cells", ENTRY_WHOLE, .summary = "number of closed cells formed by the walls", .usual = "0",

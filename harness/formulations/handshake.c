@@ -161,16 +161,16 @@ static status places_of(const handshake_reading *r, int nodes, double place[])
     const json_t *list = json_object_get(r->said, "places");
     if (list == NULL)
         return STATUS_OK;
-    if ((int)json_array_size(list) != nodes)
-        return refuse(r, "places", "give one number for each node, such as [0, 0.5, 1]");
+    int numbers = (int)json_array_size(list) == nodes;
     for (int k = 0; k < nodes; k++) {
-        const json_t *number = json_array_get(list, (size_t)k);
-        if (!json_is_number(number))
-            return refuse(r, "places", "give one number for each node, such as [0, 0.5, 1]");
+        const json_t *number = json_array_get(list, (size_t)k); /* NULL beyond the end */
+        numbers &= json_is_number(number);
         place[k] = json_number_value(number);
     }
+    if (!numbers)
+        return refuse(r, "places", "give one number for each node, such as [0, 0.5, 1]");
     if (!(place[nodes - 1] > 0))
-        return refuse(r, "places", "the numbers must increase from 0 to 1");
+        return refuse(r, "places", "give numbers that increase from 0 to 1");
     return STATUS_OK;
 }
 
@@ -193,7 +193,7 @@ static status orders_of(const handshake_reading *r, element_order out[])
         out[i] = (element_order){(int)least, (int)highest};
     }
     if (order != NULL && json_object_size(order) != known)
-        return refuse(r, "order", "the keys are statics, vibration and buckling");
+        return refuse(r, "order", "give only the keys statics, vibration and buckling");
     return STATUS_OK;
 }
 
@@ -405,7 +405,7 @@ static status read_choice(const handshake_reading *r, const json_t *one, paramet
     return out->choices != NULL && found
                ? STATUS_OK
                : options_refuse(r, out->name,
-                                "'choices' must be words, and 'default' must be one of them");
+                                "give words in 'choices', and one of them in 'default'");
 }
 
 static status read_number(const handshake_reading *r, const json_t *one, parameter_type *out)
@@ -426,14 +426,13 @@ static status read_number(const handshake_reading *r, const json_t *one, paramet
 static status read_one(const handshake_reading *r, const json_t *one, parameter_type *out)
 {
     if (!is_word(json_string_value(json_object_get(one, "name"))))
-        return options_refuse(
-            r, "", "its 'name' must be a word of lowercase letters, digits and underscores");
+        return refuse(r, "options",
+                      "give each option a name of lowercase letters, digits and underscores");
     out->name = copy_or(r->memory, json_object_get(one, "name"), "");
     out->summary = copy_or(r->memory, json_object_get(one, "summary"), "");
     if (has_other_keys(one))
         return options_refuse(
-            r, out->name,
-            "the keys of an option are name, default, min, max, unit, choices, summary");
+            r, out->name, "give only the keys name, default, min, max, unit, choices and summary");
     return json_object_get(one, "choices") != NULL ? read_choice(r, one, out)
                                                    : read_number(r, one, out);
 }
@@ -444,7 +443,7 @@ static status handshake_options(const handshake_reading *r, const parameter_type
     const size_t count = json_array_size(list);
     *out = NULL;
     if ((list != NULL && !json_is_array(list)) || count > ELEMENT_MAX_OPTIONS)
-        return options_refuse(r, "", "'options' must be a list of at most 6 options");
+        return refuse(r, "options", "give a list of at most 6 options");
     if (count == 0)
         return STATUS_OK;
     *out = r->memory->option;

@@ -29,7 +29,10 @@ status brick_init(brick *out, const scene *s, int member, int along, int first_n
     const scene_member *m = &s->member[member];
     section constants;
     TRY(scene_constants(s, m->section, &constants, f));
-    TRY(face_of(&s->section[m->section], &constants, &out->face, f));
+    fault why = {""};
+    if (face_of(&s->section[m->section], &constants, &out->face, &why) != STATUS_OK)
+        return fault_set(f, STATUS_REFUSED, "%s: %s", scene_called(s, SCENE_MEMBERS, member).text,
+                         why.text);
     double x[3], squared = 0;
     for (int i = 0; i < 3; i++) {
         out->origin[i] = s->node[m->p].position[i];

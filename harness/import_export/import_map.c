@@ -51,7 +51,8 @@ static int column_named(const map_reader *r, const document_node *at, const char
         value <= WORDS && value == floor(value))
         return (int)value - 1;
     document_mistake(r->m, at, 0,
-                     "'%.40s' is not a column; give its number, or a name of 'columns'", name);
+                     "'%.40s' is not a column; give the number of a column, or a name in 'columns'",
+                     name);
     return -1;
 }
 
@@ -183,9 +184,11 @@ static status read_files(map_reader *r, const char *const file[], int files, wan
     for (int i = 0; i < count; i++) {
         r->block.at = list[i].key->line;
         if (list[i].seen == 0 || list[i].seen < list[i].rows)
-            document_mistake(r->m, list[i].key, 0,
-                             "%.60s: the files have no such row; correct the value",
-                             list[i].key->text);
+            document_mistake(
+                r->m, list[i].key, 0,
+                "%.60s: no row of the files matches; correct 'file', 'where', 'under' or "
+                "'rows'",
+                list[i].key->text);
         else if (list[i].rows != ALL)
             import_block_add(&r->block, &list[i].row);
     }
@@ -266,7 +269,7 @@ static status read_keys(map_reader *r, const char *map, const char *const file[]
     if (values != NULL && values->kind == DOCUMENT_MAP && values->count > 0)
         return read_values(r, values, map, file, files, into, f);
     mistakes_add(r->m, 1, 3,
-                 "values: the key is missing or empty; it names the quantities in the files");
+                 "values: the key is missing or empty; name the quantities of the files in it");
     return STATUS_OK;
 }
 

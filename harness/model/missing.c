@@ -107,7 +107,7 @@ const char *missing_in_section(const element_type *type, const section *c, int c
     if ((type->limits & LIMIT_DOUBLY_SYMMETRIC) && (features_eccentric(c) || is_coupled(c)))
         return "sections that are not doubly symmetric";
     if ((type->limits & LIMIT_WARPING_RIGID) && warps && cells > 0 && c->Iw > 0)
-        return "shear deformation due to warping, by which closed cells warp";
+        return "the shear deformation of closed cells that warp";
     return NULL;
 }
 

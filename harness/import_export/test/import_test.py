@@ -370,7 +370,7 @@ class Import(ProgramTest):
         for change, words in (
             (("column: x", "colum: x"),
              "did you mean 'column'"), (("column: x", "column: ex"),
-                                        "is not a column"), (("label: 9", "label: 7"), "no such row"),
+                                        "is not a column"), (("label: 9", "label: 7"), "no row of the files matches"),
             (("  u_x", "  u_xq"),
              "map.yaml:13: sheet_cantilever has no quantity 'u_xq'; did you mean 'u_x'"),
             (("unit: m,", "unit: kg,"), "cannot be converted"), (("elements: 4", "elements: four"),
