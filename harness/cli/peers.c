@@ -14,12 +14,13 @@ enum { MOST_WORDS = 2 * CASE_MAX_PARAMETERS + 16, NO_VALUES = 3 };
 /* Words of a command. Texts in `made` are freed. */
 typedef struct peers_command {
     int words, made_words;
-    char *word[MOST_WORDS], *made[MOST_WORDS];
+    const char *word[MOST_WORDS];
+    char *made[MOST_WORDS];
 } peers_command;
 
 static void add(peers_command *c, const char *text)
 {
-    c->word[c->words++] = (char *)text;
+    c->word[c->words++] = text;
 }
 
 static void add_made(peers_command *c, char *text)
@@ -78,8 +79,11 @@ static status run(const peers_command *c, int *found, fault *f)
     int how = 0;
     const pid_t child = fork();
     if (child == 0) {
+        char *word[MOST_WORDS] = {NULL}; /* execv requires strings that are not const */
+        for (int i = 0; i < c->words; i++)
+            word[i] = strdup(c->word[i]);
         set_environment();
-        execv(python, c->word);
+        execv(python, word);
         _exit(127);
     }
     if (child < 0 || waitpid(child, &how, 0) < 0 || !WIFEXITED(how) || WEXITSTATUS(how) == 127)
