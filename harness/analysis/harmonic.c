@@ -201,6 +201,7 @@ static status respond(vibration *v, outcome_harmonic *o, fault *f)
     const size_t stations = (size_t)path->stations;
     for (int i = 0; i < path->stations; i++) {
         const double w = 2 * PI * path->value[i];
+        TRY(stop_check(f));
         TRY(factor_at(v, path->value[i], f));
         for (int k = 0; k < s->quantities; k++)
             if (scene_requests(&s->quantity[k], v->analysis, SCENE_RESPONSE)) {

@@ -152,7 +152,9 @@ static void run_analyses(analysis_context *c, int perfect)
         analysis_context own = context_of(c, i);
         c->work->singular = 0;
         const int first_step = c->result->steps;
-        o->status = scene_inputs_check(c->scene, i, &f);
+        o->status = stop_check(&f);
+        if (o->status == STATUS_OK)
+            o->status = scene_inputs_check(c->scene, i, &f);
         if (o->status == STATUS_OK)
             o->status = newton_check_rest(c->model, &f);
         if (o->status == STATUS_OK)

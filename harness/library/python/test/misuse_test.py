@@ -261,7 +261,7 @@ class Processes(ModuleTest):
         for call in (lambda: many.converge(stop=readable), lambda: many.verify(stop=readable),
                      lambda: bw.verify(select=CASE, stop=readable)):
             self.one_line(bw.TimeLimit, "stopped before", call)
-        for alone in (scene, bw.Scene.case("free_flight_space")):
+        for alone in (scene, bw.Scene.case("free_flight_space"), bw.Scene.case("deep_beam")):  # statics, a motion, frequencies
             self.one_line(bw.TimeLimit, "stopped before", alone.solve, "collocation", 1, stop=readable)
         self.one_line(bw.Refused, "stop", scene.converge, stop=-1)
         self.assertGreater(scene.solve("collocation", 1)["w_over_L"], 0)
