@@ -17,7 +17,7 @@ int message_finish(int code)
         code == EXIT_REFUSED ||
         code == EXIT_FAULT; /* messages about these statuses have already been printed */
     fault f = {""};
-    if (output_flush(&f) == STATUS_OK || reported)
+    if (output_all_written(&f) == STATUS_OK || reported)
         return code;
     return message_exit(STATUS_FAULT, &f);
 }

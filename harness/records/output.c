@@ -216,14 +216,22 @@ static int is_stored(FILE *stream)
     return fsync(fileno(stream)) == 0 || errno == EINVAL || errno == EROFS || errno == ENOTSUP;
 }
 
-status output_flush(fault *f)
+static status stdout_unwritable(int why, fault *f)
 {
-    errno = 0;
-    if (fflush(stdout) == 0 && !ferror(stdout))
-        return STATUS_OK;
     return fault_set(f, STATUS_FAULT,
                      "standard output cannot be written (%s); redirect it to another location",
-                     errno != 0 ? strerror(errno) : "an earlier write failed");
+                     why != 0 ? strerror(why) : "an earlier write failed");
+}
+
+status output_flush(fault *f)
+{
+    return fflush(stdout) == 0 ? STATUS_OK : stdout_unwritable(errno, f);
+}
+
+status output_all_written(fault *f)
+{
+    errno = 0;
+    return fflush(stdout) == 0 && !ferror(stdout) ? STATUS_OK : stdout_unwritable(errno, f);
 }
 
 status output_close(output *out, fault *f)

@@ -496,6 +496,8 @@ status output_close(output *out, fault *f);
 /* Closes the output if `written` is OK, otherwise discards it. */
 status output_finish(output *out, status written, fault *f);
 status output_flush(fault *f);
+/* Like output_flush. Also FAULT if an earlier write to standard output failed. */
+status output_all_written(fault *f);
 /* Checks an output before any computation. REFUSED: the name is invalid, or the target does not
  * support this form. FAULT: the output cannot be written. *where: location of the output, for
  * comparison with other outputs. */
