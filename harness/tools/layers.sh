@@ -36,12 +36,14 @@ rule harness 'reference/|reports/|elements/(beamw|sheet|geometrically_exact|coll
 for room in ${floors%% study *}; do
     rule "harness/$room" 'cases/format/' 'what solves reads no files'
 done
-# The README of a folder begins with one sentence without "and", names the header that other folders include, and lists what
-# the folder may include.
+# The README of a folder begins with one sentence without "and".
+for page in elements/README.md elements/*/README.md cases/README.md cases/*/README.md harness/*/README.md harness/*/*/README.md; do
+    sed -n 2p "$page" | grep -E '^[^.:;]*\.$' | grep -qvw and || { echo "$page: begin with one sentence without 'and'"; bad=1; }
+done
+# It names the header that other folders include, and lists what the folder may include.
 for room in $floors; do
     page=harness/$room/README.md entry=$room.h
     [ "$room" = library ] && entry=beamwork.h
-    sed -n 2p "$page" | grep -E '^[^.:;]*\.$' | grep -qvw and || { echo "$page: begin with one sentence without 'and'"; bad=1; }
     grep -q "^Read first: \`$entry\`" "$page" || { echo "$page: the first file to read is $entry"; bad=1; }
     may=$(sed -n '/^May include:/,/^$/p' "$page" | grep -o '`[^`]*`' | tr -d '`')
     hits=$(grep -hoE '^ *# *include +"[^"]+/[^"]+"' "harness/$room"/*.c "harness/$room"/*.h | cut -d '"' -f 2 | sort -u |
