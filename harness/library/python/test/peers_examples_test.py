@@ -71,6 +71,25 @@ class Examples(ModuleTest):
         got = self.values("mystran", "bar", 10, made)
         self.assertAlmostEqual(got[0], math.pi**2 * 10e6 * 0.041666666666667 / 4 / 100**2, delta=2e-3)
 
+    def test_pyelastica(self):
+        """No documented number: the 45-degree bend, extrapolated with order 1, against its exact values; a bar in another
+        direction; the reaction."""
+        meshes = [self.values("pyelastica", "rod", n, case="bend_45", set="torsion=polar") for n in (8, 16)]
+        self.same([2 * b - a for a, b in zip(*meshes)], (-23.5603, -13.6045, 53.4749), 0.25)
+        bar = {"E": 1, "G": 1, "A": 1000, "Iy": 2, "Iz": 1, "It": 1, "Ip": 3, "D": [500, 0, 0, 0, 500, 0, 0, 0, 1]}
+        made = cantilever(bar, 1, {"force": [0.1, 0.5, 0.2]}, [])
+        made.quantities["R"] = {"reaction": {"analysis": "bent", "node": "root", "component": "uy"}, "unit": "N"}
+        along_x = self.values("pyelastica", "rod", 4, made)
+        self.assertAlmostEqual(along_x[3], -0.5, delta=1e-5)
+        made.nodes["root"], made.nodes["tip"] = {"at": [0, 0, 0]}, {"at": [0, 0, 1], "hold": "all"}
+        made.members["bar"]["y"] = [1, 0, 0]  # from the free end to the clamped one: x is -z, y is x, z is -y
+        made.loads["load"] = {"force": [0.5, 0.2, -0.1], "on": "root"}
+        for c in ("ux", "uy", "uz"):
+            made.quantities[c]["displacement"]["node"] = "root"
+        made.quantities["R"]["reaction"].update(node="tip", component="ux")
+        turned = self.values("pyelastica", "rod", 4, made)
+        self.same((-turned[2], turned[0], turned[1], turned[3]), along_x, 1e-5)
+
 
 if __name__ == "__main__":
     unittest.main()
