@@ -211,6 +211,8 @@ typedef struct write_head {
 /* Writes a scene file that gives the same scene, bit for bit. Loops and expressions are replaced by
  * their values. Returns REFUSED if the scene contains data that a file cannot express. */
 status write_scene(FILE *to, const scene *s, const write_head *head, fault *f);
+/* Reports that the scene with this name contains a number that a file cannot express. */
+status write_scene_refused(const char *name, fault *f);
 /* Returns the text that write_scene writes, which the caller frees. Returns "" if s is NULL or a
  * file cannot express the scene, and NULL if out of memory. */
 char *write_scene_text(const scene *s, const write_head *head);

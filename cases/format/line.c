@@ -286,7 +286,7 @@ static void along_path(FILE *to, const scene *s, const scene_quantity *q, const 
         break;
     case SCENE_CURVE:
         if (q->transform == SCENE_HISTORY)
-            fprintf(to, ", over the %s, as a curve over %s [%s]", name, q->x.name, q->x.unit);
+            fprintf(to, ", as a curve over %s [%s] (%s)", q->x.name, q->x.unit, name);
         else
             fprintf(to, ", %s of its values at the stations%s, over %s [%s]",
                     q->transform == SCENE_PSD ? "power spectral density" : "spectrum of amplitudes",

@@ -335,7 +335,7 @@ static void read_meshes(builder *b)
 static void report_refusal(const builder *b, const char *text)
 {
     static const char *const word[SCENE_LISTS] = {
-        "section ",  "node ",     "member ", "spring ",      "driver ",     "load ",
+        "section ",  "node ",     "member ", "spring ",      "motion ",     "load ",
         "analysis ", "quantity ", "case ",   "combination ", "constraint ", "imperfection "};
     for (int k = 0; k < SCENE_LISTS; k++) {
         const size_t length = strlen(word[k]);

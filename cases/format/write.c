@@ -36,6 +36,14 @@ static void write_line(writer *w, const char *key, const char *text)
     fputc('\n', w->to);
 }
 
+status write_scene_refused(const char *name, fault *f)
+{
+    return fault_set(f, STATUS_REFUSED,
+                     "scene %s contains a number that is not finite; give finite numbers, because "
+                     "scene files cannot express others",
+                     name);
+}
+
 status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
 {
     writer w = {.to = to, .scene = s, .begun = 1};
@@ -50,11 +58,7 @@ status write_scene(FILE *to, const scene *s, const write_head *head, fault *f)
         fprintf(to, "plane: %s\n", scene_plane_name(s));
     write_physics(&w);
     write_meshes(&w);
-    return w.unwritable ? fault_set(f, STATUS_REFUSED,
-                                    "scene %s contains a number that is not finite; give finite "
-                                    "numbers, because scene files cannot express others",
-                                    head->name)
-                        : STATUS_OK;
+    return w.unwritable ? write_scene_refused(head->name, f) : STATUS_OK;
 }
 
 char *write_scene_text(const scene *s, const write_head *head)

@@ -118,7 +118,7 @@ status along_path_proportional(const scene *s, int acting, fault *f)
         const scene_driver *driver = &s->driver[d];
         if (driver->value != NULL && !is_straight(driver->stations, driver->path, driver->value) &&
             scene_acting_factor(s, acting, driver->load_case) != 0)
-            return fault_set(f, STATUS_REFUSED, "driver %s: %s", driver->name, words);
+            return fault_set(f, STATUS_REFUSED, "motion %s: %s", driver->name, words);
     }
     return STATUS_OK;
 }

@@ -195,8 +195,9 @@ static const entry_field rotation[] = {
     {"stations", ENTRY_NUMBERS, .needed = 1, .summary = "factors of omega, ascending",
      ENTRY_IN(scene_analysis, of.walk.path)},
     STEPS,
-    {"wanted", ENTRY_WHOLE, .summary = "initial number of modes over all families", .usual = "0",
-     ENTRY_IN(scene_analysis, of.walk.modes), .most = 1000},
+    {"wanted", ENTRY_WHOLE,
+     .summary = "number of modes that are computed first; more follow if quantities require them",
+     .usual = "0", ENTRY_IN(scene_analysis, of.walk.modes), .most = 1000},
     ACTING(all_loads),
     {.name = NULL}};
 

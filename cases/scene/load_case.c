@@ -98,7 +98,7 @@ static status check_loads(const scene *s, fault *f)
         if (s->driver[i].value == NULL && s->driver[i].load_case != SCENE_NONE)
             return fault_set(
                 f, STATUS_REFUSED,
-                "driver %s: its value is unknown and follows from the loads; remove its case",
+                "motion %s: its value is unknown and follows from the loads; remove its case",
                 s->driver[i].name);
     return STATUS_OK;
 }

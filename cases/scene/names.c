@@ -8,7 +8,7 @@ static const char *const word_of[] = {[SCENE_SECTIONS] = "section",
                                       [SCENE_NODES] = "node",
                                       [SCENE_MEMBERS] = "member",
                                       [SCENE_SPRINGS] = "spring",
-                                      [SCENE_DRIVERS] = "driver",
+                                      [SCENE_DRIVERS] = "motion",
                                       [SCENE_LOADS] = "load",
                                       [SCENE_ANALYSES] = "analysis",
                                       [SCENE_QUANTITIES] = "quantity",
@@ -97,8 +97,7 @@ static int is_taken(const scene *s, scene_list list, const char *text)
 scene_words scene_numbered(const scene *s, scene_list list, int i)
 {
     scene_words out;
-    int end = snprintf(out.text, sizeof out.text, "%s_%d",
-                       list == SCENE_DRIVERS ? "motion" : word_of[list], i);
+    int end = snprintf(out.text, sizeof out.text, "%s_%d", word_of[list], i);
     for (int k = 0; k < 8 && is_taken(s, list, out.text); k++)
         end += snprintf(out.text + end, sizeof out.text - (size_t)end, "_");
     return out;

@@ -72,8 +72,8 @@ static status scale_drivers(scene *s, double x, fault *f)
         const int length = is_length(s, i);
         if (length < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "driver '%s' prescribes both lengths and angles, so its unit is not "
-                             "defined; use one driver for lengths and one for angles",
+                             "motion '%s' prescribes both lengths and angles, so its unit is not "
+                             "defined; use one motion for lengths and one for angles",
                              s->driver[i].name);
         if (s->driver[i].value == NULL || !length)
             continue;

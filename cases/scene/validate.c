@@ -169,20 +169,20 @@ static status check_driver(const scene *s, int i, fault *f)
     if (!is_used(s, i))
         return fault_set(
             f, STATUS_REFUSED,
-            "driver %s prescribes no coordinate; name it in 'drive' of a node, or remove it",
+            "motion %s prescribes no coordinate; name it in 'drive' of a node, or remove it",
             d->name);
     if (d->value == NULL) {
         const int known = d->condition_driver >= 0 && d->condition_driver < s->drivers &&
                           s->driver[d->condition_driver].value != NULL;
         if (!known || d->condition_node == SCENE_NONE)
             return fault_set(f, STATUS_REFUSED,
-                             "driver %s: its value is unknown and no condition determines it; name "
-                             "a node and a driver with known values",
+                             "motion %s: its value is unknown and no condition determines it; name "
+                             "a node and a motion with known values",
                              d->name);
         if (!is_conditioned(s, d))
             return fault_set(
                 f, STATUS_REFUSED,
-                "driver %s: the coordinate in its condition is not prescribed by %s at "
+                "motion %s: the coordinate in its condition is not prescribed by %s at "
                 "%s; prescribe it there as well",
                 d->name, s->driver[d->condition_driver].name,
                 scene_called(s, SCENE_NODES, d->condition_node).text);
@@ -191,11 +191,11 @@ static status check_driver(const scene *s, int i, fault *f)
     for (int k = 0; k < d->stations; k++) {
         if (!isfinite(d->value[k]) || !isfinite(d->path[k]))
             return fault_set(f, STATUS_REFUSED,
-                             "driver %s: value %d is NaN or Inf; give finite values", d->name, k);
+                             "motion %s: value %d is NaN or Inf; give finite values", d->name, k);
         if (k > 0 && !(d->path[k] > d->path[k - 1]))
             return fault_set(
                 f, STATUS_REFUSED,
-                "driver %s: its path parameters must ascend; sort them and remove repetitions",
+                "motion %s: its path parameters must ascend; sort them and remove repetitions",
                 d->name);
     }
     return STATUS_OK;

@@ -110,7 +110,7 @@ static double along_table(int stations, const double at[], const double value[],
 static status refuse_path(scene_words owner_name, const char *what, fault *f)
 {
     return fault_set(f, STATUS_REFUSED,
-                     "%s: its %s are given over a path, but the motion does not follow a path; "
+                     "%s: its %s are given over a path, but the transient analysis follows none; "
                      "give a function of time, or name a static analysis in 'about'",
                      owner_name.text, what);
 }
@@ -125,10 +125,10 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     double time, at[3];
     int derivative;
     if (driver->value == NULL)
-        return fault_set(
-            f, STATUS_REFUSED,
-            "driver %s: its value is unknown, but a motion requires known values; give the values",
-            driver->name);
+        return fault_set(f, STATUS_REFUSED,
+                         "motion %s: its value is unknown, but a transient analysis requires it; "
+                         "give the values",
+                         driver->name);
     const scene_path *before = origin != SCENE_NONE ? scene_path_of(&s->analysis[origin]) : NULL;
     const double starts = before == NULL
                               ? 0
@@ -141,19 +141,19 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     }
     if (!function_finite(&driver->function, end, 2, &time))
         return fault_set(f, STATUS_REFUSED,
-                         "driver %s: at %g s its value, velocity or acceleration is not finite; "
+                         "motion %s: at %g s its value, velocity or acceleration is not finite; "
                          "give another function, or define the function in pieces",
                          driver->name, time);
     if (!function_smooth(&driver->function, end, &time, &derivative))
         return fault_set(f, STATUS_REFUSED,
-                         "driver %s: the %s jumps at %g s, which would be an impact; make the "
+                         "motion %s: the %s jumps at %g s, which would be an impact; make the "
                          "pieces join smoothly",
                          driver->name, derivative == 0 ? "value" : "velocity", time);
     function_at(&driver->function, 0, at);
     if (!(fabs(at[0] - starts) <= 1e-9 * (1 + fabs(starts))))
         return fault_set(
             f, STATUS_REFUSED,
-            "driver %s: its value at 0 s is %g, but the motion starts from %g; give a function "
+            "motion %s: its value at 0 s is %g, but the analysis starts from %g; give a function "
             "with this initial value, or follow a static path that ends at the initial value",
             driver->name, at[0], starts);
     return STATUS_OK;
@@ -285,7 +285,7 @@ status scene_validate_functions(const scene *s, fault *f)
     for (int d = 0; d < s->drivers; d++) {
         const status outcome = check_function(&s->driver[d].function, idle, &why);
         if (outcome != STATUS_OK)
-            return fault_set(f, outcome, "driver %s: %s", s->driver[d].name, why.text);
+            return fault_set(f, outcome, "motion %s: %s", s->driver[d].name, why.text);
     }
     for (int l = 0; l < s->loads; l++) {
         const int refers = s->load[l].feedback.node != SCENE_NONE && vibrates(s);

@@ -114,11 +114,11 @@ status scene_validate_node(const scene *s, int i, fault *f)
         if (n->translation[k] < SCENE_HELD || n->translation[k] >= s->drivers ||
             n->angle[k] < SCENE_HELD || n->angle[k] >= s->drivers)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: its driver does not exist; add the driver first",
+                             "%s: its motion does not exist; add the motion first",
                              scene_called(s, SCENE_NODES, i).text);
         if (n->rotation == SCENE_ROTATION_VECTOR && n->angle[k] < 0)
             return fault_set(f, STATUS_REFUSED,
-                             "%s: a prescribed rotation vector requires three drivers; drive all "
+                             "%s: a prescribed rotation vector requires three motions; drive all "
                              "three components",
                              scene_called(s, SCENE_NODES, i).text);
     }

@@ -195,7 +195,7 @@ status export_support_check(const scene *s, fault *f)
     for (int i = 0; i < s->drivers; i++)
         if (s->driver[i].condition_driver != SCENE_NONE)
             return fault_set(f, STATUS_REFUSED,
-                             "driver '%s' is determined by a condition, which input decks cannot "
+                             "motion '%s' is determined by a condition, which input decks cannot "
                              "express; give its values",
                              s->driver[i].name);
     for (int i = 0; i < s->loads; i++)

@@ -45,16 +45,12 @@ static status read_file(const scene_data_request *r, json_t *root, fault *f)
     mistakes m = {.file = r->head->name};
     char *text = write_scene_text(r->scene, r->head);
     if (text == NULL)
-        return fault_set(f, STATUS_FAULT, "out of memory for a scene");
+        return fault_memory(f, "a scene");
     const document_node *read = document_read(text, strlen(text), &memory, &m);
     if (read != NULL && text[0] != '\0')
         json_object_set_new(root, "scene", json_of(read));
     const status outcome =
-        text[0] == '\0' ? fault_set(f, STATUS_REFUSED,
-                                    "%s: a number is infinite, which scene files cannot express; "
-                                    "give finite values",
-                                    r->head->name)
-                        : mistakes_status(&m, f);
+        text[0] == '\0' ? write_scene_refused(r->head->name, f) : mistakes_status(&m, f);
     arena_free(&memory);
     free(text);
     return outcome;

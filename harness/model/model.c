@@ -230,7 +230,7 @@ static status build(model *m, const model_request *request, fault *f)
     m->mesh.driver_coordinate =
         malloc(((size_t)s->drivers + 1) * sizeof *m->mesh.driver_coordinate);
     if (m->mesh.driver_coordinate == NULL)
-        return fault_memory(f, "drivers");
+        return fault_memory(f, "motions");
     TRY(divide(m, f));
     if (s->constraints > 0) {
         m->mesh.tie = malloc((size_t)(6 * s->nodes + 1) * sizeof *m->mesh.tie);
@@ -260,8 +260,8 @@ static status build(model *m, const model_request *request, fault *f)
         TRY(coordinates_note_left_out(
             m, f, "path independence: results depend on the path and its steps"));
     if (process_serves(type))
-        TRY(coordinates_note_left_out(
-            m, f, "in all run times: that of the process of the formulation"));
+        TRY(coordinates_note_left_out(m, f,
+                                      "in all run times: that of the process of the formulation"));
     return allocate(m, f);
 }
 

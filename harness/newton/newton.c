@@ -121,7 +121,7 @@ static status meet_conditions(newton_run *n, int count, const model_condition co
     }
     if (!moved || dense_lu_regular(count, A, pivot) != 0)
         return fault_set(f, STATUS_SINGULAR,
-                         "an unknown driver does not move the coordinate of its condition; name "
+                         "an unknown motion does not move the coordinate of its condition; name "
                          "another coordinate in such_that");
     dense_lu_solve(count, 1, A, pivot, b);
     for (int c = 0; c < count; c++) {

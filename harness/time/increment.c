@@ -117,8 +117,8 @@ status drive_check(const model *m, fault *f)
     for (int d = 0; d < model_scene(m)->drivers; d++)
         if (model_scene(m)->driver[d].value == NULL)
             return fault_set(f, STATUS_REFUSED,
-                             "the value of driver %s is unknown; a transient analysis requires the "
-                             "values of all drivers",
+                             "the value of motion %s is unknown; a transient analysis requires the "
+                             "values of all motions",
                              model_scene(m)->driver[d].name);
     return STATUS_OK;
 }

@@ -116,7 +116,7 @@ static status check_drivers(const model *m, const double inc[], fault *f)
         const int c = model_driver_coordinate(m, d);
         if (c >= model_unknowns(m) && fabs(inc[c]) > nothing * (1 + model_length(m)))
             return fault_set(f, STATUS_REFUSED,
-                             "driver %s starts %g away from its value in the initial state; at 0 "
+                             "motion %s starts %g away from its value in the initial state; at 0 "
                              "s, give it the value of the initial state",
                              model_scene(m)->driver[d].name, inc[c]);
     }
