@@ -6,7 +6,8 @@ as a series of VTK files."""
 import argparse
 import sys
 
-from reports import data, paper
+from reports import data
+from reports.figures import paper
 
 
 def written(results, target):

@@ -6,7 +6,7 @@ import math
 import numpy as np
 
 from reports.claims import Lookup, canonical
-from reports.style import plt
+from reports.figures.style import plt
 
 NAVIGATION = [("rotation.html", "rotation")]
 

@@ -4,7 +4,8 @@ import functools
 import math
 from dataclasses import dataclass
 
-from reports import answers, data, plots
+from reports import answers, data
+from reports.figures import plots
 from reports.answers import LEVELS
 from reports.structure_drawing import describe, draw, scene
 from reports.site import ROOT

@@ -4,7 +4,7 @@ import functools
 import math
 
 from reports import experiments
-from reports.chart import Chart
+from reports.figures.chart import Chart
 
 NAVIGATION = [("certificates.html", "certificates")]
 STATES, LOCKING, ORDERS = "states", "locking", "orders"

@@ -5,11 +5,12 @@ import functools
 import math
 import pathlib
 
-from reports import answers, data, plots
+from reports import answers, data
+from reports.figures import plots
 from reports.answers import LEVELS
-from reports.chart import Chart
+from reports.figures.chart import Chart
 from reports.site import ROOT, number, percent
-from reports.style import plt
+from reports.figures.style import plt
 from reports.verdicts import OWN_LIMITS
 
 

@@ -10,7 +10,8 @@ import json
 import math
 import os
 
-from reports import answers, chart, style
+from reports import answers
+from reports.figures import chart, style
 
 NAVIGATION = [("explorer.html", "explorer")]
 COLUMNS = "fnscui"  # columns of a series: the formulation, then the columns in AXES

@@ -9,7 +9,7 @@ import markdown
 from reports import answers, certificates, data, deviations, mathml, verdicts
 from reports.answers import LEVELS
 from reports.case import page_of
-from reports.chart import Chart
+from reports.figures.chart import Chart
 from reports.site import ROOT, file_of
 from reports.verdicts import SEVERITY, UNJUDGED, worst
 

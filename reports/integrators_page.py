@@ -6,8 +6,8 @@ import math
 from markupsafe import escape
 
 from reports import experiments, integrators
-from reports.chart import Chart
-from reports.figures import FONT, Image
+from reports.figures.chart import Chart
+from reports.figures.svg import FONT, Image
 from reports.integrators import ordered
 from reports.motion_page import between
 from reports.profiles import Fixed, factors, stairs

@@ -7,8 +7,8 @@ import math
 import os
 
 from reports import data
-from reports.plots import log_axes
-from reports.style import plt
+from reports.figures.plots import log_axes
+from reports.figures.style import plt
 
 NAVIGATION = [("mechanisms.html", "mechanisms")]
 

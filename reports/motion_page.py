@@ -11,9 +11,9 @@ import yaml
 from markupsafe import Markup, escape
 
 from reports import pictures, shapes, verdicts
-from reports.chart import Chart
+from reports.figures.chart import Chart
 from reports.data import holds, text
-from reports.style import COLOURS
+from reports.figures.style import COLOURS
 
 # Motions in a results file: the table `motion`, with a row for each accepted step, and the settings of the integrators
 # from the scene.

@@ -4,7 +4,7 @@ import functools
 import json
 import os
 
-from reports.style import plt
+from reports.figures.style import plt
 
 NAVIGATION = [("newton.html", "Newton")]
 FORMS = ("mixed", "displacement")

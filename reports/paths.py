@@ -9,7 +9,7 @@ import numpy as np
 
 from reports.claims import Lookup, canonical
 from reports.data import of_mesh, rows, text
-from reports.style import plt
+from reports.figures.style import plt
 
 NAVIGATION = [("paths.html", "paths")]
 

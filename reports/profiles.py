@@ -6,11 +6,12 @@ import math
 import os
 from dataclasses import dataclass
 
-from reports import answers, problems, style
+from reports import answers, problems
+from reports.figures import style
 from reports.answers import LEVELS
-from reports.chart import Axis, Chart
+from reports.figures.chart import Axis, Chart
 from reports.problems import Question, any_defect, defect, no_defect, to_the_best, to_the_smallest
-from reports.style import plt
+from reports.figures.style import plt
 
 ROUND = (1, 1.2, 1.4, 1.7, 2, 2.5, 3, 3.5, 4, 5, 6, 7, 8)  # factors in each decade at which shares are read
 FARTHEST = {to_the_best: 100, to_the_smallest: 1000}  # end of the axis for each unit

@@ -6,8 +6,9 @@ import pathlib
 import jinja2
 from markupsafe import Markup, escape
 
-from reports import answers, data, experiments, figures, glossary, navigation, paper, style, verdicts
-from reports.style import Styles, plt
+from reports import answers, data, experiments, glossary, navigation, verdicts
+from reports.figures import paper, style, svg
+from reports.figures.style import Styles, plt
 from reports.sweep import stored
 
 ASSETS = pathlib.Path(__file__).parent / "assets"
@@ -145,7 +146,7 @@ class Site:
         path = os.path.join(self.folder, name)
         text = self.templates.get_template(template).render(self_name=name, **context)
         with open(path, "w", encoding="utf-8") as out:
-            out.write(figures.with_markers(text))
+            out.write(svg.with_markers(text))
 
     def points(self, key, columns, rows, title=""):
         """Returns the arguments of plot() for a curve whose markers carry data. If the pointer is on a marker, or the
@@ -156,7 +157,7 @@ class Site:
         order of the markers."""
         digits = [{"error": 3, "time [s]": 4}.get(name, 8) for name in columns]
         self.said.append({"f": key, "t": title, "c": list(columns),
-                          "r": [[figures.plain(v, d) for v, d in zip(row, digits)]
+                          "r": [[svg.plain(v, d) for v, d in zip(row, digits)]
                                 for row in rows]})
         look = self.styles.of(key)
         return {**look, "gid": f"{look['gid']}|{len(self.said) - 1}"}
@@ -165,7 +166,7 @@ class Site:
         """Returns the Image of a matplotlib figure for the macro `figure` of a page, and closes the figure. If `tight` is
         True, the figure is cropped to its contents and is therefore drawn twice."""
         self.paper.figure(figure, name)
-        image = figures.image_of(figure, name, self.said, tight)
+        image = svg.image_of(figure, name, self.said, tight)
         plt.close(figure)
         self.said.clear()
         return image
@@ -173,5 +174,5 @@ class Site:
     def keep(self, image):
         """Writes an image to a separate file. Returns the name of the file."""
         with open(os.path.join(self.folder, image.name), "w", encoding="utf-8") as out:
-            out.write(figures.alone(image.markup))
+            out.write(svg.alone(image.markup))
         return image.name

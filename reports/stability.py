@@ -6,8 +6,8 @@ import math
 from markupsafe import escape
 
 from reports import experiments
-from reports.chart import Chart
-from reports.figures import FONT, Image
+from reports.figures.chart import Chart
+from reports.figures.svg import FONT, Image
 
 # The map of stability in a separate SVG. Rows are formulations, and columns are extremes. Each field is a strip with a
 # part for each tested value, from left to right in the order of the results.

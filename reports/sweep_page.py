@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib import colormaps
 from matplotlib.colors import to_hex
 
-from reports.chart import Chart
+from reports.figures.chart import Chart
 from reports.sweep import answers, gather, maps
 
 # Figures of the page: maps of the required number of elements, maps of the formulation of lowest cost, and curves of

@@ -4,7 +4,7 @@ import itertools
 import numpy as np
 from matplotlib.collections import PolyCollection
 
-from reports.style import plt
+from reports.figures.style import plt
 
 def number(value):
     if 1e4 <= abs(value) < 1e8:

@@ -6,9 +6,9 @@ from markupsafe import escape
 from matplotlib import colormaps
 from matplotlib.colors import to_hex
 
-from reports import style
-from reports.chart import linear_ticks, log_ticks
-from reports.figures import FONT, Image, number
+from reports.figures import style
+from reports.figures.chart import linear_ticks, log_ticks
+from reports.figures.svg import FONT, Image, number
 
 EMPTY, UNKNOWN = -2, -1  # states of fields without a point, and without a reference value
 LETTERS = "ABCDEFGHIJKLMNOPQRSTUVWXYZ"

@@ -14,10 +14,11 @@ from scipy.spatial.transform import Rotation
 from harness.tools.kit.program import (ProgramTest, TRUTHS, drawn as drawn_of_campbell,
                                        drawn as drawn_of_paths, drawn as drawn_of_pictures,
                                        drawn as drawn_of_sizes)
-from reports import campbell, chart, data, figures, paper, paths, pictures, shapes, style
+from reports import campbell, data, paths, pictures, shapes
+from reports.figures import chart, paper, style, svg
 from reports.claims import Lookup
 from reports.site import ASSETS, Site
-from reports.style import Styles, plt
+from reports.figures.style import Styles, plt
 
 
 def site():
@@ -72,7 +73,7 @@ class Charts(unittest.TestCase):
         return picture.image(place, "some")
 
     def test_valid(self):
-        text = figures.alone(self.drawn().markup)
+        text = svg.alone(self.drawn().markup)
         xml.etree.ElementTree.fromstring(text.encode())
         self.assertEqual(set(re.findall(r"url\(#(\w+)\)", text)),
                          set(re.findall(r'marker id="(\w+)"', text)))
@@ -170,7 +171,7 @@ def drawn(name, said=(), gid=None):
     axes.plot([1, 2, 4], [1, 3, 2], label="the <curve>", **{**look, "gid": gid or look["gid"]})
     axes.axhspan(1, 2, color="0.75")
     axes.legend()
-    return figures.image_of(figure, name, said)
+    return svg.image_of(figure, name, said)
 
 
 class Figures(unittest.TestCase):
@@ -229,12 +230,12 @@ class Looks(unittest.TestCase):
         curve = '<polyline points="{}" stroke="red" stroke-dasharray="1 2" style="{}:url(#k1)"/>'
         page = "<head></head>" + "".join(curve.format(*one) for one in (
             ("0,0", "marker"), ("1,1", "marker"), ("2,2", "marker-mid")))
-        made = figures.with_classes(page)
+        made = svg.with_classes(page)
         self.assertEqual(re.findall('points="(.*?)" class="(.*?)" stroke-dasharray="1 2"/>', made),
                          [("0,0", "q0"), ("1,1", "q0"), ("2,2", "q1")])
         self.assertIn(".q0{stroke:red;marker:url(#k1)}.q1{stroke:red;marker-mid:url(#k1)}</style>",
                       made)
-        self.assertEqual(figures.with_classes("<head></head>"), "<head></head>")
+        self.assertEqual(svg.with_classes("<head></head>"), "<head></head>")
 
 
 class Geometry(unittest.TestCase):

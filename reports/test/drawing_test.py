@@ -11,7 +11,7 @@ from harness.tools.kit.program import ROOT, run
 from reports import pictures, shapes
 from reports.structure_drawing import describe, draw, geometry, loads, members, scene
 from reports.structure_drawing.canvas import Canvas, boxes_overlap
-from reports.style import plt
+from reports.figures.style import plt
 
 
 LOADED = ROOT / "cases/format/test/good/loaded.yaml"

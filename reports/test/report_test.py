@@ -9,9 +9,10 @@ import xml.etree.ElementTree
 
 from harness.tools.kit.program import ProgramTest, TRUTHS, drawn, report, run
 from harness.tools.kit.scenes import LEAF
-from reports import case, data, film, paper, plots, shapes
-from reports.plots import MOST_CURVES, OPEN
-from reports.style import Styles
+from reports import case, data, film, shapes
+from reports.figures import paper, plots
+from reports.figures.plots import MOST_CURVES, OPEN
+from reports.figures.style import Styles
 from reports.test import results
 
 

@@ -16,7 +16,7 @@ from xml.etree import ElementTree
 
 from markupsafe import Markup, escape
 
-from reports import style
+from reports.figures import style
 
 # Markers of charts and common attributes of curves, each of which is defined once in a page.
 

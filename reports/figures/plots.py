@@ -4,8 +4,9 @@ import math
 import numpy as np
 from matplotlib.ticker import FuncFormatter, LogLocator, MaxNLocator, NullFormatter, NullLocator
 
-from reports import answers, data, style, verdicts
-from reports.chart import Chart
+from reports import answers, data, verdicts
+from reports.figures import style
+from reports.figures.chart import Chart
 
 FLOOR = 1e-13  # errors below this value are round-off
 NEARLY = 1e-10  # smaller errors are treated as zero

@@ -10,7 +10,7 @@ import shutil
 import matplotlib
 from matplotlib.ticker import FixedFormatter, FixedLocator, LogFormatterMathtext, NullLocator
 
-from reports.style import plt
+from reports.figures.style import plt
 
 FORMATS = ("pdf", "pgf", "png", "svg")
 FOLDER = "figures"  # subfolder of the report folder

@@ -11,8 +11,8 @@ import numpy as np
 from markupsafe import escape
 from matplotlib.markers import MarkerStyle
 
-from reports import style
-from reports.figures import FONT, Image, MARKERS, number, said_of
+from reports.figures import style
+from reports.figures.svg import FONT, Image, MARKERS, number, said_of
 
 # Axes of charts: limits, positions of values, and a few round ticks.
 

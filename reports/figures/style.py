@@ -1,7 +1,7 @@
 """Colours and markers of formulations. A new formulation does not change those of others.
 
 The colours are distinguishable without colour vision (Okabe and Ito, Tol). In dark mode, each colour is replaced by a
-lighter colour of the same hue: figures.py writes a variable, which the style sheet defines (sheet())."""
+lighter colour of the same hue: svg.py writes a variable, which the style sheet defines (sheet())."""
 import zlib
 
 import matplotlib
@@ -117,7 +117,7 @@ class Styles:
 
     @staticmethod
     def of(key):
-        """Returns the arguments of plot() for the curve of a formulation. The gid contains the formulation (figures.py)."""
+        """Returns the arguments of plot() for the curve of a formulation. The gid contains the formulation (svg.py)."""
         colour, _, marker = look(key)
         options = key.partition(":")[2]
         return {
