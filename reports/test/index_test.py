@@ -246,7 +246,7 @@ class Pages(ProgramTest):
     def setUpClass(cls):
         folder = cls.class_folder()
         named = {c for text in texts().values() for _, cases in claims(text) for c in cases}
-        named &= {path.stem for path in (ROOT / "cases").glob("*.[cy]*")}
+        named &= {path.stem for path in (ROOT / "cases" / "benchmarks").glob("*.[cy]*")}
         run("verify", "-k", " or ".join(f"{name}/default" for name in sorted(named)),
             "-o", folder / "results.h5")
         cls.site = Site(folder / "results.h5", TRUTHS, folder / "site")
