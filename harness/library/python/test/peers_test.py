@@ -117,7 +117,7 @@ class Contract(PeerTest):
                 turned = self.values(peer, name, scene(element, turn, space, small=1), 4)
                 for a, b in zip((u, R), turned):
                     for part in (slice(0, 3), slice(3, 6)):
-                        np.testing.assert_allclose(b[part], turn @ a[part], atol=1e-6 * np.abs(a[part]).max())
+                        np.testing.assert_allclose(b[part], turn @ a[part], atol=3e-6 * np.abs(a[part]).max())
         self.each(check)
 
     def test_order_of_nodes(self):
@@ -125,7 +125,7 @@ class Contract(PeerTest):
             one, other = (self.values(peer, name, scene(element, space=space, reverse=r, small=1), 4) for r in (False, True))
             for a, b in zip(one, other):
                 for part in (slice(0, 3), slice(3, 6)):
-                    np.testing.assert_allclose(b[part], a[part], atol=1e-6 * np.abs(a[part]).max())
+                    np.testing.assert_allclose(b[part], a[part], atol=3e-6 * np.abs(a[part]).max())
         self.each(check)
 
     def test_large_rotation(self):
@@ -143,6 +143,21 @@ class Contract(PeerTest):
                 want = {"x": radius - LENGTH, axis: 0, "yz"["zy".index(axis)]: radius}
                 np.testing.assert_allclose(u[:3], [want[c] if c != axis else 0 for c in "xyz"], atol=4e-3 * LENGTH)
                 self.assertAlmostEqual(R[3 + "xyz".index(axis)] / (-angle * SECTION[stiffness] / LENGTH), 1, places=5)
+        self.each(check)
+
+    def test_whole_turn(self):
+        """A moment bends a bar to a circle. Load steps must not lead to another equilibrium."""
+        def check(peer, name, element, space):
+            if "large rotations" not in element.offers:
+                return
+            made = scene(element, space=space, kind="static")
+            del made.loads["force"]
+            made.loads["moment"]["moment"] = [0, 0, 2 * math.pi * SECTION["EIz"] / LENGTH]
+            run = peers.solve(self.data(made), peer, name, [16], rounds=1)
+            if run.missing:
+                self.skipTest(run.missing)
+            if "failure" not in run.runs[0]:
+                np.testing.assert_allclose([run.runs[0]["values"][c] for c in ("ux", "uy")], [-LENGTH, 0], atol=0.1 * LENGTH)
         self.each(check)
 
     def test_unit_of_length(self):

@@ -183,6 +183,34 @@ class Model:
         raise NotImplementedError
 
 
+class LoadSteps:
+    """Load steps along the path: small at first, doubled after success, halved after a failure, and limited so that no node
+    turns by much more than half a radian in a step, because Newton's method may then find another equilibrium. Later
+    rounds, with the same key, repeat the steps that succeeded."""
+    _FIRST, _LEAST, _TURN = 1 / 16, 1e-4, 0.5
+    _known: dict[Any, list[float]] = {}
+
+    def __init__(self, key: Any, last: float) -> None:
+        self.key, self.last = key, last
+        self.known, self.taken, self.step = list(self._known.get(key, ())), list[float](), self._FIRST * last
+
+    def next(self, most: float) -> float:
+        """Returns the next step, at most `most`."""
+        return self.known.pop(0) if self.known else min(self.step, most)
+
+    def failed(self, step: float) -> None:
+        """Halves the step. Raises Failed if it is too small."""
+        self.step, self.known = step / 2, []
+        if self.step < self._LEAST * self.last:
+            raise Failed(f"Newton's method does not converge after path parameter {sum(self.taken):g}")
+
+    def done(self, step: float, turn: float) -> None:
+        """turn: largest rotation of a node in the step [rad]."""
+        self.taken.append(step)
+        self.step = step * min(2.0, self._TURN / turn if turn > 0 else 2.0)
+        self._known[self.key] = self.taken
+
+
 @dataclasses.dataclass(frozen=True)
 class Scene:
     """What `beamwork scene --format json` writes; raw: all of it. of: name of the case with parameters, for an import."""

@@ -6,8 +6,8 @@ import importlib.metadata
 import math
 from typing import Any
 
-from .data import (COMPONENTS, Analysis, Answer, Element, Failed, Load, Matrix, Mesh, Model, Refused, Scene, Section, State, product,
-                   rotation_vector, transposed)
+from .data import (COMPONENTS, Analysis, Answer, Element, Load, LoadSteps, Matrix, Mesh, Model, Refused, Scene, Section, State, product,
+                   rotation, rotation_vector, transposed)
 
 NAME, PROGRAM, LICENCE = "exudyn", "Exudyn", "BSD-3-Clause"
 HOMEPAGE = "https://github.com/jgerstmayr/EXUDYN"
@@ -20,8 +20,6 @@ ELEMENTS = {
     "ancf_3d": Element("ANCF beam with cross-section slopes, 2 nodes; marked as under construction", _PHYSICS, _STATICS),
 }
 _RIGID = 1e9  # shear stiffness of sections that are rigid in shear, relative to EI/length^2
-_LEAST_STEP = 1e-3  # smallest load step, relative to the path
-_steps: dict[tuple[str, str, int], list[float]] = {}  # load steps that converged in the first round
 
 
 def version() -> str:
@@ -70,7 +68,7 @@ class _Steps(Model):
         s.staticSolver.newton.relativeTolerance = s.staticSolver.newton.absoluteTolerance = 1e-8
         s.linearSolverType = self.exu.LinearSolverType.EigenSparse
         self.unknowns = count - sum(len(c) for all_ in self.held.values() for _, c in all_)
-        self.settings = ("SolveStatic, Newton increments below 1e-8, sparse, load steps halved after a failure; rigid in shear: "
+        self.settings = ("SolveStatic, Newton increments below 1e-8, sparse, adaptive load steps; rigid in shear: "
                          f"GA = {_RIGID:g} EI/L^2")
 
     def constrain(self, name: str, node: int, coordinate: int, component: int, motion: str = "") -> None:
@@ -112,24 +110,27 @@ class _Steps(Model):
         return bool(done)
 
     def solve(self, analysis: Analysis) -> Answer:
-        states, path, step, iterations = [], 0.0, 1.0, 0
-        key = (self.scene.of, self.name, len(self.mesh.elements))
-        known, taken = list(_steps.get(key, ())), []
+        states, path, iterations = [], 0.0, 0
+        steps = LoadSteps((self.scene.of, self.name, len(self.mesh.elements), analysis.name), analysis.stations[-1])
+        before = self.rotations()
         for station in analysis.stations:
             while path < station * (1 - 1e-12):
-                step = known.pop(0) if known else min(step, station - path)
+                step = steps.next(station - path)
                 if not self._step(path + step):
-                    iterations, step = iterations + 25, step / 2
-                    if step < _LEAST_STEP * analysis.stations[-1]:
-                        raise Failed(f"Newton's method does not converge at path parameter {path:g}")
+                    iterations += 25
+                    steps.failed(step)
                     continue
                 iterations += int(self.mbs.sys["staticSolver"].it.newtonStepsCount)
                 path += step
-                taken.append(step)
-                step *= 2
+                after = self.rotations()
+                steps.done(step, max(between(a, b) for a, b in zip(before, after)))
+                before = after
             states.append(self.state())
-        _steps[key] = taken
         return Answer(states, iterations=iterations)
+
+    def rotations(self) -> list[Matrix]:
+        """Returns the rotation matrices of the nodes of the scene."""
+        raise NotImplementedError
 
     def state(self) -> State:
         raise NotImplementedError
@@ -144,6 +145,11 @@ def _plane(scene: Scene) -> None:
     for load in scene.loads:
         if any(x != 0 for x in (load.vector[2:] if load.kind == "force" else load.vector[:2])):
             raise Refused(f"space: {load.name} is not in the xy plane")
+
+
+def between(P: Matrix, Q: Matrix) -> float:
+    """Returns the angle between two rotations."""
+    return math.hypot(*rotation_vector(product(transposed(P), Q)))
 
 
 class Plane(_Steps):
@@ -171,6 +177,11 @@ class Plane(_Steps):
         markers = {node: self.add("MarkerNodeRigid", nodeNumber=self.nodes[mesh.node_of[node]]) for node in scene.nodes}
         self.put_loads(markers.__getitem__)
         self.assemble(3 * len(mesh.nodes))
+
+    def rotations(self) -> list[Matrix]:
+        angles = [float(self.mbs.GetNodeOutput(self.nodes[k], self.exu.OutputVariableType.Coordinates)[2])
+                  for k in self.mesh.node_of.values()]
+        return [rotation([0, 0, angle]) for angle in angles]
 
     def state(self) -> State:
         u, reaction = {}, {}
@@ -222,6 +233,13 @@ class Space(_Steps):
         self.put_loads(markers.__getitem__)
         self.assemble(6 * len(made) - joints if not self.ancf else 9 * len(made) - joints)
 
+    def rotations(self) -> list[Matrix]:
+        return [self._matrix(nodes[0]) for nodes in self.of.values()]
+
+    def _matrix(self, node: int) -> list[list[float]]:
+        matrix = self.mbs.GetNodeOutput(node, self.exu.OutputVariableType.RotationMatrix)
+        return [[float(x) for x in matrix[3 * i:3 * i + 3]] for i in range(3)]
+
     def _stiffness(self, section: Section) -> Any:
         import numpy  # pylint: disable=import-outside-toplevel
         shear = _shear(section, self.scene.length())
@@ -269,9 +287,7 @@ class Space(_Steps):
         for name in self.mesh.node_of:
             node = self.of[name][0]
             moved = [float(x) for x in self.mbs.GetNodeOutput(node, types.Displacement)]
-            matrix = self.mbs.GetNodeOutput(node, types.RotationMatrix)
-            turn = product([list(map(float, matrix[3 * i:3 * i + 3])) for i in range(3)], transposed(self.frame[node]))
-            vector = rotation_vector(turn)
+            vector = rotation_vector(product(self._matrix(node), transposed(self.frame[node])))
             known = math.sqrt(sum(x * x for x in vector)) < 3
             u[name] = [*moved, *((x if known else None) for x in vector)]
             reaction[name] = [0.0] * 6

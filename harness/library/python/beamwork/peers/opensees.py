@@ -2,9 +2,10 @@
 from __future__ import annotations
 
 import importlib.metadata
+import math
 from typing import Any
 
-from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State, transposed
+from .data import COMPONENTS, Analysis, Answer, Element, Failed, LoadSteps, Mesh, Model, Refused, Scene, State, transposed
 
 NAME, PROGRAM, LICENCE = "opensees", "OpenSees", "free for research and internal use; no commercial redistribution"
 HOMEPAGE = "https://openseespydoc.readthedocs.io"
@@ -19,8 +20,6 @@ ELEMENTS = {
     "ElasticTimoshenkoBeam": Element("Timoshenko, linear", frozenset({"shear"}), frozenset({"linear"})),
 }
 _TURNS = 1e-3  # [rad] larger rotations in space are not sums of increments
-_LEAST_STEP = 1e-4  # smallest load step, relative to the path
-_steps: dict[tuple[str, str, int], list[float]] = {}  # load steps that converged in the first round
 
 
 def version() -> str:
@@ -58,7 +57,7 @@ class Corotational(Model):
         self._add_supports()
         length = scene.length()
         self.unknowns = 6 * len(mesh.nodes) - self.held
-        self.settings = f"Newton, NormDispIncr {1e-9 * (1 + length):.1e}, load steps halved after a failure"
+        self.settings = f"Newton, NormDispIncr {1e-9 * (1 + length):.1e}, adaptive load steps"
         ops.numberer("RCM")
         ops.constraints("Transformation")
         ops.system("BandGeneral")
@@ -103,28 +102,29 @@ class Corotational(Model):
             self.ops.algorithm("Linear")
         stations = analysis.stations or (1.0, )
         states, iterations, path = [], 0, 0.0
-        key = (self.scene.of, self.name, len(self.mesh.elements))
-        known, taken, step = list(_steps.get(key, ())), [], 1.0
+        steps = LoadSteps((self.scene.of, self.name, len(self.mesh.elements), analysis.name), stations[-1])
+        before = self._turns()
         self.ops.integrator("LoadControl", 1.0)
         self.ops.analysis("Static", "-noWarnings")
         for station in stations:
             while path < station * (1 - 1e-12):
-                step = known.pop(0) if known else min(step, station - path)
+                step = station - path if analysis.kind == "linear" else steps.next(station - path)
                 self.ops.integrator("LoadControl", step)
                 if self.ops.analyze(1) != 0:
-                    iterations, step = iterations + 30, step / 2
-                    if step < _LEAST_STEP * stations[-1]:
-                        raise Failed(f"Newton's method does not converge at path parameter {path:g}")
+                    iterations += 30
+                    steps.failed(step)
                     self.ops.setTime(path)
                     continue
                 path += step
-                taken.append(step)
                 iterations += max(self.ops.testIter(), 1)
-                step *= 2
+                after = self._turns()
+                steps.done(step, max(math.dist(a, b) for a, b in zip(before, after)))
+                before = after
             states.append(self._state(analysis.kind == "linear"))
-        if analysis.kind == "static":
-            _steps[key] = taken
         return Answer(states, iterations=iterations)
+
+    def _turns(self) -> list[list[float]]:
+        return [self.ops.nodeDisp(node.number)[3:] for node in self.mesh.nodes]
 
     def _state(self, linear: bool) -> State:
         self.ops.reactions()
