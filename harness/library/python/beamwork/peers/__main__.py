@@ -30,7 +30,8 @@ def _arguments() -> argparse.Namespace:
 def main() -> int:
     given = _arguments()
     if given.requirements:
-        print(*(package for name in given.peers.split(",") for package in load(name).REQUIRES), sep="\n")
+        wanted = dict.fromkeys(word.partition(":")[0] for word in given.peers.split(","))
+        print("numpy", *(package for name in wanted for package in load(name).REQUIRES), sep="\n")
         return 0
     try:
         if given.data:

