@@ -348,9 +348,9 @@ static status against_other(bench_options *r, const case_type *type, fault *f)
         return fault_set(f, STATUS_REFUSED,
                          "another program is compared on the same mesh; remove --error and -k");
     if (is_program && (r->slowdown > 0 || r->meshes.count > 1))
-        return fault_set(f, STATUS_REFUSED,
-                         "--inject-slowdown and a second mesh require --against FORMULATION "
-                         "instead of --against PROGRAM");
+        return fault_set(
+            f, STATUS_REFUSED,
+            "--inject-slowdown and a second mesh apply only to --against FORMULATION; remove them");
     if (r->meshes.count == 0 && !is_program)
         return against_error(r, type, f);
     if (r->error != NULL || r->select != NULL)

@@ -108,7 +108,7 @@ status cells_read(FILE *from, sweep *s, int index, fault *f)
            get_array(from, &timing, meshes * sizeof *one->timing);
     one->noise = noise;
     one->timing = timing;
-    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "a batch is incomplete");
+    return good ? STATUS_OK : fault_set(f, STATUS_FAULT, "a batch is incomplete; compute it again");
 }
 
 void cells_free_results(series *one)

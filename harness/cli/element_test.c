@@ -59,7 +59,8 @@ static status read_format(const verb_option *o, void *member, const char *value,
     for (size_t i = 0; i < sizeof forms / sizeof forms[0]; i++)
         if (strcmp(value, forms[i]) == 0)
             return STATUS_OK;
-    return fault_set(f, STATUS_REFUSED, "--format: give text, json, csv, markdown or latex");
+    return fault_set(f, STATUS_REFUSED, "--format %.40s: give text, json, csv, markdown or latex",
+                     value);
 }
 
 /* The caller answer() frees *c, even after a failure. */

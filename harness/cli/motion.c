@@ -29,8 +29,7 @@ static status ask(motion_options *r, motion_request *out, fault *f)
         return fault_set(f, STATUS_REFUSED, "motion accepts one mesh; give one number with -n");
     return r->vary.count < 2
                ? STATUS_OK
-               : fault_set(f, STATUS_REFUSED,
-                           "motion accepts one --vary, in the form NAME=A..B/N or NAME=A,B,C");
+               : fault_set(f, STATUS_REFUSED, "motion accepts only one --vary; remove the others");
 }
 
 static status run(motion_options *r, motions *m, fault *f)

@@ -318,7 +318,9 @@ static status write_ends(const solve_request *r, const solution_request *what, c
         return STATUS_OK;
     if (s->series[0].cell[0].solve.ends > 0)
         return restart_write(r->ends, what, s, f);
-    fprintf(stderr, "beamwork: no motion reached its end, so --save-state %s is not written\n",
+    fprintf(stderr,
+            "beamwork: no motion reached its end, so --save-state %s is not written; the status "
+            "gives the reason\n",
             r->ends);
     return STATUS_OK;
 }
@@ -455,17 +457,16 @@ const verb verb_solve = {
     "solve",
     "CASE",
     "solves one case with one formulation and one mesh: every quantity with its error",
-    "Solves one case with one formulation and one mesh and shows every quantity with its error. "
-    "Without -n, the mesh is refined until no value changes by more than 0.1 % (--error) from the "
-    "previous mesh: first through the meshes of the case, then by doubling, up to 1024 elements or "
-    "2 s of counted work. If values still change after that, the status is not_converged. Values "
-    "are printed to the second digit of their last change between meshes, which is not a bound of "
-    "their error. Without -f, up to five formulations are tried that support the physics of the "
-    "case and have no known deviation there, in the order of the cost of their next mesh. The "
-    "first formulation that converges is used, or, if -n is given, the formulation of the highest "
-    "order. The output states the choice and the reason. An analysis that no quantity uses is not "
-    "run, unless the scene has no quantities or the states of the analysis are drawn or written. "
-    "-k selects quantities.",
+    "Solves one case with one formulation and one mesh, and prints every quantity with its error. "
+    "Without -n, the mesh is refined until no value changes by more than 0.1 % (--error): first "
+    "through the meshes of the case, then by doubling, up to 1024 elements or 2 s of counted work. "
+    "If values still change, the status is not_converged. Values are printed to the second digit "
+    "of their last change between meshes, which is not a bound of their error. Without -f, up to "
+    "five formulations are tried, which support the physics of the case and have no known "
+    "deviation there. The first one that converges is used, in the order of the cost of the next "
+    "mesh; with -n, the one of the highest order is used. The output states the choice and the "
+    "reason. Analyses that no quantity uses are not run, unless the scene has no quantities or "
+    "their states are drawn or written. -k selects quantities.",
     "beamwork solve elastica\n"
     "beamwork solve c_column -f beamw -n 8 --set section_data=printed\n"
     "beamwork solve c_column -k buckling_load\n"

@@ -47,7 +47,8 @@ static status read_design(const sweep_options *r, ranges_request *q, fault *f)
             f, STATUS_REFUSED,
             "--points requires --design sobol, halton or random; a grid has the points of --vary");
     if (kind != DESIGN_RANDOM && seeded)
-        return fault_set(f, STATUS_REFUSED, "--seed requires --design random");
+        return fault_set(f, STATUS_REFUSED,
+                         "--seed requires --design random; add it, or remove --seed");
     return STATUS_OK;
 }
 
@@ -148,7 +149,7 @@ static int report(const sweep_options *r, const sweeping *s)
     if (r->output != NULL)
         fprintf(stderr, "the others are in %s; run the same command again\n", s->sweep.batches);
     else
-        fprintf(stderr, "with -o FILE, the others would be stored\n");
+        fprintf(stderr, "add -o FILE to store the others\n");
     return EXIT_INTERRUPTED;
 }
 
@@ -248,7 +249,8 @@ status shards_requested(const shard_options *r, int *requested, fault *f)
         return fault_set(f, STATUS_REFUSED, "--shard %.40s requires a folder; give --into FOLDER",
                          r->shard);
     if (r->partial && r->from.count == 0)
-        return fault_set(f, STATUS_REFUSED, "--partial requires --from, or 'beamwork merge'");
+        return fault_set(f, STATUS_REFUSED,
+                         "--partial requires --from or 'beamwork merge'; use one of them");
     if (r->into == NULL || !writes)
         return r->shard != NULL ? shard_parse(r->shard, &index, &count, f) : STATUS_OK;
     words_quoted(r->into, folder, sizeof folder);

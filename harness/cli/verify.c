@@ -137,7 +137,9 @@ static int answer(const command_line *l, void *request)
     if (l->arguments > 0)
         return message_fail(STATUS_REFUSED, "verify accepts no case; select cases with -k");
     if (r->imported_must_pass && r->imported.count == 0)
-        return message_fail(STATUS_REFUSED, "--imported-must-pass requires --imported FILE.h5");
+        return message_fail(
+            STATUS_REFUSED,
+            "--imported-must-pass requires imported results; add --imported FILE.h5");
     if (r->verbose && r->shards.quiet)
         return message_fail(STATUS_REFUSED,
                             "--verbose and --quiet are both given; give only one of them");

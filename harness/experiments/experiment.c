@@ -229,10 +229,11 @@ static void get_compared(const subject *s, field_value *out)
     out->whole = certificate_compared(certificate_of(s));
 }
 
-static const schema_field key_of_formulation[] = {{"formulation", "", FIELD_TEXT,
-                                                   "name, options that differ from their defaults",
-                                                   .get = get_formulation, .key = KEY},
-                                                  {0}};
+static const schema_field key_of_formulation[] = {
+    {"formulation", "", FIELD_TEXT,
+     "name of the formulation, with options that differ from their defaults",
+     .get = get_formulation, .key = KEY},
+    {0}};
 static const schema_field key_of_family[] = {
     {"family", "", FIELD_TEXT, "group of checks or measurements", .get = get_family, .key = KEY},
     {0}};

@@ -353,7 +353,8 @@ static const schema_field fields_of_count[] = {
      AT(extreme_count, faults)},
     {0}};
 static const schema_field key_of_count[] = {
-    {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
+    {"formulation", "", FIELD_TEXT,
+     "name of the formulation, with options that differ from their defaults",
      TEXT_OF(RECORD, extreme_count, formulation), .key = KEY},
     {0}};
 const record_type record_extreme_count = {

@@ -31,16 +31,20 @@ static int motion_of(const scene *s)
     return -1;
 }
 
+static status no_motion(const char *name, fault *f)
+{
+    return fault_set(
+        f, STATUS_REFUSED,
+        "case %s has no transient analysis; 'beamwork list' shows the cases with motions", name);
+}
+
 status integrators_plan_default(integrators_plan_request *r, fault *f)
 {
     scene s;
     status outcome = cell_scene(r->type, r->parameter, NULL, &s, f);
     const int analysis = outcome == STATUS_OK ? motion_of(&s) : -1;
     if (outcome == STATUS_OK && analysis < 0)
-        outcome = fault_set(
-            f, STATUS_REFUSED,
-            "case %s has no transient analysis; 'beamwork list' shows the cases with motions",
-            r->type->name);
+        outcome = no_motion(r->type->name, f);
     if (outcome == STATUS_OK) {
         if (r->elements == 0)
             r->elements = s.meshes > 1 ? s.mesh[1] : 4;
@@ -219,7 +223,7 @@ status integrators_plan_add(integrators *p, const integrators_plan_request *q, f
     memcpy(g->parameter, q->parameter, sizeof g->parameter);
     TRY(look(g, q, f));
     if (g->analysis < 0)
-        return fault_set(f, STATUS_REFUSED, "case %s has no transient analysis", q->type->name);
+        return no_motion(q->type->name, f);
     p->groups++;
     if (q->errors)
         TRY(add_reference(p, g, q, f));

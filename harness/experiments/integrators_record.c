@@ -224,7 +224,8 @@ static const schema_field fields_of_verdict[] = {
     {"case", "", FIELD_TEXT, "name of the case", TEXT_OF(RECORD, integrators_verdict, case_name)},
     {"parameters", "", FIELD_TEXT, "parameters that differ from the defaults",
      TEXT_OF(RECORD, integrators_verdict, parameters)},
-    {"formulation", "", FIELD_TEXT, "name, options that differ from their defaults",
+    {"formulation", "", FIELD_TEXT,
+     "name of the formulation, with options that differ from their defaults",
      TEXT_OF(RECORD, integrators_verdict, formulation)},
     {"elements", "1", FIELD_INT, "elements of each member", AT(integrators_verdict, elements)},
     {"integrator", "", FIELD_TEXT, "integrator, with its parameter if it has one",
@@ -381,7 +382,8 @@ static status plan_axis(const motion_request *r, motions *m, const integrators_p
     double value[CASE_MAX_PARAMETERS];
     if (a->count == 0)
         return fault_set(f, STATUS_REFUSED,
-                         "motion accepts one --vary, in the form NAME=A..B/N or NAME=A,B,C");
+                         "--vary %s: the number of parts is missing; write %s=A..B/N or %s=A,B,C",
+                         a->of->name, a->of->name, a->of->name);
     memcpy(value, r->parameter, sizeof value);
     for (int i = 0; i < a->count; i++) {
         integrators_plan_request one = *q;

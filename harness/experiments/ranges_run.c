@@ -102,8 +102,9 @@ static status hold_batches(const char *folder, fault *f)
                              ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
                              : -1;
         if (held < 0)
-            return fault_set(f, STATUS_FAULT, "%.200s: cannot be created (%s)", folder,
-                             strerror(errno));
+            return fault_set(f, STATUS_FAULT,
+                             "%.200s: the folder cannot be created (%s); give -o another location",
+                             folder, strerror(errno));
         if (flock(held, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
             close(held);
             return fault_set(f, STATUS_REFUSED,
@@ -127,9 +128,12 @@ static status place_batches(const char *path, char folder[PATH_MAX], fault *f)
     }
     const char *temporary = getenv("TMPDIR");
     snprintf(folder, PATH_MAX, "%s/beamwork-sweep-XXXXXX", temporary != NULL ? temporary : "/tmp");
-    return mkdtemp(folder) != NULL ? STATUS_OK
-                                   : fault_set(f, STATUS_FAULT, "%.200s: cannot be created (%s)",
-                                               folder, strerror(errno));
+    return mkdtemp(folder) != NULL
+               ? STATUS_OK
+               : fault_set(
+                     f, STATUS_FAULT,
+                     "%.200s: the folder cannot be created (%s); set TMPDIR to a writable folder",
+                     folder, strerror(errno));
 }
 
 static status plan(const void *requested, void *found, fault *f)

@@ -362,7 +362,7 @@ static status run(const void *requested, void *found, fault *f)
         if (left.series == left.all)
             return fault_set(f, STATUS_REFUSED,
                              "%.150s: the file has no results of this case at these parameters, "
-                             "but of %s",
+                             "but results of %s; give that case and its parameters",
                              r->imported[i], left.first);
     }
     return verification_cells(&r->cells, &c->truths, &c->sweep, f);

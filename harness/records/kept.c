@@ -246,7 +246,8 @@ static status lock_beside(const file_place *at, int most_waits, char beside[PATH
             f, STATUS_REFUSED,
             "%.200s: another run is using %.200s; wait until it ends, or give another name",
             at->path, beside);
-    return fault_set(f, STATUS_FAULT, "%.200s: cannot be locked (%s)", at->path,
+    return fault_set(f, STATUS_FAULT,
+                     "%.200s: the file cannot be locked (%s); choose another location", at->path,
                      strerror(length < PATH_MAX ? errno : ENAMETOOLONG));
 }
 

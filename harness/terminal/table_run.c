@@ -170,7 +170,7 @@ void table_run(FILE *to, const sweep *s, const evaluation *j, double seconds)
     if (j->unread > 0)
         fprintf(to,
                 "reference values for times and structures of motions that verify does not run: "
-                "%d; make lab L=motions checks them\n",
+                "%d; 'make lab L=motions' checks them\n",
                 j->unread);
     if (contradicted > 0)
         fprintf(to,

@@ -138,7 +138,7 @@ omit: [trapeze, wagner_moments, wagner_torque]
             ((*FLIGHT, "--step", "0.1..0.2"), "--step '0.1..0.2'"),
             ((*FLIGHT, "--tolerance", "0"), "--tolerance '0'"),
             (("free_flight_space", "-n", "2,4"), "one mesh"),
-            ((*FLIGHT, "--vary", "stiffening=1..2"), "one --vary"),
+            ((*FLIGHT, "--vary", "stiffening=1..2"), "the number of parts is missing"),
         ):
             done = run(*arguments)
             self.assertEqual(done.returncode, 2, arguments)

@@ -219,7 +219,8 @@ class Import(ProgramTest):
         self.assertEqual(done.returncode, 1, done.stdout)
         self.assertIn("/mine: gone: add the file with --imported", " ".join(done.stdout.split()))
         self.assertEqual(run("compare", old, self.folder / "new.h5").returncode, 1)
-        self.refused(2, "--imported-must-pass requires --imported FILE.h5", *select, "--imported-must-pass")
+        self.refused(2, "--imported-must-pass requires imported results; add --imported FILE.h5", *select,
+                     "--imported-must-pass")
         self.refused(2, "no quantity of", "verify", "-k", "roll_up/default", "-f", "collocation", "--imported",
                      self.folder / "theirs.h5", "--imported-must-pass")
         self.refused(2, "no imported value has a verdict", "verify", "-k", "elastica/default and u_over_L", "-f",
