@@ -259,7 +259,7 @@ static const struct {
                              [OUTCOME_FAULT] = {'F', "fault"}};
 
 /* Writes an error [%] as "0.22" or "2e-7", or a letter for a failure. A final sign means: ~
- * under-resolved, ! wrong, ? not expected. */
+ * under-resolved, ! wrong, ? unexpected. */
 static void cell_text(const extreme_outcome *o, char *text, size_t size)
 {
     static const char *const mark[OUTCOME_KINDS] = {[OUTCOME_COARSE] = "~", [OUTCOME_WRONG] = "!"};
@@ -416,8 +416,8 @@ static void print_unexpected(FILE *to, const extreme_sweep *s)
 
 static void print_legend(FILE *to)
 {
-    fprintf(to, "\nerrors in %%; ~ under-resolved: decreases with more elements; ! wrong; ? not "
-                "expected; - not supported\n");
+    fprintf(to, "\nerrors in %%; ~ under-resolved: decreases with more elements; ! wrong; ? "
+                "unexpected; - not supported\n");
     for (int k = 0, named = 0; k < OUTCOME_KINDS; k++)
         if (failures[k].letter != '\0')
             fprintf(to, "%s%c %s", named++ > 0 ? "; " : "", failures[k].letter, failures[k].words);
