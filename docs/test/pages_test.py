@@ -1,7 +1,7 @@
 """The outputs shown on pages of docs/ are those of their commands."""
 import unittest
 
-from docs import commands
+from harness.tools import shown_commands as commands
 from harness.tools.kit.program import PROGRAM
 
 

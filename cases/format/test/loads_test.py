@@ -5,9 +5,9 @@ import re
 import unittest
 
 from cases.format.test.scene_case import SceneCase, values
-from docs.commands import reader_file
 from harness.tools.kit.program import run
 from harness.tools.kit.scenes import LEAF
+from harness.tools.shown_commands import reader_file
 
 
 SCENE = """beamwork: 1

@@ -12,8 +12,8 @@ import sys
 import tarfile
 import unittest
 
-from docs.commands import reader_file
 from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, run
+from harness.tools.shown_commands import reader_file
 
 
 HERE = pathlib.Path(__file__).parent

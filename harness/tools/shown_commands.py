@@ -4,7 +4,7 @@ Commands are in `console` blocks. A line that begins with `$ ` is a command, and
 the command. Its output follows. Blocks with files of the reader have the file name in `:caption:` or in the first line
 `# NAME`. In expected outputs, `...` matches any text of a line; a line `...` matches any lines.
 
-usage: commands.py PAGE... prints pages whose output differs, and replaces the outputs on the pages
+usage: shown_commands.py PAGE... prints pages whose output differs, and replaces the outputs on the pages
 """
 import os
 import pathlib
@@ -13,8 +13,8 @@ import subprocess
 import sys
 import tempfile
 
-DOCS = pathlib.Path(__file__).resolve().parent
-ROOT = DOCS.parent
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+DOCS = ROOT / "docs"
 BLOCK = re.compile(r"^```(?:\{code-block\} *)?(\w+)\n((?:.*\n)*?)```$", re.M)
 # Text with solution times and corrections of iterations, which is replaced by `...` when a page is written.
 VARYING = re.compile(r"^(?:ok; (?:.*\n)*?.*solution|step +path(?:.*\n)*?.*(?=\Z|\n\S))$", re.M)
