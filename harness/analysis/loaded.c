@@ -160,6 +160,7 @@ typedef struct loaded_search {
     double begin, shift, p[POINTS],
         sigma[POINTS]; /* shift: the first sigma; K + shift scale is far from singular */
     int points;
+    double noise; /* bound of the rounding error of sigma[0] */
     double estimate, change,
         /* unstable: smallest path parameter that is known to be beyond the critical point */
         unstable;
@@ -236,6 +237,38 @@ static void search_free(loaded_search *s)
     eigen_free(&s->found);
 }
 
+/* Computes the bound of the rounding error of sigma in Newton's current state. */
+static status find_noise(loaded_search *s, fault *f)
+{
+    const newton_run *n = &s->n;
+    double *x = calloc(2 * (size_t)n->all + 1, sizeof *x), size = 0;
+    if (x == NULL)
+        return fault_set(f, STATUS_FAULT, "out of memory for critical loads");
+    double *y = x + n->all;
+    memcpy(x, s->found.positive.mode, (size_t)n->free * sizeof *x);
+    sparse_mul(&s->scale, x, y);
+    for (int k = 0; k < n->free; k++)
+        size += x[k] * y[k];
+    s->noise =
+        stiffness_parts_assembled_rounding(n->c->model, &n->c->run->memory, n->state, x) / size;
+    free(x);
+    return STATUS_OK;
+}
+
+/* Returns the relative error of the estimate due to rounding of sigma. The slope of sigma is that
+ * from the last state in which sigma is much larger than its rounding error, or from the start. */
+static double error_of(const loaded_search *s)
+{
+    const double much = 10;
+    double away = s->estimate - s->begin, fall = s->shift;
+    for (int i = s->points - 1; i >= 0; i--)
+        if (s->sigma[i] > much * s->noise) {
+            away = s->estimate - s->p[i];
+            fall = s->sigma[i];
+        }
+    return s->noise > 0 ? s->noise * fabs(away / (fall * s->estimate)) : 0;
+}
+
 /* Makes Newton's current state, whose K is factored, the last stable state, and computes its sigma.
  * */
 static status take_state(loaded_search *s, fault *f)
@@ -250,6 +283,7 @@ static status take_state(loaded_search *s, fault *f)
     const status found = eigen_solve(&p, &s->found, f);
     context_count_eigen(s->n.c, &s->found);
     TRY(found);
+    TRY(find_noise(s, f));
     memmove(s->p + 1, s->p, (POINTS - 1) * sizeof *s->p);
     memmove(s->sigma + 1, s->sigma, (POINTS - 1) * sizeof *s->sigma);
     s->p[0] = kinematics_state_path(s->n.state);
@@ -462,13 +496,13 @@ static void add_first(const loaded_search *s, int negative, double from, double 
 {
     const eigen_side *found = &s->found.positive;
     const double size = fabs(s->estimate - s->begin);
-    add_loads(s, 1, s->estimate, 0, out);
+    add_loads(s, 1, s->estimate, error_of(s), out);
     for (int i = 1; i < negative && i < s->wanted; i++) {
         const double sigma = i < found->count ? 1 / found->mu[i] - s->shift : NAN,
                      value = from + (s->estimate - from) * sigma / s->sigma[0],
                      apart = value - s->estimate;
         if (!(apart > wanted_error * size)) /* one multiple load */
-            add_loads(s, i + 1, s->estimate, 0, out);
+            add_loads(s, i + 1, s->estimate, error_of(s), out);
         else
             add_loads(s, i + 1, fmin(value, low), apart / size, out);
     }
@@ -568,7 +602,7 @@ static status store_results(loaded_search *s, outcome_side *out, fault *f)
     if (s->found.positive.mode != NULL)
         memcpy(mode, s->found.positive.mode, (size_t)modes * n * sizeof *mode);
     const status more = s->wanted > 1 ? find_more(s, &found, &why) : STATUS_OK;
-    add_loads(s, 1, s->estimate, 0, &found);
+    add_loads(s, 1, s->estimate, error_of(s), &found);
     *out = (outcome_side){
         .count = found.count, .value = found.value, .mode = mode, .error = found.error};
     if (more != STATUS_OK) {

@@ -293,6 +293,18 @@ class MultiplePoints(ProgramTest):
                     self.assertGreater(rounding, 1e-5)
                 else:
                     self.assertLess(rounding, 5e-6)
+        scene = COLUMN.replace("analyses: {", "analyses: {push: {static: {stations: [0.5]}}, about: {buckling: {about: push}}, ") \
+                      .replace("which: $i}, unit: N}", "which: $i}, unit: N}\n  f: {critical_factor: {analysis: about}}") \
+                      .replace("A: 1e6", "A: 100")
+        path = self.folder / "scene.yaml"
+        path.write_text(scene % {**CLAMPED, "Iy": 2, "step": 0.01, "to": 0.05})
+        coarse, fine = ({q["quantity"]: q for q in json.loads(run(
+            "solve", "--scene", path, "-f", "geometrically_exact", "-n", n, "--format", "json").stdout)["quantities"]}
+                        for n in (64, 256))
+        for name in "P_0", "f":
+            error = abs(fine[name]["value"] / coarse[name]["value"] - 1)
+            self.assertLess(error, fine[name]["rounding"])
+            self.assertTrue(1e-6 < fine[name]["rounding"] < 1e-3, name)
         out = run("solve", "lee_frame", "--set", "plane=0", "-f", "geometrically_exact", "-n", 96).stdout
         self.assertRegex(out, r"bifurcation at -8\.34\d* m, load factor 0\.8681\d?:")
         self.assertRegex(out, r"bifurcation_load +0\.8681\d* N .*, round-off \d\.\de-04")
