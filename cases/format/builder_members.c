@@ -244,14 +244,14 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
             snprintf(names + used, sizeof names - used, "%s%s", used > 0 ? ", " : "",
                      scene_analysis_name((scene_analysis_kind)k));
         }
-    document_mistake(
-        what->b->mistakes, document_find(what->map, "analysis"), 0,
-        "analysis '%s' (%s) has no %s; name an analysis of a kind that has one: %s%s", a->name,
-        scene_analysis_name(a->kind), key, names,
-        a->kind == SCENE_HARMONIC && scene_reads_forces(q)
-            ? "; or replace the node with two nodes joined by a stiff spring, and multiply the "
-              "spring stiffness by the response of one node relative to the other (key 'from')"
-            : "");
+    document_mistake(what->b->mistakes, document_find(what->map, "analysis"), 0,
+                     "analysis '%s' (%s) has no %s; name an analysis of a kind that has one: %s%s",
+                     a->name, scene_analysis_name(a->kind), key, names,
+                     a->kind != SCENE_HARMONIC || !scene_reads_forces(q) ? ""
+                     : q->what.kind == SCENE_DEFLECTION
+                         ? "; or add a node there, and request its response"
+                         : "; or put a stiff spring between two nodes there, and multiply its "
+                           "stiffness by their relative response (key 'from')");
 }
 
 /* Maximum number of characters of an expression of t after names have been replaced by values. */

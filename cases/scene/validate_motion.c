@@ -31,10 +31,11 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
                          scene_called(s, SCENE_ANALYSES, i).text);
     if (m->scheme == SCENE_ALPHA &&
         !(m->alpha.mass >= -1 && m->alpha.mass <= m->alpha.force && m->alpha.force <= 0.5))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: alpha_m = %g, alpha_f = %g are not stable for every step; keep -1 <= "
-                         "alpha_m <= alpha_f <= 1/2, or give rho from 0 to 1",
-                         scene_called(s, SCENE_ANALYSES, i).text, m->alpha.mass, m->alpha.force);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: with alpha_m = %g and alpha_f = %g, alpha is not unconditionally stable; "
+            "give -1 <= alpha_m <= alpha_f <= 1/2, or rho from 0 to 1",
+            scene_called(s, SCENE_ANALYSES, i).text, m->alpha.mass, m->alpha.force);
     if (m->mass < SCENE_MASS_USUAL || m->mass > SCENE_CONSISTENT)
         return fault_set(f, STATUS_REFUSED, "%s: unknown kind of mass; name LUMPED or CONSISTENT",
                          scene_called(s, SCENE_ANALYSES, i).text);

@@ -87,7 +87,7 @@ status formulations_add(const element_type *t, const char *from, fault *f)
         count++;
     if (count == FORMULATIONS_MOST_LOADED)
         return fault_set(f, STATUS_REFUSED,
-                         "at most %d formulations can be loaded; remove some --element",
+                         "at most %d formulations can be loaded; give fewer with --element",
                          FORMULATIONS_MOST_LOADED);
     formulations_loaded[count] = t;
     loaded_from[count] = from;

@@ -128,7 +128,7 @@ static status check_load(const scene *s, int load, fault *f)
     if (l->kind != SCENE_FORCE && l->kind != SCENE_MOMENT)
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: loads on members and weight cannot be written as solids; apply the load to nodes",
+            "%s: weight and loads on members cannot be written as solids; apply the load to nodes",
             scene_called(s, SCENE_LOADS, load).text);
     if (l->follower || l->axes != SCENE_AXES_FIXED || !is_zero(l->at))
         return fault_set(f, STATUS_REFUSED,

@@ -205,14 +205,14 @@ static status check_between(const model *m, int member, const section *c, fault 
     const char *limit =
         missing_in_section(m->mesh.type, c, cells, (m->features & FEATURE_WARPING) != 0);
     if ((c->Iw > 0) != (p->Iw > 0 || q->Iw > 0))
-        limit = "warping in only a part of the member";
+        limit = "warping";
     else if (features_eccentric(c) && !features_eccentric(p) && !features_eccentric(q))
-        limit = "a shear centre that leaves the centroid only between the ends";
+        limit = "a shear centre away from the centroid";
     if (limit == NULL)
         return STATUS_OK;
     return fault_set(f, STATUS_REFUSED,
-                     "%s: between the ends the section has a property that it does not have at the "
-                     "ends: %s; split the member with a node where the property appears",
+                     "%s: only a part of the member has this property: %s; split the member with a "
+                     "node where that part begins",
                      scene_called(m->scene, SCENE_MEMBERS, member).text, limit);
 }
 

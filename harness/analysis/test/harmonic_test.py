@@ -581,7 +581,7 @@ quantities:
         for text, words in (
                 (BEAM % ("hold: all", "", "", "", held), "root is fixed or driven, so a force along it has no effect"),
                 (BEAM % ("hold: all", "", "", "", "  n: {internal: {analysis: steady, member: m, resultant: Mz, where: 0}}"),
-                 "replace the node with two nodes joined by a stiff spring"),
+                 "put a stiff spring between two nodes there"),
                 (BEAM % ("hold: all", buckled, "  before: {static: {stations: [1], steps: 4}}", ", about: before", FORCED),
                  "not_converged|unstable"),
                 (BEAM.replace("5, 8, 20", "-1, 8, 20") % ("hold: all", "", "", "", FORCED), "give zero or positive"),

@@ -113,7 +113,7 @@ class Decks(ExportTest):
             "Poisson": plain.replace("shear_modulus: 100e9", "shear_modulus: 1e9"),
             "on members": plain.replace("force: [1.0, 0, 0], on: tip",
                                         "distributed: [1, 0, 0], on: bar"),
-            "push: loads on members": plain.replace("force: [1.0, 0, 0], on: tip",
+            "push: weight and loads on members": plain.replace("force: [1.0, 0, 0], on: tip",
                                               "force: [1.0, 0, 0], on: bar, where: 0.5"),
             "one stiffness of a loaded": cantilever(1.0, PATH).replace(
                 "quantities:", "  stiff: {compliance: {node: tip, about: run}}\nquantities:\n"
