@@ -116,7 +116,7 @@ def arguments(value):
 def write_terms(site):
     """Writes the page of verdicts and terms, with the output of `explain` for each term."""
     groups = re.findall(r"^(\w[^\n]*)\n((?:  [^\n]*\n)+)", site.ask("explain").partition("\n")[2], re.M)
-    parts = ["# Verdicts and terms\n\nThe same as `beamwork explain TERM`."]
+    parts = ["# Verdicts and terms\n\n`beamwork explain TERM` prints these texts."]
     for group, terms in groups:
         parts.append(f"## {group.capitalize()}")
         for term in " ".join(terms.split()).split("; "):
@@ -135,7 +135,7 @@ def write_formulations(site, formulations):
         site.write(f"theory/formulations/{name}.md", f"# {name}\n\n{one['summary']}\n\n{theory}\n"
                    f"## Declarations\n\n{literal(site.ask('list', name))}")
     site.write("theory/formulations/index.md", "# Formulations\n\nJ and N are the [two papers](../../project/papers.md).\n\n" + table(
-        ["name", "what it is", "source"], [[f"[{f['formulation']}]({f['formulation']}.md)", f["summary"], f["source"]] for f in formulations])
+        ["name", "description", "source"], [[f"[{f['formulation']}]({f['formulation']}.md)", f["summary"], f["source"]] for f in formulations])
         + "\n\n" + toctree(f["formulation"] for f in formulations))
 
 
@@ -182,14 +182,14 @@ def write_verification(site, cases):
         known = subprocess.run([site.program, "truth", case], text=True, check=False,
                                capture_output=True).stdout
         parts = problem(site, case) + ["## Reference values at the default parameters",
-                                       literal(known) if known else "None is stored."]
+                                       literal(known) if known else "No reference value is stored."]
         if case in tested:
             parts += verdicts(site, case)
         else:
             parts.append(f"Verdicts: `beamwork verify --select ={case}`.")
         site.write(f"verification/{case}.md", "\n\n".join(parts))
     site.write("verification/cases.md", "# Cases\n\n" + table(
-        ["case", "what it is"], [[f"[{c['case']}]({c['case']}.md)", c["summary"]] for c in cases])
+        ["case", "description"], [[f"[{c['case']}]({c['case']}.md)", c["summary"]] for c in cases])
         + "\n\n" + toctree(c["case"] for c in cases))
 
 
