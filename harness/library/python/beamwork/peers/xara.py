@@ -52,7 +52,7 @@ ELEMENTS = {
     ),
 }
 
-_STIFF = 1e8  # shear stiffness of a rigid section, over EI/L^2
+_STIFF = 1e10  # shear stiffness of a rigid section, over EI/L^2
 _LEAST_STEP = 1 / 512
 _STEPS: dict[tuple[str, str, str], int] = {}  # steps between stations that converged last
 
@@ -114,7 +114,7 @@ class Frame(Model):
         self.settings = (
             f"Umfpack, Newton, NormDispIncr {self._tolerance():.0e}, steps halved where they fail"
             + ("" if element == "force" or self._planar() else ", at least 8 steps")
-            + (", rigid in shear: GA = 1e8 EI/L^2" if self.rigid else "")
+            + (", rigid in shear: GA = 1e10 EI/L^2" if self.rigid else "")
         )
 
     def _refuse(self) -> None:
@@ -174,7 +174,7 @@ class Frame(Model):
             value if math.isfinite(value) else _STIFF * ei / length**2
             for value, ei in zip(section.GA, stiffness)
         ]
-        self.rigid |= any(not math.isfinite(value) for value in section.GA)
+        self.rigid |= self.element != "force" and any(not math.isfinite(value) for value in section.GA)
         model.section(
             "ElasticFrame",
             tag,
@@ -214,7 +214,7 @@ class Frame(Model):
                 list(e.nodes),
                 section=tags[key],
                 transform=number,
-                shear=1,
+                shear=int(self.element != "force" or all(map(math.isfinite, e.member.section.GA))),
                 **({"mass": e.member.section.rho_A} if self.element == "force" else {}),
             )
         return model
