@@ -11,6 +11,7 @@ import unittest.mock
 import numpy as np
 
 from harness.library.python.test.module import ModuleTest, bw
+from harness.tools.kit.program import ROOT
 
 peers = None if bw is None else importlib.import_module("beamwork.peers")
 SECTION = {"EA": 4e8, "GA": 1.2e8, "EIy": 6e5, "EIz": 2e5, "GIt": 1.6e5}
@@ -253,6 +254,34 @@ class Door(PeerTest):
             np.testing.assert_allclose(np.array(element.R).T @ element.R, np.eye(3), atol=1e-12)
             chord = np.subtract(mesh.nodes[element.nodes[-1]].at, mesh.nodes[element.nodes[0]].at)
             np.testing.assert_allclose(np.array(element.R)[:, 0], chord / np.linalg.norm(chord), atol=1e-12)
+
+
+class Recorded(PeerTest):
+    """Recorded results (reference/peers) are imports, and a live run gives the same values."""
+
+    def test_import(self):
+        files = sorted((ROOT / "reference" / "peers").glob("*.csv"))
+        self.assertTrue(files)
+        self.answered("import", *files, "-o", self.folder / "all.h5")
+
+    def test_live(self):
+        lines = (ROOT / "reference" / "peers" / "elastica.csv").read_text(encoding="utf-8").splitlines()
+        recorded, program = {}, ""
+        for line in lines:
+            program = line.partition(": ")[2] if line.startswith("# program: ") else program
+            fields = line.split(",")
+            if len(fields) == 8 and fields[2] == "4":
+                recorded[program, fields[0]] = float(fields[6])
+        data = json.loads(self.answered("scene", "elastica", "--format", "json").stdout)
+        for peer, element in peers.chosen(["exudyn", "opensees"]):
+            with self.subTest(peer=peer, element=element):
+                found = peers.solve(data, peer, element, [4], rounds=1)
+                if found.missing:
+                    self.skipTest(found.missing)
+                known = {name for program, name in recorded if program == found.program}
+                for name in known:
+                    value = found.runs[0]["values"][name]
+                    self.assertAlmostEqual(value / recorded[found.program, name], 1, places=8)
 
 
 class Documented(ModuleTest):
