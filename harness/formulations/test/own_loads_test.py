@@ -151,7 +151,7 @@ class OwnLoads(Speaker):
         self.assertEqual((made, wrong), (["holds"] * 5 + ["not claimed"] * 2, ""))
         for before, after, told in (
                 ("(1 - q) * r[:, 0]", "0.9 * (1 - q) * r[:, 0]", "nodal forces have the sum"),
-                ("psi = s * ", "psi = 0.1 + s * ", "R at 0 differs from that of the nodes")):
+                ("psi = s * ", "psi = 0.1 + s * ", "R at 0 of the length differs from R of the nodes")):
             self.assertIn(told, self.contract(self.python(before, after), code=1)[1])
 
     def test_refused(self):
