@@ -10,7 +10,7 @@ import unittest.mock
 
 import numpy as np
 
-from harness.library.python.test.module import ModuleTest, bw
+from harness.library.python.test.module import ModuleTest, bw, python
 from harness.tools.kit.program import ROOT
 
 peers = None if bw is None else importlib.import_module("beamwork.peers")
@@ -254,6 +254,23 @@ class Door(PeerTest):
             np.testing.assert_allclose(np.array(element.R).T @ element.R, np.eye(3), atol=1e-12)
             chord = np.subtract(mesh.nodes[element.nodes[-1]].at, mesh.nodes[element.nodes[0]].at)
             np.testing.assert_allclose(np.array(element.R)[:, 0], chord / np.linalg.norm(chord), atol=1e-12)
+
+
+class Drivers(ModuleTest):
+
+    def test_list(self):
+        """Every driver states its licence, packages with versions, and known physics."""
+        known = {"warping", "shear", "eccentric shear centre", "trapeze", "wagner moments", "wagner torque", "geometric", "mass",
+                 "large rotations", "rotary inertia", "initial curvature", "coupled section", "engesser", "haringx"}
+        for name in peers.names():
+            peer = peers.load(name)
+            self.assertEqual(peer.NAME, name)
+            self.assertTrue(peer.LICENCE and peer.HOMEPAGE.startswith("http"), name)
+            self.assertTrue(all("==" in package for package in peer.REQUIRES), name)
+            for element in peer.ELEMENTS.values():
+                self.assertLessEqual(element.offers, known, name)
+        done = python("import runpy, sys; sys.argv = ['peers', '--list']; runpy.run_module('beamwork.peers', run_name='__main__')")
+        self.assertIn("PyNite (MIT)", done.stdout, done.stderr)
 
 
 class Recorded(PeerTest):

@@ -22,6 +22,7 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--elements", help="meshes; default: those of the case")
     parser.add_argument("--rounds", type=int, default=3, help="times are the least of this number of rounds")
     parser.add_argument("--limit", type=float, default=60, help="longest time of one mesh [s]")
+    parser.add_argument("--list", action="store_true", help="list the peers, their licences, elements, physics and analyses")
     parser.add_argument("--requirements", action="store_true", help="print the Python packages of the peers for pip")
     parser.add_argument("-o", "--output", help="import file (.csv), or the stored import (.h5); default: standard output")
     return parser.parse_args()
@@ -29,6 +30,13 @@ def _arguments() -> argparse.Namespace:
 
 def main() -> int:
     given = _arguments()
+    if given.list:
+        for peer in (load(name) for name in names()):
+            print(f"{peer.NAME}: {peer.PROGRAM} ({peer.LICENCE}), {peer.HOMEPAGE}")
+            for name, element in peer.ELEMENTS.items():
+                print(f"  {name}: {element.summary}; {', '.join(sorted(element.analyses))}; "
+                      f"physics: {', '.join(sorted(element.offers)) or 'none'}")
+        return 0
     if given.requirements:
         wanted = dict.fromkeys(word.partition(":")[0] for word in given.peers.split(","))
         print("numpy", *(package for name in wanted for package in load(name).REQUIRES), sep="\n")
