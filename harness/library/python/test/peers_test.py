@@ -146,6 +146,25 @@ class Contract(PeerTest):
                 self.assertAlmostEqual(R[3 + "xyz".index(axis)] / (-angle * SECTION[stiffness] / LENGTH), 1, places=5)
         self.each(check)
 
+    def test_follower(self):
+        """A follower force keeps its components in the axes of the bar: a rotation of the scene rotates the results, and the
+        reaction has the direction of the rotated force."""
+        def check(peer, name, element, space):
+            if "loads.follower" not in element.keys:
+                return
+            results = []
+            turns = (np.eye(3), TILT[1] if space else np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]))
+            for turn in turns:
+                made = scene(element, turn, space, kind="static")
+                made.loads["force"].update(force=turn @ np.array([0, 2e4, 0]), follower=True)
+                del made.loads["moment"]
+                results.append(self.values(peer, name, made, 8, whole=False))
+            (u, R), (v, S) = results
+            np.testing.assert_allclose(v[:3], turns[1] @ u[:3], atol=1e-5 * np.abs(u[:3]).max())
+            np.testing.assert_allclose(S[:3], turns[1] @ R[:3], atol=1e-5 * np.abs(R[:3]).max())
+            self.assertAlmostEqual(math.atan2(R[0], -R[1]), u[5], places=4)
+        self.each(check)
+
     def test_whole_turn(self):
         """A moment bends a bar to a circle. Load steps must not lead to another equilibrium."""
         def check(peer, name, element, space):

@@ -7,17 +7,17 @@ import math
 from typing import Any
 
 from .data import (COMPONENTS, Analysis, Answer, Element, Load, LoadSteps, Matrix, Mesh, Model, Refused, Scene, Section, State, product,
-                   rotation, rotation_vector, transposed)
+                   rotation, rotation_vector, times, transposed)
 
 NAME, PROGRAM, LICENCE = "exudyn", "Exudyn", "BSD-3-Clause"
 HOMEPAGE = "https://github.com/jgerstmayr/EXUDYN"
 REQUIRES = ("exudyn==1.13.6", )
-_STATICS, _PHYSICS = frozenset({"static"}), frozenset({"shear", "large rotations"})
+_STATICS, _PHYSICS, _KEYS = frozenset({"static"}), frozenset({"shear", "large rotations"}), frozenset({"loads.follower"})
 ELEMENTS = {
-    "exact_2d": Element("geometrically exact, 2 nodes, xy plane only", _PHYSICS, _STATICS),
-    "exact_2d_3": Element("geometrically exact, 3 nodes, xy plane only", _PHYSICS, _STATICS, order=2),
-    "exact_3d": Element("geometrically exact, 2 nodes; marked as under construction by its authors", _PHYSICS, _STATICS),
-    "ancf_3d": Element("ANCF beam with cross-section slopes, 2 nodes; marked as under construction", _PHYSICS, _STATICS),
+    "exact_2d": Element("geometrically exact, 2 nodes, xy plane only", _PHYSICS, _STATICS, keys=_KEYS),
+    "exact_2d_3": Element("geometrically exact, 3 nodes, xy plane only", _PHYSICS, _STATICS, 2, _KEYS),
+    "exact_3d": Element("geometrically exact, 2 nodes; marked as under construction by its authors", _PHYSICS, _STATICS, keys=_KEYS),
+    "ancf_3d": Element("ANCF beam with cross-section slopes, 2 nodes; marked as under construction", _PHYSICS, _STATICS, keys=_KEYS),
 }
 _RIGID = 1e9  # shear stiffness of sections that are rigid in shear, relative to EI/length^2
 
@@ -41,7 +41,7 @@ class _Steps(Model):
         self.container = self.exu.SystemContainer()
         self.mbs = self.container.AddSystem()
         self.ground = self.add("NodePointGround", referenceCoordinates=[0, 0, 0])
-        self.loads: list[tuple[Load, int, str]] = []
+        self.loads: list[tuple[Load, int, list[float]]] = []
         self.held: dict[str, list[tuple[int, list[int]]]] = {}  # constraints of a node of the scene with their components
         self.driven: list[tuple[str, int]] = []
         self.unknowns = 0
@@ -85,13 +85,19 @@ class _Steps(Model):
             if load.node is None or load.kind not in ("force", "moment"):
                 raise Refused(f"{load.kind}: the driver has forces and moments at nodes only")
             kind = "LoadForceVector" if load.kind == "force" else "LoadTorqueVector"
-            number = self.add(kind, markerNumber=marker_of(load.node), loadVector=list(load.vector))
-            self.loads.append((load, number, "loadVector"))
+            vector = times(transposed(self.frame_of(load.node)), load.vector) if load.follower else list(load.vector)
+            number = self.add(kind, markerNumber=marker_of(load.node), loadVector=vector, bodyFixed=load.follower)
+            self.loads.append((load, number, vector))
+
+    def frame_of(self, name: str) -> Matrix:
+        """Returns the axes of a node of the scene before it moves."""
+        del name
+        return rotation([0, 0, 0])
 
     def _set(self, path: float) -> None:
-        for load, number, key in self.loads:
+        for load, number, vector in self.loads:
             factor = self.scene.load_factor(load, path)
-            self.mbs.SetLoadParameter(number, key, [factor * x for x in load.vector])
+            self.mbs.SetLoadParameter(number, "loadVector", [factor * x for x in vector])
         for motion, constraint in self.driven:
             self.mbs.SetObjectParameter(constraint, "offset", self.scene.motion_value(motion, path))
 
@@ -235,6 +241,9 @@ class Space(_Steps):
 
     def rotations(self) -> list[Matrix]:
         return [self._matrix(nodes[0]) for nodes in self.of.values()]
+
+    def frame_of(self, name: str) -> Matrix:
+        return self.frame[self.of[name][0]]
 
     def _matrix(self, node: int) -> list[list[float]]:
         matrix = self.mbs.GetNodeOutput(node, self.exu.OutputVariableType.RotationMatrix)
