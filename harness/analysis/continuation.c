@@ -208,10 +208,11 @@ static status retrace(continuation *p, path_goal goal, double station, const oth
             reject(p, &t);
             rejected++;
             if (length <= smallest)
-                return fault_set(f, STATUS_NOT_CONVERGED,
-                                 "the path cannot be followed beyond %g m at load factor %g: %s",
-                                 p->here.control, p->here.factor,
-                                 t.reason != NULL ? t.reason : why.text);
+                return fault_set(
+                    f, STATUS_NOT_CONVERGED,
+                    "the path cannot be followed beyond the value %g m of the control coordinate, "
+                    "at load factor %g: %s",
+                    p->here.control, p->here.factor, t.reason != NULL ? t.reason : why.text);
             *size = length / 2;
             continue;
         }

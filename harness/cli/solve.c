@@ -439,8 +439,8 @@ static const verb_option own[] = {
      .traits = OPTION_OUTPUT | OPTION_HDF5},
     {"restart", 0, "FILE",
      "continue the motions of another run from its --save-state file; give the same scene with "
-     "later stations; the results are bit-for-bit equal to those of an uninterrupted run if the "
-     "steps are the same; windows must begin at the saved state or later",
+     "later stations; with the same steps, the results are those of an uninterrupted run, apart "
+     "from rounding; windows must begin at the saved state or later",
      IN(restart), .traits = OPTION_INPUT},
     {0}};
 static const verb_group shared[] = {SHARED(case, of),

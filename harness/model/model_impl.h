@@ -100,7 +100,8 @@ struct model {
     int *profile;             /* [members] index of the section of the first element */
     mesh_triad *triad;        /* [triads] with capacity for all nodes of all elements */
     int triads;
-    int *kind_of_section;  /* [sections] first kind with the section, or NONE */
+    int *kind_of_section; /* [sections] first kind of element with this section; NONE: there is none
+                           */
     scene_spring *founded; /* springs of foundations at the vertices of their members */
     mesh_turn *turn;       /* [turns] in the order of model_turns */
     double size;           /* length of the longest member [m] */

@@ -342,8 +342,8 @@ static status conserving_massless(conserving *s, fault *f)
     return heavy > 0 || turning == 0
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "no rotation has inertia, which the integrator conserving requires; use "
-                           "alpha or radau, or give the sections rotary inertia");
+                           "no rotation has inertia, but the integrator conserving requires such a "
+                           "rotation; use alpha or radau, or give the sections rotary inertia");
 }
 
 /* Computes the rates of a sequence of angles whose angular velocity is closest to w. */

@@ -255,7 +255,7 @@ static double middle(double step)
     return answer_of(&a, "middle");
 }
 
-/* Returns the largest unbalanced force on coordinates without inertia [N m]. */
+/* Returns the largest unbalanced moment on rotations without inertia [N m]. */
 static double out_of_balance(flying *f)
 {
     const size_t all = (size_t)model_all_coordinates(f->m) + 1;
