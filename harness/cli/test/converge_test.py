@@ -135,7 +135,7 @@ class Forms(unittest.TestCase):
         self.assertNotIn("without a reference", whole["sentence"])
         alone = run(*new, "-f", "collocation", "-f", "geometrically_exact")
         names = sorted({q["quantity"] for q in quantities})
-        why = r"no agreement: collocation, geometrically_exact: one family \(reissner\); add -f (\w+)"
+        why = r"no agreement of formulations: collocation, geometrically_exact: one family \(reissner\); add -f (\w+)"
         more = re.search(why, " ".join(alone.stdout.split()))
         self.assertNotIn("compare with", alone.stdout)
         agreed = run(*new, "-f", "collocation", "-f", more[1]).stdout
