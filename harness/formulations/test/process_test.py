@@ -181,7 +181,7 @@ class InPython(ProgramTest):
                   "SystemExit: enough (mine.py:")
 
     def test_a_word_that_is_none(self):
-        self.told("strains=6", "strain=6", "strain=6 is no function, did you mean strains?",
+        self.told("strains=6", "strain=6", "strain=6 is no function; give a function that returns it",
                   code=2)
         self.told("summary=", "sumary=", "is no key, did you mean summary?", code=2)
         self.told('offers=["shear"', 'offers=["sheer"', "'sheer'", "trapeze, wagner moments",
