@@ -52,7 +52,7 @@ ELEMENTS = {
     ),
 }
 
-_STIFF = 1e10  # shear stiffness of a rigid section, over EI/L^2
+_STIFF = 1e6  # shear stiffness of a rigid section, over EI/L^2; 1e7 needs a hundred times the steps in roll_up
 _LEAST_STEP = 1 / 512
 _STEPS: dict[tuple[str, str, str], int] = {}  # steps between stations that converged last
 
@@ -114,7 +114,7 @@ class Frame(Model):
         self.settings = (
             f"Umfpack, Newton, NormDispIncr {self._tolerance():.0e}, steps halved where they fail"
             + ("" if element == "force" or self._planar() else ", at least 8 steps")
-            + (", rigid in shear: GA = 1e10 EI/L^2" if self.rigid else "")
+            + (", rigid in shear: GA = 1e6 EI/L^2 (3e-6 of a deflection)" if self.rigid else "")
         )
 
     def _refuse(self) -> None:
