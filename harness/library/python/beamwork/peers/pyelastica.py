@@ -60,6 +60,8 @@ class Rod(Model):
             self.rod = self._rod()
 
     def _refuse(self) -> None:
+        if self.number < 2:
+            raise Refused("elements: a rod of this program has two or more")
         if len(self.scene.members) != 1:
             raise Refused("members: this driver has only one rod")
         for load in self.scene.loads:
@@ -197,9 +199,9 @@ class Rod(Model):
         import numpy as np
 
         q = self.rod.director_collection
-        turn = [q[..., i].T @ self.frames[..., i] for i in (-1, -2)] if self.number > 1 else []
+        turn = [q[..., i].T @ self.frames[..., i] for i in (-1, -2)]
         vectors = [np.array(rotation_vector(t.tolist())) for t in turn]
-        end = 1.5 * vectors[0] - 0.5 * vectors[1] if vectors else np.zeros(3)
+        end = 1.5 * vectors[0] - 0.5 * vectors[1]
         moved = self.rod.position_collection - self.places
         names = [name for name, node in self.scene.nodes.items() if node.hold]
         names += [name for name, node in self.scene.nodes.items() if not node.hold]
