@@ -121,7 +121,7 @@ class Refused(Loaded):
 
     def test_sizes_that_cannot_be(self):
         made = self.example(("return STRAINS;", "return 1000;"))
-        self.refused(2, "1 to 56 strains", "solve", *CASE, "-n", "2", "--element", made)
+        self.refused(2, "strains is 1000; give 1 to 56", "solve", *CASE, "-n", "2", "--element", made)
 
     def test_strains_without_stresses(self):
         made = self.example((".stress = stress,", ""))
