@@ -1205,8 +1205,8 @@ double along_path_factor(const scene_load *, double path);
 double along_path_rate(const scene_load *, double path);
 /* Returns the value of a known driver [m or rad]. */
 double along_path_value(const scene_driver *, double path);
-/* Text for messages: "; nothing changes outside path parameters 0 to 1 ...", or "" if loads change on the
- * whole path. */
+/* Text for messages: "; nothing changes outside path parameters 0 to 1 ...", or "" if loads change
+ * on the whole path. */
 typedef struct along_path_words {
     char text[256];
 } along_path_words;

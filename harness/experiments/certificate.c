@@ -324,7 +324,7 @@ static int nothing(const element_measure *one)
  * always printed. */
 static void write_measure(FILE *to, const element_measure *one, int path, int verbose)
 {
-    const int at = fprintf(to, "    %-*s", MEASURE - 4, one->name);
+    const int at = fprintf(to, "    %-*s ", MEASURE - 5, one->name);
     if (nothing(one)) {
         paragraph_write(to, at, at, one->words);
         return;
@@ -332,7 +332,7 @@ static void write_measure(FILE *to, const element_measure *one, int path, int ve
     for (int i = 0; i < one->points; i++) {
         char text[COLUMN + 8];
         error_text(one->error[i], text);
-        fprintf(to, " %*s", COLUMN - 1, text);
+        fprintf(to, "%*s", i == 0 ? COLUMN - (at - MEASURE) : COLUMN, text);
     }
     if (!isnan(one->order))
         fprintf(to, "  %.1f (%d-%d)", one->order, one->least, one->highest);

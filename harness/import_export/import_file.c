@@ -268,9 +268,10 @@ static status read_lines(file_reader *r, FILE *from, char **line, fault *f)
         return fault_set(f, STATUS_FAULT, "%.200s: %s", r->path, strerror(errno));
     TRY(close_block(r, f));
     if (r->rows == 0 && r->m->count == 0)
-        mistakes_add(r->m, r->line > 0 ? r->line : 1, 1,
-                     "the file has no values; write the names of the columns in the first line that "
-                     "is not a comment, and the values in the following lines");
+        mistakes_add(
+            r->m, r->line > 0 ? r->line : 1, 1,
+            "the file has no values; write the names of the columns in the first line that "
+            "is not a comment, and the values in the following lines");
     return mistakes_status(r->m, f);
 }
 

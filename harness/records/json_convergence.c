@@ -300,24 +300,24 @@ static int has_reference(const reach_question *q, int quantity)
 }
 
 /* Writes the requested quantities: all quantities except curves, or those with a reference value
- * and the names of the others. Returns the number of quantities with a reference value. */
-static int write_requested(FILE *to, const reach_question *q)
+ * and the names of the others. Returns the number of quantities with a reference value. *all: the
+ * number of quantities except curves. */
+static int write_requested(FILE *to, const reach_question *q, int *all)
 {
     const char *before = " (without a reference: ";
     const scene *here = &q->s->point[q->point].scene;
-    int known = 0, all = 0;
+    int known = 0;
+    *all = 0;
     for (int i = 0; i < here->quantities; i++)
         if (here->quantity[i].reduction != SCENE_CURVE) {
-            all++;
+            ++*all;
             known += has_reference(q, i);
         }
     fprintf(to, "for %g %% in ", 100 * q->level);
-    if (known == all) {
-        fputs("every quantity: ", to);
-        return known;
-    }
-    if (known > 0)
-        fprintf(to, "%d of %d quantities", known, all);
+    if (known == *all)
+        fputs(*all > 0 ? "every quantity" : "no quantity", to);
+    else if (known > 0)
+        fprintf(to, "%d of %d quantities", known, *all);
     else
         fputs("no quantity", to);
     for (int i = 0; i < here->quantities; i++)
@@ -325,7 +325,17 @@ static int write_requested(FILE *to, const reach_question *q)
             fprintf(to, "%s%s", before, here->quantity[i].name);
             before = ", ";
         }
-    fputs("): ", to);
+    int open = before[0] == ',';
+    before = open ? "; curves are not included: " : " (curves are not included: ";
+    for (int i = 0; i < here->quantities; i++)
+        if (here->quantity[i].reduction == SCENE_CURVE) {
+            fprintf(to, "%s%s", before, here->quantity[i].name);
+            before = ", ";
+            open = 1;
+        }
+    if (open)
+        fputc(')', to);
+    fputs(": ", to);
     return known;
 }
 
@@ -385,11 +395,13 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
         fputc('\n', to);
         return;
     }
-    const int count = reach_ranking(q, list), known = write_requested(to, q);
+    int all;
+    const int count = reach_ranking(q, list), known = write_requested(to, q, &all);
     if (count == 0)
         fputs(
-            known > 0
-                ? "no formulation on these meshes"
+            known > 0 ? "no formulation on these meshes"
+            : all == 0
+                ? "no ranking; 'at: VALUE' instead of 'take: curve' selects a point"
                 : "no ranking; give 'truths' in the scene, or formulations of other families (-f)",
             to);
     else

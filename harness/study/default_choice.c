@@ -317,6 +317,14 @@ static candidate_run *run_candidates(const scene *s, candidate_run of[], int cou
     }
 }
 
+static int has_curves(const scene *s)
+{
+    for (int i = 0; i < s->quantities; i++)
+        if (s->quantity[i].reduction == SCENE_CURVE)
+            return 1;
+    return 0;
+}
+
 static void describe_elements(const scene *s, const candidate_run *r, char why[FAULT_TEXT])
 {
     if (has_converged(s, r) && r->slow > 0)
@@ -325,8 +333,9 @@ static void describe_elements(const scene *s, const candidate_run *r, char why[F
                  "change of %.2g %% from n = %d",
                  100 * r->last.largest, 100 * r->slow, r->before);
     else if (has_converged(s, r))
-        snprintf(why, FAULT_TEXT, "no value changed by more than %.2g %% from n = %d",
-                 100 * r->last.largest, r->before);
+        snprintf(why, FAULT_TEXT, "no value changed by more than %.2g %%%s from n = %d",
+                 100 * r->last.largest, has_curves(s) ? " (curves: of their largest value)" : "",
+                 r->before);
     else if (isfinite(r->last.largest) && r->last.which >= 0)
         snprintf(why, FAULT_TEXT,
                  "the finest mesh that was tried, on which %s still changed by %.2g %% from n = %d",

@@ -1,4 +1,5 @@
 """The element interface in other languages: the headers in C and C++, the module in Fortran, and the example in Rust."""
+import os
 import re
 import shutil
 import subprocess
@@ -149,6 +150,7 @@ class Rust(ProgramTest):
         """The beam in Rust must satisfy the interface and have the displacements of the same beam in C."""
         made = self.folder / "timoshenko_rs.so"
         done = subprocess.run(["rustc", "-O", "--crate-type", "cdylib", MODULE.with_suffix(".rs"), "-o", made], cwd=self.folder,
+                              env={k: v for k, v in os.environ.items() if "MAKE" not in k and k != "MFLAGS"},
                               check=False, text=True, stderr=subprocess.PIPE)
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         self.answered("element-test", "--element", made)

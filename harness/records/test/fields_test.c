@@ -401,19 +401,22 @@ static void not_every_quantity(void)
     add_quantity(&b, "curve", SCENE_CURVE);
     line_expect(
         &b, 1e-9,
-        "for 1e-07 % in every quantity: no formulation on these meshes; not reached by red "
-        "(load: 0.0098 %), blue (load: 0.0098 %), green (load: 0.0098 %), grey (load: 10 %)\n");
+        "for 1e-07 % in every quantity (curves are not included: curve): no formulation on these "
+        "meshes; not reached by red (load: 0.0098 %), blue (load: 0.0098 %), green (load: 0.0098 "
+        "%), "
+        "grey (load: 10 %)\n");
     add_quantity(&b, "sway", SCENE_LAST);
     add_quantity(&b, "tilt", SCENE_LAST);
     b.s.seriess = 3;
-    line_expect(
-        &b, 0.01,
-        "for 1 % in 1 of 3 quantities (without a reference: sway, tilt): red n = 4; blue n = 4; "
-        "green n = 4; no own cost coefficients: red, blue, green\n");
+    line_expect(&b, 0.01,
+                "for 1 % in 1 of 3 quantities (without a reference: sway, tilt; curves are not "
+                "included: curve): red n = 4; blue n = 4; "
+                "green n = 4; no own cost coefficients: red, blue, green\n");
     b.s.seriess = 1;
     b.t.rows--;
     line_expect(&b, 0.01,
-                "for 1 % in no quantity (without a reference: load, sway, tilt): no ranking; give "
+                "for 1 % in no quantity (without a reference: load, sway, tilt; curves are not "
+                "included: curve): no ranking; give "
                 "'truths' in the scene, or formulations of other families (-f)\n");
     b.t.rows++;
     finish(&b);

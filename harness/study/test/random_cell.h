@@ -136,7 +136,9 @@ static inline void fill_events(random_source *d, solve_result *s)
                                    .factor = number(d),
                                    .control = number(d),
                                    .other_factor = number(d),
-                                   .measure = number(d)};
+                                   .measure = number(d),
+                                   .factor_error = number(d),
+                                   .control_error = number(d)};
 }
 
 static inline void fill_matrices(random_source *d, solve_result *s)
@@ -220,7 +222,7 @@ static inline void random_cell_complete(void)
                  "steps as filled above");
     gsl_test_int((int)sizeof(iteration_record), (int)(3 * sizeof(double)),
                  "iterations as filled above");
-    gsl_test_int((int)sizeof(path_event), (int)(4 * sizeof(double) + 4 * sizeof(int)),
+    gsl_test_int((int)sizeof(path_event), (int)(6 * sizeof(double) + 4 * sizeof(int)),
                  "events as filled above");
     gsl_test_int((int)sizeof(outcome_step),
                  (int)((3 + SCENE_BALANCES) * sizeof(double) + 2 * sizeof(int)),
