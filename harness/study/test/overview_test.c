@@ -221,10 +221,12 @@ static void columns(void)
 
 static void new_ones(void)
 {
-    static const element_type mine = {.name = "mine"};
+    static element_type mine;
     run r;
     overview o;
     fault f = {""};
+    mine = *formulations_at(0);
+    mine.name = "mine";
     make(&r);
     for (int i = 0; i < 6; i += 3)
         r.one[i].formulation.type = &mine;
