@@ -188,7 +188,9 @@ void checks_in_time(const formulation *chosen, check_results *out)
 {
     if (!element_spreads(chosen->type, chosen->option)) {
         checks_not_made(out, "inertia forces derive from the energy",
-                        "during motions the mass of the element is lumped at its nodes");
+                        chosen->type->inertia == NULL
+                            ? "beamwork computes its inertia"
+                            : "during motions the mass of the element is lumped at its nodes");
         return;
     }
     test_elements_each(chosen, out, check);

@@ -206,9 +206,10 @@ static void read_row(file_reader *r, char *const field[], int count)
         if (r->place[i] >= 0)
             at[r->place[i]] = field[i];
     if (at[QUANTITY] == NULL || at[UNIT] == NULL) {
-        mistakes_add(r->m, r->line, 1,
-                     "number of fields in the row: %d, number of columns: %d; correct the row",
-                     count, r->fields);
+        if (count != r->fields) /* otherwise, the message about the missing column suffices */
+            mistakes_add(r->m, r->line, 1,
+                         "number of fields in the row: %d, number of columns: %d; correct the row",
+                         count, r->fields);
         return;
     }
     take_fields(r, at, &row);
