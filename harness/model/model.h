@@ -86,7 +86,7 @@ double model_mass(const model *); /* [kg] mass of all members */
 /* Returns the physics of the scene that the model includes, as FEATURE_* bits. */
 unsigned model_features(const model *);
 /* Sets *lines to descriptions of the eliminated coordinates and the omitted physics, for example
- * "warping coordinates of 12 ends: nothing warps there", and returns their number. */
+ * "warping amplitudes of 12 element ends at which nothing warps", and returns their number. */
 int model_left_out(const model *, const char *const **lines);
 
 /* Returns one line that explains why the results since the last call are invalid

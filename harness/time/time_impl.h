@@ -543,8 +543,8 @@ status checks_massless(const analysis_context *, const frame_masses *, const sce
  * directions change with the strains, and k W d would have a component along them. */
 
 /* Allocates the integrator. Rates of massless coordinates are mean rates of a step. REFUSED: a node
- * has several successive angles, no rotation has inertia, a node of a diaphragm tilts, or rates
- * cannot satisfy the constraints. */
+ * rotates by two free successive angles, no rotation has inertia, a node of a diaphragm tilts, or
+ * rates cannot satisfy the constraints. */
 status conserving_alloc(const scheme_request *, motion_scheme **, fault *);
 
 /* An element or a spring in a step. Only the evaluation differs between the two. */

@@ -187,8 +187,8 @@ class Import(ProgramTest):
                    self.folder / name, *options)
 
     def test_what_is_missing_is_gone(self):
-        """An imported series that is missing must be reported as missing: after a change of the program's name, without
-        the import, or without one of its meshes."""
+        """Missing imported results must be reported as gone: a series after a change of the program's name or without the
+        import, and a mesh of a series."""
         values = ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))
         text = "# beamwork-import: 1\n# program: {}\n# version: {}\n# case: elastica\nquantity, unit, elements, value\n"
         rows = [f"w_over_L, 1, {n}, {value}\n" for n, value in values]
