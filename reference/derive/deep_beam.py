@@ -1,7 +1,8 @@
 """Frequencies of a simply supported Timoshenko beam with a square section, fixed axially and in torsion at one end only.
 
-Bending has k = n pi/l and the amplitudes of w (sin kx) and of the rotation t of the section (cos kx):
-  strain  EI (k t)^2 + kGA (k w - t)^2        kinetic  rho (A w^2 + I t^2)
+Bending: deflection w sin(kx) and rotation of the section t cos(kx) with the wave number k = n pi/l. With the shear
+stiffness s = 5/6 GA, the energies per l/4 are
+  strain  EI (k t)^2 + s (k w - t)^2        kinetic  omega^2 rho (A w^2 + I t^2)
 Both planes have the same frequencies. Torsion and extension have the frequencies (2n - 1) c/(4 l) with c^2 = GJ/(rho
 Ip) or E/rho. J of the square is computed from Saint-Venant's series.
 """

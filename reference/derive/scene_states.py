@@ -254,7 +254,9 @@ class Assembly:
 
 
 def add_inside(out, v, at):
-    """Adds collocation and continuity of a member whose fields start at column and row `at`. Returns the next row."""
+    """Adds the collocation and continuity equations of a member whose fields start at column and row `at`.
+
+    Returns the next row."""
     f, N, m = v.fields, v.points, v.m
     row, W = at, m.h * m.W
     for i in range(v.intervals):
