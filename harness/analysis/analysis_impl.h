@@ -44,7 +44,8 @@ status collect_shapes(const analysis_context *, int most, shapes *, fault *);
 /* Matrices for small motions about the states of all solutions. */
 
 /* Collects the matrices about the undeformed structure, about every computed station of every path,
- * and about the loaded states of modal analyses. */
+ * and about the states of modal analyses. If linear models are requested, also collects those of
+ * harmonic analyses. */
 status collect_systems(const analysis_context *, system_matrices *, fault *);
 
 /* Imperfections. */
@@ -85,10 +86,10 @@ int continuation_extract(const analysis_context *, const scene_quantity *, const
                          quantity_result *);
 
 /* Small motions x exp(s t) about a state whose stiffness is not symmetric: (s^2 M + s C + K) x = 0.
- * M is symmetric and positive semidefinite. C is the damping matrix or NULL. The smallest s are the
- * largest 1/s^2 of -K^-1 M or, if C is given, the largest 1/s of the companion matrix, which
- * includes the rates of coordinates with mass. Massless coordinates cause zero eigenvalues, which
- * are not modes. */
+ * M is symmetric and positive semidefinite. C is the damping matrix or NULL. The smallest s follow
+ * from the largest eigenvalues: 1/s^2 of -K^-1 M or, if C is given, 1/s of the companion matrix,
+ * whose unknowns are the coordinates and the rates of coordinates with mass. Massless coordinates
+ * cause zero eigenvalues, which are not modes. */
 
 typedef struct unsymmetric_problem {
     const sparse *K, *M, *C; /* matrices with the same pattern; C NULL: there is no damping */
@@ -168,7 +169,7 @@ typedef struct flutter_point {
     int massless;
     double *mode;
 } flutter_point;
-/* Walks from the current path to `target`, as static_walk does. */
+/* Advances from the current path parameter to `target`, like static_walk. */
 typedef status flutter_walk(newton_run *, double target, double *increment, fault *);
 status flutter_search(newton_run *, double size, flutter_walk *, flutter_point *, fault *);
 
@@ -203,9 +204,8 @@ enum { LEFT_NEAREST = 6 };
 typedef struct left_of_axis {
     int count; /* number of eigenvalues to the left of the imaginary axis; -1: unknown */
     int nearest;
-    double complex
-        /* [nearest] eigenvalues nearest to zero, in ascending order of magnitude */
-        mu[LEFT_NEAREST];
+    /* [nearest] eigenvalues nearest to zero, in ascending order of magnitude */
+    double complex mu[LEFT_NEAREST];
     long solutions;
 } left_of_axis;
 
@@ -215,11 +215,13 @@ status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *
 /* Continuation of equilibrium paths under proportional loads: internal declarations.
  *
  * The load factor is an additional unknown, and either a coordinate or the arc length is
- * prescribed: K dx = r + f' dl, g . dx = c. This gives dx = K^-1 r + dl K^-1 f', dl = (c - g . K^-1
- * r)/(g . K^-1 f'). The last factored K before a point gives the tangent of the path at this point,
- * the first direction of the next step and, if K is symmetric, the number of its negative
- * eigenvalues. These results are accurate enough, because the last correction is at most the
- * criterion, and the change of K is proportional to this correction. */
+ * prescribed: K dx = r + f' dl, g . dx = c. Here r is the residual, l is the load factor, f' is the
+ * derivative of the loads, and g and c are the gradient and the right-hand side of the constraint.
+ * This gives dx = K^-1 r + dl K^-1 f', dl = (c - g . K^-1 r)/(g . K^-1 f'). The last factored K
+ * before a point gives the tangent of the path at this point, the first direction of the next step
+ * and, if K is symmetric, the number of its negative eigenvalues. These results are accurate
+ * enough, because the last correction is at most the convergence limit, and the change of K is
+ * proportional to this correction. */
 
 typedef struct path_point {
     double factor, control; /* load factor, and value of the control coordinate */
@@ -273,8 +275,8 @@ status continuation_step_alloc(analysis_context *, int analysis, outcome_continu
                                continuation *, fault *);
 void continuation_step_free(continuation *);
 
-double continuation_step_dot(const continuation *, const double a[],
-                             const double b[]); /* returns the scalar product in the metric */
+/* Returns the scalar product in the metric. */
+double continuation_step_dot(const continuation *, const double a[], const double b[]);
 /* Applies Newton's method from n.backup, which is the state of `here`, until the goal is reached.
  * The arc length is measured along the tangent of `here`. */
 status continuation_step_correct(continuation *, path_goal, step_record *, fault *);
@@ -303,8 +305,9 @@ typedef struct other_branch {
  * goal with which the step was found. *jump: 1 if the step led to another branch. The number of
  * negative pivots then changes without a critical point. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
-/* If critical points are requested, sets *hidden to 1 if an indicator changes and changes back
- * within the step. A change that lasts for at least a fifth of the step is detected. */
+/* If critical points are requested, sets *hidden to 1 if an indicator of a critical point (the sign
+ * of the rate, or the number of negative pivots) changes and changes back within the step. A change
+ * that lasts for at least a fifth of the step is detected. */
 status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
 
 /* Quantities of a scene from the outcomes of its analyses. */
@@ -411,7 +414,7 @@ typedef struct vibration {
     harmonic_modes *modes; /* modes; NULL: direct solution without modal damping */
     int loops;             /* number of closed loops, whose factors follow all coordinates */
     control_loop *loop;    /* [loops] */
-    double *signals;       /* [2 loops x (free + driven)] */
+    double *signals;       /* [2 loops x (free + driven)] memory of `push` and `measured` */
 } vibration;
 
 /* Finds the feedback loops that the analysis closes, linearised about v->state. */
@@ -498,7 +501,8 @@ struct harmonic_modes {
     int *pivot;
     double complex *y, *inverse, *half; /* [count]; [kept x kept] */
     double *work;                       /* [2 n] */
-    double w, positive; /* circular frequency w; positive: lower bound of the real part at w */
+    double w, positive; /* w: circular frequency; positive: lower bound of the real part of D beyond
+                           the modes */
     /* loops of feedback: [(count + loops)^2] factored matrix; work space */
     double complex *closed, *closing;
     int *closed_pivot;

@@ -23,9 +23,9 @@ static const double nothing = 1e-14;
 typedef struct solver {
     const arnoldi_problem *p;
     arnoldi_result *out;
-    int room, count,
-        /* numbers of vectors; chain 1: the last vector belongs to the current start vector */
-        chain;
+    /* room: capacity; count: number of vectors; chain 1: the last vector belongs to the current
+     * start vector */
+    int room, count, chain;
     double *Q, *TQ, *H; /* [room x n] basis Q, [room x n] T Q, [room x room] Q^T T Q */
     double *work, *A, *z, *re, *im;
     int *order;

@@ -11,9 +11,10 @@
 #include "harness/model/model.h"
 
 enum { MOST_TRIALS = 60, INVERSE_ITERATIONS = 12, PARTS = 6, CORRECTIONS = 2 };
-static const double least_load_work =
-    1e-5; /* smallest work of the load on a null vector at a limit point */
-static const double closeness = 1e-10; /* distance of a trial point, relative to the step */
+static const double least_load_work = 1e-5; /* smallest |phi . f'|/(|phi| |f'|) at a limit point */
+/* width of the interval, relative to the step, and eigenvalue or rate, relative to its largest
+ * value, at which the search ends */
+static const double closeness = 1e-10;
 /* eigenvalue that counts as zero, relative to its earlier values */
 static const double near = 1e-3;
 static const double one_point =
@@ -113,7 +114,7 @@ static double control_of(const continuation *p)
     return kinematics_component(p->c->model, p->n.state, p->by->node, p->by->component);
 }
 
-/* Keeps the trial point with the largest eigenvalue of the mode. */
+/* Stores the trial point if its eigenvalue has the largest magnitude so far. */
 static void keep_apart(continuation *p, int by_rate, double eigenvalue, apart *a)
 {
     if (by_rate && isnan(a->eigenvalue) && p->trial.symmetric)
@@ -152,9 +153,9 @@ static double next_part(const bound *low, const bound *high)
     return isfinite(secant) && secant > low->at && secant < high->at ? secant : low->at + width / 2;
 }
 
-/* Narrows the interval. The final state is the critical point, apart from rounding. *gone: 1 if the
- * test function has no zero. *behind: fraction of the step immediately after the point. *away: a
- * state before or after the point. */
+/* Narrows the interval. The final state is the critical point, apart from rounding. *is_absent: 1
+ * if the test function has no zero. *behind: fraction of the step immediately after the point.
+ * *away: a state before or after the point. */
 static status locate(continuation *p, path_goal goal, const sought *s, int *is_absent,
                      double *behind, apart *away, fault *f)
 {

@@ -68,7 +68,7 @@ static status find_damped_of(vibration *v, const sparse *const of[], sparse clos
 }
 
 /* Finds the frequencies of damped modes if K is unsymmetric or the damping is gyroscopic. In these
- * cases, undamped frequencies may be far from all peaks. */
+ * cases, undamped frequencies may be far from the peaks of responses. */
 static status find_damped(vibration *v, harmonic_modes *m, double below, unsymmetric_result *r,
                           fault *f)
 {

@@ -10,10 +10,10 @@
 #include "harness/model/model.h"
 #include "harness/time/time.h"
 
-/* Takes the critical load factor with the requested sign and number. */
+/* Sets the value to the critical load factor with the requested sign and number. */
 static void extract_spectrum_buckling(const analysis_context *, const scene_quantity *,
                                       const analysis_outcome *, quantity_result *);
-/* Takes the frequency [Hz] of the requested kind and number of the mode. */
+/* Sets the value to the frequency [Hz] of the mode of the requested kind and number. */
 static void extract_spectrum_modal(const analysis_context *, const scene_quantity *,
                                    const analysis_outcome *, quantity_result *);
 
@@ -48,7 +48,7 @@ static int is_defined(const scene *s, const scene_quantity *q, fault *f)
     return 1;
 }
 
-/* Returns 1 if the quantity does not require an energy that need not exist. */
+/* Returns 0 if the quantity requires a strain energy, which the formulation need not have. */
 static int has_energy(const analysis_context *c, const scene_quantity *q, fault *f)
 {
     const int of = q->what.kind == SCENE_BALANCE ? (int)q->what.of.balance : SCENE_KINETIC;
@@ -62,7 +62,8 @@ static int has_energy(const analysis_context *c, const scene_quantity *q, fault 
     return 0;
 }
 
-/* Takes a value at full load, about the undeformed state, for a load case or combination. */
+/* Sets the value to that at full load, about the undeformed state, for a load case or combination.
+ */
 static void under_one(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                       int acting, quantity_result *r)
 {
@@ -189,7 +190,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
                           "the value is NaN or Inf; check stiffnesses, loads and units");
 }
 
-/* Takes value i of a side, or the reason why the value does not exist. */
+/* Stores value i of a side, or the reason why the value does not exist. */
 static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, int i,
                             quantity_result *r)
 {

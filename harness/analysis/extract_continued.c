@@ -7,7 +7,7 @@
 
 #include "harness/time/time.h"
 
-/* Times that differ by less than this are the same, relative to their size. */
+/* Relative difference below which two times count as equal. */
 static const double same_instant = 1e-9;
 
 /* Returns 1 if the value depends on states before the time from which the motion continues. */

@@ -183,7 +183,7 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
         bound = fmax(bound, bound_at(c, q, o, i));
         largest = fmax(largest, fabs(r->curve.value[i]));
     }
-    r->rounding = fmax(r->rounding, relative(bound, largest)); /* known() sets it for modes */
+    r->rounding = fmax(r->rounding, relative(bound, largest)); /* modes: set by known() */
     r->value = p->reached > 0 ? r->curve.value[p->reached - 1] : NAN;
     check_rate(q, largest, r);
 }
@@ -336,8 +336,8 @@ static void extract_passing(const analysis_context *c, const scene_quantity *q,
     }
 }
 
-/* Takes the extreme between the frequencies of the analysis if it exceeds the values at these
- * frequencies. */
+/* Replaces the value by the extreme between the frequencies of the analysis if it exceeds the
+ * values at these frequencies. */
 static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quantity_result *r)
 {
     char why[FAULT_TEXT];

@@ -266,8 +266,8 @@ enum {
     FEWEST = 6,
     MOST = 48,
     SPARE = 3
-}; /* number of examined eigenvalues, and number of examined eigenvalues beyond the last one on the
-      left */
+}; /* smallest and largest number of examined eigenvalues, and number of them that must not be on
+      the left */
 /* Eigenvalues below this fraction of the largest one may have the wrong sign. */
 static const double rounding = 1e-6;
 

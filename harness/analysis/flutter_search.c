@@ -1,7 +1,8 @@
-/* Follows the path from 0 in steps in which all frequencies change little. If two frequencies
- * approach each other, the interval is examined. Bisection then narrows the interval. Interpolation
- * follows on the unstable side, where the square of the imaginary part of s^2 (flutter), s^2
- * (divergence) or s (with damping) is smooth. */
+/* Search for the path parameter at which stability is lost. The path is followed from 0 in steps in
+ * which all frequencies change little. If two frequencies approach each other, flutter is sought
+ * between the stations. Bisection narrows the interval between the last stable and the first
+ * unstable station. Interpolation follows on the unstable side, where the square of the imaginary
+ * part of s^2 (flutter), s^2 (divergence) or s (with damping) is smooth. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -31,9 +32,12 @@ static const double farther =
 static const double coarse_interval = 1e-2;
 static const double near_lost =
     1e-2; /* distance to a point without equilibrium, relative to the path parameter */
-static const double closer = 0.1;                         /* fraction of the remaining interval */
-static const double closest = 1e-5, wanted_error = 1e-10; /* relative to the path */
-static const double near_divergence = 1e-4; /* distance at which Newton's method still converges */
+static const double closer = 0.1; /* fraction of the remaining interval */
+/* distance of the unstable station from the estimate, and change of the estimate, at which the
+ * search ends, relative to the path parameter */
+static const double closest = 1e-5, wanted_error = 1e-10;
+/* the same distance at a divergence, where Newton's method still converges */
+static const double near_divergence = 1e-4;
 /* square of the relative difference of two squares that count as equal */
 static const double alike = 1e-10;
 

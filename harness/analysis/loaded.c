@@ -26,7 +26,7 @@ static const double farthest = 1e3;
 static const double alike = 1e-3;
 static const double steepest =
     8; /* rate of change of a state along the path, relative to the rate in the last step */
-/* distance between states that is rounding, relative to the size */
+/* distance between states that may be due to rounding, relative to the size of the structure */
 static const double at_rest = 1e-9;
 static const double wanted_error = 1e-9;
 /* distance from the estimate, relative to the path parameter; at smaller distances, rounding

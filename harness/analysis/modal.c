@@ -1,6 +1,6 @@
-/* Natural frequencies about the undeformed state, with the stresses of a linear analysis that this
- * analysis follows: M x = (1/omega^2) K x. In this form, the mass matrix may be singular for
- * rotations. */
+/* Natural frequencies about the undeformed state, including the stresses of a linear analysis if
+ * this analysis follows one: M x = (1/omega^2) K x. In this form, the mass matrix may be singular
+ * for rotations. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>

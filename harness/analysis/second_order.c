@@ -1,5 +1,5 @@
-/* Linear models about states. Their inputs and outputs are those that the quantities of the scene
- * name, and the loads of the scene. */
+/* Linear models about states. Their inputs are those that the quantities of the scene name, and the
+ * loads of the scene. Their outputs are those that the quantities name. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>

@@ -112,8 +112,7 @@ static status sample(newton_run *n, double path, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if the start of the path is loaded by constant loads, by motions that do not start at
- * zero, or by stress-free strains. */
+/* Returns 1 if loads or drivers are not zero at path 0, or if there are stress-free strains. */
 static int begins_loaded(const analysis_context *c)
 {
     const scene *s = c->scene;

@@ -400,7 +400,7 @@ quantities:
 """
 
     def test_what_is_not_excited(self):
-        """Undamped modes that are not excited: modes of a separate part, and a mode with a node at the force."""
+        """Undamped modes that are not excited must not change the extremes: modes of a separate part, and a mode with a node at the force."""
         w = 2*math.pi*numpy.linspace(0.5, 9, 850001)
         k, own = 700/3, 800/3 - w*w
         exact = {"middle": own/(own*(2j*w + 2*k) - 2*k*k), "left": k/(own*(2j*w + 2*k) - 2*k*k)}

@@ -246,7 +246,7 @@ static void nearly_straight(const element_type *e)
     ask_tally tally = {0};
     const double straight = curved(e, 0, &tally), more = curved(e, 1e-4, &tally),
                  slope = (more - curved(e, -1e-4, &tally)) / 2e-4;
-    const int least = isnan(slope) ? 0 : -15; /* too few corrections for an exponent */
+    const int least = isnan(slope) ? 0 : -15; /* 0: no curvature is checked */
     for (int power = -5; power >= least; power -= 2) {
         const double curvature = pow(10, power), change = curved(e, curvature, &tally) - straight;
         gsl_test_abs(change, slope * curvature, 1e-3 * fabs(slope) * curvature + 2e-14,

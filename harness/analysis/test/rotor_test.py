@@ -246,7 +246,7 @@ class Rotors(ProgramTest):
             self.assertEqual("stable without damping" in told, part > 1.1, told)
 
     def test_round_shaft(self):
-        """With the equal stiffnesses in both planes, the frequencies in the rotating frame are |w -+ W|. Without
+        """With equal stiffnesses in both planes, the frequencies in the rotating frame are |w -+ W|. Without
         damping, the shaft is stable above the critical speed."""
         for part in (0.5, 0.999, 1.001, 1.5, 3.0):
             scene = JEFFCOTT % {**DEFAULT, "omega": part*FIRST, "last": 1}
