@@ -4,7 +4,7 @@ is a 3 x 3 problem.
 The unknowns are the amplitudes of v_s, w_s (shear centre) and phi, which are multiplied by sin kx. The stress is -P/A
 - P y_a y/Iz - P z_a z/Iy for an axial force P at (y_a, z_a), or -M z/Iy for end moments M. The stress does work on the
 slopes v' = v_s' - (z - zs) phi', w' = w_s' + (y - ys) phi' of the fibres (Vlasov, Thin-walled Elastic Beams, 1961,
-chapter V).  Section: code_aster V3.01.103.
+chapter V). The section is that of code_aster V3.01.103.
 """
 from mpmath import eigsy, matrix, mp, mpf, pi, sqrt
 

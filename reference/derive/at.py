@@ -155,7 +155,8 @@ CHANNEL = ("length", "height", "width", "web_thickness", "flange_thickness", "yo
 HEXAPOD = ("length", "width", "thickness", "young", "poisson", "fold_angle", "radius",
            "fold_warping", "wagner", "base_radius", "crank_length", "crank_azimuth",
            "platform_radius", "platform_azimuth", "height", "stroke", "steps")
-# Parameters that may differ from the defaults, solver, and program on which the solver is based, for each case.
+# For each case: the parameters that may differ from their defaults, the solver, and the program on which the solver is
+# based.
 SOLVERS = {
     "c_column": (CHANNEL + ("rotary_inertia", ), c_column, "column"),
     "moment_buckling": (CHANNEL + ("wagner_moments", ), moment_buckling, "column"),

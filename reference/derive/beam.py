@@ -1,15 +1,16 @@
 """The geometrically exact (Simo-Reissner) beam with warping: its differential equations, and their spectral integration.
 
-The state is y(s) = (r, q, a, B), with r on the centroidal axis. In fixed axes, F is constant and m(s) = m0 - r x F. In
-the axes of the section, N = R^T F, M = R^T m and
+The state is y(s) = (r, q, a, B): the position r of the centroidal axis, the unit quaternion q of the rotation R of the
+section, the warping amplitude a and the bimoment B. In fixed axes, F is constant and m(s) = m0 - r x F. In the axes of
+the section, N = R^T F, M = R^T m, and the strains g, k (kz0: initial curvature) follow from
   gx = Nx/EA - t kx^2/2, ky = My/EIy - by kx^2/2, kz = Mz/EIz + kz0 + bz kx^2/2,
   Mw = Mx + zs Ny - ys Nz - (GJ + t Nx + by My - bz Mz) kx - 4 c kx^3,
   (gy - zs kx, gz + ys kx, kx - a) = f (Ny, Nz, Mw)   (strains at the shear centre and of warping; f = F/G, zero: rigid),
   r' = R (ex + g), q' = q o (0, k)/2, EIw a' = B, B' = -Mw; for uniform torsion, EIw = 0 and Mw = 0.
-p is the distance from the shear centre. The mean t of p^2 is the trapeze term. The Wagner moments are bz = int y
-p^2/Iz and by = int z p^2/Iy; J includes only the terms -2 ys and -2 zs. The Wagner torque is c = E int (y^2 + z^2 -
-Ip/A)^2 dA/8, for ys = zs = 0. These are N Eqs. 46-47 with the sign of u_y corrected, and the strains of J with
-Haringx's shear theory.
+p is the distance from the shear centre. The mean t of p^2 is the trapeze term. The constants of the Wagner moments are
+bz = int y p^2 dA/Iz and by = int z p^2 dA/Iy; J includes only the terms -2 ys and -2 zs. The constant of the Wagner
+torque is c = E int (y^2 + z^2 - Ip/A)^2 dA/8, for ys = zs = 0. These are N Eqs. 46-47 with the sign of u_y corrected,
+and the strains of J with Haringx's shear theory.
 
 Each of several intervals is integrated from values at Chebyshev points, Y_j = y_0 + h sum_k W_jk f(Y_k), where W is
 exact for the interpolating polynomial. Derivatives are computed by complex steps, which lose no digits.

@@ -1,10 +1,11 @@
 """Leaf between a clamp and a stage that moves transversely without rotating and is free along the leaf: the extensible
 elastica.
 
-Each half is a cantilever under a transverse force F at the point of inflection, with N = F sin t. With the initial
-length s,
+Each half is a cantilever under a transverse force F at the point of inflection. With the initial length s, the angle t
+of the axis and N = F sin t,
   EI t'' = -F cos t (1 + F sin t/EA),   EI t'^2/2 = F (sin e - sin t) + F^2 (sin^2 e - sin^2 t)/2EA,   where e is the value of t at the inflection.
-With sin t = sin e - u^2, the integrals over the angle are smooth. At the clamp, N = 0, and the stress is E t' h/2.
+With sin t = sin e - u^2, the integrals over the angle are smooth. At the clamp, N = 0, and the stress is E t' h/2 with
+the thickness h.
 """
 from mpmath import asin, cos, findroot, mp, mpf, quad, sin, sqrt
 

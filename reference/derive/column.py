@@ -1,7 +1,7 @@
 """Buckling and vibration of a simply supported thin-walled beam. Each half-wave k = n pi/l is a 6 x 6 problem.
 
-The unknowns are the amplitudes of v_s, w_s, phi (sin kx) and of the shear strains g_y, g_z, g_w (cos kx). The
-quadratic forms are
+The unknowns are the amplitudes V, W, P of v_s, w_s, phi (sin kx) and those of the shear strains g_y, g_z, g_w (cos kx).
+With D = F^-1 (section.py), the quadratic forms are
   strain    EIz k^2 (kV - g_y)^2 + EIy k^2 (kW - g_z)^2 + EIw k^2 (kP - g_w)^2 + G It (kP)^2 + G g^T D g
   prestress (v_c'^2 + w_c'^2 + Ip/A phi'^2) - c [(g_y^2 + g_z^2) + 2 (zs g_y - ys g_z) phi'],  v_c = v_s + zs phi, w_c
   = w_s - ys phi
@@ -131,7 +131,7 @@ def frequencies(s, length, shear, rotary, count, load=0, haringx=False, prestres
 
 def buckling_moments(s, length, shear, haringx, wagner):
     """Returns the critical moments, which are the solutions of W (1 - (1-c) F_zw M/G)^2 + G It - M (b_z - 2 ys) = M^2
-    [1/(EIy k^2) + (1-c) F_zz/G] for n = 1."""
+    [1/(EIy k^2) + (1-c) F_zz/G] for n = 1, where W = EIw k^2/(1 + F_ww EIw k^2/G)."""
     k = pi / length
     c = 1 if haringx or not shear else 0
     fww = s.F[2, 2] if shear else mpf(0)

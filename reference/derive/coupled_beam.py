@@ -1,5 +1,5 @@
-"""A cantilever with a section given by matrices: (N, Q, M) = C (gamma, kappa), and the kinetic energy per length is 1/2 v
-. M v. L = 1.
+"""A cantilever with a section given by matrices: (N, Q, M) = C (gamma, kappa), and the kinetic energy per length is 1/2
+v . m v with the velocities v and the mass matrix m. L = 1.
 
 Linear statics: the displacement along a load is the integral of (N, Q, M) . C^-1 (N, Q, M of the unit load). Weight
 acts at the centre of mass.
@@ -7,9 +7,9 @@ acts at the centre of mass.
 Helix: there is no force, and M is an eigenvector of (C^-1)_kk, so M is along kappa. M is constant both in space and in
 the axes of the section. Therefore strains are uniform, R = exp(s kappa~) and r = int R (e_x + gamma) ds.
 
-Frequencies: gamma = u' + e_x x theta, kappa = theta', N' = -omega^2 (M v)_force and M' = -e_x x N - omega^2 (M
-v)_moment. These twelve equations with constant coefficients A have the transfer matrix exp(A). One end is clamped and
-the other is free.
+Frequencies, with v = (u, theta) and the vectors N of the force and M of the moment: gamma = u' + e_x x theta, kappa =
+theta', N' = -omega^2 (m v)_force and M' = -e_x x N - omega^2 (m v)_moment. These twelve equations with constant
+coefficients A have the transfer matrix exp(A). One end is clamped and the other is free.
 
 Buckling under the dead force n = -P e_x: the force on the rotated section changes by n x theta, and M' = -e_x x N - u'
 x n.

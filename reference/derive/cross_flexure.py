@@ -1,5 +1,5 @@
 """Cross-flexure hinge: three leaves cross at their middles, at the angles half_angle and pi - half_angle from x. The
-outer two are in one direction. The arm rotates about z.
+outer two are parallel. The arm rotates about z.
 
 The only free body is the arm, whose rotation about z is given. Its tilts are fixed if the parameter `rotation` is hinge
 or vector. They are free if it is first, last or between, which is the place of the driven rotation among the three

@@ -5,10 +5,10 @@ equilibrium.
 
 Vibration: let y = (r, q, a, B) and p = (F, m0) be those of the equilibrium, and u, theta, a small amplitudes of exp(i
 omega t). Then
-  dy' = (df/dy) dy + (df/dp) dp - omega^2 rho Iw a on B,
+  dy' = (df/dy) dy + (df/dp) dp - omega^2 rho Iw a,
   dF' = -omega^2 rho A u,   dm0' = r x dF' - omega^2 rho R diag(Ip, Iy, Iz) R^T theta
-where m = m0 - r x F is the moment in fixed axes. Spectral integration as in network.py gives an eigenvalue problem L z
-= omega^2 M z.
+where the term with a is only in the row of B, and m = m0 - r x F is the moment in fixed axes. Spectral integration as
+in network.py gives an eigenvalue problem L z = omega^2 M z.
 
 Option `interpolated`: a consistent mass derives the warping amplitude along an element from its twist, psi = kx - w (1
 - 6 x (1 - x)) with w = kx - a. Therefore kx^2 + w^2/5 has the inertia of a^2 (J section 3.2 without flexible warping;

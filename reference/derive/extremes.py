@@ -17,7 +17,7 @@ EQUAL_WIDTH = mpf("0.223203587801597"
 
 
 def decimal(value):
-    """Returns the value with 15 digits as text, to which the program rounds parameters."""
+    """Returns the value as text, rounded to 15 digits like the parameters of the program."""
     return "%.15g" % float(value)
 
 

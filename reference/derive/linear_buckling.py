@@ -163,8 +163,8 @@ FRAMES = ({}, {"angle": "1"}, {"angle": "2.5"}, {"leg": "0.6", "poisson": "0"}, 
 
 
 def frame_rows():
-    """Yields the rows of frames of thin strips with GJ = G b t^3/3. The second factor is between 1.4 pi and 2 pi for
-    every angle."""
+    """Yields the rows of frames of thin strips with GJ = G b t^3/3. The factor of the second critical moment is between
+    1.4 pi and 2 pi for every angle."""
     for given in FRAMES:
         value = defaults.decimals("right_angle_frame", given)
         E, nu, b, t, length, angle = (value[k] for k in ("young", "poisson", "depth", "thickness",

@@ -17,7 +17,7 @@ from reference.derive.beam import (STEP, Scaled, chebyshev, cross_matrix, expone
 
 # Loads along a beam (beam.py) add six states, which are F and m0 (moment about the origin, fixed axes) minus their
 # values at the start:
-#   F' = -f q,   m0' = -f ((r + R d) x q + c),
+#   F' = -f q,   m0' = -f ((r + R d) x q + c).
 # The force q and the moment c are per initial length. They are in fixed axes or rotate with the sections, and they are
 # constant or linear along the beam. If a load is linear, s is a state before the six states. d is the position of q
 # relative to the centroid in the axes of the section, and f is the load factor at the level.

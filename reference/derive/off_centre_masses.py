@@ -2,10 +2,11 @@
 FV4).
 
 The cantilever is rigid in shear and has rotary inertia. Both masses together are a body of mass m. Its centre of mass
-is at the distance y from the axis, and its moment of inertia about the axes along x and z through this centre is J:
+is at the distance y from the axis, and its moment of inertia about the axes along x and z through this centre is J.
+With the angular frequency o and the displacements u, v, w of the end, the resultants are
   in the plane of the arms   Q = m o^2 v, N = m o^2 (u - y t), M = o^2 (J t - m y (u - y t)), where t is the rotation of the end
   across it                  Q = m o^2 (w + y p), M = 0, T = o^2 (J p + m y (w + y p)), where p is the twist of the end
-Q, N, M and T are the resultants at the end of the beam due to the inertia forces of the body.
+They act at the end of the beam and are due to the inertia forces of the body.
 """
 from mpmath import det, matrix, mp, mpf, pi, sqrt
 

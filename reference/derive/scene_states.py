@@ -213,7 +213,8 @@ def inertia_of(scene, name):
 
 
 def body_masses(scene, size):
-    """Returns -M of the bodies in their rows of equilibrium, for nodes with a mass. Moments are about the origin."""
+    """Returns the contribution of the masses of nodes to M of L z = omega^2 M z: minus their mass matrices, in the rows
+    of equilibrium of their bodies. Moments are about the origin."""
     out = np.zeros((size, size))
     for name, entry in scene.scene["nodes"].items():
         m = number(entry.get("mass", "0"), name) * scene.length / scene.force

@@ -1,5 +1,5 @@
-"""Von Mises truss: two hinged bars of EA = 1 N and L = 1 m with the compression N = EA (1 - l/L). The limit points and
-the forces have closed forms."""
+"""Von Mises truss: two hinged bars of EA = 1 N and L = 1 m with the current length l and the compression N = EA (1 -
+l/L). The limit points and the forces have closed forms."""
 from mpmath import acos, atan, cos, mp, mpf, sin, sqrt, tan
 
 from reference.derive import defaults

@@ -3,13 +3,14 @@ column with Iz ~ x^3.
 
 Statics: the forces at the tip cause N, Q, M in the principal axes of the section at x. The displacement along a load
 P_i is the integral over x of the sum of (stress resultant) (stress resultant for P_i = 1) (flexibility). Torsion is
-about the shear centre, Mx - ys Qz + zs Qy. The I-section warps: (EIw a')' - GIt a + T = 0 with a(0) = 0 and a'(1) = 0,
-solved by collocation at the Chebyshev points. The twist is int a dx.
+about the shear centre, Mx - ys Qz + zs Qy. The I-section warps: the twist rate a due to the torque T satisfies (EIw
+a')' - GIt a + T = 0 with a(0) = 0 and a'(1) = 0, solved by collocation at the Chebyshev points. The twist is int a dx.
 
-Waves of the wedge with the section I1 s^3, A1 s, at the distance s from the point where its thickness vanishes:
+Buckling and vibration of the wedge with the second moment of area I1 s^3 and the area A1 s, at the distance s from the
+point where its thickness vanishes, with Bessel functions Z = J, Y:
     buckling    E I1 s^3 w'' + P w = 0            w = sqrt(s) Z1(2 q/sqrt(s)),           q^2 = P/(E I1)
     bending     E I1 (s^3 w'')'' = omega^2 rho A1 s w     w = Z1(2 b sqrt(s))/sqrt(s),
-    where Z includes I1 and K1 (Kirchhoff 1879), b^4 = omega^2 rho A1/(E I1)
+    where Z also includes I and K (Kirchhoff 1879), b^4 = omega^2 rho A1/(E I1)
 """
 from mpmath import besseli, besselj, besselk, bessely, cos, det, findroot, lu_solve, matrix, mp, mpf, pi, quad, sin, sqrt, tanh
 
@@ -26,7 +27,8 @@ NAMES = (("stretch", "m"), ("deflection_y", "m"), ("deflection_z", "m"), ("twist
 
 
 def rectangle_torsion(a, b):
-    """Returns h t^3/3 [1 - 192/pi^5 t/h sum tanh(n pi h/2t)/n^5]."""
+    """Returns the torsion constant h t^3/3 [1 - 192/pi^5 t/h sum over odd n of tanh(n pi h/2t)/n^5], where h >= t are
+    the sides."""
     h, t = max(a, b), min(a, b)
     total = mp.zeta(5) * 31 / 32 + sum(
         (tanh(n * pi * h / (2 * t)) - 1) / mpf(n) ** 5 for n in range(1, 60, 2))

@@ -1,4 +1,4 @@
-"""Determines the shear theory in stability of a reference value of the model of a case.
+"""Determines the shear theory in stability to which a reference value of a case belongs.
 
 In Engesser's theory, the axial force does work on the slope of the centroidal axis. In Haringx's theory, it does work
 on the rotation of the section, as in the geometrically exact beam. column.py states both energies. Without shear

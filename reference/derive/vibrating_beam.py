@@ -1,9 +1,10 @@
 """Exact small vibration of a uniform straight beam with or without shear deformation: transfer of its amplitudes from end
 to end.
 
-Bending, with the angular frequency o and the rotation t of the section: w' = t + Q/S, t' = M/EI, M' = -Q - o^2 rho I
-t, Q' = -o^2 rho A w. The beam is an Euler-Bernoulli beam if 1/S = 0 and rho I = 0, a Rayleigh beam if only 1/S = 0,
-and otherwise a Timoshenko beam. Stretch and torsion: p'' = -(o/c)^2 p with c^2 = EA/(rho A) or GJ/(rho Ip).
+Bending, with the angular frequency o, the rotation t of the section and the shear stiffness S: w' = t + Q/S, t' = M/EI,
+M' = -Q - o^2 rho I t, Q' = -o^2 rho A w. The beam is an Euler-Bernoulli beam if 1/S = 0 and rho I = 0, a Rayleigh beam
+if only 1/S = 0, and otherwise a Timoshenko beam. Stretch and torsion: p'' = -(o/c)^2 p with c^2 = EA/(rho A) or GJ/(rho
+Ip).
 """
 from mpmath import cos, expm, findroot, matrix, mpf, sin
 
