@@ -317,8 +317,9 @@ typedef struct element_type {
     /* Optional: damping of the formulation itself, such as a viscous material. Computes the matrix
      * V [strains x strains] [N s/m], symmetric and positive semidefinite: strain rates e' = J x'
      * add V e' to the stresses, in motions, damped modes and harmonic analyses. V does not depend
-     * on the state. Rigid motions therefore have no damping, and the dissipated power is e' . V e'.
-     * The damping of the member is added. Requires `strain` and `stress`. Default: no damping. */
+     * on the state. Rigid motions, which have no strain rates, have no damping. The dissipated
+     * power is e' . V e'. The damping of the member is added. Requires `strain` and `stress`.
+     * Default: no damping. */
     void (*damping)(const element_data *, double V[]);
     /* Optional: motion of the sections between the nodes, for loads along the element. Computes
      * position and axes of the section at `count` points, and the generalised forces of loads

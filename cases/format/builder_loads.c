@@ -121,7 +121,7 @@ static int spreads(int given)
            given == OF_TEMPERATURE;
 }
 
-/* Forces and moments inside a member have other kinds than those at a node. */
+/* A force or moment inside a member is of another kind than one at a node. */
 static scene_load_kind kind_of(const fields *f, int given)
 {
     const int within = fields_have(f, "where");

@@ -202,7 +202,8 @@ void builder_motions(builder *b)
     }
 }
 
-/* Sets the members of an analysis that the key table of the analysis does not describe. */
+/* Sets the data of an analysis that its key table does not describe. Rejects an analysis that
+ * follows a later one. */
 static void complete(const fields *f, int index, scene_analysis *a)
 {
     const fields control = fields_below(f, "continuation"), motion = fields_below(f, "motion"),

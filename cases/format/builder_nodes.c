@@ -119,8 +119,9 @@ static void read_member_axes(const fields *axes, int node, scene_node *n)
     }
 }
 
-/* Converts the rotations of a node with its own axes. One prescribed rotation becomes a sequence of
- * one angle. Several prescribed rotations are rejected, because their order would be undefined. */
+/* Converts the rotations of a node with its own axes. One free or prescribed rotation becomes a
+ * sequence of one angle. More than one is rejected, because the order would be undefined, unless
+ * all three are free. */
 static void turn_about_axes(const fields *f, scene_node *n)
 {
     double R[9];

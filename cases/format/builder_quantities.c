@@ -27,8 +27,7 @@ static void make_density(char unit[SCENE_UNIT])
         snprintf(unit, SCENE_UNIT, "%s%.8s%s^2/Hz", plain ? "" : "(", of, plain ? "" : ")");
 }
 
-/* Returns 1 if the unit contains neither lengths nor forces and is therefore common to all unit
- * systems. */
+/* Returns 1 for K and rad, which are the same in all unit systems. */
 static int is_kept(const unit_system *u, const char *unit)
 {
     char own[SCENE_UNIT];
@@ -183,7 +182,7 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
                          "x: an abscissa requires a curve; add 'take: curve', or remove 'x'");
 }
 
-/* Rejects a range of stations or a level that the quantity does not use. */
+/* Rejects a time window or a level crossing that the quantity does not use. */
 static void check_when(const fields *f, const scene_quantity *q)
 {
     static const char *const crossing[] = {"direction", "level", "which"};
@@ -212,8 +211,8 @@ static void check_when(const fields *f, const scene_quantity *q)
                                  crossing[i]);
 }
 
-/* Reads the prediction. Its source is valid as long as the file, even if the scene is built
- * again. */
+/* Reads the prediction. Its source points to the text of the file, so it remains valid if the scene
+ * is built again. */
 static void read_prediction(const fields *f, const unrolled *entry, scene_quantity *q)
 {
     const fields prediction = fields_below(f, "prediction");
@@ -239,8 +238,7 @@ static int requested_of(const scene *s, int analysis)
     return most;
 }
 
-/* Sets the number of eigenvalues to the number that the quantities request. A given number that is
- * smaller is an error. */
+/* Reports an error if the file gives fewer eigenvalues than the quantities request. */
 static void check_wanted(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {

@@ -156,7 +156,7 @@ static const char *const list_name[SCENE_LISTS] = {
     "sections", "nodes",      "members", "springs",      "motions",     "loads",
     "analyses", "quantities", "",        "combinations", "constraints", "imperfections"};
 
-/* Checks that the name of an entry is valid. */
+/* Checks the length of the name of an entry, and that no previous entry has this name. */
 static void check_name(const builder *b, scene_list list, int i)
 {
     const unrolled *entry = &b->list[list].entry[i];

@@ -1,4 +1,4 @@
-/* Point of a continuation at which the tangent is singular. */
+/* Point of a continuation at which the tangent stiffness is singular. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {

@@ -1,5 +1,4 @@
-/* Velocity, acceleration or jerk of a node, or angular velocity or acceleration in the axes of the
- * node. */
+/* Velocity, acceleration or jerk of a node; those of its rotation are in the axes of the node. */
 #include "cases/scene/scene.h"
 
 static const entry_field fields[] = {

@@ -128,7 +128,8 @@ static int leaves_plane(const scene *s, int node, int component)
     return component < SCENE_RX ? along : !along;
 }
 
-/* Returns 1 if the component is the condition that determines the value of a motion. */
+/* Returns 1 if `motion` is an unknown driver, or if the component is the condition that determines
+ * the value of one. */
 static int is_condition(const scene *s, int node, int component, int motion)
 {
     if (motion >= 0 && s->driver[motion].value == NULL && s->driver[motion].function.pieces == 0)

@@ -169,7 +169,7 @@ static status check_name(const scene *s, const entry_field *k, int index, fault 
                      index, what);
 }
 
-/* Checks that the value belongs to a word, unless the key is optional. */
+/* Checks that the value belongs to a word or is the default. */
 static status check_word(const entry_field *k, int value, fault *f)
 {
     char word[SCENE_NAME] = "";

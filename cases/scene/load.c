@@ -81,7 +81,8 @@ static double axial_stiffness(const scene *s, const scene_member *m)
  * Lo is the stress-free length. */
 static const double most_misfit = 0.01;
 
-/* Returns 1 if the scene has shifts, which change the lengths of members. */
+/* Returns 1 if the scene has shifts of nodes, which change the lengths of members, and no
+ * imperfections from modes. */
 static int is_moved(const scene *s)
 {
     int moved = 0;

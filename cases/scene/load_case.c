@@ -84,7 +84,7 @@ scene_words scene_acting_called(const scene *s, int number)
 }
 
 /* Checks that every load has a load case if the scene has load cases. Otherwise it would be
- * ambiguous when a load acts. */
+ * ambiguous when a load acts. Rejects a load case of an unknown driver. */
 static status check_loads(const scene *s, fault *f)
 {
     for (int i = 0; i < s->loads; i++)

@@ -135,8 +135,8 @@ typedef struct scene_motion {
     scene_scheme scheme;
     scene_alpha alpha;
     double step;      /* first step [s], or every step if `tolerance` is 0 */
-    double tolerance; /* allowed error of a step, relative to the size of the structure; 0 for
-                         constant steps */
+    double tolerance; /* allowed error of the motion or, for radau, of a step, relative to the
+                         largest displacement so far; 0 for constant steps */
     scene_start start;
     scene_mass mass;
 } scene_motion;
@@ -790,8 +790,9 @@ typedef struct scene_node {
 /* Released components of a member end, which the end does not transmit to its node. Rotations are
  * in the order of their axes. The components are in the axes of the member at this end (y as in
  * scene_member). With r and R of the node, the end is at r + R_end s, where R_end = R exp(a_1 t_1)
- * exp(a_2 t_2). Of two rotations, the first axis belongs to the node and the second to the member
- * (a universal joint). Translations are along the rotated end. Three rotations are a ball joint. */
+ * exp(a_2 t_2) rotates by the angles t about the axes a, and s are the released translations. Of
+ * two rotations, the first axis belongs to the node and the second to the member (a universal
+ * joint). Three rotations are a ball joint. */
 enum { SCENE_RELEASED = 5 };
 typedef struct scene_release {
     int count; /* number of released components, or 0 if the end is rigidly joined */

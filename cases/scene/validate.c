@@ -81,7 +81,8 @@ static int is_stiffness(const double K[36])
     return 1;
 }
 
-/* Checks that the table of a spring is ascending. Returns an error message or NULL. */
+/* Checks that the points of a spring table ascend, that its values do not decrease, and that the
+ * value at 0 is 0. Returns an error message or NULL. */
 static const char *table_mistake(const scene_table *t)
 {
     const int n = t->at.stations;
@@ -154,7 +155,7 @@ static int is_used(const scene *s, int driver)
     return 0;
 }
 
-/* Returns 1 if the driver of the condition prescribes its coordinate. */
+/* Returns 1 if the coordinate of the condition is prescribed by the driver of the condition. */
 static int is_conditioned(const scene *s, const scene_driver *d)
 {
     const scene_node *n = &s->node[d->condition_node];

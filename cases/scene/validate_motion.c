@@ -22,7 +22,7 @@ static status check_steps(const scene *s, const scene_motion *m, int i, fault *f
     return STATUS_OK;
 }
 
-/* Checks that the scheme is unconditionally stable (Chung & Hulbert 1993). */
+/* Checks the integrator, alpha for unconditional stability (Chung & Hulbert 1993), and the mass. */
 static status check_scheme(const scene *s, const scene_motion *m, int i, fault *f)
 {
     if (m->scheme < SCENE_ALPHA || m->scheme >= SCENE_SCHEMES)
@@ -160,7 +160,8 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Rejects a temperature with a jump, which would be a jump of strains. */
+/* Rejects a temperature that jumps, because strains would jump, and one that changes with the
+ * integrator conserving. */
 static status check_temperature(const scene *s, int l, int i, fault *f)
 {
     const scene_load *load = &s->load[l];

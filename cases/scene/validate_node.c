@@ -72,7 +72,8 @@ static int is_at(const scene *s, int end, int body)
     return end >= 0 && end < s->nodes && (end == body || s->node[end].attached == body);
 }
 
-/* Returns 1 if the body of the node is connected to a member or a spring. */
+/* Returns 1 if the body of the node is connected to a member or a spring, or if a constraint
+ * contains the node. */
 static int is_reached(const scene *s, int node)
 {
     const int body = s->node[node].attached == SCENE_NONE ? node : s->node[node].attached;
@@ -376,7 +377,7 @@ static status check_driver(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Checks a quantity. A fixed coordinate has no stiffness, compliance or growth rate. */
+/* Rejects a compliance or stiffness of a component out of the plane, which is fixed. */
 static status check_quantity(const scene *s, int i, fault *f)
 {
     const scene_quantity *q = &s->quantity[i];

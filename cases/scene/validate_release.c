@@ -124,7 +124,8 @@ static void add_springs(const scene *s, int node, double P[9])
                         s->spring[k].table[3 + i].at.stations > 0;
 }
 
-/* Finds an axis about which P resists no rotation. Returns 0 if no axis exists. */
+/* Finds an axis about which P resists no rotation; the axis is zero if there is more than one.
+ * Returns 0 if no axis exists. */
 static int loose_axis(const double P[9], double axis[3])
 {
     double A[9], largest = 0;
@@ -145,7 +146,8 @@ static int loose_axis(const double P[9], double axis[3])
     return 1;
 }
 
-/* Returns 1 if the body has other nodes, at which forces can also resist its rotation. */
+/* Returns 1 if the node belongs to a body with other nodes or with offset member ends, where forces
+ * can also resist its rotation. */
 static int is_wide(const scene *s, int node)
 {
     int wide = s->node[node].attached != SCENE_NONE;

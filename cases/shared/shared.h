@@ -118,7 +118,7 @@ extern const char sheet_prediction_source[];
 typedef struct sheet_prediction {
     double u_x;        /* displacement of the tip along x [m] */
     double F_y, M_z;   /* reactions [N, N m] */
-    double C_xx, C_zz; /* compliance of the tip for spatial moments [m/N] */
+    double C_xx, C_zz; /* compliance of the tip along x and along z [m/N] */
 } sheet_prediction;
 
 /* Computes the solution. tip_warps is 1 if the tip is free to warp. `shear` is 0 if the sheet is
@@ -152,7 +152,8 @@ int timed_add(scene *s, const double value[], int follows, scene_start start);
 void timed_places(scene *s, int motion, int node, double size, const char *const name[3]);
 
 /* Adds a driver that moves from 0 to `end` [m or rad] within this time [s] and is then constant.
- * The motion is 10 s^3 - 15 s^4 + 6 s^5, which starts and ends with zero acceleration. */
+ * With s = t/duration, the value is `end` times 10 s^3 - 15 s^4 + 6 s^5, which starts and ends with
+ * zero acceleration. */
 int timed_driver(scene *s, double end, double duration);
 
 #endif

@@ -57,7 +57,7 @@ typedef struct beamw_stiffness_fields {
     double h[3][8];  /* [1/m, 1/m, 1/m^2] mean antisymmetric deformation (y, z, omega), the sum of
                         the bending part and the shear strain */
     double hg[3][8]; /* bending part of h (warping part for omega) */
-    double g[3][8];  /* shear strains g_y, g_z [1], g_w [1/m] */
+    double g[3][8];  /* [1/m, 1/m, 1/m^2] shear strains g_y, g_z, g_w: h - hg */
     double A[8];     /* (e7 - e8)/2 */
     double tw[8];    /* l0^2 hg_w */
 } beamw_stiffness_fields;

@@ -1,6 +1,6 @@
 /* The masses are at quadrature points, which vectors of the section locate: y = lin(r + R a) + sum
- * m_k (nu_k . e), where m_k is the mean of the unit vectors of the nodes (inertia.c). The
- * acceleration of a mass is
+ * m_k (nu_k . e), where a is fixed to the section and m_k is the mean of the unit vectors of the
+ * nodes (inertia.c). The acceleration of a mass is
  *   y'' = lin(r'') + sum over nodes A f + sum over k (2 m_k' (nu_k . e)' + m_k (nu_k . e)''),
  *   f = part R a + sum over k (nu_k . e)/2 n_k, A = w'~ + w~ w~, e'' = J x'' + x'.H x',
  * where f is fixed to a node that rotates with the angular velocity w. */

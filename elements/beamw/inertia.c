@@ -43,8 +43,9 @@ typedef struct beamw_inertia_vector {
     } term[TERMS];
 } beamw_inertia_vector;
 
-/* Computes the gradient of f . e from the nonzero entries of J. All modes except twist depend on
- * the position of q relative to p. Each node rotates two of the four bending modes. */
+/* Computes the gradient of f . e from the nonzero entries of J. Elongation and bending depend on
+ * the position of q relative to p. The rotation of a node affects twist and two of the four bending
+ * modes. */
 static void gradient_of(const double J[8 * N], const double f[8], double out[N])
 {
     for (int i = 0; i < 3; i++) {
@@ -120,7 +121,7 @@ static void beamw_inertia_place(const beamw_inertia_state *c, const beamw_inerti
     }
 }
 
-/* Functionals of the strains for the consistent mass, as defined at the end of this file. */
+/* Functionals of the strains for the consistent mass, as defined below. */
 
 enum { BEAMW_CUBIC_POINTS = 4 };
 

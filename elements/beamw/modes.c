@@ -117,7 +117,7 @@ void beamw_screw_far_factors(double square, double f[SCREW_FACTORS])
     const double a = sqrt(square), s = sin(a), c = cos(a), tangent = tan(a / 2),
                  p = (s - a * c) / (s * s);
     const double slope = (a * s * s - 2 * c * (s - a * c)) /
-                         (s * s * s); /* derivative of a/sin a with respect to p */
+                         (s * s * s); /* dp/da, where p is the derivative of a/sin a */
     double *nu = f + SCREW_NU, *mu = f + SCREW_MU, *tau = f + SCREW_TAU;
     mu[0] = a / s;
     mu[1] = p / (2 * a);

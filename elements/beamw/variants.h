@@ -18,7 +18,7 @@ typedef struct beamw_quadratic_term {
     short entry;        /* position in a matrix of second derivatives */
 } beamw_quadratic_term;
 
-/* Returns the term c y_i y_j of row `row` of `rows` rows, for n variables. */
+/* Returns the term with the second derivative c in row `row` of `rows` rows, for n variables. */
 static inline beamw_quadratic_term beamw_quadratic_of(double c, int rows, int n, int row, int i,
                                                       int j, int entry)
 {

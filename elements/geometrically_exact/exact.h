@@ -122,10 +122,10 @@ typedef struct exact_stiffness {
      * `place`, or -1. */
     int twisting, place[EXACT_STIFFNESS_MAX_STRAINS], order[EXACT_STIFFNESS_MAX_STRAINS];
     double Q[EXACT_STRAIN_MAX_POINTS][EXACT_STIFFNESS_MAX_STRAINS]
-            [EXACT_STIFFNESS_MAX_STRAINS];    /* mean of kappa_x^2 about a point, as a function of
-                                                 these strains [1/m] */
-    double r[3];                              /* factors of gamma_x, kappa_y, kappa_z at the
-                                               * point */
+            [EXACT_STIFFNESS_MAX_STRAINS]; /* mean of l0^3 kappa_x^2 about a point, as a quadratic
+                                              form in these strains [1/m] */
+    double r[3];                           /* factors of gamma_x, kappa_y, kappa_z at the
+                                            * point */
     double torque[EXACT_STIFFNESS_MAX_FIELD]; /* weight of kappa_x^4 [N/m^3] */
     double twist[EXACT_STIFFNESS_MAX_FIELD]
                 [EXACT_STIFFNESS_MAX_STRAINS]; /* l0^2 kappa_x = twist . e, summed over the strains

@@ -6,7 +6,7 @@
 
 /* Rows are padded with zeros to a whole number of SIMD vectors. Two rows are summed together, so
  * each loaded factor is used for both. */
-#ifdef REAL_AVX2 /* numbers in a SIMD vector, because wider vectors are slow */
+#ifdef REAL_AVX2 /* numbers in a SIMD vector of the processor; wider vectors are slow */
 enum { WIDTH = 4 };
 #else
 enum { WIDTH = 2 };

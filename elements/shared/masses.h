@@ -41,8 +41,8 @@ void moving_rotation_stiffness(const double F[3], const double v[3], int at, int
  * node. */
 void moving_rotation_gradient(const double v[3], int at, int columns, double T[]);
 
-/* Inertia of a node with the mass of a piece of beam (J Eq. 73, where J is corrected to diag(Ip,
- * Iy, Iz)). */
+/* Inertia of a node with the mass of a piece of beam (J Eq. 73, with the inertia tensor corrected
+ * to diag(Ip, Iy, Iz)). */
 
 enum { LUMPED_VECTORS = 7 };
 

@@ -143,15 +143,15 @@ static void one_sided(const wagner_shape *s, double angle)
              angle, found);
 }
 
-/* Closed form for the Z-section. omega is measured from its mean and is even under the rotation by
- * pi. Therefore int omega r^2 dA is that of the web plus twice that of one flange. */
+/* Closed form for the Z-section. A rotation by pi about the centroid does not change omega.
+ * Therefore both flanges have the same integrals. */
 static void one_sided_zed(void)
 {
     const double b = 0.07, h = 0.1, t = 2e-3; /* h is half of the web depth */
     const section_spec spec = spec_of(&shapes[4], 0, 1, 0);
     const double flange = b * t, web = 2 * h * t, area = web + 2 * flange;
-    /* omega varies from 0 in the web to h b at the ends of the flanges; its mean over the flanges
-     * is h b/2 */
+    /* omega minus its value in the web: 0 in the web, h b at the ends of the flanges, and h b/2 in
+     * the mean of a flange */
     const double mean = 2 * flange * h * b / 2 / area;
     const double omega_r2 = 2 * flange * h * b * (h * h / 2 + b * b / 4),
                  r2 = 2 * flange * (h * h + b * b / 3) + web * h * h / 3,
