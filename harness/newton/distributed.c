@@ -49,7 +49,7 @@ static void undeformed(const distributed_loads *of, double x, double R[9])
 }
 
 /* Computes the load at x times `scale`, given the undeformed triad at x. The result is a force or
- * moment per length; for gravity, it is per mass. */
+ * moment per length, or of a load at a point. */
 static void load_at(const distributed_loads *of, const scene_load *load, double scale, double x,
                     const double before[9], field_load *out)
 {

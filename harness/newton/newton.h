@@ -123,14 +123,14 @@ void run_state_end(run_state *);
 
 /* Largest stresses of all elements [N]. */
 typedef struct advance_stress {
-    double largest, change; /* largest stress after the update, and its change due to the update */
+    double largest, change; /* largest stress after the update, and largest change of a stress */
 } advance_stress;
 
 /* Adds the increments to the strains, stresses and inner unknowns of every element, then to the
  * frames. Call linearise_state with the same memory and solve K dx = residual before. dx[free +
  * driven]. stress: may be NULL. Returns the largest correction (dimensionless: translations
- * relative to the size of the scene, rotations in rad, warping relative to the element length,
- * inner unknowns as the element defines). */
+ * relative to the size of the scene, rotations in rad, warping amplitudes times the size of the
+ * scene, inner unknowns as the element defines). */
 double advance_state(const equations *, const linear_memory *, model_state *, const double dx[],
                      double path, advance_stress *);
 /* Marks the state as an equilibrium. Later increments start from this state with the last tangent.
@@ -162,11 +162,12 @@ typedef struct newton_convergence {
     double small;     /* a step ends after two successive corrections below this limit */
     /* last correction, and previous correction in the same step (INFINITY: none) */
     double correction, before;
-    double stress;        /* [N] largest stress on the path so far */
-    double stress_change; /* relative change of the largest stress in the last correction */
+    double stress; /* [N] largest stress on the path so far */
     double
-        /* last ratio of a correction to the square of the previous correction; NAN: none */
-        contraction;
+        stress_change; /* largest change of a stress in the last correction, relative to `stress` */
+    /* last ratio of a correction, or of its relative change of stresses, to the square of the
+     * previous correction; NAN: none */
+    double contraction;
     double remaining; /* predicted size of the next correction; NAN: unknown */
 } newton_convergence;
 
@@ -189,9 +190,8 @@ typedef struct mode_shape {
     int half_waves;
 } mode_shape;
 status modes_identify(const model *, const scene *, const double mode[], mode_shape *, fault *);
-int modes_in_family(const scene_mode *,
-                    /* Returns 1 if the mode has the family that the quantity requests. */
-                    const mode_shape *);
+/* Returns 1 if the mode has the family that the quantity requests. */
+int modes_in_family(const scene_mode *, const mode_shape *);
 const char *modes_family_name(scene_family);
 /* Sets *kind to flexural, torsional or flexural-torsional, according to the motion of shear centres
  * across members and the twist of sections. */
@@ -246,8 +246,8 @@ typedef struct outcome_spectrum {
     double *strained;
 } outcome_spectrum;
 
-/* Stations of a path: results of a static analysis. The three structures below start with this
- * structure. */
+/* Stations of a path: results of a static analysis. The structures of other analyses with a path
+ * start with this structure. */
 typedef struct outcome_path {
     int stations, reached; /* number of stations, and number of computed stations */
     double *value;         /* [stations] path parameter or control coordinate */
@@ -330,7 +330,7 @@ typedef struct outcome_end {
 size_t outcome_end_values(const outcome_end *);
 void outcome_end_free(outcome_end *);
 
-/* Small motions about a state during a motion, for other analyses: M x'' + (C + G) x' + K x. x
+/* Small motions about a state during a motion, for other analyses: M x'' + (C + G) x' + K x = 0. x
  * contains the increments of the coordinates, with rotations about fixed axes. All matrices have
  * free + driven rows and columns and are stored completely. */
 typedef struct outcome_about {
@@ -354,10 +354,11 @@ typedef struct outcome_motion {
     /* [quantities of the scene x stations] values of quantities that are derivatives of polynomials
      * inside steps; NULL: none */
     double *slope;
-    outcome_path frames;  /* states for animations, at equal intervals */
-    int abouts;           /* times at which other analyses need the state, ascending */
-    outcome_about *about; /* [abouts] small motions; an entry has a state if its time was reached */
-    double origin;        /* [J] energy at t = 0 of the first motion in a chain of motions */
+    outcome_path frames; /* states for animations, at equal intervals */
+    int abouts;          /* number of times at which other analyses need the state */
+    outcome_about
+        *about; /* [abouts] small motions, in ascending order of time; `state` NULL: not reached */
+    double origin; /* [J] energy at t = 0 of the first motion in a chain of motions */
     outcome_end end;
 } outcome_motion;
 
@@ -421,7 +422,7 @@ const outcome_linear *outcome_linear_of(const analysis_outcome *);
  * solved. */
 const double *outcome_displacements(const analysis_outcome *, int acting);
 const outcome_spectrum *outcome_spectrum_of(const analysis_outcome *);
-/* Returns the path of an analysis of any kind along a path. */
+/* Returns the path of an analysis of any kind for which outcome_has_path is 1. */
 const outcome_path *outcome_path_of(const analysis_outcome *);
 const outcome_compliance *outcome_compliance_of(const analysis_outcome *);
 const outcome_rotation *outcome_rotation_of(const analysis_outcome *);
@@ -480,7 +481,7 @@ status shapes_alloc(shapes *, fault *);
 void shapes_free(shapes *);
 const char *shapes_kind_name(shape_kind);
 /* Returns the number of frames of a motion when at most `most` states of a path are stored. This is
- * `most`, or SHAPES_FRAMES if `most` is very large or very small. */
+ * `most`, or SHAPES_FRAMES if `most` is at most SHAPES_FEW or at least SHAPES_ALL. */
 int shapes_frames(int most);
 
 /* Degree of freedom that a row of a model's matrices represents. */
@@ -492,9 +493,9 @@ typedef struct row_label {
     double along;
     double position[3]; /* undeformed position [m] */
     /* "ux", ..., "rz"; "angle 1" for a sequence of angles; "turn 1" or "shift 1" for a released
-     * end; "warping" */
+     * end; "warping"; "scalar 1" for an additional unknown */
     const char *component;
-    const char *unit; /* unit of the coordinate: "m", "rad", "rad/m" */
+    const char *unit; /* unit of the coordinate: "m", "rad", "rad/m", "1" */
 } row_label;
 
 void rows_label(const model *, row_label out[]);
@@ -509,7 +510,7 @@ typedef struct linear_model {
         triplets A, B, C, D;
     } state;
     int eliminated; /* number of eliminated coordinates, which have neither mass nor damping */
-    /* number of feedback loops, which are closed in `state` and open in `second_order` */
+    /* number of feedback loops, which are closed in `state` and open in the other matrices */
     int loops;
     double apart; /* largest difference from the responses of a harmonic analysis, relative */
     int farthest; /* quantity with this largest difference */
@@ -538,7 +539,7 @@ typedef struct system_input {
     /* indices of the load, driver or node, and the component; SCENE_NONE: not used by this kind of
      * input */
     int load, driver, node, component;
-    int reference; /* 1: the input is the reference value of the load */
+    int reference; /* 1: the input is the rate of the reference value of the load */
 } system_input;
 
 typedef struct system_output {
@@ -700,10 +701,9 @@ typedef enum event_kind {
 
 typedef struct path_event {
     event_kind kind;
-    int analysis, negative_before,
-        /* number of negative pivots of the tangent after the event; -1: the tangent is
-         * unsymmetric */
-        negative_after;
+    /* numbers of negative pivots of the tangent before and after the event (of its eigenvalues as
+     * in left_count, if it is unsymmetric); -1: unknown */
+    int analysis, negative_before, negative_after;
     /* load factor and control value [m] at the point; branch jump: at a control value of both
      * branches */
     double factor, control;
@@ -765,7 +765,7 @@ typedef struct context_work {
 typedef struct analysis_context {
     const scene *scene;
     const model *model;
-    run_state *run; /* equations of the model under the loading of the analysis (see context_of) */
+    run_state *run; /* data that all analyses of the solution share */
     equations eq;   /* equations of the model under the loading of the analysis: see context_of */
     const solve_options *options;
     solve_result *result;       /* receives the step records */
@@ -870,8 +870,8 @@ status tangent_driven_moment(analysis_context *c, const model_state *s, int node
 void tangent_prescribed(const node_tangent *t, double moment[3]);
 /* Determines the components in which the node can move. */
 void tangent_movable(const model *m, const node_tangent *t, movable *out);
-/* Computes the compliance C[6 x 6] of the node. The reaction moment has the given convention.
- * Columns outside `wanted`, and rows and columns of components that cannot move, are zero. */
+/* Computes the compliance C[6 x 6] of the node. wanted: bits of the requested columns. components:
+ * bits of the components that can move. Other columns, and rows of other components, are zero. */
 status tangent_compliance(analysis_context *c, node_tangent *t, unsigned wanted,
                           unsigned components, double C[36], fault *f);
 
@@ -932,8 +932,9 @@ double loads_reaction(const model *, int node, int component, const double eleme
 /* In equilibrium, internal minus external forces are zero on the free coordinates. Coordinates,
  * strains and stresses are simultaneous unknowns of the linearisation (N section 4). Strains and
  * stresses are condensed per element:
- *     K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)],  K = J^T P'' J + sum sigma_i H_i The
- *     prescribed part of dx is known; its contribution is moved to the right-hand side here. */
+ *     K dx = f(path) - J^T [P'(e) + P''(e) (D(x) - e)],  K = J^T P'' J + sum sigma_i H_i
+ *
+ * The prescribed part of dx is known; its contribution is moved to the right-hand side here. */
 typedef struct model_linearisation {
     double path;
     /* 1: Newton's method for displacements only; e and sigma are first computed from D(x) */
@@ -1157,8 +1158,8 @@ double linear_initial(const model *);
  * temperatures at `path`. The function does not apply to motions. */
 status linear_whole_stresses(const equations *, const double x[], double path, double sigma[],
                              fault *);
+/* Computes G = sum sigma H + J^T G(sigma) J, including offsets. */
 status linear_geometric_stiffness(const equations *, const double sigma[], double path, sparse *G,
-                                  /* computes sum sigma H + J^T G(sigma) J, including offsets */
                                   fault *);
 
 /* Linear solutions about the undeformed state. */
@@ -1276,12 +1277,13 @@ newton_use newton_in_time(const analysis_context *, void *of,
                                             step_record *, fault *),
                           void (*prepare)(void *of, int iteration, double correction));
 
-/* Runs Newton's method for one step. Returns OK, or NOT_CONVERGED with the reason. Each correction
- * is added to the counters, to the records and to `newton_convergence`. */
+/* Runs Newton's method for one step. NOT_CONVERGED: f contains the reason. Failures of `correct`
+ * and `accept` are returned unchanged. Each correction is added to the counters, to the records and
+ * to `newton_convergence`. */
 status newton_iterate(analysis_context *, const newton_use *, newton_convergence *, step_record *,
                       fault *);
 
-/* Moves the state to `path` by Newton's method. Returns OK, or NOT_CONVERGED with the reason. */
+/* Moves the state to `path` by Newton's method. Failures: as for newton_iterate. */
 status newton_to(newton_run *, double path, step_record *, fault *);
 
 /* Quadratic forms of the undeformed structure and of the stresses of a linear solution. They are

@@ -56,8 +56,8 @@ void applied_stiffness(const model *, const model_state *, const scene_load *, d
  * costs less and is sufficiently accurate. */
 enum { CONDENSATION_ELEMENTS = 1000 };
 
-/* Allocates a condensation. *out is NULL if all members have fewer elements than `from`, if a load
- * between the ends of a member has a stiffness, or if frames rotate. released[count]: prescribed
+/* Allocates a condensation. *out is NULL if all members have fewer elements than `from`, or if the
+ * members cannot be condensed (see the conditions in condensation.c). released[count]: prescribed
  * coordinates that are also unknowns. */
 status condensation_alloc(const equations *, int from, int count, const int released[],
                           condensation **out, fault *);
@@ -138,8 +138,8 @@ void distributed_add_taken(const model *, const along_output *out, const double 
 int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
 /* Like distributed_add_one, for all loads at `path`. Of loads that the element includes in its
- * equilibrium, it adds only the part that J^T sigma does not contain; in a linear solution about
- * `rest`, the full forces. field 1: excludes these loads. */
+ * equilibrium, it adds only the part that J^T sigma does not contain; about the state
+ * kinematics_rest, the full forces. distributed_add_field excludes these loads. */
 int distributed_add(const equations *, const model_state *, const node_state x[], int element,
                     double path, double forces[], double K[]);
 /* Like distributed_add, but only for loads that the element includes in its equilibrium. */
@@ -374,7 +374,8 @@ void bordered_free(bordered *s);
  * R. Redheffer, J. Math. Phys. 41, 1962). With F of the links before joint m, and B and A of the
  * next link: x_m = Z (a_m + F (r_m + A^T g_y)), Z = (1 + F B)^-1, F <- F_qq + A_q Z F A_q^T.
  * Flexibilities add without cancellation. Therefore rounding errors grow roughly in proportion to
- * the number of links. Errors of assembled stiffnesses grow with its fourth power. */
+ * the number of links. Errors of assembled stiffnesses are proportional to the fourth power of this
+ * number. */
 
 enum { CHAIN_JOINT = NODE_COORDINATES, CHAIN_LINK = (ELEMENT_MAX_NODES - 1) * CHAIN_JOINT };
 
@@ -434,7 +435,7 @@ struct chain {
 
 typedef struct kept_link {
     double *A, *Z;         /* [y x c], [c x c] */
-    double *own, *BZ, *ZF; /* F of the link, packed; [y x y]; [c x c] */
+    double *own, *BZ, *ZF; /* packed: F of the link [y x y], B Z and Z F [c x c] */
 } kept_link;
 
 static inline int chain_kept_size(int c, int y)
@@ -460,9 +461,8 @@ static inline kept_link chain_kept(const chain *s, int link, int c, int y)
 enum { MOST_ENDS = 2000, MEMBER_COLUMNS = 2 * NODE_COORDINATES + 2 * SCENE_RELEASED };
 
 typedef struct condensed_member {
-    mesh_element
-        /* element from the first node of the first element to the last node of the last element */
-        ends;
+    /* element from the first node of the first element to the last node of the last element */
+    mesh_element ends;
     mesh_triad triad[2];
     int first, links, joint, y;
     chain *chain;
