@@ -160,9 +160,9 @@ def title_of(s, state, scale):
 
 def chosen(s):
     """Returns the states that can be selected: the undeformed state, two states of a path or motion, and up to
-    MOST_MODES of each kind of mode and of linear solutions. The first of the two states is the first one at FAR
-    times the largest distance from the start. The second is the last one at
-    NEARLY times the largest distance from the first."""
+    MOST_MODES of each kind of mode and of linear solutions. The first of the two states is the earliest whose distance
+    from the start is at least FAR times the largest. The second is the latest whose distance from the first is at least
+    NEARLY times the largest."""
     path = [k for k, kind in enumerate(s.kind) if kind in ("path", FRAME)]
     out = [0]
     if path:

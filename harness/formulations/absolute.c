@@ -53,7 +53,7 @@ static void keep(const element_data *d, double history[], int node, const kept_n
     memcpy(history + d->history + node * ABSOLUTE_KEPT, k, sizeof *k);
 }
 
-/* Computes the quaternion of a rotation, with the sign that is nearer to the last one. */
+/* Computes the quaternion of a rotation, with the sign for which it is nearer to `last`. */
 static void quaternion(const double R[9], const double last[4], double q[4])
 {
     rotation_from_matrix(R, q);

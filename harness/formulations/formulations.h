@@ -176,9 +176,9 @@ void process_limit(int seconds);
  * negative eigenvalue */
 #define DAMPING_ROUNDING 1e-10
 
-/* Scales a damping matrix V [n x n] to diagonal entries of 1 or -1, so that large and small entries
- * count alike: B. C: stiffness at rest. Diagonal entries below round-off, relative to C, are not
- * scaled up. Returns n^2, or the index of the first entry that is NaN or Inf. */
+/* Computes B: the damping matrix V [n x n], scaled to diagonal entries of 1 or -1, so that large
+ * and small entries count alike. C: stiffness at rest. Diagonal entries below round-off, relative
+ * to C, are not scaled up. Returns n^2, or the index of the first entry that is NaN or Inf. */
 int damping_scale(int n, const double C[], const double V[], double B[]);
 
 /* Parameter points of a case: conversion between text and values. */
@@ -204,10 +204,10 @@ int parameters_of_source(const case_type *c);
  * of a choice is its index. For parameters marked in `any`, "name=*;" is hashed. */
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[]);
 
-/* Words of the previous point. Between neighbouring rows of a table, most of the words do not
- * change. */
+/* Texts of the parameters of the previous point, which are reused. Between neighbouring rows of a
+ * table, most of them do not change. */
 typedef struct parameters_words {
-    int known; /* number of known words; 0: none */
+    int known; /* number of known texts; 0: none */
     double value[CASE_MAX_PARAMETERS];
     int any[CASE_MAX_PARAMETERS];
     char text[CASE_MAX_PARAMETERS][128];

@@ -275,7 +275,7 @@ void candidates_evaluate(candidates *p, int i, double *residual, double *error)
 }
 
 /* According to Sylvester's law, the number of mu > s > 0 equals the number of negative pivots of K
- * - A/s. The count is correct if the distance of s from every eigenvalue exceeds the effect of
+ * - sign A/s. The count is correct if the distance of s from every eigenvalue exceeds the effect of
  * rounding in the matrices. */
 
 static const double close =

@@ -385,15 +385,16 @@ void second_order_free(second_order *);
  * case. T consists of the static shapes of the interface coordinates (edge[n] 1) and the first
  * modes with these fixed. Without an interface, T consists of modes and the static shapes of
  * forces; this is REFUSED if the structure is free. *modes becomes the number of modes in T, which
- * is larger if it would separate modes with the same frequency. */
+ * is larger if the requested number would separate modes with the same frequency. */
 status second_order_reduce(const second_order *, const char edge[], int *modes, second_order *out,
                            double **T, fault *);
 /* Computes the undamped natural frequencies [Hz] with the prescribed motions at rest: [n]; NAN:
  * none. */
 status second_order_frequencies(const second_order *, double hertz[], fault *);
 /* Computes the transfer functions from u to y at a circular frequency: out[outputs x inputs x 2],
- * real and imaginary parts. kind[n + motions]: small numbers, equal for coordinates with the same
- * unit, for rounding[outputs x inputs], an estimate of the rounding errors; or NULL. */
+ * real and imaginary parts. rounding[outputs x inputs]: bound of the rounding errors, for which
+ * kind[n + motions] contains small numbers, equal for coordinates with the same unit; both may be
+ * NULL. */
 status second_order_transfer(const second_order *, double w, double out[], const char kind[],
                              double rounding[], fault *);
 

@@ -56,7 +56,7 @@ enum span_value {
     SPAN_BIMOMENT,
     /* Parts of the torque about the shear centre, M_x - (ys Qz - zs Qy): G It kappa_x, -B', and the
      * contribution of stresses along the rotated fibres, (rho^2 N + bending terms) kappa_x + 4 E c
-     * kappa_x^3. */
+     * kappa_x^3 (rho: polar radius of gyration about the shear centre, c: Wagner constant). */
     SPAN_MX_SAINT_VENANT,
     SPAN_MX_WARPING,
     SPAN_MX_WAGNER,

@@ -79,7 +79,8 @@ class ForceHistory(ProgramTest):
             self.assertAlmostEqual(found[key], value, delta=close * max(abs(value), 1e-6), msg=key)
 
     def test_statics(self):
-        """Statics, continuation, modes and compliances about a path, and repeated steps."""
+        """Statics, continuation, and modes and compliances about a path must give the results of the same element
+        defined by its strains."""
         wanted = self.numbers(STATIC, self.strains, "incremental")
         for words in ((), ("--threads", 2)):
             self.alike(self.numbers(STATIC, self.forces, "incremental_force", *words), wanted, 1e-6)
@@ -87,7 +88,7 @@ class ForceHistory(ProgramTest):
         self.alike(dense, {key: wanted[key] for key in dense}, 1e-5)
 
     def test_motions(self):
-        """Motions that continue motions. The mass is the same for both elements."""
+        """Motions that continue motions must give the same results for both elements, which have the same mass."""
         for integrator, step in (("alpha", 1e-3), ("radau", 2e-3), ("explicit", 1e-6)):
             text = MOTION.replace("INTEGRATOR", integrator).replace("STEP", str(step))
             if integrator == "explicit":

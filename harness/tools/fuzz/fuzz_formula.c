@@ -1,6 +1,6 @@
-/* Uses the input as a formula of time, and as pieces of a function, in one line each. A rejection
- * must have a position. An accepted formula must give the same bits in parentheses, and its
- * derivatives must be zero if it does not contain t. */
+/* Uses the input as a formula of time, and its lines as the pieces of a function. A rejection must
+ * have a position. An accepted formula must give the same bits in parentheses, and its derivatives
+ * must be zero if it does not contain t. */
 #include <math.h>
 
 #include "cases/scene/scene.h"

@@ -1,5 +1,5 @@
-"""Numbers that the documentation or the tests of other programs state, through our drivers. Programs that are not installed are
-skipped by name."""
+"""Drivers of other programs must reproduce numbers from the documentation or the tests of these programs. Programs that
+are not installed are skipped by name."""
 import importlib
 import json
 import math
@@ -51,7 +51,8 @@ class Examples(ModuleTest):
         self.same(self.values("xara", "exact_4", 10, made), (-0.061315634, 0.31781389, 0), 1e-8)
 
     def test_xara_bend(self):
-        """Table 8 there, whose steps differ from ours: the results of this element depend on the steps."""
+        """Table 8 of the same paper. The results of this element depend on the steps, which differ from those of the
+        driver."""
         got = self.values("xara", "exact", 8, case="bend_45", set="torsion=polar")
         self.same(got, (-23.477869, -13.487488, 53.369390), 3e-5)
 
@@ -72,8 +73,8 @@ class Examples(ModuleTest):
         self.assertAlmostEqual(got[0], math.pi**2 * 10e6 * 0.041666666666667 / 4 / 100**2, delta=2e-3)
 
     def test_pyelastica(self):
-        """No documented number: the 45-degree bend, extrapolated with order 1, against its exact values; a bar in another
-        direction; the reaction."""
+        """There is no documented number. The 45-degree bend, extrapolated with order 1, must have its exact values, and
+        a bar in another direction must have the rotated results and the reaction."""
         meshes = [self.values("pyelastica", "rod", n, case="bend_45", set="torsion=polar") for n in (8, 16)]
         self.same([2 * b - a for a, b in zip(*meshes)], (-23.5603, -13.6045, 53.4749), 0.25)
         bar = {"E": 1, "G": 1, "A": 1000, "Iy": 2, "Iz": 1, "It": 1, "Ip": 3, "D": [500, 0, 0, 0, 500, 0, 0, 0, 1]}

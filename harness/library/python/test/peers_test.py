@@ -1,4 +1,4 @@
-"""Drivers of other programs: what every driver must do, and what the door does with their failures. Programs that are not
+"""Requirements on every driver of another program, and the handling of failures of drivers. Programs that are not
 installed are skipped by name."""
 import importlib
 import json
@@ -72,7 +72,7 @@ class PeerTest(ModuleTest):
         return json.loads(self.answered("scene", "--scene", place, "--format", "json").stdout)
 
     def values(self, peer, name, made, n, whole=True):
-        """Returns displacements of the tip and reactions of the root. whole: none may be refused."""
+        """Returns displacements of the tip and reactions of the root. whole: no quantity may be refused."""
         found = peers.solve(self.data(made), peer, name, [n], rounds=1)
         if found.missing:
             self.skipTest(found.missing)
@@ -84,7 +84,7 @@ class PeerTest(ModuleTest):
 
 
 class Contract(PeerTest):
-    """What every driver must do, for each of its elements."""
+    """Requirements on every driver, for each of its elements."""
 
     def each(self, check):
         for peer in peers.names():
@@ -97,7 +97,8 @@ class Contract(PeerTest):
                     check(peer, name, element, "plane only" not in element.summary)
 
     def test_closed_form(self):
-        """Units and signs of loads, axes of sections, displacements, rotations and reactions."""
+        """Displacements, rotations and reactions must be those of the linear beam, with the correct units, signs and
+        section axes."""
         def check(peer, name, element, space):
             u, R = self.values(peer, name, scene(element, space=space), 16)
             want = closed_form(element, space, 1e-4)
@@ -111,7 +112,7 @@ class Contract(PeerTest):
         self.each(check)
 
     def test_rigid_rotation(self):
-        """A rotation of the whole scene rotates the results."""
+        """A rotation of the whole scene must rotate the results."""
         def check(peer, name, element, space):
             u, R = self.values(peer, name, scene(element, space=space, small=1), 4)
             for turn in (np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]), ) if not space else (np.array(TILT[0]), TILT[1]):
@@ -130,7 +131,7 @@ class Contract(PeerTest):
         self.each(check)
 
     def test_large_rotation(self):
-        """A moment bends a bar to a quarter of a circle, about each axis of its section."""
+        """A moment must bend a bar to a quarter of a circle, about each axis of its section."""
         def check(peer, name, element, space):
             if "large rotations" not in element.offers:
                 return
@@ -147,8 +148,8 @@ class Contract(PeerTest):
         self.each(check)
 
     def test_follower(self):
-        """A follower force keeps its components in the axes of the bar: a rotation of the scene rotates the results, and the
-        reaction has the direction of the rotated force."""
+        """A follower force must keep its components in the axes of the bar: a rotation of the scene rotates the
+        results, and the reaction has the direction of the rotated force."""
         def check(peer, name, element, space):
             if "loads.follower" not in element.keys:
                 return
@@ -166,7 +167,7 @@ class Contract(PeerTest):
         self.each(check)
 
     def test_whole_turn(self):
-        """A moment bends a bar to a circle. Load steps must not lead to another equilibrium."""
+        """A moment must bend a bar to a circle. Load steps must not lead to another equilibrium."""
         def check(peer, name, element, space):
             if "large rotations" not in element.offers:
                 return
@@ -181,7 +182,8 @@ class Contract(PeerTest):
         self.each(check)
 
     def test_unit_of_length(self):
-        """Tolerances of a driver must not depend on the unit: the same structure a thousand times as long."""
+        """Tolerances of a driver must not depend on the unit: the same structure is solved with all lengths multiplied
+        by a thousand."""
         def check(peer, name, element, space):
             one, other = (self.values(peer, name, scene(element, space=space, unit=s, small=1), 4) for s in (1, 1e3))
             np.testing.assert_allclose(other[0][:3], 1e3 * one[0][:3], atol=1e-3 * np.abs(one[0][:3]).max())
@@ -190,7 +192,7 @@ class Contract(PeerTest):
 
 
 class Door(PeerTest):
-    """Refusals and failures, with drivers that this test writes."""
+    """Refusals and failures of drivers that this test writes must be reported."""
 
     def run_driver(self, body, elements=(1, 2), limit=60.0):
         code = ("from .data import *\nNAME = PROGRAM = 'fake'\nimport os, time, sys\n"
@@ -216,7 +218,8 @@ class Door(PeerTest):
         self.answered("import", place, "-o", self.folder / "theirs.h5")
 
     def test_converge(self):
-        """`converge --peers` shows the results of drivers beside those of formulations, and `--imported` stored results."""
+        """`converge --peers` must show the results of drivers with those of formulations, and `--imported` stored
+        results."""
         self.run_driver("pass")
         made = scene(peers.load("pynite").ELEMENTS["frame"])
         made.write(self.folder / "own.yaml")
@@ -262,7 +265,7 @@ class Door(PeerTest):
             peers.chosen(["pynite:nothing"])
 
     def test_mesh(self):
-        """Nodes of curved members are on the arc, and pieces end at loads."""
+        """Nodes of curved members must be on the arc, and pieces must end at loads."""
         read = importlib.import_module("beamwork.peers.read")
         data = json.loads(self.answered("scene", "bend_45", "--format", "json").stdout)
         mesh = read.scene_of(data).mesh(3, 2)
@@ -278,7 +281,7 @@ class Door(PeerTest):
 class Drivers(ModuleTest):
 
     def test_list(self):
-        """Every driver states its licence, packages with versions, and known physics."""
+        """Every driver must state its licence, packages with versions, and known physics."""
         known = {"warping", "shear", "eccentric shear centre", "trapeze", "wagner moments", "wagner torque", "geometric", "mass",
                  "large rotations", "rotary inertia", "initial curvature", "coupled section", "engesser", "haringx"}
         for name in peers.names():
@@ -293,7 +296,7 @@ class Drivers(ModuleTest):
 
 
 class Recorded(PeerTest):
-    """Recorded results (reference/peers) are imports, and a live run gives the same values."""
+    """Recorded results (reference/peers) must be valid imports, and a new run must give the same values."""
 
     def test_import(self):
         files = sorted((ROOT / "reference" / "peers").glob("*.csv"))
@@ -321,7 +324,7 @@ class Recorded(PeerTest):
 
 
 class Documented(ModuleTest):
-    """Numbers that the programs' own documentation or tests state, through our drivers."""
+    """The drivers must reproduce numbers from the documentation or the tests of the programs."""
 
     def values(self, peer, element, made, n=1):
         place = self.folder / "scene.yaml"

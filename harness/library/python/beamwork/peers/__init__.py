@@ -28,7 +28,8 @@ __path__ += filter(None, os.environ.get("BEAMWORK_DRIVERS", "").split(os.pathsep
 @dataclasses.dataclass
 class Series:
     """Results of one element of a peer. runs: one dict for each mesh, with the keys elements and either values, refused,
-    unknowns, iterations, setup [s], seconds and settings, or refusal, or failure. missing: why nothing was run."""
+    unknowns, iterations, setup [s], seconds and settings, or refusal, or failure. missing: the reason why nothing was
+    run, or ""."""
     peer: str
     element: str
     program: str
@@ -121,7 +122,8 @@ def _one_process(series: Series, request: Mapping[str, Any], limit: float) -> st
 def solve(scene: Mapping[str, Any], peer: str, element: str, elements: Sequence[int], rounds: int = 3,
           limit: float = 60) -> Series:
     """Solves a scene (`beamwork scene --format json`) with one element on several meshes. limit: longest time for one
-    mesh [s]. A crash or a hang is the failure of its mesh; after a hang, finer meshes are not tried."""
+    mesh [s]. A mesh fails if its process crashes or exceeds the limit; in the latter case, finer meshes are not
+    tried."""
     module = load(peer)
     series = Series(peer, element, f"{module.PROGRAM}, {element}")
     while len(series.runs) < len(elements) and not series.missing:

@@ -157,7 +157,8 @@ class Mesh:
 @dataclasses.dataclass
 class State:
     """Displacements and rotation vectors, and forces of supports on the structure at fixed and driven components, for each
-    node of the scene. None: the program does not know it. compliance: 6 x 6 matrix of the node of a compliance analysis."""
+    node of the scene. None: the program does not compute it. compliance: 6 x 6 matrix of the node of a compliance
+    analysis."""
     u: Mapping[str, Sequence[float | None]] = dataclasses.field(default_factory=dict)
     reaction: Mapping[str, Sequence[float | None]] = dataclasses.field(default_factory=dict)
     compliance: Matrix | None = None

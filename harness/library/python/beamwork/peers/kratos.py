@@ -100,8 +100,8 @@ class Frame(Model):
         ]
 
     def _section(self, part: Any, tag: int, section: Any) -> None:
-        """The stiffnesses with E = 1 and G = 1/2. Without effective areas the element is rigid in
-        shear."""
+        """Sets areas and moments of area that give the stiffnesses with E = 1 and G = 1/2. Without
+        effective areas, the element is rigid in shear."""
         km, sm = self.km, self.sm
         p = part.CreateNewProperties(tag)
         p.SetValue(km.YOUNG_MODULUS, 1.0)
@@ -158,7 +158,8 @@ class Frame(Model):
         return part
 
     def _nodal(self, load: Load) -> dict[int, list[float]]:
-        """Forces and moments on nodes; half of the load of each element acts on its nodes."""
+        """Returns the forces and moments of a load on nodes. Half of the load on an element acts on
+        each of its nodes."""
         out: dict[int, list[float]] = {}
 
         def add(number: int, factor: float, first: int) -> None:
@@ -295,8 +296,9 @@ class Frame(Model):
         return Answer(states=states, iterations=iterations)
 
     def _state(self, part: Any, linear: bool = False) -> State:
-        """Large rotations are not known: ROTATION is the sum of the increments of the iterations, which
-        depends on the steps, and the elements do not give the rotations of their nodes."""
+        """Returns the state, without rotations if they are large: ROTATION is the sum of the
+        increments of the iterations, which depends on the steps, and the elements do not give the
+        rotations of their nodes."""
         u: dict[str, list[float | None]] = {}
         reaction: dict[str, list[float]] = {}
         supported = self.held | set(self.driven)
@@ -312,7 +314,8 @@ class Frame(Model):
         return State(u=u, reaction=reaction)
 
     def _matrix(self, part: Any, kind: str) -> Any:
-        """The stiffness or mass matrix of all coordinates, from the matrices of the elements."""
+        """Returns the stiffness or mass matrix of all coordinates, from the matrices of the
+        elements."""
         import numpy as np
 
         size = 6 * len(self.mesh.nodes)
@@ -329,7 +332,8 @@ class Frame(Model):
         return out
 
     def _inverse(self, part: Any, node: str) -> Any:
-        """The inverse of the tangent at the node, with its driven components free."""
+        """Returns the inverse of the tangent at the node, with the driven components of the node
+        free."""
         import numpy as np
 
         number = self.mesh.node_of[node]
@@ -365,7 +369,7 @@ class Frame(Model):
         return Answer(states=[State(compliance=self._inverse(part, analysis.raw["node"]))])
 
     def _modal(self) -> Answer:
-        """Frequencies from the stiffness and mass matrices of the program's elements."""
+        """Computes frequencies from the stiffness and mass matrices of the program's elements."""
         import numpy as np
 
         if "rotary inertia" not in self.scene.physics:

@@ -35,7 +35,7 @@ def build(scene: Scene, element: str, mesh: Mesh) -> Model:
 
 
 def _card(name: str, *fields: float | int | str | None) -> str:
-    """A line of the input file with fields of 16 characters."""
+    """Returns a line of the input file with fields of 16 characters."""
     texts = [
         "" if f is None else f"{f:.9E}" if isinstance(f, float) else str(f) for f in fields
     ]
@@ -68,7 +68,8 @@ class Bars(Model):
         return held
 
     def _structure(self) -> str:
-        """Sections have E = G = 1, so that areas and moments of area are stiffnesses."""
+        """Returns the lines of the structure. Sections have E = G = 1, so that areas and moments of
+        area are stiffnesses."""
         out = []
         self.unknowns = 6 * len(self.mesh.nodes)
         for node in self.mesh.nodes:
@@ -94,7 +95,8 @@ class Bars(Model):
         return "".join(out)
 
     def _loads(self) -> str:
-        """Half of the load of each element along members acts on its nodes."""
+        """Returns the lines of the loads. Half of a load along an element acts on each of its
+        nodes."""
         out = []
         for load in self.scene.loads:
             word = "MOMENT" if load.kind == "moment" else "FORCE"
@@ -129,7 +131,7 @@ class Bars(Model):
         return lines
 
     def _table(self, lines: list[str], title: str) -> dict[int, list[float]]:
-        """The rows of six numbers of the first table with this title, by node."""
+        """Returns {node: row of six numbers} of the first table with this title."""
         out: dict[int, list[float]] = {}
         begin = next(i for i, line in enumerate(lines) if title in line)
         for line in lines[begin + 4 :]:
@@ -141,7 +143,8 @@ class Bars(Model):
         return out
 
     def _eigenvalues(self, lines: list[str], column: int) -> list[float]:
-        """The positive eigenvalues of the first table; the program marks those that it distrusts."""
+        """Returns the positive eigenvalues of the first table, without those that the program marks
+        with an asterisk."""
         out: list[float] = []
         rows = 0
         begin = [i for i, line in enumerate(lines) if "R E A L   E I G E N V A L U E S" in line]
@@ -160,8 +163,8 @@ class Bars(Model):
         return max(asked, default=0) + 1
 
     def _require_axial_loads(self) -> None:
-        """The geometric stiffness of CBAR contains only the axial force; without any, the program
-        gives eigenvalues that have no meaning."""
+        """Raises Refused if a load is not axial. The geometric stiffness of CBAR contains only the
+        axial force, and without an axial force, the eigenvalues of the program have no meaning."""
         axes = [[float(row[0]) for row in e.R] for e in self.mesh.elements]
         for load in self.scene.loads:
             size = math.hypot(*load.vector)

@@ -37,7 +37,7 @@ def _values(scene: Scene, element: Any, answers: dict[str, Answer]) -> dict[str,
 
 
 def _solved(peer: Any, scene: Scene, name: str, n: int, rounds: int) -> dict[str, Any]:
-    """Solves one mesh. Times are the least of the rounds."""
+    """Solves one mesh. Each time is the shortest of all rounds."""
     element = peer.ELEMENTS[name]
     check(scene, element, peer.PROGRAM)
     asked = {q.analysis for q in scene.quantities if refusal(scene, element, q) == ""}

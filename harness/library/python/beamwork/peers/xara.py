@@ -69,7 +69,7 @@ def build(scene: Scene, element: str, mesh: Mesh) -> Model:
 
 
 def _unwrapped(vector: Any, last: Any) -> Any:
-    """The rotation vector of the same rotation that is nearest to `last`."""
+    """Returns the rotation vector of the same rotation that is nearest to `last`."""
     import numpy as np
 
     angle = float(np.linalg.norm(vector))
@@ -85,7 +85,7 @@ def _unwrapped(vector: Any, last: Any) -> Any:
 
 
 def _rotation_vector(quaternion: Any) -> Any:
-    """The rotation vector of a quaternion (x, y, z, w)."""
+    """Returns the rotation vector of a quaternion (x, y, z, w)."""
     import numpy as np
 
     q = np.array(quaternion)
@@ -128,8 +128,8 @@ class Frame(Model):
         return 1e-8 * self.size
 
     def _least_steps(self, stations: int) -> int:
-        """Steps between stations. In space, results of ExactFrame depend on the steps: by 1e-6 with
-        8 steps in the 45-degree bend."""
+        """Returns the least number of steps between stations. In space, results of ExactFrame
+        depend on the steps: by 1e-6 with 8 steps in the 45-degree bend."""
         return 1 if self.element == "force" or self._planar() else math.ceil(8 / stations)
 
     def _planar(self) -> bool:
@@ -159,7 +159,8 @@ class Frame(Model):
         return held
 
     def _points(self) -> list[list[float]]:
-        """The places of the nodes; inner nodes lie on the chord, as ExactFrame requires."""
+        """Returns the positions of the nodes. Inner nodes are on the chord, as ExactFrame
+        requires."""
         at = [list(map(float, n.at)) for n in self.mesh.nodes]
         for e in self.mesh.elements:
             first, last = at[e.nodes[0]], at[e.nodes[-1]]
@@ -220,8 +221,8 @@ class Frame(Model):
         return model
 
     def _nodal(self, load: Load) -> dict[int, list[float]]:
-        """The forces and moments on nodes; loads along members are lumped by the shape functions
-        of the displacements."""
+        """Returns the forces and moments of a load on nodes. Loads along members are lumped with
+        the shape functions of the displacements."""
         out: dict[int, list[float]] = {}
 
         def add(number: int, vector: Any, factor: float, first: int) -> None:
@@ -250,8 +251,8 @@ class Frame(Model):
         model.sp(number, dof + 1, 1.0, pattern=tag)
 
     def _apply(self, model: Any, stations: Sequence[float], scale: float = 1.0) -> None:
-        """Each load and each driven component has a pattern of its own, with its values at the
-        stations, which are the times 1, 2, ...; without stations, the factor is 1."""
+        """Adds a separate pattern for each load and each driven component, with its values at the
+        stations, which are the times 1, 2, 3 and so on. Without stations, the factor is 1."""
         times = [float(k) for k in range(max(len(stations), 1) + 1)]
         tag = 0
 
@@ -345,8 +346,8 @@ class Frame(Model):
         )
 
     def _compliance_here(self, model: Any, node: str) -> Any:
-        """The inverse of the tangent at the node. Its driven components are released for this:
-        their reactions act as loads."""
+        """Returns the inverse of the tangent at the node. For this, the driven components of the
+        node are released, and their reactions act as loads."""
         number = self.mesh.node_of[node]
         driven = [dof for n, dof in self.drives if n == number]
         if not driven:
@@ -394,7 +395,8 @@ class Frame(Model):
         return Answer(states=[State(compliance=self._inverse_at(model, number))])
 
     def _linear(self, analysis: Analysis) -> Answer:
-        """One step of the linear algorithm; reactions by central differences of small loads."""
+        """Makes one step of the linear algorithm. Reactions are computed by central differences of
+        small loads."""
         import numpy as np
 
         if any(node.drive for node in self.scene.nodes.values()):
