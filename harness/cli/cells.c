@@ -142,7 +142,7 @@ static const double batch_most = 0.5, batch_least = 0.02, batch_share = 1.0 / 32
 /* The sweep, divided into batches. An item is a series that is run. */
 typedef struct cut {
     const sweep_request *request;
-    truths *t; /* reference values, on which it depends whether scatter is measured */
+    truths *t; /* reference values, which determine whether scatter is measured */
     sweep *s;
     int items;
     int *begin;   /* [items + 1] first series of each item, followed by the number of series */

@@ -13,11 +13,11 @@
 #include "harness/study/study.h"
 
 /* Verbs, their options, and command lines. A verb has its own options, groups of options that it
- * shares with other verbs, and a request struct. Each group is declared with its topic (case_input,
- * named, spread). */
+ * shares with other verbs, and a request struct. Each group is declared below, next to the
+ * functions that use it. */
 
-/* Largest number of arguments of a verb, which is also that of values of a repeated option; and
- * largest number of options on a command line. */
+/* Largest number of arguments of a verb, and of values of a repeated option; largest number of
+ * options on a command line. */
 enum { COMMAND_MOST_WORDS = 64, COMMAND_MOST_GIVEN = 512 };
 
 typedef struct verb_option verb_option;
@@ -167,7 +167,7 @@ typedef struct mesh_list {
 } mesh_list;
 extern const option_group options_meshes; /* mesh_list: -n */
 
-/* options_json, followed by further reports */
+/* --json, --junit, --markdown and --propose-deviations */
 typedef struct report_options {
     const char *json, *junit, *markdown, *propose;
 } report_options;
@@ -197,8 +197,8 @@ const char *user_tables_packed(const truths_options *);
  * file:line:column, and the number of errors. */
 status user_tables_truths(const truths_options *, const case_type *const run[],
                           const case_type *only, truths *t, fault *f);
-/* Adds the rules of tables. If there is a table, verdicts on new formulations affect the exit
- * status. */
+/* Adds the known deviations in the tables. If there is a table, verdicts on new formulations affect
+ * the exit status. */
 status user_tables_deviations(const text_list *tables, const case_type *const run[], truths *t,
                               fault *f);
 

@@ -214,8 +214,8 @@ static void offer_words(const offer *o, const completion_reading *r)
     names_words(&word, typed);
 }
 
-/* Offers a part of a description. Words in upper case are kinds of arguments; other words are
- * offered as they are. Of "exec:COMMAND", only "exec:" is offered. */
+/* Offers values for one part of a description. Words in upper case are kinds of arguments; other
+ * words are offered as they are. Of "exec:COMMAND", only "exec:" is offered. */
 static void offer_part(const offer *o, const completion_reading *r, const char *part)
 {
     char word[40];

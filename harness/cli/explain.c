@@ -102,7 +102,8 @@ static int explain_inputs(const char *word)
     return 1;
 }
 
-/* Returns rule i. If its cause is "the same", returns the last previous rule with another cause. */
+/* Returns known deviation i. If its cause starts with "the same", returns the last previous one
+ * whose cause does not. */
 static const rule *listed_before(const truths *deviations, int i)
 {
     while (i > 0 && strncmp(deviations->rule[i].cause, "the same", 8) == 0)

@@ -199,8 +199,8 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
     return json_write_solution(to, s, &none, f);
 }
 
-/* Solves with all formulations. If there are several, a formulation without a solution is reported
- * and skipped. */
+/* Solves with all chosen formulations. If several are chosen, a formulation without a solution is
+ * reported and skipped. */
 static status solve_all(const plot_request *r, const case_type *type, FILE *to, fault *f)
 {
     status outcome = STATUS_OK;
@@ -268,7 +268,8 @@ static const char *form_of(const char *path, fault *f)
 static status find_reports(char folder[PATH_MAX], fault *f)
 {
     char script[PATH_MAX];
-    TRY(derive_script("../../reports/graph.py", script, f)); /* next to the reference values */
+    TRY(derive_script("../../reports/graph.py", script,
+                      f)); /* relative to the folder reference/derive */
     if (access(script, R_OK) != 0 || realpath(script, folder) == NULL)
         return fault_set(f, STATUS_FAULT,
                          "%.200s: the plotting program was not found; run from a clone or an "

@@ -91,7 +91,7 @@ static status write_out(const solve_request *r, const char *note, const sweep *s
     return output_finish(&file, write_to(file.stream, r, note, s, t, f), f);
 }
 
-/* Reports the error of the state-space form of a harmonic analysis: it omits the mass inside
+/* Reports the error of the state-space form of a harmonic analysis, which omits the mass inside
  * elements. */
 static void report_close_frequencies(const scene *s, const state_matrices *m)
 {
@@ -261,8 +261,8 @@ static status follow_modes(solve_request *r, const case_type *type, fault *f)
     return written;
 }
 
-/* Reads the state from which a motion continues. The default of -f and -n is its formulation and
- * its number of elements. */
+/* Reads the state from which a motion continues. The formulation and the number of elements of this
+ * state are the defaults of -f and -n. */
 static status take_restart(solve_request *r, restart *from, fault *f)
 {
     TRY(restart_read(r->restart, from, f));

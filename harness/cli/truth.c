@@ -20,7 +20,7 @@ typedef struct truth_request {
 /* A reference value. Words that do not apply are empty. */
 typedef struct shown_value {
     const char *quantity, *formulation, *unit, *kind, *model, *theory, *source, *convention;
-    int elements; /* elements of the formulation; 0: any number */
+    int elements; /* number of elements for which the value holds; 0: any number */
     double value, uncertainty;
 } shown_value;
 

@@ -128,9 +128,9 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
     return outcome;
 }
 
-/* Returns 1 if the writer of a temporary file has ended; the file is then not locked. An empty file
- * may not be locked yet. For such a file, returns 1 only if certainly_ended is 1 or the file is
- * older than OLD. */
+/* Returns 1 if the writer of a temporary file has ended; the file is then not locked. The writer
+ * may not have locked an empty file yet, so an empty file counts only if certainly_ended is 1 or
+ * the file is older than OLD. */
 static int is_orphan(const char *path, int certainly_ended)
 {
     enum { OLD = 60 }; /* [s] */

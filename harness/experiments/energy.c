@@ -9,7 +9,7 @@
 
 enum { ENERGY_M = TEST_ELEMENT_STRAINS };
 
-static const double moved_by = 0.02; /* size of the strains [lengths] */
+static const double moved_by = 0.02; /* size of the strains, in element lengths */
 
 /* State at which finite differences are computed. */
 typedef struct energy_place {
@@ -352,8 +352,8 @@ static void in_frame(const test_element *s, check_results *c)
     own_motion(s, x, &out, c);
 }
 
-/* Returns the centrifugal energy [J] of a uniformly twisted element. Its warping amplitudes equal
- * the twist rate. */
+/* Returns the centrifugal potential [J] of a uniformly twisted element. Its warping amplitudes
+ * equal the twist rate. */
 static double twisted_energy(const test_element *s, double angle)
 {
     const double ys = s->section.ys, zs = s->section.zs;

@@ -648,7 +648,7 @@ void motions_free(motions *);
 typedef enum rows_reference {
     ROWS_STORED,  /* a reference value stored for exactly this point */
     ROWS_DERIVED, /* a reference value computed for the point by a program of reference/derive */
-    ROWS_LIMIT,   /* the limit of the meshes of all formulations */
+    ROWS_LIMIT,   /* the limit of the meshes of a formulation with the same physics */
     ROWS_NONE,    /* no limit is known accurately enough */
     /* none, because the limits of formulations differ by more than their uncertainties */
     ROWS_DISPUTED,
@@ -797,7 +797,7 @@ status list_subject_find(const char *name, list_subject *out, fault *f);
 /* Existing batches of a work, in one or several folders. */
 
 typedef struct batch_store_kind {
-    machine node; /* machine: the first machine of this kind */
+    machine node; /* the first machine of this kind */
     int batches;
 } batch_store_kind;
 
@@ -879,7 +879,8 @@ typedef struct tally_series {
 
 /* A field of the map: it covers a range of each axis. */
 typedef struct tally_place {
-    long points, other, requested, never; /* other: number of points with another model */
+    /* other: number of points where the formulation solves another model */
+    long points, other, requested, never;
     long proven; /* number of points of `requested` whose reference is a reference value */
     /* smallest number of elements such that this mesh and all finer meshes are within the tolerance
      * at all points of the field */

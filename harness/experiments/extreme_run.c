@@ -6,7 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reads the known deviations from the packed reference values at `path`. */
+/* Reads the known deviations of extremes, which the file of packed reference values at `path`
+ * contains. */
 static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f);
 
 enum {

@@ -19,8 +19,8 @@ enum {
     PARTS = 100 /* ratio of consecutive tolerances */
 };
 static const double usual_tolerance = 1e-4,
-                    same = 1e-9 /* default tolerance of a step, and relative difference below which
-                                   times count as equal */
+                    same = 1e-9 /* usual_tolerance: default tolerance of a step; same: times count
+                                   as equal if their relative difference is smaller */
     ;
 
 static int motion_of(const scene *s)

@@ -21,7 +21,7 @@ static double drift_of(const integrators_verdict *v, const integrators_run *r)
 }
 
 /* Returns the order of the energy-balance or momentum error from the last two pairs of steps; 0:
- * the two pairs do not give the same whole number. */
+ * there are fewer than three steps, or the two pairs do not give the same whole number. */
 static int drift_order(const integrators_verdict *v, const integrators_run r[])
 {
     double order[2];

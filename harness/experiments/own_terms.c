@@ -27,8 +27,8 @@ static double least_eigenvalue(int n, double A[])
     return failed ? NAN : least;
 }
 
-/* Computes the scaled matrix B. Returns 0 and reports a violation if an entry of V is NaN or
- * Inf. */
+/* Computes B, the damping matrix V scaled to diagonal entries of 1 or -1 (damping_scale). Returns 0
+ * and reports a violation if an entry of V is NaN or Inf. */
 static int scale_damping(const test_element *s, const double C[], const double V[], double B[],
                          check_result *one)
 {
@@ -132,8 +132,8 @@ static void check_jacobian(const line_place *p, check_result *one)
         const double unit = test_element_unit(s, j);
         double turn[3] = {0};
         stencil_first(motion_at, p, VALUES, j, change);
-        for (int k = 0; k < 3;
-             k++) { /* half the sum of the vector products of the axes and their changes */
+        for (int k = 0; k < 3; k++) { /* rotation: half the sum of the vector products of the axes
+                                         and their changes */
             const double axis[3] = {now.R[k], now.R[3 + k], now.R[6 + k]},
                          moved[3] = {change[3 + k], change[6 + k], change[9 + k]};
             double part[3];

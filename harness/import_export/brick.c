@@ -7,8 +7,8 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-/* Returns the position of corner k of n elements on 0 to 1. The elements become smaller towards
- * both ends. */
+/* Returns the position of corner k, between 0 and 1, if n elements divide a length of 1. The
+ * elements become smaller towards both ends. */
 static double face_graded(int k, int n);
 /* Computes the face of a section. constants: those computed from `spec`. REFUSED: the section is a
  * tube, is given by constants, or has walls oblique to y and z. */
@@ -16,8 +16,8 @@ static status face_of(const section_spec *spec, const section *constants, face *
 
 enum { BRICK_NODES = 20, DECK_LINE = 10 };
 
-/* Corners, followed by the mid-edge nodes of the lower face, of the upper face, and between these
- * faces, in half steps. */
+/* Positions of the nodes of a brick, in half elements: the corners, followed by the mid-edge nodes
+ * of the lower face, of the upper face, and between these faces. */
 static const int places[BRICK_NODES][3] = {{0, 0, 0}, {2, 0, 0}, {2, 2, 0}, {0, 2, 0}, {0, 0, 2},
                                            {2, 0, 2}, {2, 2, 2}, {0, 2, 2}, {1, 0, 0}, {2, 1, 0},
                                            {1, 2, 0}, {0, 1, 0}, {1, 0, 2}, {2, 1, 2}, {1, 2, 2},
@@ -217,8 +217,8 @@ static int axis_of(const section_spec *spec, int wall)
     return y > z ? 0 : 1;
 }
 
-/* Returns the extension of the wall beyond its end point, which is half of the thickness of the
- * walls at right angles to it. */
+/* Returns the extension of the wall beyond its end point, which is half of the largest thickness of
+ * the walls at right angles to it. */
 static double extension(const section_spec *spec, int wall, int point)
 {
     double most = 0;

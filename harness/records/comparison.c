@@ -8,8 +8,8 @@
 
 /* Counts a line and writes its start: kind, name and mesh. */
 static void comparison_lines_heading(const listing *l, comparison_kind kind);
-/* Compares sums over `meshes` meshes. The threshold is the same as for one mesh, regardless of the
- * number of meshes. */
+/* Compares sums of work over `meshes` meshes. The allowed change of a sum is the threshold times
+ * the mean work of a mesh. */
 static void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
                                   const long after[RESULTS_WORKS], int meshes);
 /* Writes the difference of the costs of counted work if both are known. */
@@ -309,8 +309,8 @@ static void comparison_lines_cost(const listing *l, double before, double after)
 
 /* Compares two series of which at least one is known only from the short table. */
 
-/* Returns the largest relative difference of two equal values after rounding to this number of
- * digits. */
+/* Returns the largest relative difference between a value and the same value rounded to this number
+ * of digits. */
 static double last_digit(int digits)
 {
     return 0.5 * pow(10, 1 - digits);

@@ -97,7 +97,8 @@ static void get_model(const subject *s, field_value *out)
     schema_set_text(out, s->series->imported != NULL ? s->series->imported->model : "beam");
 }
 
-/* Gives the change of the model; NAN: no physics is omitted, or the change is unknown. */
+/* Gives the bound of the relative change of values due to omitted physics; NAN: no physics is
+ * omitted, or the bound is unknown. */
 static void get_model_change(const subject *s, field_value *out)
 {
     schema_set_number(out, s->series->without.what != 0 ? s->series->without.change : NAN);

@@ -299,9 +299,9 @@ static int has_reference(const reach_question *q, int quantity)
     return known;
 }
 
-/* Writes the requested quantities: all quantities except curves, or those with a reference value
- * and the names of the others. Returns the number of quantities with a reference value. *all: the
- * number of quantities except curves. */
+/* Writes the quantities to which the answer applies: "every quantity", or the number of those with
+ * a reference value and the names of the others. Curves are ignored. Returns the number of
+ * quantities with a reference value. *all: the number of quantities except curves. */
 static int write_requested(FILE *to, const reach_question *q, int *all)
 {
     const char *before = " (without a reference: ";

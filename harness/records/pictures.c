@@ -24,8 +24,9 @@ static void add_wall(outline *out, const double a[2], const double b[2], double 
     }
 }
 
-/* Adds side k of a tube that is drawn as a polygon. The corners of the side are on the circles of
- * the tube. At each end, the inner corner precedes the outer corner. */
+/* Adds side k of a tube that is drawn as a polygon. The corners of the side are on the circles
+ * of the tube. At one end, the inner corner precedes the outer corner; at the other end, it
+ * follows. */
 static void add_side(outline *out, const section_spec *spec, int k)
 {
     double(*corner)[2] = out->corner[out->walls++];
@@ -49,7 +50,7 @@ static void principal(const section *s, const double point[2], double out[2])
 /* Computes the lengths along y and z of the sides of a rectangle that represents a section. */
 static void sides_of(const section_spec *spec, const section *c, double side[2])
 {
-    const double ratio = sqrt(c->Iy / c->Iz); /* ratio of width w to height h: Iy/Iz = (w/h)^2 */
+    const double ratio = sqrt(c->Iy / c->Iz); /* side along z / side along y */
     side[0] = spec->kind == SECTION_MATRICES ? sqrt(12 * c->Iz / c->A) : sqrt(c->A / ratio);
     side[1] = spec->kind == SECTION_MATRICES ? sqrt(12 * c->Iy / c->A) : sqrt(c->A * ratio);
     if (c->rectangle) {

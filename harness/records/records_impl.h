@@ -39,7 +39,7 @@ int results_part_needs(const stored_results *r, const stored_results *other, con
 /* Returns 1 if the two runs requested different quantities of a series, among the quantities that
  * they contain. */
 int results_part_differ(const stored_results *a, const stored_results *b, const char *series);
-/* Returns 1 if the formulation of the series is new to the run. */
+/* Returns 1 if, in this run, the formulation of the series does not affect the exit status yet. */
 int results_part_is_fresh(const results_part *p, const char *series);
 void results_part_free(results_part *);
 

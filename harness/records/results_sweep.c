@@ -379,7 +379,7 @@ static hid_t memory_type(hid_t member, const table_column *c)
         return -1;
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, c->room);
-    H5Tset_cset(type, H5Tget_cset(member)); /* the library does not convert ASCII */
+    H5Tset_cset(type, H5Tget_cset(member)); /* HDF5 does not convert between ASCII and UTF-8 */
     return type;
 }
 

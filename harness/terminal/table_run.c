@@ -3,8 +3,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Prints "case (parameters), formulation, n = 1, 2: WHY" for the meshes of a series without a
- * solution. WHY is the reason for the finest of these meshes. */
+/* Prints "case (parameters), formulation, n = 1, 2: STATUS: WHY" for the meshes of a series without
+ * a solution. The status and the reason are those of the finest of these meshes. */
 static void failed_series(FILE *to, const sweep *s, int index, int *lines)
 {
     const series *one = &s->series[index];

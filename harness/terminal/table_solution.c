@@ -189,8 +189,8 @@ static void imperfections(FILE *to, const scene *s)
     paragraph_end(&words, at, INDENT);
 }
 
-/* Returns 1 if an analysis that is linear about a state fixes the prescribed components. words:
- * kinds of these analyses. */
+/* Returns 1 if the scene has analyses in which prescribed components are fixed. words: kinds of
+ * these analyses. */
 static int holding(const scene *s, char words[40])
 {
     static const struct {
@@ -227,8 +227,8 @@ static void put_driven(FILE *text, const scene *s, int node, const int driver[3]
                     scene_name(s, SCENE_NODES, node).text, names + 2 * k);
 }
 
-/* Prints the prescribed components that are fixed in an analysis, for example "held: stage ux,
- * driven (modal)". */
+/* Prints the prescribed components that are fixed in some analyses, for example "held by drives
+ * (modal): stage ux". */
 static void driven(FILE *to, const scene *s)
 {
     char kinds[40], *words = NULL;

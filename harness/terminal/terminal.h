@@ -47,9 +47,9 @@ void screen_put(FILE *to, screen, screen_ink, const char *text);
 /* Prints a value with the conversion 'g', 'e' or 'f' of printf in a field of `width` columns; a
  * dash if the value is not finite. */
 void table_value(FILE *to, int width, int digits, char conversion, double value);
-/* table_omitted prints a line on members that loads divide and a line on omitted physics.
- * table_theory prints the shear theory of the formulation if shear and stability occur together.
- * Lines that do not apply are omitted. */
+/* table_omitted prints the assumptions on the sections, the members that have more elements than
+ * the mesh specifies, and the omitted physics. table_theory prints the shear theory of the
+ * formulation if shear and stability occur together. Lines that do not apply are omitted. */
 void table_omitted(FILE *to, const sweep_point *p);
 void table_theory(FILE *to, const scene *s, const element_type *type);
 /* Prints a line "case (parameters), formulation". */

@@ -190,7 +190,7 @@ class Selected(ProgramTest):
 
     def test_alike_in_converge(self):
         """The buckling load does not depend on shear and Wagner moments, but the frequencies of the scene do. The
-        formulation must therefore be another model, with and without a selection."""
+        formulation must therefore count as another model, with and without a selection of the buckling load."""
         where = ("converge", "c_column", "--set", "length=4", "--set", "height=0.9", "--set", "width=0.3", "-f",
                  "sheet_second", "-n", "2,4,8,16")
         for more in ((), ("-k", "=buckling_load")):

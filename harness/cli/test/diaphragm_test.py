@@ -117,8 +117,9 @@ quantities:
         self.same(one, one.replace("{to: [rx, ry, rz]}", "{from: [rx], to: [ry, rz]}"), 1e-7)
 
     def test_pinned_columns(self):
-        """The axial forces P of columns that are pinned at both ends must reduce the stiffness of the floor: by P/h for
-        each column in translation, and by P/h times the square of its distance in rotation."""
+        """The axial forces P of columns that are pinned at both ends must reduce the stiffness of the floor: by P/h
+        for each column in translation, and by P/h times the square of its distance from the middle in rotation.
+        h: height of the columns."""
         text = COLUMNS.replace("2e11", "2e14").replace("RELEASE", "{from: [ry, rz], to: [rx, ry, rz]}")
         text += "".join(f"  p{i}: {{force: [0, 0, -3000], on: t{i}}}\n" for i in range(4)) + """analyses: {B: {buckling: {}}, S: {static: {stations: [1]}}, C: {compliance: {node: m, about: S}}, F: {modal: {about: S}}}
 quantities:

@@ -146,7 +146,8 @@ FORCE_FAULTS = {
         "of the undeformed element is", "define it as zero in that state"),
 }
 
-# Typical errors of authors of elements. Each error is consistent in itself and appears only in structures.
+# Errors that authors of elements typically make. Strains, stresses and stiffness remain consistent, so only the results
+# of structures reveal them.
 CLASSIC = {
     "swapped bending": (
         ("c->young * c->Iy, c->young * c->Iz}", "c->young * c->Iz, c->young * c->Iy}"),
@@ -234,8 +235,8 @@ class Planted(Tested):
 
 
     def test_linear(self):
-        """A formulation must be tested only for supported features. Without large rotations, linear strains are
-        correct."""
+        """A formulation must be tested only for supported features. Linear strains must be accepted if the
+        formulation does not declare large rotations."""
         first = ("        out->e[i] = (p[i] + q[i]) / (2 * c) + k * along * psi[i];\n",
                  "        out->e[i] = p[i] + (i == 1 ? -d->length * psi[2] / 2 : i == 2 ? d->length * psi[1] / 2 : 0);\n")
         small = ("FEATURE_GEOMETRIC | FEATURE_LARGE | ", "")

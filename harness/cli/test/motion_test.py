@@ -193,7 +193,8 @@ class MotionError(ProgramTest):
                 {one["quantity"]: one["value"] for one in record["quantities"]})
 
     def test_sudden_loads(self):
-        """The amplitudes are from 2 pm to 20 mm. The error is relative to 2, the largest value of u/u_static."""
+        """u/u_static must be 1 - cos(omega t) for u_static from 1.7 pm to 17 mm. Errors are relative to 2, the
+        largest value of u/u_static."""
         for how, limit in (("", 1e-3), ("integrator: alpha, ", 1.2e-3)):
             for force, n in ((1e-7, 1), (1e-3, 1), (1e-3, 4), (1, 1)):
                 with self.subTest(how=how, force=force, n=n):

@@ -224,8 +224,8 @@ quantities:
                 self.assertEqual([set(f.split(", ")) for f in found], [set(told.split(", "))] if told else [], more)
 
     def test_torque_of_its_own(self):
-        """Built-in sheets give a constant for the torque of a thin strip that is cubic in the twist. A constant given
-        as zero is known and zero."""
+        """Scenes of built-in sheets must contain the constant of the torque that is cubic in the twist. A constant
+        given as zero must count as known."""
         self.assertRegex(self.answered("scene", "sheet_wagner").stdout, "given: {Iw: [^}]*, wagner_torque: ")
         text = self.loaded_bar("").replace("omit: [trapeze]\n", "")
         for more, told in ((", given: {wagner_torque: 0}", "shear, warping"), (", given: {Iw: 0}", "shear, wagner_torque"),

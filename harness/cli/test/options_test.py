@@ -179,7 +179,8 @@ class Machine(ProgramTest):
         self.assertEqual(os.listdir(self.folder), ["list"])
 
     def with_stack(self, size, hard, path, **more):
-        """Runs verify with this stack size [kB] as soft or hard limit, and with only these environment variables."""
+        """Runs verify with this stack size [kB] as soft or hard limit, and with only these environment variables.
+        Only a hard limit must be reported."""
         def limit():
             resource.setrlimit(resource.RLIMIT_STACK,
                                (size * 1024, size * 1024 if hard else 2 ** 23))

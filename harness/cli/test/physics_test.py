@@ -216,9 +216,9 @@ class PhysicsTest(SceneCase):
             self.near(swings["wanted"], math.sqrt(stiff / (RHO * Ip)) / (4 * length), 3e-3)
 
     def test_strip_that_rotates(self):
-        """A strip whose width is in the plane of rotation has the torque (G It + N Ip/A) w' with N = rho A W^2 (L^2 -
-        x^2)/2, and the propeller moment W^2 rho (I1 - I2) w. The solution is a series in odd powers w = x, x^3, ...
-        of the distance from the hub."""
+        """A strip whose width is in the plane of rotation has the torque (G It + N Ip/A) w' with N = rho A W^2 (L^2
+        - x^2)/2, and, per length, the propeller moment W^2 rho (I1 - I2) w. w: twist angle, W: angular velocity,
+        x: distance from the hub. The exact frequency follows from a series of w in odd powers of x."""
         b, t, length, speed = 40e-3, 1e-3, 0.4, 300.0
         I1, I2, terms = t * b ** 3 / 12, b * t ** 3 / 12, 5
         Ip, It = I1 + I2, b * t ** 3 / 3 * (1 - 0.63025 * t / b)

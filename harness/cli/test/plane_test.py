@@ -379,8 +379,8 @@ def without(path, beginning):
 
 
 class NotAccepted(ProgramTest):
-    """Reference values without the known deviations of a formulation, which is accepted in one file and new in the
-    other."""
+    """Runs with reference values from which the known deviations of a formulation were removed. One file lists the
+    formulation as accepted, the other as new."""
 
     @classmethod
     def setUpClass(cls):

@@ -1,7 +1,6 @@
-/* A library for LD_PRELOAD. In the process that was started, but not in its children, the
- * allocation number k = $SCARCE_AT after the start of main fails. If $SCARCE_ONLY is set, only
- * calls of this function are counted. $SCARCE_COUNT is the file to which their number is
- * written. */
+/* A library for LD_PRELOAD. In the process that was started, but not in its children, allocation
+ * number $SCARCE_AT after the start of main fails. If $SCARCE_ONLY is set, only calls of this
+ * function are counted. $SCARCE_COUNT is the file to which their number is written. */
 #include <dlfcn.h>
 #include <errno.h>
 #include <pthread.h>

@@ -83,8 +83,8 @@ class Scarce(ProgramTest):
                     self.assertTrue(code in (2, 4, 5) or last.startswith(CRASHED), (code, errors))
 
     def test_results_of_workers(self):
-        """The parent has no memory for the results of a worker. It must not wait for this worker, which is still
-        running."""
+        """If the parent has no memory for the results of a worker, it must end without waiting for this worker,
+        which is still running."""
         code, _, errors, files = self.attempt(WORK["verify"], SCARCE_AT="1", SCARCE_ONLY="fmemopen")
         self.assertEqual((code, errors, files), (4, "beamwork: out of memory for results\n", ["tiny.yaml"]))
 

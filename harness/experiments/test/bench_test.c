@@ -14,8 +14,8 @@
 
 enum { PAIRS = 101, TRIALS = 300 };
 
-/* Returns a random time of a lap of 1.7 ms, with the scatter of a shared machine: mostly small,
- * sometimes large. */
+/* Returns a random time [s] for a lap of 1.7 ms, with the scatter of a shared machine: mostly
+ * small, sometimes large. */
 static double noisy(const gsl_rng *random, double drift)
 {
     const double tail =
@@ -56,8 +56,9 @@ static void test_against(void)
                  "no pair decides nothing");
 }
 
-/* The tail of 5e-4 is between P(Binomial(101, 1/2) < 34) = 3.2e-4 and P(Binomial(101, 1/2) < 35) =
- * 6.7e-4. */
+/* The ends of the 99.9 % interval for 101 ratios must be the 34th smallest and the 34th largest
+ * ratio, because 5e-4 is between P(Binomial(101, 1/2) < 34) = 3.2e-4 and P(Binomial(101, 1/2) < 35)
+ * = 6.7e-4. */
 static void test_interval(void)
 {
     double a[PAIRS], b[PAIRS];

@@ -200,8 +200,8 @@ static void errors(const gathering *g)
     gather_free(&list);
 }
 
-/* The times of every round are stored, for the cell and for the same cell with all coordinates
- * kept. None are stored if nothing was timed. */
+/* The times of every round must be stored, for the cell and for the same cell with all coordinates
+ * kept. If nothing was timed, none must be stored. */
 static void timings(void)
 {
     cell_timing t = {.as_is = {.setup = 1, .solve = 2, .rounds = ROUNDS_COUNT},

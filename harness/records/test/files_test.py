@@ -88,7 +88,8 @@ class Interrupted(Folder):
     partial."""
 
     def started(self, cells, *arguments):
-        """Starts a run. Returns it when its terminal output states that this number of cells is solved."""
+        """Starts a run. When its output on the terminal states that this number of cells has been run, returns the
+        process and the terminal."""
         terminal, end = pty.openpty()
         self.addCleanup(os.close, terminal)
         process = subprocess.Popen([PROGRAM, "verify", *arguments], stdout=subprocess.PIPE,

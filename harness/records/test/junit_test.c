@@ -1,5 +1,6 @@
-/* A JUnit file must be well-formed XML whose header counts its elements. The verdicts are of every
- * kind, expected or not, with any mixture of other failures of a run. */
+/* A JUnit file must be well-formed XML whose header contains the numbers of its tests, failures and
+ * skipped tests. The verdicts are of every kind, expected or not, with any mixture of other
+ * failures of a run. */
 #include <fcntl.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -377,7 +378,7 @@ static void rectangles(void)
     }
 }
 
-/* A rectangle with the same radii of inertia represents a section given by matrices. */
+/* A section given by matrices must be drawn as the rectangle with the same radii of gyration. */
 static void matrices(void)
 {
     section_spec spec;

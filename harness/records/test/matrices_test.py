@@ -18,8 +18,8 @@ FORMULATIONS = ("beamw_first", "beamw", "beamw_vlasov", "beamw_consistent", "she
                 "sheet_second_consistent", "sheet_third", "sheet_third_printed",
                 "geometrically_exact", "geometrically_exact:nodes=3", "collocation")
 
-# A bar that is stocky, so that the matrices have twelve digits, and rigid in shear, so that every formulation supports
-# it.
+# A bar that is stocky, so that the matrices are accurate to twelve digits, and rigid in shear, so that every
+# formulation supports it.
 BAR = """beamwork: 1
 sections:
   bar: {constants: {A: 1e-4, Iy: 5e-7, Iz: 8e-7, It: 9e-7}, young: 1e9, shear_modulus: 4e8,
@@ -143,8 +143,9 @@ class Matrices(ProgramTest):
 class Frequencies(Matrices):
 
     def test_loaded(self):
-        """The matrices are those at rest, under prestress, and in a state bent by a quarter of the length, also with a
-        rigid body. At rest, frequencies include the internal motions of elements."""
+        """The matrices at rest, under prestress, and in a state bent by a quarter of the length must have the
+        frequencies that the program computes, also with a rigid body. At rest, frequencies include the internal
+        motions of elements."""
         checked = with_inside = 0
         for formulation in FORMULATIONS:
             folder, values = self.solved(LOADED, formulation)
@@ -184,8 +185,8 @@ class Frequencies(Matrices):
                          [("1", "tip", 40), ("2", "tip", 5)])
 
     def test_loads_on_members(self):
-        """The table states the part of the member on which each load acts. The columns of B are the loads, so the
-        solution of K x = B 1 must be the linear solution."""
+        """The table must state the part of the member on which each load acts. The columns of B are the loads, so
+        the solution of K x = B 1 must be the linear solution."""
         loads = """  part: {distributed: [0, 6, 0], on: bar, from: 0.25, to: 0.75, to_value: [0, 0, 3]}
   point: {force: [1, 2, 3], on: bar, where: 0.5}
   halves: {distributed: [0, 0, 4], on: bar, lumped: yes}
@@ -348,8 +349,8 @@ class StateSpace(Matrices):
         self.assertLess(max(poles.real), 1e-3)
 
     def test_without_mass(self):
-        """A massless coordinate with damping has one state. Other massless coordinates are eliminated. An output rate
-        that follows its force instantaneously is rejected."""
+        """A massless coordinate with damping must have one state, and other massless coordinates must be eliminated.
+        A velocity that follows a force without delay must be rejected as an output."""
         scene = BENT.replace("  modes: {modal: {damped: yes%s}}\n", "%.0s")
         scene = scene[:scene.index("  f_$n")] + scene[scene.index("mass: lumped"):]
         holds = (0, SHAKEN, "", "", "", "", "")
@@ -434,7 +435,8 @@ class StateSpace(Matrices):
             self.assertFalse((self.folder/"new").exists())
 
     def test_modes_without_mass(self):
-        """An eccentric point mass has three modes with mass, for any requested quantity."""
+        """A structure whose only mass is an eccentric point mass must have three modes with mass, for any requested
+        quantity."""
         (self.folder/"scene.yaml").write_text("""beamwork: 1
 sections: {bar: {constants: {A: 1e-4, Iy: 5e-7, Iz: 8e-7, It: 9e-7}, young: 1e9, shear_modulus: 4e8}}
 nodes: {root: {at: [0, 0, 0], hold: all}, mid: {at: [1, 0, 0]}, tip: {at: [2, 0, 0], mass: 2, centre: [0.1, 0.2, 0.3]}}

@@ -161,7 +161,8 @@ static void permissions(void)
     folder_remove(&of);
 }
 
-/* If the name of a temporary file could be predicted, a link with this name would be followed. */
+/* The names of temporary files must be unpredictable; otherwise, a link with such a name could
+ * redirect the output. */
 static void temporary_names(void)
 {
     enum { NAMES = 50 };
