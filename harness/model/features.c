@@ -83,8 +83,8 @@ static unsigned needs_of_stresses(const section *c, unsigned needs)
         return 0;
     if (hypot(c->wagner_y, c->wagner_z) > zero * c->Ip * arm)
         out |= FEATURE_WAGNER_MOMENTS;
-    /* The effect is cubic in the twist rate, so it vanishes for small motions about the undeformed
-     * state. */
+    /* The Wagner torque is cubic in the twist rate, so it vanishes for small motions about the
+     * undeformed state. */
     if ((needs & FEATURE_LARGE) && fabs(c->wagner_torque) > zero * c->Ip * arm * arm)
         out |= FEATURE_WAGNER_TORQUE;
     return out;

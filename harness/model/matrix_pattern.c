@@ -14,9 +14,9 @@ static int has_unsymmetric(const model *m, int damped)
     return 0;
 }
 
-/* Returns 0 if there are dead moments about fixed axes (loads or reactions), follower loads, or
- * unsymmetric springs or dashpots. Both triangles of tangents are then stored, because their
- * symmetry depends on the state. */
+/* Returns 0 if there are dead moments about fixed axes (loads or reactions), follower loads,
+ * unsymmetric springs or dashpots, or forces with a history. Both triangles of tangents are then
+ * stored, because their symmetry depends on the state. */
 int assemble_symmetric(const model *m)
 {
     int whole = has_unsymmetric(m, 1) || model_absolute(m);

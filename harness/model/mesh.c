@@ -478,9 +478,9 @@ static double weight_of(int n, int node)
     return from_end < 3 ? closed[(n < most ? n : most) - 1][from_end] : 1;
 }
 
-/* Sets `couple` at an end of the element after node i, for the masses at the nodes beyond node i.
- * Together they have the inertia force of all mass beyond the node for a linear acceleration, and
- * its moment for a uniform acceleration. */
+/* Sets `share` and `couple` at an end of the element after node i. Together with the masses at the
+ * nodes beyond node i, they give the inertia force of all mass beyond node i for a linear
+ * acceleration, and its moment for a uniform acceleration. */
 static void set_end(mesh_element *el, int end, int n, int i, double beyond, double first)
 {
     const double length = n - i;

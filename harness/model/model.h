@@ -730,8 +730,8 @@ double kinematics_component(const model *, const model_state *, int node, int co
 double kinematics_relative(const model *, const model_state *, int from, int node, int component);
 double kinematics_driver_value(const model *, const model_state *, int driver);
 /* Returns the largest angle [rad] between the orientations of an element's nodes, and this element.
- * chords 1: the angle between a node and its chord. Angles below two full revolutions are
- * distinguished. */
+ * chords 1: also considers the angles between the chord of an element and the x axes of its ends.
+ * Angles below two full revolutions are distinguished. */
 double kinematics_largest_turn(const model *, const model_state *, int chords, int *element_index);
 /* Returns the largest such angle about the axis of the element. */
 double kinematics_largest_twist(const model *, const model_state *, int *element_index);
@@ -796,9 +796,9 @@ void metric_of(const model *, double weight[]);
 /* Returns the share of nodal displacements in the squared norm of an increment [free + driven]
  * (metric_of). */
 double metric_shift_part(const model *, const double dx[]);
-/* Returns the distance between two states (square root of the mean of metric_of). light[9 x (2 i +
- * block)], row-major: projections of motions of vertex i that are excluded, displacements in block
- * 0, and rotations in the axes of the vertex in block 1; NULL: nothing is excluded. */
+/* Returns the distance between two states (square root of the mean of metric_of). light[vertices x
+ * 2 x 9]: for each vertex, projections (3 x 3, row-major) onto the excluded displacements and onto
+ * the excluded rotations, the latter in the axes of the vertex; NULL: nothing is excluded. */
 double metric_distance(const model *, const model_state *, const model_state *,
                        const double light[]);
 /* Returns the largest angle [rad], over the nodes, between the orientations of a node in two
@@ -959,15 +959,15 @@ void spring_slopes(const model *, const model_state *, int spring, double S[36])
 void spring_strain(int nodes, const node_state x[], const double near[3], strain_output *out);
 
 /* Checks if the supports hold all parts of a structure. A rigid motion of a part has six
- * components: the displacement of an origin, and the rotation times the size of the model.
- * Constraints are sums of squares of lengths. */
+ * components: the displacement of an origin, and the rotation times the size of the model. The
+ * motions that supports prevent are represented by sums of their squares. */
 
 /* Returns 1 if a part of the undeformed structure can move in spite of the supports. *node: a node
  * of this part. motion: a rigid motion that the supports allow, scaled arbitrarily (displacement of
  * the node [m], rotation [rad]). Prescribed coordinates count as fixed. */
 int supports_loose_part(const model *, int *node, double motion[6]);
 
-/* Smallest relative eigenvalue of the sums of squares for which a part counts as held. Fixed points
+/* Smallest relative eigenvalue of the sum of squares for which a part counts as held. Fixed points
  * whose distance is below the square root of this value times the length count as one point. */
 extern const double supports_loose;
 

@@ -8,8 +8,8 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-/* Computes c = int_0^s exp(t k~) e_x dt in the triad at p, where k~ is the cross-product matrix of
- * k. */
+/* Computes the chord c = int_0^s exp(t k~) e_x dt of an arc of length s, in the triad at p. k~ is
+ * the cross-product matrix of its torsion and curvatures k. */
 static void chord_of(const double k[3], double s, double c[3])
 {
     const double w = vec3_norm(k), angle = w * s;

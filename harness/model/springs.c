@@ -211,11 +211,11 @@ void turns_lose(const model *m, const model_state *from, model_state *s)
 }
 
 /* Increments in the axes of p: delta = R_p^T (dr_q - dr_p), alpha = R_p^T dphi_p, beta = R_p^T
- * dphi_q, w = R_p^T (r_q - r_p). Translations: exp(-alpha~) (w + delta). The rotation vector theta
- * belongs to exp(-alpha~) exp(beta~) Theta. To second order, this is exp(gamma~) Theta with gamma =
- * beta - alpha - alpha x beta/2. log(exp(gamma~) Theta) has the first derivative B = 1 - theta~/2 +
- * c theta~^2, where c(x) = (1 - theta/2 cot(theta/2))/x and x = theta^2, and the second derivative
- * (dB[B gamma]) gamma. */
+ * dphi_q, w = R_p^T (r_q - r_p). Translations: exp(-alpha~) (w + delta). Theta = R_p^T R_q has the
+ * rotation vector theta, and becomes exp(-alpha~) exp(beta~) Theta. To second order, this is
+ * exp(gamma~) Theta with gamma = beta - alpha - alpha x beta/2. log(exp(gamma~) Theta) has the
+ * first derivative B = 1 - theta~/2 + c theta~^2, where c(x) = (1 - theta/2 cot(theta/2))/x and x =
+ * theta^2, and the second derivative (dB[B gamma]) gamma. */
 
 enum { N = NODE_COORDINATES, SIX = SPRING_STRAINS };
 

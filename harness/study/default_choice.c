@@ -4,8 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reasons against a formulation, the most serious first. The formulation with the least serious
- * reasons is chosen. */
+/* Reasons against a formulation, the most serious first, which are compared in this order. */
 enum { AGAINST_OMITTED, AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };
 typedef struct standing {
     int against[REASONS];

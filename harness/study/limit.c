@@ -123,8 +123,8 @@ static void few(const meshes *m, mesh_limit *out)
             end_factor * m->noise;
 }
 
-/* If the last change is within the scatter, sets the limit and returns 1. Otherwise returns 0, as
- * well as if the previous change is so large that the last change may be small by accident. */
+/* Sets the limit and returns 1 if the last change is within the scatter. Returns 0 otherwise, and
+ * if the previous change is so large that the last change may be small by accident. */
 static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const double a = fabs(m->change[m->count - 2]), b = fabs(m->change[m->count - 3]),

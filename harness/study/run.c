@@ -130,7 +130,7 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-/* Passes all remaining series to the observer. */
+/* Passes all remaining series to the follower. */
 static status pass_all(workload *w, fault *f)
 {
     while (workload_can_pass(w))

@@ -69,7 +69,7 @@ typedef struct mesh_limit {
     double limit, limit_uncertainty; /* NAN, INFINITY: none */
     /* order (NAN: none was observed), and the difference between the last two orders */
     double order, order_uncertainty;
-    double earlier_order; /* order of the last three meshes but two; NAN: none */
+    double earlier_order; /* order of the three meshes up to the third finest; NAN: none */
     /* 1: the middle one of the last three orders is clearly the smallest or the largest */
     int order_turns;
     double noise;       /* [unit of value] scatter that was assumed for the limit */
@@ -591,8 +591,8 @@ void child_begin(pid_t parent);
 void child_alarm(int seconds);
 /* Returns 1 if the child has ended. The child is not reaped. */
 int child_has_ended(pid_t process);
-/* Waits for the end of the child, and kills it after two seconds. Reaps the child and returns
- * the status from waitpid. */
+/* Waits for the end of the child for at most two seconds, then kills it. Reaps the child and
+ * returns the status from waitpid. */
 int child_reap(pid_t process);
 /* Describes how the child ended. how: status from waitpid. late 1: the child was killed after the
  * time limit. Returns 1 if the time limit was the reason. */
@@ -641,9 +641,9 @@ int curve_error_reference(const sweep *, int quantity);
 
 /* Location of data files: reference values, and programs that compute them. */
 
-/* Finds a data file or folder: next to the program or shared library, in the folder above it (a
- * clone), in share/beamwork of the installation prefix, or in share/beamwork of the prefix set at
- * build time. Returns 0 if it is in none of these. The path is then one next to the program. */
+/* Finds a data file or folder: next to the program or shared library, in the two folders above (a
+ * clone), in share/beamwork of these two (an installation), or in share/beamwork of the prefix set
+ * at build time. Returns 0 if it is in none of these. The path is then one next to the program. */
 int data_place(const char *name, char path[PATH_MAX]);
 /* Writes the path of the packed reference values, from the variable BEAMWORK_TRUTHS or from
  * data_place. */
@@ -935,12 +935,12 @@ status plan_add(sweep *s, const case_type *type, const double value[], const sce
 /* Adds a series to the last point, with the meshes of its scene. */
 status plan_extend(sweep *s, const formulation those[], int count, fault *f);
 
-/* Chooses a formulation that supports all features that the scene requires and has the shear theory
- * of the scene. No rule may say that the limit of a requested quantity is wrong or biased. Among
- * such formulations, the first criterion is the smallest number of such rules for other quantities.
- * The second is the order in the requested quantities, the third the order of names.
- * rules NULL: no list of known deviations. REFUSED: no formulation supports all features that the
- * scene requires. why: reason for the choice, in one line. */
+/* Chooses a formulation that supports all features that the scene requires or, if there is none,
+ * one that solves another model. Criteria, in this order: fewest omitted physics; fewest rules by
+ * which the limit of a requested quantity is wrong or biased; the shear theory of the scene; fewest
+ * such rules for any quantity of any case; highest order in the requested quantities; order of
+ * names. rules NULL: no list of known deviations. REFUSED: no formulation can solve the scene. why:
+ * reason for the choice, in one line. */
 status default_choice_formulation(const scene *, const rule_subject *where, const rule *rules,
                                   int count, formulation *out, char why[FAULT_TEXT], fault *f);
 

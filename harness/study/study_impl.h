@@ -126,15 +126,15 @@ typedef struct workload {
     const sweep_follower *follower; /* NULL: none */
     int time_limit;                 /* [s] time limit of a cell; 0: none */
     int together;                   /* as in the request */
-    /* count: number of cells, which come first, in the order of their cost; all: number of all
-     * tasks, which are the cells and two more for each series */
+    /* count: number of cells, which come first, in the order of run_cost_order; all: number of all
+     * tasks, which are the cells and two repetitions for each series */
     int count, all;
     workload_task *tasks;
     char *done;         /* [all] 1: the task has a result */
     int due, finished;  /* numbers of required and of finished tasks */
     int *open;          /* [series] number of unfinished tasks */
     char *state;        /* [series] enum series_state */
-    int passed;         /* number of series that have been passed to the observer */
+    int passed;         /* number of series that have been passed to the follower */
     cell_result *again; /* [all - count] results of repetitions */
     task_locks *known; /* locks of problems that are solved only once; NULL: all cells are solved */
     /* [all] first task that waits for the results of this task; next task that waits for the same
@@ -165,9 +165,9 @@ void workload_same(workload *, int task, int same);
  * cells. */
 double workload_share(const workload *);
 
-/* Returns 1 if the next series is complete, so that it can be passed to the observer. */
+/* Returns 1 if the next series is complete, so that it can be passed to the follower. */
 int workload_can_pass(const workload *);
-/* Passes the next series to the observer. */
+/* Passes the next series to the follower. */
 status workload_pass(workload *, fault *);
 /* Removes incomplete series. */
 void workload_keep_whole(workload *);

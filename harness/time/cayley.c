@@ -205,7 +205,7 @@ static void spin_of(const cayley_step *s, cayley_slopes *d)
         d->spin[i] += part * ratio * ratio / 2 * g[i];
 }
 
-/* Returns the factor f in d psi = f c^ . d c^, where x = |c^|. */
+/* Returns the factor f in d psi = f c^ . d c^, where x = |c^| and phi = psi c^ (cayley_step). */
 static double arc_change(double x, double psi)
 {
     return x < 0.02 ? -1 / 6.0 + x * x / 20 : (1 / (1 + x * x / 4) - psi) / (x * x);

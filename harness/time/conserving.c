@@ -158,9 +158,9 @@ static void release(motion_scheme *base)
     free(s);
 }
 
-/* Checks the rotations. REFUSED: the rotation of a node has exactly two free angles. At the end of
- * a step, a mass would have an angular velocity normal to both axes, whose energy the rates of the
- * angles do not contain. */
+/* Checks the rotations. REFUSED: a node rotates by a sequence of two angles, and both are free. At
+ * the end of a step, a mass would have an angular velocity normal to both axes, whose energy the
+ * rates of the angles do not contain. */
 static status check(const model *m, fault *f)
 {
     for (int i = 0; i < model_scene(m)->nodes; i++) {

@@ -180,9 +180,10 @@ status conserving_stresses(conserving *s, const motion_state *from, model_state 
     return STATUS_OK;
 }
 
-/* Centres of mass move by dr_c = h (v_c + v_c1)/2 and rotate by R_n^T c = h (W + W1)/2. Forces act
- * at the mean positions of the centres. If a frame can only rotate, its tensor about the frame's
- * origin is constant in its axes. */
+/* Centres of mass move by dr_c = h (v_c + v_c1)/2, and masses rotate by the Cayley vector c with
+ * R_n^T c = h (W + W1)/2, where W are angular velocities in the axes of the frame. Forces act at
+ * the mean positions of the centres. If a frame can only rotate, the tensor of the mass about the
+ * origin of the frame is constant in the axes of the frame. */
 
 /* Returns the number of fixed translations of a frame that has free translations too; otherwise 0.
  * In these directions, the translation of the centre of mass follows from the rotation of the

@@ -205,12 +205,12 @@ void frame_masses_free(frame_masses *c)
     memset(c, 0, sizeof *c);
 }
 
-/* Treats frames with both fixed and free translations. The fixed component of the velocity of the
- * centre follows from the rotation: it is w x s at both ends of the step. The mean of its end
- * values differs from the mean velocity of the step by h (v_c + v_c1)/2 - dr_c = h/4 c x g, g =
- * (R_n + R_1)/2 (W1
- * - W) x s. The moment g x m (v_c1 - v_c)/4 of the fixed components compensates the work of this
- *   difference, so the gain of kinetic energy equals the work. */
+/* Treats frames with both fixed and free translations. Along the fixed ones, the velocity v_c of
+ * the centre, at s from the frame, follows from the rotation: it is w x s at both ends of the step.
+ * The displacement dr_c of the centre then differs from that of the mean velocity: h (v_c + v_c1)/2
+ * - dr_c = h/4 c x g with g = (R_n + R_1)/2 [(W1 - W) x s], where s is in the axes of the frame.
+ * The moment g x m (v_c1 - v_c)/4 of the fixed components compensates the work of this difference,
+ * so the gain of kinetic energy equals the work. */
 
 /* Replaces the components along fixed translations in to[3 x n] by those of `from`. */
 static void hold_rows(const frame_mass_step *p, int n, const double from[], double to[])

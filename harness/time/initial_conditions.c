@@ -301,7 +301,8 @@ static status check_mass(const analysis_context *c, int analysis, fault *f)
     return STATUS_OK;
 }
 
-/* Checks for the conserving scheme that strains are independent of rigid rotations. */
+/* Checks the formulation for the integrator conserving. REFUSED: it has additional unknowns or a
+ * history, or its strains depend on rigid rotations. */
 static status check_conserving(const analysis_context *c, int analysis, fault *f)
 {
     const element_type *t = model_type(c->model);

@@ -6,9 +6,11 @@
 
 #include "elements/math/scalar.h"
 
-/* Computes the error of positions due to a completed step, with the norm of model.h. The error
- * satisfies [g^2 M + K] error = F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)) at the
- * start of the step, where g = 1/(l h) and l is the real eigenvalue of A. room: work space. */
+/* Computes the error of positions due to a completed step, with the norm of metric_distance. The
+ * error satisfies [g^2 M + K] error = F(x, v) + M (sum e_i (v_i - v)/h + g (v + sum e_i inc_i/h)).
+ * F are the forces at the start of the step, v_i and inc_i belong to stage i, e_i are the
+ * coefficients of the estimate, g = 1/(l h), and l is the real eigenvalue of A. room: work space.
+ */
 static status radau_error(radau *, const motion_state *from, double h, motion_state *room,
                           double *error, fault *);
 

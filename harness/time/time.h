@@ -76,7 +76,7 @@ typedef struct frame_mass {
 typedef struct frame_masses {
     int masses;
     frame_mass *mass; /* [masses] for each frame with mass */
-    /* [coordinates] masses of warping amplitudes [kg m^4]; 0 for other coordinates */
+    /* [free + driven] masses of warping amplitudes [kg m^4]; 0 for other coordinates */
     double *warping;
     double total; /* [kg] total mass */
     /* 1: elements have consistent masses (time_impl.h), which are not contained in this
@@ -146,9 +146,9 @@ struct motion_scheme {
 
 /* Energy-balance error relative to the energy of the motion. */
 
+enum { ACCOUNT_STEPS = 10 }; /* number of first steps whose energy is too small for a check */
 /* Limits relative to account_size: unexplained energy gain that stops a motion, energy loss that is
  * reported, and energy loss that stops a motion without requested numerical damping */
-enum { ACCOUNT_STEPS = 10 }; /* number of first steps whose energy is too small for a check */
 extern const double account_gained, account_stated, account_lost;
 
 typedef struct account {
@@ -184,7 +184,8 @@ void feedback_signals(const equations *, const model_state *, int load, double p
 /* Transient analysis: computes the states at the requested times. */
 
 /* Checks before any analysis runs that the integrator supports the formulation, the form of
- * Newton's method, the damping and the kind of mass, and that all drivers are functions of time. */
+ * Newton's method, the damping and the kind of mass, and that the values of all drivers are
+ * known. */
 status motion_check(const analysis_context *, int analysis, fault *);
 status motion_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 /* Returns the end of another run that the motion continues; NULL: none. */

@@ -47,9 +47,9 @@ status account_check(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
 
 /* Damping adds V e' to the stresses of elements, where e' are the strain rates. V is eta S0 plus
- * the damping matrix of the formulation; S0 is the stiffness of the undeformed element. Rigid
- * motions are not damped. For dashpots, e' are the deformation rates of the spring, and V is
- * given. */
+ * the damping matrix of the formulation; eta [s] is the damping of the member, and S0 is the
+ * stiffness of the undeformed element. Rigid motions are not damped. For dashpots, e' are the
+ * deformation rates of the spring, and V is given. */
 
 /* Sets the strain rates to known + g (e - strains of `from`) with known[model_stresses]. from NULL:
  * g is 0. */
@@ -146,7 +146,7 @@ typedef struct body_mass {
     double *unit;
     int *used;            /* [count] work space */
     double *rest, *value; /* work space: [count x count] and [count] */
-    double *zero;         /* [free + driven] rates */
+    double *zero;         /* [free + driven] zeros, used as rates */
 } body_mass;
 
 /* Allocates work space for all bodies of the model. */
@@ -164,7 +164,8 @@ int body_mass_rank(body_mass *, double none);
 /* Splits the step of one element into a common rotation, which is removed exactly, and a relative
  * motion. Node j moves by dr_j and rotates by the Cayley vector c_j, R_1 = cay(c) R_n. With the
  * mean c, kappa = 1/sqrt(1 + c.c/4), b = kappa^2/(4 (1 + kappa)), S = kappa 1 + b c c^T, T = 1 - b
- * c c^T, G half the common rotation and D_j = r_j - mean r,
+ * c c^T, G half the common rotation and D_j = r_j - mean r, which changes by dD_j from D_n to D_1
+ * and has the mean Dm_j,
  *   r(s) = (1 - s) G D_n + s G^T D_1,   R(s) = exp(s phi) G R_n,   a(s) = a_n + s da,
  *   dr^_j = S (dD_j - c x Dm_j),   c^_j = T (c_j - c)/(kappa (1 + c.c_j/4)),   phi_j = psi_j c^_j.
  *   Rigid motions have no relative motion. A spring to the ground has no common rotation: c = 0,
@@ -206,7 +207,8 @@ typedef struct cayley_point {
 void cayley_between(const cayley_step *, double at, cayley_point *);
 
 /* Transforms the columns of f[7 nodes x columns], forces on the relative motion, to forces on dr, c
- * and da: F_j = S f_j, M_j = z_j T m_j - mean (z_i T m_i + Dm_i x S f_i). */
+ * and da: F_j = S f_j, M_j = z_j T m_j - mean (z_i T m_i + Dm_i x S f_i), z_j = psi_j/(kappa (1 +
+ * c.c_j/4)). */
 void cayley_forces(const cayley_step *, int columns, double f[]);
 
 /* Updates the strains to match the stresses of the state, if the stress function P' of elements is
@@ -219,8 +221,8 @@ void cayley_forces(const cayley_step *, int columns, double f[]);
 typedef struct strain_update strain_update; /* data for one state */
 
 /* Allocates the data of the update. Sets *out to NULL if there are no updates: stresses are linear
- * in the strains, they depend on inner unknowns, or a type in another process evaluates all
- * elements in one call. */
+ * in the strains, they depend on inner unknowns or on a history, or a type in another process
+ * evaluates all elements in one call. */
 status strain_update_alloc(const equations *, strain_update **out, fault *);
 void strain_update_free(strain_update *);
 
@@ -452,7 +454,7 @@ void conserving_increment(const conserving *, const model_state *from, double in
 
 /* Sets the work and the dissipated energy of `to` (conserving_forces.c). */
 status conserving_work(conserving *, const motion_state *from, motion_state *to, double h, fault *);
-/* Computes strain rates at the end of the step, and adds eta S0 e' to the stresses of damped
+/* Computes the strain rates e' at the end of the step, and adds V e' to the stresses of damped
  * members. */
 void conserving_damped(const conserving *, const motion_state *from, double h, motion_state *to);
 
@@ -531,16 +533,19 @@ status checks_massless(const analysis_context *, const frame_masses *, const sce
                        const model_state *begin, fault *);
 
 /* Integrator that conserves energy and both momenta for any formulation. A step evaluates `strain`
- * in three states, and `stress` at its end. With the strains e at both ends, s = (sigma_n +
- * sigma_1)/2,   W = (P''(e_n) + P''(e_1))/2, d = sum_g w_g J(x(s_g)) (dr^, phi, da),   sigma_m = s
- * + k W d, k = sum [P(e_1) - P(e_n) - s.d]/sum d.W d. The number k is common to the whole
- * structure. Then sum sigma_m.d is the change of energy, and the forces A^T sigma_m do no work in a
- * rigid motion (cayley_step). Translations follow from m (v1 - v)/h = f - F with dr = h (v + v1)/2.
- * Rotations follow from Cayley vectors: R_n^T c = h (W + W1)/2, (R_1 J W1 - R_n J W)/h = m - M. The
- * method follows Simo, Tarnow & Doblare (1995), Gonzalez (1996) and Sansour et al. (2004). The
- * common rotation of an element, its two points and the single number k are beamwork's variant. W
- * is not P'' of the undeformed element: if stresses depend on the bending of an element, its stiff
- * directions change with the strains, and k W d would have a component along them. */
+ * in three states, and `stress` at its end. With the strain energy P(e), the strains e_n and e_1 at
+ * the ends of the step, and Gauss points s_g with weights w_g, s = (sigma_n + sigma_1)/2,   W =
+ * (P''(e_n) + P''(e_1))/2, d = sum_g w_g J(x(s_g)) (dr^, phi, da) = A (dr, c, da),   sigma_m = s +
+ * k W d, k = sum [P(e_1) - P(e_n) - s.d]/sum d.W d. The number k is common to the whole structure.
+ * Then sum sigma_m.d is the change of energy, and the forces A^T sigma_m do no work in a rigid
+ * motion (cayley_step). Translations of a mass follow from mass (v1 - v)/h = external minus
+ * internal force, with dr = h (v + v1)/2. Rotations follow from the Cayley vector c with R_n^T c =
+ * h (w_n + w_1)/2 and from (R_1 J w_1 - R_n J w_n)/h = external minus internal moment, where w_n
+ * and w_1 are the angular velocities in the axes of the frame. The method follows Simo, Tarnow &
+ * Doblare (1995), Gonzalez (1996) and Sansour et al. (2004). The common rotation of an element, its
+ * two points and the single number k are beamwork's variant. W is not P'' of the undeformed
+ * element: if stresses depend on the bending of an element, its stiff directions change with the
+ * strains, and k W d would have a component along them. */
 
 /* Allocates the integrator. Rates of massless coordinates are mean rates of a step. REFUSED: a node
  * rotates by two free successive angles, no rotation has inertia, a node of a diaphragm tilts, or
@@ -607,7 +612,7 @@ void deformable_evaluate(const conserving *, const motion_state *from, const mod
 
 /* Prescribed coordinates as functions of time: increments, rates and accelerations. */
 
-/* Checks the drivers. REFUSED: an unknown driver is not a function of time. */
+/* Checks the drivers. REFUSED: the value of a driver is unknown. */
 status drive_check(const model *, fault *);
 /* Computes entries [free, free + driven) of inc (relative to the state), v and a at `time`; NULL:
  * not requested. */
@@ -615,9 +620,10 @@ void drive_at(const equations *, const model_state *from, double time, double in
               double a[]);
 
 /* Runge-Kutta method of order 8 with an error estimate of order 7 (Prince & Dormand 1981, rk8pd of
- * GSL). The equations are inc' = X v and v' = M^-1 (f - h - J^T sigma), where X is
- * rotation_rates_inverse for rotations in the axes of the frame, and 1 otherwise. It is meant for
- * reference values of a given mesh. Positions are increments from the start of a step. */
+ * GSL). The equations are inc' = X v and v' = M^-1 (f - h - J^T sigma), where f are the loads and h
+ * the inertia forces due to v, and X is rotation_rates_inverse for rotations in the axes of the
+ * frame, and 1 otherwise. It is meant for reference values of a given mesh. Positions are
+ * increments from the start of a step. */
 
 /* Allocates the integrator. REFUSED: a coordinate has no inertia. */
 status explicit_alloc(const scheme_request *, motion_scheme **, fault *);
@@ -673,8 +679,8 @@ void extent_begin(extent *, const model *);
 extent extent_with(const extent *, const model *, const motion_scheme *, const motion_state *from,
                    const motion_state *to, double h, double error);
 /* Returns the estimated error of a step of h [s]. If errors add up, it is computed from the largest
- * estimate within the last ten radians of the motion. At a change of sign of the rates, the error
- * of positions is zero, but the error of the rates is largest. */
+ * previous estimate, which decays exponentially over a phase of ten radians. At a change of sign of
+ * the rates, the error of positions is zero, but the error of the rates is largest. */
 double extent_error(const extent *, const motion_scheme *, double h, double error);
 /* Returns the allowed error of a part of the motion, given the tolerance of the whole motion; at
  * least the rounding error of the coordinates. */
@@ -862,12 +868,12 @@ void extrema_end(extrema *);
 
 /* Motion of a frame during a step, from the coordinates of its body and of a released end. It is
  * exact, so forces do equal work in both sets of coordinates. Subscript m denotes the mean of the
- * values at the two ends of the step, subscripts n and 1 denote the start and the end. For a frame
- * moved by a body: dr = dr_b + c x rho_m, with forces f and m + rho_m x f. Angles and released
- * rotations, each about an axis b, with tau = 2 tan(d angle/2): c_k = c_(k-1) + tau_k x_k, x = [b +
- * c x b/2 + c (c.b)/4]/(1 - tau c.b/4), where b is taken at the start; x lies along the mean axis,
- * about which no moment acts. Released sliding s along an axis a adds c x (a s)_m + [a_m
- * - c x (a_1 - a_n)/4] ds to dr. */
+ * values at the two ends of the step, subscripts n and 1 denote the start and the end. A frame at
+ * the vector rho from the body that moves it has dr = dr_b + c x rho_m, and its force f and moment
+ * m act on the body as f and m + rho_m x f. Angles and released rotations, each about an axis b,
+ * with tau = 2 tan(d angle/2): c_k = c_(k-1) + tau_k x_k, x = [b + c x b/2 + c (c.b)/4]/(1 - tau
+ * c.b/4), where b is taken at the start; x lies along the mean axis, about which no moment acts.
+ * Released sliding s along an axis a adds c x (a s)_m + [a_m - c x (a_1 - a_n)/4] ds to dr. */
 
 enum { FRAME_MOTION_MOST = 6 + SCENE_RELEASED };
 
@@ -904,8 +910,9 @@ void frame_motion_add(conserving *, const model_state *from, const model_state *
 
 /* Radau IIA with three stages (Hairer & Wanner II, IV.8) and order 5, for q' = v, v' = a. The
  * unknowns are the positions of the stages, where rotations are vectors in the axes of the frame:
- *     t_i' = 1/h sum_j B_ij t_j,  W_i = Jr(t_i) t_i',  a_i = 1/h sum_j B_ij (v_j - v),  B = A^-1.
- * The mixed Newton iteration (Nijenhuis et al., section 4) solves all three stages together. */
+ *     t_i' = 1/h sum_j B_ij t_j,  W_i = Jr(t_i) t_i',  a_i = 1/h sum_j B_ij (v_j - v),  B = A^-1,
+ * where A is the matrix of the scheme and Jr is that of rotation_rates_jacobian. The mixed Newton
+ * iteration (Nijenhuis et al., section 4) solves all three stages together. */
 
 /* Allocates the integrator. An additional factorisation in each step gives an error estimate of
  * order 3. */

@@ -44,8 +44,8 @@ class ImperfectionTest(SceneCase):
             self.record("solve", "--scene", self.scene(text), "-f", formulation, "-n", n, *more))
 
     def test_magnified_moment(self):
-        """The moment is N a/(1 - N/N_k), for bending about both axes, where N_k is the buckling load for the same
-        number of half-waves."""
+        """Under the load N, a bow of amplitude a must cause the moment N a/(1 - N/N_k), for bending about both axes.
+        N_k is the buckling load with the same number of half-waves."""
         bow = 1e-5
         for half_waves, part, where in ((1, 0.5, 0.5), (2, 2.0, 0.25), (3, -3.0, 1 / 6)):
             for amplitude, resultant in ((f"[{bow}, 0]", "Mz"), (f"[0, {bow}]", "My")):
@@ -58,7 +58,7 @@ class ImperfectionTest(SceneCase):
                                            msg=(formulation, half_waves, resultant))
 
     def test_chords_converge(self):
-        """Formulations without initial curvature replace the shape by chords, and converge with order 2."""
+        """Formulations without initial curvature replace the shape by chords, and must converge with order 2."""
         exact = 0.5 * CRITICAL * 1e-5 / 0.5
         for formulation in ("beamw", "beamw_consistent", "beamw_first", "beamw_vlasov"):
             error = [abs(abs(self.solve(column("[1e-5, 0]") + pushed(0.5), formulation, n)["moment"])
@@ -101,7 +101,7 @@ class ImperfectionTest(SceneCase):
                                            msg=(formulation, half_waves, name))
 
     def test_frequency_of_a_shallow_arch(self):
-        """Between fixed hinges, omega^2 = pi^4 E I/(rho A L^4) (1 + A a^2/(2 I)) holds for small slopes."""
+        """A shallow bow of amplitude a on fixed hinges must have omega^2 = pi^4 E I/(rho A L^4) (1 + A a^2/(2 I))."""
         area, bow = 1e-3, 0.02
         exact = math.sqrt(math.pi**4 * YOUNG * I / (7850 * area * LENGTH**4) *
                           (1 + area * bow**2 / (2 * I))) / (2 * math.pi)
@@ -133,7 +133,7 @@ class ImperfectionTest(SceneCase):
                     self.assertAlmostEqual(got["critical"], 2, delta=1e-5, msg=formulation)
 
     def test_mode_of_a_twisted_beam(self):
-        """The twist of a mode is included in the initial shape. Every formulation converges with order 2
+        """The initial shape must include the twist of a mode. Every formulation must converge with order 2
         (cases/examples/crooked_beam.yaml)."""
         path = ROOT / "cases/examples/crooked_beam.yaml"
         for formulation in FORMULATIONS:

@@ -1,5 +1,6 @@
-/* Initial elongation and shear strains (N Eq. 52). A free member has these strains without stress.
- * A held member has the force EA g or GA g. */
+/* Initial elongation and shear strains g (N Eq. 52). A free member must have these strains without
+ * stress. A member that is fixed at both ends must have the reaction -EA g, or that of a clamped
+ * beam whose end is displaced by -L g. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>

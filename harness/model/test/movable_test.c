@@ -208,8 +208,8 @@ static void lumped_moments(const char *name)
     test_element_free(&s);
 }
 
-/* For each node of a two-node element, the mass matrix must be that of a slice, given per length,
- * times half the length. */
+/* For each node of a two-node element, the mass matrix must be that of the section, which is given
+ * per length, times half the length of the element. */
 static void slice(const char *name)
 {
     formulation chosen;
