@@ -6,8 +6,8 @@
 #include "elements/math/rotation.h"
 
 /* Computes error[k] [m] for k = 1 ... most: the largest error of displacements and strains when
- * at[most] is extrapolated from the k previous states. k = 1: the last state unchanged. INFINITY:
- * the extrapolation is not possible. */
+ * at[most] is extrapolated from the k previous states. k = 1: the previous state, unchanged.
+ * INFINITY: the extrapolation is not possible. */
 static void extrapolate_errors(const equations *, int most, const model_state *const at[],
                                double error[]);
 

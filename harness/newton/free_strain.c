@@ -52,7 +52,7 @@ static void add_amounts(const model *m, int element, const scene_load *load, dou
     out[ABOUT_Z] -= strain * (a * along[0] + b * along[1]);
 }
 
-/* Computes the sum of all temperature loads at `path`. */
+/* Computes the free strains due to all temperature loads at `path`. */
 static void heat_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const scene *s = model_scene(eq->m);

@@ -171,7 +171,7 @@ typedef struct shared_loop {
     model_linearisation *lin;
     const mesh_pattern *pattern; /* pattern of K; NULL: K is not requested */
     int tangent, window;
-    element_part *part; /* [slots of the pool x window] */
+    element_part *part; /* [slots of the pool x window] equations of elements */
     status outcome;
     fault *f;
 } shared_loop;
@@ -211,7 +211,8 @@ static void fill_piece(void *context, int piece, int slot)
 }
 
 /* Returns the number of elements whose parts are stored in eq->run->part. 0: elements are added one
- * at a time, because there is too little memory or only one thread. */
+ * at a time, because there is too little memory, or neither several threads nor batches are used.
+ */
 static int window_of(const equations *eq)
 {
     const model *m = eq->m;

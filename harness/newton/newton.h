@@ -1106,9 +1106,10 @@ typedef struct internal_place {
 } internal_place;
 
 /* Computes the resultants at a position on a member, and the other values of section_forces.h:
- * out[SPAN_VALUES]. NOT_CONVERGED: as for span_recover. In a motion, the mass is distributed evenly
- * along an element, and accelerations are interpolated between its nodes. If accelerations vary
- * linearly, values are continuous between elements. Warping inertia acts at nodes. */
+ * out[SPAN_VALUES]. NOT_CONVERGED: as for span_recover. REFUSED: a load begins, ends or acts inside
+ * an element. In a motion, the mass is distributed evenly along an element, and accelerations are
+ * interpolated between its nodes. If accelerations vary linearly, values are continuous between
+ * elements. Warping inertia acts at nodes. */
 status internal_at(const equations *, const internal_state *, const internal_place *, double out[],
                    fault *);
 
@@ -1380,8 +1381,8 @@ int rotating_frame_inner_matrix(const equations *, sparse *out);
 
 /* Explains why a stiffness matrix cannot be factored. */
 
-/* If released ends make the undeformed structure a mechanism, describes the motion in f and returns
- * SINGULAR. Otherwise returns `otherwise` and does not change f. */
+/* If released ends or constraints make the undeformed structure a mechanism, describes the motion
+ * in f and returns SINGULAR. Otherwise returns `otherwise` and does not change f. */
 status singular_mechanism(const analysis_context *c, status otherwise, fault *f);
 
 /* Finds the cause of a failed factorisation: a part without supports, rounding due to many elements

@@ -517,12 +517,13 @@ typedef struct link_element {
  * not subtracted. SINGULAR: the element, clamped at its first node, is in a critical state. */
 status link_of(const link_element *, chain_link *, fault *);
 
-/* Mechanisms: members are the rigid parts of a linkage, and released ends are its joints. */
+/* Mechanisms: members are the rigid parts of a linkage, and released ends and constraints connect
+ * them. */
 
-/* Returns 1 if released ends make the undeformed structure with its supports a mechanism. Sets
- * *node to the node with the largest motion. If no node moves, sets *node to -1 and *member to a
- * moving member. motion: displacement [m] and rotation [rad], with an arbitrary factor. Structures
- * of more than 200 parts are not examined. */
+/* Returns 1 if released ends or constraints make the undeformed structure with its supports a
+ * mechanism. Sets *node to the node with the largest motion. If no node moves, sets *node to -1 and
+ * *member to a moving member. motion: displacement [m] and rotation [rad], with an arbitrary
+ * factor. Structures of more than 200 parts are not examined. */
 int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
 
 /* Small symmetric matrices whose rows may have different units. */

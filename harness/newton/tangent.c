@@ -18,8 +18,8 @@ static void border_fill(border *, int free_count, const sparse *K);
 static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int columns,
                            double x[]);
 /* Refines s->x iteratively for s->load. The stiff part of the residuals is computed from the
- * element strains (refinement_evaluate). SINGULAR: the accuracy is insufficient because of
- * rounding.
+ * element strains (stiffness_parts_material_product). SINGULAR: the accuracy is insufficient
+ * because of rounding.
  * */
 static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f);
 

@@ -308,8 +308,8 @@ class Discretised(ProgramTest):
         return done.returncode, values, said
 
     def test_arcs(self):
-        """An arc is accepted if EA l^4 k^2/EI of one element is below the value for a rise of two radii of gyration;
-        it is 64 (rise/radius of gyration)^2."""
+        """An arc of curvature k is accepted if EA l^4 k^2/EI of an element of length l is below the value for a rise of
+        two radii of gyration. The ratio is 64 (rise/radius of gyration)^2."""
         for n in (1, 2, 4, 8):
             turn = math.pi / 2 / n
             for side in (0.25, 0.98, 1.02, 30):
@@ -341,8 +341,8 @@ class Discretised(ProgramTest):
                 self.assertGreater(values["compression"], 0, (formulation, n))
 
     def test_tension_of_states(self):
-        """The largest N l^2/EI of one element is 12, 60 or 30 + sqrt(1620), depending on the formulation. Beyond the
-        limit, the tip displacement may have either sign, so no value may be returned."""
+        """The largest accepted N l^2/EI is 12, 60 or 30 + sqrt(1620), depending on the formulation (tension N, element
+        length l). Beyond the limit, the tip displacement may have either sign, so no value may be returned."""
         for formulation, most in (("geometrically_exact:nodes=2", 12), ("geometrically_exact", 60),
                                   ("sheet_third", 30 + math.sqrt(1620)), ("sheet_third_printed", 30 + math.sqrt(1620))):
             for n in (1, 2, 16):

@@ -509,8 +509,9 @@ static void inertia_counts_critical_loads(void)
     const double weak = PI * PI / 4;
     const double path[] = {0.9 * weak, 1.1 * weak, 3.9 * weak, 4.1 * weak, 8.8 * weak,
                            9.2 * weak, 24 * weak,  26 * weak,  35 * weak,  37 * weak};
-    const int below[] = {0, 1, 1, 2, 2,
-                         3, 3, 4, 4, 5}; /* weak plane 1, 9, 25, 49; strong plane 4, 36 */
+    const int below[] = {
+        0, 1, 1, 2, 2, 3,
+        3, 4, 4, 5}; /* critical loads/weak: 1, 9, 25, 49 in the weak plane, 4, 36 in the other */
     enum { STATIONS = sizeof below / sizeof below[0] };
     const char *const names[] = {"beamw_consistent", "collocation", "geometrically_exact"};
     for (size_t k = 0; k < sizeof names / sizeof names[0]; k++) {
