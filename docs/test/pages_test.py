@@ -1,4 +1,4 @@
-"""The outputs shown on pages of docs/ are those of their commands."""
+"""The outputs shown on pages of docs/ must be those of their commands."""
 import unittest
 
 from harness.tools import shown_commands as commands
@@ -19,7 +19,7 @@ class Pages(unittest.TestCase):
         self.assertGreater(count, 40)
 
     def test_every_command_is_run(self):
-        """A `$ ` outside a console block would not be run."""
+        """Every line that begins with `$ ` must be in a console block, because others are not run."""
         for page in commands.pages():
             text = page.read_text(encoding="utf-8")
             run = sum(len(commands.commands(body)) for kind, body in commands.BLOCK.findall(text)
@@ -36,7 +36,8 @@ class Pages(unittest.TestCase):
 class Marks(unittest.TestCase):
 
     def test_difference_is_noticed(self):
-        """A digit, a missing line and an additional line are differences. Text matched by `...` is not."""
+        """A different digit, a missing line and an additional line must count as differences, and text matched by `...`
+        must not."""
         for shown, printed, same in (("a 1.5 s", "a 1.5 s", True), ("a 1.5 s", "a 1.6 s", False),
                                      ("a ... s", "a 1.6 s", True), ("a ... s", "b 1.6 s", False),
                                      ("a\n...\nd", "a\nb\nc\nd", True), ("a\n...\nd", "a\nb", False),

@@ -193,7 +193,8 @@ class Drawn(ProgramTest):
         self.assertIn("whose costs cannot be ranked", page)
 
     def test_results_without_costs(self):
-        """Results of earlier versions contain no costs. The page states why there is no formulation of lowest cost."""
+        """Results of earlier versions contain no costs. The page must then state why there is no formulation of lowest
+        cost."""
         old = self.folder / "old.h5"
         shutil.copy(self.results, old)
         with h5py.File(old, "r+") as file:

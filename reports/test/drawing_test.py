@@ -76,7 +76,7 @@ class Drawings(unittest.TestCase):
                                 "coupled: rz equal (wheel_2, clutch)"])
 
     def test_loads_on_parts_of_members(self):
-        """Arrows are only on the loaded part and are longer where the load is larger."""
+        """Arrows must be only on the loaded part and must be longer where the load is larger."""
         one = scene.read(run("scene", "--scene", str(LOADED)).stdout)
         self.assertEqual(len(one.loads), 19)
         figure = draw.draw(one)
@@ -162,7 +162,8 @@ analyses: {a: {linear: {}}}
         self.assertFalse(geometry.choose_view(frame[:2], down, [], True).face_on)  # the section is visible
 
     def test_far_axes(self):
-        """A distant axis of rotation is only described in text, because it would make the structure small."""
+        """A distant axis of rotation must only be described in text, because drawing it would make the structure
+        small."""
         text = """
 name: turns
 sections: {s: {rectangle: {width: 0.1, thickness: 0.1}}}

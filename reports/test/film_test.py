@@ -71,7 +71,7 @@ class Film(ProgramTest):
         self.assertLess(np.ptp(off, axis=(0, 1)).max(), 1.01 * half / shapes.WHOLE)
 
     def test_sections_turn_with_their_frames(self):
-        """The axes of the last frame are those of the first frame, rotated by angular velocity times time."""
+        """The axes of the last frame must be those of the first frame, rotated by angular velocity times time."""
         s = shapes.read_file(self.results, CASE)
         angle = 2.0 * (TIMES[-1] - TIMES[0])
         turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0],

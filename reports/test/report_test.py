@@ -281,8 +281,8 @@ def point(*found):
 class Figures(unittest.TestCase):
 
     def test_below_the_digits(self):
-        """Markers of errors below the uncertainty of the reference value (1e-6) are hollow, and the legend explains
-        them."""
+        """Markers of errors below the uncertainty of the reference value (1e-6) must be hollow, and the legend must
+        explain them."""
         site, own = Site(), point(series("beamw", (1e-2, 1e-4, 1e-8, -1e-9)))
         image = plots.errors_figure(site, own, "u", own.series, ("elements",), "f")
         self.assertIn(OPEN, html.unescape(image.markup))

@@ -143,7 +143,7 @@ class Checks(ProgramTest):
         self.assertEqual((found["mutants"], found["fuzz"]), (mutants, fuzz))
 
     def test_smallest_faults(self):
-        """Only faults of the shown cases are listed, and each undetected fault has a reason."""
+        """Only faults of the shown cases may be listed, and each undetected fault must have a reason."""
         self.assertFalse(self.context(case("none"))["noticed"])
         found = self.context(case("elastica"), case("cross_flexure"))["noticed"]
         self.assertEqual({row["case"] for row in found["rows"]}, {"elastica", "cross_flexure"})
@@ -153,7 +153,7 @@ class Checks(ProgramTest):
             self.assertEqual(list(of), found["constants"])
 
     def test_coverages(self):
-        """The coverage of a group is the sum over its cases."""
+        """The coverage of a group must be the sum over its cases."""
         rows = [row("collocation", 0, 4, 4), row("collocation", 1, 3, 2), row("beamw", 0, 5, 1)]
         one = data.Case("one", "", "", [], rows)
         two = data.Case("two", "", "", [], [row("collocation", 0, 6, 5)])
@@ -248,7 +248,7 @@ class Deviations(unittest.TestCase):
         self.assertIsNone(found["farthest"])
 
     def test_what_is_left_open(self):
-        """The unexplained deviation of a limit is relative to the reference value."""
+        """The unexplained deviation of a limit must be relative to the reference value."""
         there = {"limit": 2.02, "truth": 2.0, "error": 0.01}
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", predicted=2.03, **there)), 0.005)
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", **there)), 0.01)
@@ -270,7 +270,7 @@ class Deviations(unittest.TestCase):
             self.assertIn(f'id="{link.partition("#")[2]}"', site.pages["errata.html"]["body"])
 
     def test_every_table_of_the_errata_is_one(self):
-        """A table without an empty line above it would be rendered as text."""
+        """Every table of ERRATA.md must have an empty line above it, because it would otherwise be rendered as text."""
         text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
         site = Site()
         deviations.write_errata(site)

@@ -55,7 +55,7 @@ class Stored(ProgramTest):
         return whole.reshape(len(self.found["states"]), -1, width)
 
     def test_nodes(self):
-        """The positions of nodes equal those of the results, within half a unit of the last stored digit."""
+        """The positions of nodes must equal those of the results, within half a unit of the last stored digit."""
         half, nodes = self.found["half"], self.numbers("nodes", 3) * self.found["half"]
         for k, of in enumerate(shapes.exaggerations(self.shapes)):
             wanted = self.shapes.nodes[0] + of * (self.shapes.nodes[k] - self.shapes.nodes[0])
@@ -76,7 +76,7 @@ class Stored(ProgramTest):
         self.assertLess(max(nodes | set(self.found["held"])), self.found["ends"])
 
     def test_a_path_has_one_exaggeration(self):
-        """All states of a path have the same exaggeration."""
+        """All states of a path must have the same exaggeration."""
         move = np.array([0, 1e-12, 1e-3])
         s = types.SimpleNamespace(kind=["undeformed", "path", "path"], sections=[np.zeros((1, 4, 2))],
                                   position=np.array([[[0, 0, 0], [1, m, 0]] for m in move], float),
@@ -211,7 +211,7 @@ class Behaviour(ProgramTest):
         return json.loads(found.group(1).replace("&gt;", ">").replace("&lt;", "<"))
 
     def test_keyboard(self):
-        """Arrow keys move from marker to marker and from curve to curve. Escape leaves the markers."""
+        """Arrow keys must move from marker to marker and from curve to curve, and Escape must leave the markers."""
         out = self.done(
             "elastica.html", """
             key("ArrowRight"); out.first = q("#said").innerText;

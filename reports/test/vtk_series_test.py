@@ -1,4 +1,4 @@
-"""Compares series of VTK files with /VTKHDF."""
+"""Series of VTK files must contain the states of /VTKHDF."""
 import base64
 import contextlib
 import io

@@ -1,4 +1,4 @@
-"""A formulation in another process compared with the same formulation in C."""
+"""Tests that compare a formulation in another process with the same formulation in C."""
 import json
 
 from harness.cli.test.plugin import EXAMPLES, compile_shared

@@ -170,9 +170,9 @@ serve(prepare, force=force, begin=of.begin, commit=of.commit, name="mine", famil
         self.assertTrue(all("no strain energy" in q["reason"] for q in quantities if q["quantity"] in lost))
 
     def test_published(self):
-        """Tip positions of Simo and Vu-Quoc (1986) at the forces 300, 450 and 600, for 8 linear elements and three load
-        steps, of which the first required 13 iterations. One of the nine numbers differs: 15.80 instead of 15.79. The
-        paper updates rotations in each iteration, the example in each step."""
+        """The tip positions must be those of Simo and Vu-Quoc (1986) at the forces 300, 450 and 600, for 8 linear
+        elements and three load steps, of which the first requires 13 iterations. Only one of the nine numbers may
+        differ: 15.80 instead of 15.79. The paper updates rotations in each iteration, the example in each step."""
         record = self.solved(BEND, self.simo, "simo_vu_quoc", n=1)
         at = [100 * math.sin(math.pi / 4), 100 * (1 - math.cos(math.pi / 4)), 0]
         found = [[x + u for u in curve["curve_value"]] for curve, x in zip(record["curves"], at)]
@@ -193,8 +193,8 @@ serve(prepare, force=force, begin=of.begin, commit=of.commit, name="mine", famil
         return out
 
     def test_rivals(self):
-        """Forces of simo_vu_quoc depend on the path and on rigid rotations. Strains of rotation_vector depend only on
-        rigid rotations."""
+        """The element test must find that forces of simo_vu_quoc depend on the path and on rigid rotations, and that
+        strains of rotation_vector depend only on rigid rotations."""
         simo, vectors = self.points(self.simo), self.points(self.vectors)
         self.assertGreater(simo["forces, turns superposed"][0], 1e-4)
         self.assertGreater(simo["forces after closed cycles"][0], 1e-2)

@@ -136,8 +136,8 @@ class History(ProgramTest):
             self.follows(curves["torque"], [s["path"] for s in record["steps"]], lambda at: 0.8 * at, n)
 
     def test_loads_and_stiffness(self):
-        """The tangent of an accepted state is that of the step that led to the state. A continuation also commits its
-        steps."""
+        """The tangent of an accepted state must be that of the step that led to the state. A continuation must also
+        commit its steps."""
         static = FREE + ("loads: {pull: {moment: [1000, 0, 0], on: b}}\n"
                          "analyses: {run: {static: {stations: 0..1/4}}, at: {compliance: {node: b, about: run}}}\n"
                          f"quantities: {{{TURN}, stiffness: "
@@ -157,7 +157,7 @@ class History(ProgramTest):
             path.accept(twist)
 
     def test_modes(self):
-        """The stiffness of modes about a path is that of the step that led to the state."""
+        """The stiffness of modes about a path must be that of the step that led to the state."""
         text = FREE + ("loads: {pull: {moment: [200, 0, 0], on: b}}\n"
                        "analyses: {half: {static: {stations: [0.5]}}, run: {static: {stations: 0..1/2}},\n"
                        "  near: {modal: {about: half}}, far: {modal: {about: run}}}\n"
@@ -172,7 +172,7 @@ class History(ProgramTest):
         self.assertAlmostEqual((g / f)**2 / (path.stiffness(path.under(200)) / near), 1, delta=2e-5)
 
     def test_many(self):
-        """Elements that are evaluated together, in lanes or all in one call, have the same histories."""
+        """Elements must have the same histories if they are evaluated together, in lanes or all in one call."""
         text = DRIVEN + ("motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.8]}}\n"
                          "analyses: {run: {static: {stations: 0..1/4}}}\n"
                          f"quantities: {{{TORQUE}}}\n")
@@ -221,7 +221,7 @@ const element_type beamwork_element""").replace(".stress = stress,", f""".stress
                 self.assertAlmostEqual(value / path.torque(0.8), 1, delta=2e-6)
 
     def test_motions(self):
-        """Motions commit their steps, even if a motion continues another motion or begins from a static state."""
+        """Motions must commit their steps, even if a motion continues another motion or begins from a static state."""
         text = DRIVEN + ("motions: {turn: {unit: rad, time: 0.8*t^2}}\n"
                          "analyses:\n"
                          "  run: {motion: {stations: 0..1/4, integrator: INTEGRATOR, step: 0.25}}\n"

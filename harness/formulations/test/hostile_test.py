@@ -8,7 +8,7 @@ from harness.tools.kit.program import ROOT, run
 
 
 class Refused(Speaker):
-    """Errors before the name of the formulation is known lead to exit status 2."""
+    """Errors before the name of the formulation is known must lead to exit status 2."""
 
     def test_no_such_command(self):
         self.refuse("exec:/no/such/command at all", "/no/such/command", "No such file")
@@ -73,7 +73,7 @@ class Refused(Speaker):
 
 
 class Evaluated(Speaker):
-    """Errors during a solution lead to exit status 1, and to a reason in each run."""
+    """Errors during a solution must lead to exit status 1, and to a reason in each run."""
 
     def one_line(self, words, at, what=2):
         element = self.speaker(at=f"if what == {what}:\n" + textwrap.indent(at, "    "))

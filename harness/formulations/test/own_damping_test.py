@@ -89,7 +89,7 @@ class OwnDamping(Speaker):
         return {q["quantity"]: q["value"] for q in json.loads(done.stdout)["quantities"]}
 
     def test_modes(self):
-        """A mode with the frequency f of the beam without damping decays at the rate eta (2 pi f)^2/2."""
+        """A mode must decay at the rate eta (2 pi f)^2/2, where f is its frequency without damping."""
         for element, chosen in ((None, None), (self.in_c(), f"own_damping:eta={ETA}")):
             found = self.solved(MODES % "", element, chosen, 8)
             for i in range(2):
@@ -97,7 +97,8 @@ class OwnDamping(Speaker):
                 self.assertLessEqual(abs(found[f"d{i}"] / expected - 1), 1e-5 if i == 0 else 2e-4)
 
     def test_resonance(self):
-        """The compliance at resonance is about that of the first mode, 1/(eta omega) larger than in statics."""
+        """At the first frequency, the compliance must be about 1/(eta omega) times the share of the first mode in the
+        static compliance."""
         f = self.solved(MODES % "", n=8)["f0"]
         w, first = 2 * math.pi * f, 0.97068  # share of the first mode in the static compliance, 12/1.8751^4
         found = self.solved(SHAKEN % ("", f, f), n=8)["w"]
@@ -105,7 +106,8 @@ class OwnDamping(Speaker):
         self.assertLessEqual(abs(found / (first * static / (ETA * w)) - 1), 1e-3)
 
     def test_decay(self):
-        """u = v0/wd exp(-d t) sin(wd t); the axial force contains the damping stress."""
+        """The displacement must be u = v0/wd exp(-d t) sin(wd t), and the axial force must contain the damping
+        stress."""
         k, m, v0, t = 200, 2, 0.01, 0.9
         d = ETA * 20 * k / (2 * m)
         wd = math.sqrt(k / m - d * d)
@@ -121,7 +123,8 @@ class OwnDamping(Speaker):
                     self.assertLessEqual(abs(found[name] - value), max(close, rate) * size, (integrator, name))
 
     def test_same_as_damping_of_members(self):
-        """With one eta, the damping is that of members with damping: eta."""
+        """With the same eta, damping by the formulation must equal damping by the key `damping` of members, also if
+        each contributes half of eta."""
         def swung(how, own, given):
             more = f", damping: {given}"
             return self.solved(SWING % (more, more, f"integrator: {how}"), self.in_c(), f"own_damping:eta={own}")
@@ -193,7 +196,7 @@ quantities: {d: {damping_ratio: {analysis: damped, which: 0, of: decay}}}
             self.assertIn(shown, self.contract(wrong, "own_damping_py", code=1)[1])
 
     def test_only_damping(self):
-        """With stresses computed by a function, the process sends V without C."""
+        """If a function computes the stresses, the process sends V without C. The results must be the same."""
         given = self.solved(PULLED % "radau", None, f"own_damping_py:eta={20 * ETA}")
         own = self.python("serve(prepare, strain, damping=damping", """
 
@@ -207,7 +210,7 @@ quantities: {d: {damping_ratio: {analysis: damped, which: 0, of: decay}}}
             self.assertLessEqual(abs(found[name] - value), 1e-9 * abs(value), name)
 
     def test_arrays(self):
-        """A damping matrix in place of a function is rejected in one line."""
+        """A damping matrix in place of a function must be rejected in one line."""
         self.python("damping=damping", "damping=np.eye(6)")
         told = subprocess.run([sys.executable, self.folder / "mine.py"], env=WITH_MODULES, stdin=subprocess.DEVNULL,
                               capture_output=True, encoding="utf-8", check=False).stderr

@@ -82,7 +82,8 @@ class OwnLoads(Speaker):
         return record, {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_exact(self):
-        """One element has the displacements of the differential equation under loads for which a cubic is exact."""
+        """One element must have the displacements of the differential equation under loads for which a cubic is
+        exact."""
         q, a, l = 0.7, 0.4 * LENGTH, LENGTH
         for load, u, t, force, moment in (
                 (f"q: {{distributed: [0, {q}, 0], on: ab}}", q * l**4 / 8, q * l**3 / 6, q * l, q * l * l / 2),
@@ -95,7 +96,8 @@ class OwnLoads(Speaker):
                 self.assertLessEqual(abs(found[name] / value - 1), 1e-9, (load, name))
 
     def test_line_through_the_nodes(self):
-        """A straight line between the nodes moves half of the load to each node: u = q l^4 (1/8 + 1/24) for one element."""
+        """If the line between the nodes is straight, half of the load acts on each node, so one element must have the
+        displacement u = q l^4 (1/8 + 1/24)."""
         element = self.python("slope = s * s * (3 - 2 * s), kind.length * s * (1 - s)",
                               "slope = s, 0 * s")
         q, l = 0.7, LENGTH
@@ -105,8 +107,8 @@ class OwnLoads(Speaker):
             self.assertLessEqual(abs(found[name] / value - 1), 1e-9, name)
 
     def test_large_displacements(self):
-        """The limit for many elements is that of the common displacement field, and reactions balance the dead load. As
-        the tangent is exact, few iterations are needed."""
+        """The limit for many elements must be that of the common displacement field, and reactions must balance the
+        dead load. The tangent is exact, so at most two additional iterations may be needed."""
         (here, own), (there, common) = (self.solved(BENT, 8, name) for name in ("own_loads", "timoshenko"))
         self.assertGreater(abs(own["y"]), 0.08)
         for name in "xy":
@@ -117,7 +119,7 @@ class OwnLoads(Speaker):
             self.assertLessEqual(abs(dead[name] - value * LENGTH), 1e-8, name)
 
     def test_buckling_under_its_weight(self):
-        """Greenhill: q l^3/(E I) = 7.8373474, about the weak axis."""
+        """The critical load must be that of Greenhill, q l^3/(E I) = 7.8373474, about the weak axis."""
         found = self.solved(WEIGHT, 16)[1]["factor"]
         weak = min(EI, YOUNG * HEIGHT * WIDTH**3 / 12)
         self.assertLessEqual(abs(found / (7.8373474 * weak / LENGTH**3) - 1), 5e-3)

@@ -47,7 +47,7 @@ serve(prepare, force=force, gives="energy", name="chord", family="example", sour
 
 
 class Energy(ProgramTest):
-    """Tests a formulation with options that computes only an energy."""
+    """A formulation with options that computes only an energy."""
 
     def solve(self, *words, formulation="chord", code=0):
         path = self.folder / "chord.py"

@@ -222,7 +222,8 @@ quantities: {f1: {frequency: {analysis: run}}, f2: {frequency: {analysis: run, w
                 self.assertAlmostEqual(here[name] / value, 1, delta=2e-3, msg=(scheme, name))
 
     def test_further_analyses(self):
-        """Load cases, continuations, and modes, responses and rotating frames about a path."""
+        """In load cases and continuations, and in modes, responses and rotating frames about a path, ancf_slopes must
+        agree with timoshenko."""
         timoshenko = compile_shared(EXAMPLES / "timoshenko.c", self.folder / "timoshenko.so")
         for scene, count in ((CASES, 3), (PATH, 6)):
             here = self.solved(self.ancf(), scene, 16, "ancf_slopes")[1]
@@ -243,7 +244,7 @@ quantities: {f1: {frequency: {analysis: run}}, f2: {frequency: {analysis: run, w
             self.assertAlmostEqual(found / expected, 1, delta=1e-11, msg=scheme)
 
     def test_reduced(self):
-        """Reduced models contain the additional unknowns."""
+        """Reduced models must have the natural frequencies of the model with the additional unknowns."""
         path = self.folder / "scene.yaml"
         path.write_text(CONSTANT + """analyses: {modes: {modal: {}}}
 quantities: {f: {frequency: {analysis: modes, which: 2}}}

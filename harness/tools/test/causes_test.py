@@ -208,8 +208,8 @@ class Bounds(unittest.TestCase):
             self.assertIn("should allow 0.0003", bounds.text_of(one))
 
     def test_loose(self):
-        """A bound is loose if it exceeds ten times the observed error with a derived limit, or 1.5 times without a
-        derived limit."""
+        """A bound must count as loose if it exceeds ten times the observed error with a derived limit, or 1.5 times
+        without one."""
         derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}
         for allowed, verdicts, loose in (("1e-2", [derived], False), ("1.1e-2", [derived], True),
                                          ("1.5e-3", [verdict_of_bounds(1e-3)], False), ("1.6e-3", [verdict_of_bounds(1e-3)], True),

@@ -55,7 +55,7 @@ class Fit(unittest.TestCase):
                                        "loaded_buckling": 1, "buckling": 1})
 
     def test_steps_of_motions(self):
-        """The time span determines the number of equal steps. The number of adaptive steps is estimated from their
+        """The number of equal steps must follow from the time span, and the number of adaptive steps from their
         tolerance."""
         swing = {"stations": [1, 3], "integrator": "alpha", "step": 0.7}
         for more, kind, count in (({}, "alpha_step", 5),

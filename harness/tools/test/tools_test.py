@@ -196,7 +196,7 @@ class Runner(Folder):
 
 
 class Circles(Folder):
-    """Finds circular calls among artificial object files."""
+    """Circular calls among artificial object files must be found."""
 
     def objects(self, **sources):
         paths = []
