@@ -72,7 +72,7 @@ class Sheet(unittest.TestCase):
         self.assertLess(np.max(np.abs(C - D) / np.sqrt(np.outer(np.diag(D), np.diag(D)))), 1e-12)
 
     def test_compliance_is_the_derivative_of_the_equilibrium(self):
-        """The compliance predicts the displacements of the deformed sheet due to small dead loads."""
+        """The compliance must predict the displacements of the deformed sheet due to small dead loads."""
         net, tip, _ = self.twisted(6, 12)
         C = net.response(1.0, tip, {tip: free})
         x, R, load = tip.x.copy(), tip.R, tip.load.copy()
@@ -94,7 +94,7 @@ class Sheet(unittest.TestCase):
         self.assertLess(np.max(np.abs(tip.x - x)), 1e-11)
 
     def test_linear_compliance_of_the_straight_sheet(self):
-        """C_zz of a clamped sheet in its plane is L^3/3EI + L/kGA."""
+        """C_zz of a clamped sheet in its plane must be L^3/3EI + L/kGA."""
         beam = sheets.sheet(**defaults.values("sheet_cantilever"))
         net = Network(beam.length, beam.EIz / beam.length ** 2, intervals=4, nodes=10)
         root, tip = net.body((0, 0, 0), clamped((0.0, 0.0, 0.0))), net.body((beam.length, 0, 0))
@@ -115,7 +115,7 @@ class Sheet(unittest.TestCase):
 class Elastica(unittest.TestCase):
 
     def test_elliptic_integrals(self):
-        """A nearly inextensible cantilever satisfies P L^2/EI = (K(m) - F(phi, m))^2 with m = (1 + sin theta)/2 and
+        """A nearly inextensible cantilever must satisfy P L^2/EI = (K(m) - F(phi, m))^2 with m = (1 + sin theta)/2 and
         sin^2 phi = 1/2m."""
         r, R = cantilevers.dead_load(Beam(1.0, EA=1e13, EIy=1.0, EIz=1.0, GJ=1.0), (0, 5.0, 0), 10)
         theta = cantilevers.planar_angle(R)

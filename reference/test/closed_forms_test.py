@@ -14,7 +14,7 @@ from reference.derive.section import section  # noqa: E402
 class Sections(unittest.TestCase):
 
     def test_channel_of_table_1(self):
-        """Compares the constants of J Table 1 and the shear rigidities with closed forms."""
+        """The constants of J Table 1 and the shear rigidities must be those of closed forms."""
         s = column.channel_data()
         for got, value in ((s.A, "0.054"), (s.Iy, "3.78e-3"), (s.Iz, "2.16e-3"), (s.It, "1.62e-5"),
                            (s.ys, mpf(16) / 35), (s.Iw, mpf(243) / 175 * mpf("1e-4"))):
@@ -43,7 +43,7 @@ class Sections(unittest.TestCase):
 class Torsion(unittest.TestCase):
 
     def test_rectangles(self):
-        """Compares the constant with the series in which tanh x = 1 - 2/(exp 2x + 1), whose constant terms have the
+        """The constant must be that of the series in which tanh x = 1 - 2/(exp 2x + 1), whose constant terms have the
         sum 31/32 zeta(5)."""
         for w, t in ((1, 1), (2, 1), (mpf("0.05"), mpf("0.0005"))):
             rest = sum(mpf(2) / n ** 5 / (exp(n * pi * w / t) + 1) for n in range(1, 40, 2))
@@ -59,13 +59,13 @@ class Buckling(unittest.TestCase):
                         mpf(10) ** -25)
 
     def test_warping_vanishes(self):
-        """For K -> inf, the difference from the load of the narrow strip is proportional to 1/sqrt(K)."""
+        """For K -> inf, the difference from the load of the narrow strip must be proportional to 1/sqrt(K)."""
         limit = linear_buckling.lateral_load("tip", 0, "4.0")
         near = [linear_buckling.lateral_load("tip", K, g) for K, g in ((100, "5.0"), (400, "4.45"))]
         self.assertTrue(0.4 < (near[1] - limit) / (near[0] - limit) < 0.5)
 
     def test_frame(self):
-        """The critical moment of the frame is M = pi sqrt(EI GJ)/L."""
+        """The critical moment of the frame must be M = pi sqrt(EI GJ)/L."""
         row = next(iter(linear_buckling.frame_rows()))
         E, nu, b, t, length = mpf(71240) * 10 ** 6, mpf("0.31"), mpf("0.03"), mpf("0.0006"), mpf(
             "0.24")
@@ -74,7 +74,7 @@ class Buckling(unittest.TestCase):
                                              (2 * (1 + nu)) * b * t ** 3 / 3)) - 1), 1e-20)
 
     def test_shear_column_without_shear(self):
-        """Without shear deformation, both theories give Euler's load."""
+        """Without shear deformation, both theories must give Euler's load."""
         plain = column.channel_data()
         for haringx in (False, True):
             stiff = column.channel_data()
@@ -88,7 +88,7 @@ class Buckling(unittest.TestCase):
 class Rotating(unittest.TestCase):
 
     def test_slender_limit_by_power_series(self):
-        """Compares the slender limit with the power series of w'''' - Omega^2 (T w')' = omega^2 w with T = R (1 - X)
+        """The slender limit must be that of the power series of w'''' - Omega^2 (T w')' = omega^2 w with T = R (1 - X)
         + (1 - X^2)/2, w(0) = w'(0) = 0, w''(1) = w'''(1) = 0."""
 
         def determinant(omega, Omega, R):
@@ -111,7 +111,7 @@ class Rotating(unittest.TestCase):
                     1e-10)
 
     def test_symmetric_shaft(self):
-        """In the rotating frame, the whirling frequencies are omega_j +- Omega, even beyond the critical speed."""
+        """In the rotating frame, the whirling frequencies must be omega_j +- Omega, even beyond the critical speed."""
         rest = rotating.bending(3)
         for Omega in (2, 5):
             frequencies, growth = rotating.whirl(Omega, 1, 3)
@@ -136,7 +136,7 @@ class Rotating(unittest.TestCase):
                         (rotating.flap(Omega, 1e6) ** 2 - Omega ** 2) - 1)), 1e-7)
 
     def test_body_at_the_end(self):
-        """At rest, the frequencies satisfy the characteristic equation."""
+        """At rest, the frequencies must satisfy the characteristic equation."""
         for m, c, g in ((1.0, 0.2, 0.3), (0.1, -0.5, 0.3), (10.0, 0.0, 0.0)):
             rest = np.array([float(w) for w in tip_body.at_rest(m, c, g)])
             self.assertLess(np.max(np.abs(tip_body.flap(0, m, c, g) / rest - 1)), 1e-11)

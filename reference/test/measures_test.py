@@ -144,7 +144,7 @@ def appendix_a(h):
 
 
 class Measures(unittest.TestCase):
-    """Compares the densities of derive/predicted_beam.py with those of short elements."""
+    """The strain measures of derive/predicted_beam.py must be those of short elements."""
 
     def assert_limit(self, modes, measures, centre, h, delta):
         limit = extrapolated(lambda length: measured(modes(length), length, centre), h)
@@ -167,7 +167,7 @@ class Measures(unittest.TestCase):
             self.assert_limit(modes, limit, (0, 0), 0.1, 1e-5)
 
     def test_energy_of_a_short_element(self):
-        """The energy per length e^T S e/(2 h) with the printed stiffness tends to that of the measures."""
+        """The energy per length e^T S e/(2 h) with the printed stiffness must tend to that of the measures."""
         def energy(h):
             e, at_centre = eq66(jonker_modes(h), h), np.eye(8)
             at_centre[2:6, 1] = np.array([-YS, YS, -ZS, ZS]) / h

@@ -1,4 +1,4 @@
-"""Compares derived motions with other solutions of the equations."""
+"""Derived motions must agree with other solutions of the equations."""
 import unittest
 
 import numpy as np

@@ -123,7 +123,7 @@ class Scenes(unittest.TestCase):
         self.close(values(text)["a"], math.asin(0.6))
 
     def test_line_load(self):
-        """The deflection is q L^4/(8 EI) in linear theory, and for a small follower load."""
+        """The deflection must be q L^4/(8 EI) in linear theory, and for a small follower load."""
         linear = bar("distributed: [0, 2, 0], on: beam", {"w": tip("uy"), "t": tip("rz")},
                      path="linear: {}")
         found = values(linear)
@@ -136,8 +136,8 @@ class Scenes(unittest.TestCase):
             self.assertAlmostEqual(small[0] / 2.5e-6, 1, delta=1e-9)
 
     def test_line_moment_and_offset(self):
-        """In linear theory, the deflection due to a line moment m is m L^3/(3 EI). At large displacements, the axial load
-        off the centroid that causes this moment gives another deflection."""
+        """In linear theory, the deflection due to a line moment m must be m L^3/(3 EI). At large displacements, the
+        axial load off the centroid that causes this moment must give another deflection."""
         one = values(
             bar("distributed: [3, 0, 0], on: beam, at: [0, 0.1, 0]",
                 {"w": tip("uy"), "u": tip("ux")}))
@@ -168,7 +168,7 @@ class Scenes(unittest.TestCase):
             self.assertLessEqual(abs(found["Q"][0] - at_tip), found["Q"][1] + 1e-12, load)
 
     def test_parts_in_other_words(self):
-        """A load on a part of a member is equivalent to a load on a separate member."""
+        """A load on a part of a member must be equivalent to a load on a separate member."""
         whole = ("distributed: [0, 3, 0.5], on: beam, from: 0.25, to: 0.75, to_value: [1, 9, 0], follower: KIND, axes: member"
                  "}\n  b: {force: [2, 5, 1], on: beam, where: 0.25, at: [0, 0.1, 0.2], follower: KIND"
                  "}\n  c: {moment: [0.3, 0.2, 1], on: beam, where: 0.75, follower: KIND, axes: member")
@@ -201,8 +201,8 @@ class Scenes(unittest.TestCase):
             values(bar("force: [0, 3, 0], on: tip", {"R": "reaction: {analysis: path, node: root, component: uy}, unit: N"}, path="linear: {}"))
 
     def test_resultants(self):
-        """The resultants at the root of a cantilever are the tip load and its moment. At the free end of a cantilever
-        with a line load, they are zero."""
+        """The resultants at the root of a cantilever must be the tip load and its moment. At the free end of a
+        cantilever with a line load, they must be zero."""
 
         def at(end, what):
             return f"internal: {{analysis: path, member: beam, end: {end}, resultant: {what}}}, unit: N"
@@ -224,7 +224,7 @@ class Scenes(unittest.TestCase):
         self.close(found["M"], 3 * (1 + found["u"][0]))
 
     def test_releases(self):
-        """Compares members with hinges, sliding ends, ball joints and universal joints with closed forms."""
+        """Members with hinges, sliding ends, ball joints and universal joints must have the values of closed forms."""
         motion = "motions:\n  push: {path: [0, 1], value: [0, 0.6]}\n"
         found = values(
             bar("force: [0, 0, 0], on: tip", {"u": tip("ux"), "t": tip("rz")},
@@ -270,7 +270,7 @@ class Scenes(unittest.TestCase):
             self.close(found[name], scale * value)
 
     def test_frequencies(self):
-        """Compares frequencies of bending and torsion with closed forms."""
+        """Frequencies of bending and torsion must be those of closed forms."""
         asked = {f"f{i}": f"frequency: {{analysis: path, which: {i}}}, unit: Hz" for i in range(4)}
         text = bar("force: [0, 0, 1], on: tip", asked, path="modal: {}").replace(
             "shear_modulus: 1}", "shear_modulus: 1, density: 1e-8}").replace("It: 1", "It: 0.36")
@@ -289,7 +289,7 @@ class Scenes(unittest.TestCase):
         self.close(heavy["f0"], root ** 2 / (2 * math.pi))
 
     def test_roll_up(self):
-        """A moment pi EI/L bends the beam to half a circle."""
+        """A moment pi EI/L must bend the beam to half a circle."""
         found = values(
             bar(f"moment: [0, 0, {math.pi!r}], on: tip", {"u": tip("ux"), "w": tip("uy")}))
         self.close(found["u"], -1.0)
@@ -343,7 +343,7 @@ class Refusals(unittest.TestCase):
         self.refused("version", "beamwork: 2\n")
 
     def test_path_dependent_turn(self):
-        """Rejects a node that rotates about two axes while one spatial rotation component is fixed."""
+        """A node that rotates about two axes while one spatial rotation component is fixed must be rejected."""
         self.refused(
             "'rx' means depend",
             bar("force: [0, 1, 0.5], on: tip", {"w": tip("uy")}, tip=", hold: [rx]").replace(

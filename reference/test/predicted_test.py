@@ -44,7 +44,7 @@ class Machinery(unittest.TestCase):
         self.assertGreater(len(rows), 60)
 
     def test_other_intervals_and_nodes(self):
-        """Results with other intervals and nodes agree within the uncertainty of the rows."""
+        """Results with other intervals and nodes must agree within the uncertainty of the rows."""
 
         def finer(*arguments, intervals=4, **options):
             return Network(*arguments, **{**options, "intervals": intervals + 3, "nodes": 17})
@@ -61,7 +61,7 @@ class Machinery(unittest.TestCase):
                 self.assertLess(abs(one[3] / two[3] - 1), one[5], one[:3])
 
     def test_amplitude_between_the_nodes(self):
-        """Without J Eq. 66, the twist rate equals the warping amplitude, so the option `interpolated` does not change
+        """Without J Eq. 66, the twist rate equals the warping amplitude, so the option `interpolated` must not change
         the frequency."""
         for name, least, most in (("beamw_first", 0, 1e-10), ("beamw", 2e-7, 3e-7)):
             form = predicted.as_printed(name)
@@ -112,7 +112,8 @@ def cantilever_column(beam, level):
 
 
 class ClosedForms(unittest.TestCase):
-    """Compares predicted_column.py with the nearly inextensible nonlinear beam of the same measures."""
+    """The values of predicted_column.py must be those of the nearly inextensible nonlinear beam of the same
+    measures."""
 
     def test_c_column(self):
         s = column.channel_data(section_data="printed")
@@ -134,7 +135,7 @@ class ClosedForms(unittest.TestCase):
             self.assertLess(abs(load / closed - 1), 1e-6, name)
 
     def test_right_angle(self):
-        """Uniform shear z = pi/2 without rotation: the potential of N Eq. 7 with Phi is stationary at GA = F."""
+        """Uniform shear z = pi/2 without rotation: the potential of N Eq. 7 with Phi must be stationary at GA = F."""
         EA, GA, F = mpf(10) ** 9, mpf(10), mpf(10)
 
         def potential(stretch, z):

@@ -85,7 +85,7 @@ class Published(unittest.TestCase):
 
 
 class DeepBeam(unittest.TestCase):
-    """Origin of the published values of NAFEMS FV5."""
+    """The origin of the published values of NAFEMS FV5."""
 
     def published(self, *modes):
         found = {
@@ -96,7 +96,8 @@ class DeepBeam(unittest.TestCase):
         return [found[f"frequency_{i}"] for i in modes]
 
     def test_torsion_is_that_of_20_linear_elements(self):
-        """The published torsion values are those of n elements with consistent mass, where k h = (2 i - 1) pi/(2 n)."""
+        """The published torsion values must be those of 20 linear elements with consistent mass, where k h = (2 i - 1)
+        pi/40."""
         elements, exact = 20, deep_beam.frequencies(False, 1, 1)[2]
         for i, value in zip((1, 2), self.published(3, 7)):
             kh = (2 * i - 1) * math.pi / (2 * elements)
@@ -104,7 +105,8 @@ class DeepBeam(unittest.TestCase):
             self.assertLess(abs(float(exact) * discrete / value - 1), 2e-5)
 
     def test_bending_asks_for_another_shear_factor_and_a_mesh(self):
-        """The shear factor that reproduces a value increases with the mode, so no factor reproduces all values."""
+        """The shear factor that reproduces a value must increase with the mode, so that no factor reproduces all
+        values."""
         needed = []
         for half_waves, value in zip((1, 2, 3), self.published(1, 5, 8)):
             low, high = 0.8, 0.9

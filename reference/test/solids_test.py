@@ -99,8 +99,8 @@ class Sheet(unittest.TestCase):
             self.assertLess(np.max(np.abs(slope - K[:, i]) / (scale * scale[i])), 1e-3, i)
 
     def test_at_rest(self):
-        """In the undeformed state, there is no force, and the stiffness is symmetric. Because the ends of the sheet
-        cannot contract, the stiffness along the sheet is up to nu^2/(1 - nu^2) higher than E A/L.
+        """In the undeformed state, there must be no force, and the stiffness must be symmetric. Because the ends of the
+        sheet cannot contract, the stiffness along the sheet must be higher than E A/L, by at most nu^2/(1 - nu^2).
         """
         force, moment, K = self.sheet.state(np.zeros(6))
         self.assertLess(np.max(np.abs(np.concatenate([force, moment]))), 1e-6)
@@ -109,7 +109,7 @@ class Sheet(unittest.TestCase):
         self.assertTrue(1 < ratio < 1 / (1 - sheet.POISSON**2), ratio)
 
     def test_anticlastic_stiffening(self):
-        """N 4.1: beam and plate differ by 7.8 % in three stiffnesses of the straight sheet."""
+        """Beam and plate must differ by 7.8 % in three stiffnesses of the straight sheet, as in N section 4.1."""
         for deviation in sheet.anticlastic():
             self.assertAlmostEqual(deviation, 0.078, delta=0.007)
 
@@ -141,7 +141,7 @@ def network_load(bracket, ratio, K):
 class Forks(unittest.TestCase):
 
     def test_a_stiff_beam_stays_straight(self):
-        """Linear prestress is the limit of large EIy/EIz. The difference is of order EIz/EIy."""
+        """For large EIy/EIz, the critical load must be that of linear prestress. The difference is of order EIz/EIy."""
         for distributed, K, load, guess in ((False, 0, "mid", "16.9"), (True, 0, "mid_distributed",
                                                                         "28.3"),
                                             (True, 4, "mid_distributed", "52.7")):

@@ -122,7 +122,8 @@ class OffCentreMasses(unittest.TestCase):
 class TransferMatrices(unittest.TestCase):
 
     def test_cantilever_with_a_mass(self):
-        """The frequencies of an Euler-Bernoulli cantilever with a mass are zeros of the determinant of tip_body.py."""
+        """The frequencies of an Euler-Bernoulli cantilever with a mass must be zeros of the determinant of
+        tip_body.py."""
 
         def end(f):
             t, o = bending(mpf(1), f, mpf(1), mpf(1)), f
@@ -133,8 +134,8 @@ class TransferMatrices(unittest.TestCase):
             self.assertLess(abs(got / value - 1), 1e-25)
 
     def test_pinned_timoshenko_beam(self):
-        """For k = pi/L, the frequencies satisfy (rho I o^2 - S - EI k^2)(rho A o^2 - S k^2) = S^2 k^2, in this test
-        with rho A = rho I = EI = S = L = 1."""
+        """For k = pi/L, the frequencies must satisfy (rho I o^2 - S - EI k^2)(rho A o^2 - S k^2) = S^2 k^2, in this
+        test with rho A = rho I = EI = S = L = 1."""
         k2 = pi ** 2
         b = 1 + 2 * k2
         values = [sqrt((b - s * sqrt(b ** 2 - 4 * k2 ** 2)) / 2) for s in (1, -1)]
