@@ -47,8 +47,8 @@ const char *against_name(against_outcome);
 
 /* Runs one lap of a program or formulation and writes its time [s] to *seconds. */
 typedef status against_lap(void *compared_run, double *seconds, fault *f);
-/* Runs as many pairs of laps as fit into `budget` [s], but at least 51. The number of pairs is
- * fixed before the first measured pair. */
+/* Runs as many pairs of laps as fit into `budget` [s], but at least 51 and at most 1001. The number
+ * of pairs is fixed before the first measured pair. */
 status against_run(against_lap *lap, void *a, void *b, double budget, against_times *out, fault *f);
 
 typedef enum axis_kind { AXIS_LINEAR, AXIS_LOG, AXIS_LIST, AXIS_WORDS } axis_kind;
@@ -523,7 +523,7 @@ typedef struct integrators_method {
 
 /* Classification of a motion. Without loads, the energy and the momenta must be conserved. */
 typedef enum integrators_class {
-    INTEGRATORS_UNCLASSIFIED, /* loads act, so the motion is not classified */
+    INTEGRATORS_UNCLASSIFIED, /* not classified, because loads or supports act until the end */
     INTEGRATORS_GROWS,        /* the energy grows by more than integrators_growth */
     INTEGRATORS_STOPS,        /* the equations of a step of this size have no solution */
     INTEGRATORS_BOUNDED,
@@ -564,8 +564,9 @@ typedef struct integrators_group {
     int elements;
     int analysis;     /* index of the motion in the scene */
     double step, end; /* step size and end time in the scene [s] */
-    double from;      /* [s] time from which no load acts; INFINITY: some load acts until the end */
-    int first, runs;  /* index of the first run, and number of runs, in the list of all runs */
+    double from; /* [s] time from which no load acts; INFINITY: there are supports, or a load acts
+                    until the end */
+    int first, runs; /* index of the first run, and number of runs, in the list of all runs */
     /* index of the series of the reference, after which its checks follow; -1: errors are not
      * requested */
     int reference;

@@ -283,7 +283,7 @@ enum { SHARD_MOST_JOBS = 64, SHARD_MOST = 100000 };
 /* Writes the path of a batch that exists. */
 status batch_store_path(const batch_store *, int batch, char out[PATH_MAX], fault *f);
 
-/* Adds the results of the points from number `first` on. Call the function once for every point, in
+/* Adds the results of the points from number `first` on. Every point must be added exactly once, in
  * the order of the points. */
 status tally_add(tally *, long first, const rows *, fault *f);
 /* Returns the counts of a quantity. quantity: its index, or the number of quantities for the counts
@@ -423,7 +423,7 @@ _Noreturn void batch_worker_run(const batch_worker *, int self, int to);
 
 /* Returns the largest distance between two motions over all stations, nodes and centre lines. The
  * distance is the difference of positions relative to the size of the structure or, if larger, the
- * angle between sections [rad]. NAN: a station is missing. */
+ * angle between sections [rad]. NAN: a motion failed, or a station is missing. */
 double integrators_distance(const cell_result *, const cell_result *other, int analysis);
 /* Returns the difference between two values of a quantity, relative to the value of `other` or to
  * near_zero. NAN: a value is missing. */
@@ -546,7 +546,7 @@ void ranges_points_text(const parameter_ranges *, const double at[], char *text,
 
 enum { RANGES_TABLE_NAME = 24, RANGES_TABLE_COLUMN = 7, RANGES_TABLE_LINE = 1024 };
 
-/* Returns the name of a quantity; "all" if q is the number of quantities. */
+/* Returns the name of a quantity; "all quantities" if q is the number of quantities. */
 static inline const char *ranges_table_name(const parameter_ranges *r, int q)
 {
     return q < r->quantities ? r->quantity[q].name : "all quantities";

@@ -64,8 +64,8 @@ static status start_process(worker_pool *c, int self, fault *f)
     return STATUS_OK;
 }
 
-/* Closes the pipe of a process and waits for the end of the process. A process that does not end is
- * killed. Returns the status from waitpid. */
+/* Closes the pipe of a process and waits for the end of the process. A process that does not end
+ * within two seconds is killed. Returns the status from waitpid. */
 static int end_process(worker_pool *c, int self)
 {
     close(c->worker[self].from);

@@ -375,8 +375,8 @@ static void body_write_held(const body_numbers *b, const scene *s, int node, uns
     write_boundary(b, s, 0, NULL, node, released, to);
 }
 
-/* Inserts a value in order, unless it is already in the list. Ignores values outside the path,
- * which ends at the last station. */
+/* Inserts a value in order, unless it is already in the list. Ignores values that are not positive
+ * or that exceed `last`, the last station. */
 static void insert(path_points *p, double value, double last)
 {
     int at = p->count;

@@ -95,8 +95,8 @@ status export_support_requests(const scene *s, fault *f);
 
 /* Conversion of units of other programs. Values are converted only by these functions. A unit is a
  * product of powers with at most one '/': "N mm", "mm/N", "rad/(N m)", "1/s", "kg/m^3", "%".
- * Symbols are m mm cm um km in ft, N kN MN mN lbf, Pa kPa MPa GPa, kg g t, s ms us min, Hz kHz, rad
- * mrad deg, rpm and 1. Angles have no dimension. */
+ * Symbols are m mm cm um km in ft, N kN MN mN lbf, J mJ kJ MJ, Pa kPa MPa GPa, kg g t, s ms us min,
+ * Hz kHz, rad mrad deg, rpm, %, 1 and -. Angles have no dimension. */
 
 /* Computes the factor in 1 `from` = factor `to`. REFUSED: a unit is unknown, or the two units have
  * different dimensions. */

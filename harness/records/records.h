@@ -154,8 +154,8 @@ typedef struct comparison_limits {
     double error; /* threshold for the relative change of an error */
     /* largest change of a value, relative to its reference value, that counts as rounding */
     double floor;
-    /* threshold for the relative change of a count on a mesh; the count of a series is divided by
-     * the number of its meshes */
+    /* threshold for the relative change of a count; the change of the sum over a series is relative
+     * to the mean count of its meshes */
     double work;
 } comparison_limits;
 extern const comparison_limits comparison_limits_default;
@@ -274,7 +274,7 @@ struct schema_field {
     const char *name, *unit;
     field_kind kind;
     const char *summary;
-    field_base base; /* object to which the offset refers; NULL: there is no value */
+    field_base base; /* object to which the offset refers; if it is missing, there is no value */
     size_t offset;
     int address;              /* 1: the offset refers to a pointer to the TEXT */
     field_getter *get;        /* computes a derived value, for which the offset is not used */
@@ -623,8 +623,8 @@ typedef struct results_hash {
 } results_hash;
 
 /* Hashes every data set of results.h5 or of another beamwork file, row by row and in the order of
- * names. Omits the tables `timings`, data sets named `seconds...`, and attributes. FAULT: the file
- * is not a beamwork file. */
+ * names. Omits the tables `timings`, data sets and columns with names `seconds...`, and attributes.
+ * FAULT: the file is not a beamwork file. */
 status results_hash_of(const char *path, results_hash *out, fault *f);
 
 /* results.h5: all results of a sweep, for the reports. Below /cases/CASE there is a table for each
