@@ -55,7 +55,8 @@ status collect_systems(const analysis_context *, system_matrices *, fault *);
  * buckling modes with positive critical factors are counted. */
 int imperfection_modes(const scene *, int analysis);
 /* Sets x[free + driven] to the sum of the imperfections, each of which is a mode times its
- * amplitude. REFUSED: a mode does not exist or is not unique. */
+ * amplitude. REFUSED: a mode does not exist, is not unique, or does not move along its direction.
+ */
 status imperfection_of_modes(const analysis_context *, double x[], fault *);
 
 /* Compliance and stiffness of a node in a deformed state. */

@@ -227,8 +227,8 @@ static double block_difference(const double A[36], const double B[36])
     return worst;
 }
 
-/* If a node can rotate about two axes only, these axes span a plane. The plane may be oblique to
- * the axes of the scene. */
+/* Compliance and stiffness of a node that can rotate about two axes only must be independent of the
+ * axes of the scene, to which the plane of the two axes may be oblique. */
 static void partly_free_turns(void)
 {
     static const char *const rotation[] = {"rotation=hinge", "rotation=first", "rotation=last",

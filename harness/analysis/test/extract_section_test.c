@@ -90,7 +90,7 @@ static void bends(const element_type *e, ask_tally *tally)
 }
 
 /* A torque on a bar with warping restrained at its root: B = T/lambda sinh(lambda b)/cosh(lambda
- * l), where b is measured from the tip (Vlasov). */
+ * l), where lambda^2 = G It/(E Iw), and b is measured from the tip (Vlasov). */
 static int twisted(const element_type *e, ask_tally *tally, int elements, double Iw,
                    double error[4])
 {
@@ -172,7 +172,8 @@ static void turns_beside_rest(const element_type *e, ask_tally *tally, int turni
 }
 
 /* A strip that is free to shorten and to warp, twisted by 0.6 rad. The twist rate kappa is uniform,
- * M = G J kappa + 4 E c kappa^3, and the edges are in tension. */
+ * M = G J kappa + 4 E c kappa^3 with the section constant c (wagner_torque), and the edges are in
+ * tension. */
 static void strip(const element_type *e, ask_tally *tally)
 {
     const double w = 0.04, h = 1e-3, l = 0.4;
@@ -209,7 +210,7 @@ static void blade(const element_type *e, ask_tally *tally)
 }
 
 /* A channel under a force at its centroid, clamped at the root. The torque about the shear centre
- * is F e, and B = F e/lambda tanh(lambda l). */
+ * is F e, where e is its distance from the centroid. At the root, B = F e/lambda tanh(lambda l). */
 static void channel(const element_type *e, ask_tally *tally)
 {
     static answer a;

@@ -237,8 +237,8 @@ quantities:
                     self.assertAlmostEqual(loose["rz"], free * length, delta=1e-6)
 
     def test_stability_and_frequencies(self):
-        """A pinned member that is heated buckles at alpha T = pi^2 I/(A L^2) and before, its frequency is f_0 sqrt(1
-        + N/N_E)."""
+        """A heated pinned member buckles at alpha T = pi^2 I/(A L^2). Below this temperature, its frequency is
+        f_0 sqrt(1 + N/N_E) with N < 0."""
         text = beam("[ux, uy, uz, rx]", loads="t: {temperature: 1, on: m}", more="""
 analyses: {cold: {modal: {}}, lin: {buckling: {}}, st: {static: {stations: [2, 4]}}, on: {buckling: {about: st}},
            warm: {modal: {about: st}}}

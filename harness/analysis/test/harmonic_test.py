@@ -139,7 +139,7 @@ class DampedModesTest(ProgramTest):
         self.same(ratios, [0.1]*2)
 
     def test_proportional(self):
-        """Every mode of a beam has the damping ratio (a/w + b w)/2, where w is its undamped circular frequency."""
+        """Damped by a M + b K, every mode of a beam has the damping ratio (a/w + b w)/2 (w: undamped circular frequency)."""
         scene = BEAM.replace("c: 15", "c: 0").replace("  steady: {harmonic: {frequencies: [5, 8, 20, 60]%s}}", "  modes: {modal: {%s}}")
         for formulation in ("collocation", "geometrically_exact", "sheet_third"):
             plain = self.record("solve", "--scene", self.write(scene % ("hold: all", "", "", "", "".join(

@@ -105,7 +105,7 @@ class Instants(ProgramTest):
         self.assertLess(abs(value / right - 1), tolerance, (value, right))
 
     def test_pendulum(self):
-        """A pendulum obeys theta'' = -(g/l) cos(theta) dtheta for small deviations dtheta."""
+        """Small deviations of a pendulum obey dtheta'' = -(g/l) cos(theta) dtheta, with theta = 0 at the lowest position."""
         for formulation in FORMULATIONS:
             for integrator in ("radau", "alpha"):
                 for time in (0, 0.31, 0.7):
@@ -140,8 +140,8 @@ class Instants(ProgramTest):
                 self.near(found[f"m_{i}"], found[f"r_{i}"])
 
     def test_bead(self):
-        """A bead between springs in rotating axes, with angular velocity w: (k/m - w^2 + s^2) (l/m - w^2 + s^2) + 4
-        w^2 s^2 = 0."""
+        """A bead between springs of stiffness k and l, in axes that rotate at w, has eigenvalues s with
+        (k/m - w^2 + s^2) (l/m - w^2 + s^2) + 4 w^2 s^2 = 0."""
         for time in (0, 0.123, 0.3):
             found = self.solved(BEAD % {"time": time})
             p, q, w = 800 - 144, 1800 - 144, 12
