@@ -23,9 +23,9 @@ typedef struct case_type {
 } case_type;
 
 /* The parameters of every built-in case end with one of these two tables. `omit` selects whether
- * the scene omits the physics that the source omits, or no physics. case_mass_omit also selects the
- * mass of members, for cases whose quantities depend on the mass. The name of a parameter point
- * contains these parameters only if their values differ from the defaults. */
+ * the scene omits the physics that the source omits, or no physics. case_mass_omit also selects
+ * lumped or consistent mass of members, for cases whose quantities depend on the mass. The name of
+ * a parameter point contains these parameters only if their values differ from the defaults. */
 extern const parameter_type case_omit[], case_mass_omit[];
 int case_is_omit(const parameter_type *);
 int case_is_mass(const parameter_type *);

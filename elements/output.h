@@ -100,13 +100,13 @@ typedef struct along_output {
 typedef struct line_output {
     double at; /* in: position in the undeformed element divided by its length, 0 to 1 */
     double force[3], moment[3]; /* in: f [N] and m [N m], for H */
-    double r[3];                /* place of the line [m] */
+    double r[3];                /* position of the line [m] */
     double R[9]; /* axes of the section as columns, in the undeformed state those of the element */
     double *P;   /* [3 x 7n] dr/dx */
     double *T;   /* [3 x 7n] rotation of the section about global axes per coordinate: dR R^T is the
                     cross product with T dx */
     double *H;   /* [7n x 7n] derivative of P^T f + T^T m with respect to x at constant f and m, in
-                    the   exponential chart: d2(f . r)/dx2 for a force */
+                    the exponential chart: d2(f . r)/dx2 for a force */
 } line_output;
 
 /* Outputs of `equations_many`: the condensed mixed equations of an element (N section 4). */

@@ -1,4 +1,5 @@
-/* The largest or smallest of other quantities, also of different analyses. */
+/* The largest or smallest value, or that with the largest magnitude, of other quantities, which may
+ * belong to different analyses. */
 #include "cases/scene/scene.h"
 
 #include <string.h>

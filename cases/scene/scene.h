@@ -1322,8 +1322,8 @@ typedef struct entry_field {
      * functions read and write the value. For a map in a group: position of the int that states
      * which map of the group is given. */
     size_t at, size;
-    int first,
-        falls; /* value of the first word or of the map; 1 if the values of the words decrease */
+    int first, falls; /* value of the first word or of the map; amount by which the values decrease
+                         from word to word, or 0 if they increase by 1 */
     double
         otherwise; /* numeric default if `usual` does not state it, or NAN if there is no default */
     double least, most; /* range of a number; no limits if both are 0 */

@@ -1,5 +1,5 @@
 /* Parameters that are common to all built-in cases: the omitted physics (as in the source, or none)
- * and, if there is mass, the mass of members. */
+ * and, if quantities depend on the mass, lumped or consistent mass of members. */
 #include "cases/shared/shared.h"
 
 #include <math.h>

@@ -122,7 +122,8 @@ typedef struct sheet_prediction {
 } sheet_prediction;
 
 /* Computes the solution. tip_warps is 1 if the tip is free to warp. `shear` is 0 if the sheet is
- * rigid in shear. k is the shear factor. Values that do not exist are NAN. */
+ * rigid in shear. `moments` is the convention of the tip moments in C_zz. Values that do not exist
+ * are NAN. */
 sheet_prediction sheet_prediction_of(const section *c, double length, double deflection,
                                      int tip_warps, int shear, scene_moments moments);
 

@@ -63,7 +63,7 @@ static void reversed(void)
     scene_free(&s);
 }
 
-/* In the matrices of a section, only entries that couple z with x or y change sign. */
+/* In the matrices of a section, only entries that couple z with x or y must change sign. */
 static void reversed_section(void)
 {
     scene s;

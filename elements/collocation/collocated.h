@@ -42,8 +42,8 @@ void exact_variables_change(const exact_stages *s, int i, const double change[],
 /* Stresses of collocation elements: derivatives of the energy for the current values of the
  * unknowns, which are then eliminated. Several elements are evaluated in lanes (real.h). */
 
-/* Solution columns for the blocks 2 X, v and (a_p, a_q, 1), and for the rotation of loads along the
- * element. */
+/* Blocks before elimination (A) and after it (V, with the pivots d), and the solution columns X for
+ * the blocks 2 X, v and (a_p, a_q, 1) and for the rotation of loads along the element. */
 typedef struct exact_collocated {
     real A[EXACT_VARIABLES_BLOCKS][9], V[EXACT_VARIABLES_BLOCKS][9], d[EXACT_STAGES_UNKNOWNS],
         X[4][EXACT_STAGES_MAX][9];

@@ -15,14 +15,15 @@
  * The components of x are polynomials of degree p through -X, p - 1 inner values and X. The force F
  * is constant. The potential
  *
- *   P = F . v + sum_i w_i [-N_x - N_x^2/2EA - 1/2 (N_y, N_z) F (N_y, N_z)
+ *   P = F . v + sum_i w_i [-N_x - N_x^2/2EA - 1/2 (N_y, N_z) F_s (N_y, N_z)
  *                          + (ys N_z - zs N_y) k + 1/2 rho^2 N_x k^2 + 1/2 EI_y kappa_y^2
  *                          + 1/2 EI_z kappa_z^2 + 1/2 GJ k^2 + c k^4] + warping (exact.h),
  *   N = R^T F, k = kappa_x, over p Gauss points,
  *
- * is stationary with respect to F and the inner x. In a linear problem this is collocation of the
- * moment equilibrium m' = F x r' at the Gauss points, and N = R^T F satisfies force equilibrium
- * exactly. The tangent is symmetric, and the error is of order 2 p. All values are dimensionless
+ * with the shear flexibility F_s, rho^2 = trapeze and c = torque (beam_constants.h), is stationary
+ * with respect to F and the inner x. In a linear problem this is collocation of the moment
+ * equilibrium m' = F x r' at the Gauss points, and N = R^T F satisfies force equilibrium exactly.
+ * The tangent is symmetric, and the error is of order 2 p. All values are dimensionless
  * (beam_constants.h). */
 
 enum {

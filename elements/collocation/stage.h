@@ -273,8 +273,8 @@ static inline void exact_stage_add_mixed_transposed(const exact_stage_material *
             out[3 * i + j] += m->kN[i] * A[j];
 }
 
-/* Derivatives of kappa (rows K) and N (rows B) with respect to x, of kappa with respect to x', and
- * of N with respect to F. */
+/* Derivatives of kappa with respect to x (Kx) and x' (Ks), and of N with respect to x (Nx) and F
+ * (NF). */
 typedef struct exact_stage_rows {
     real Kx[9], Ks[9], Nx[9], NF[9];
 } exact_stage_rows;

@@ -34,7 +34,7 @@ static inline void exact_blocks_pivot(real a[9], real d[3], real inverse[3])
 }
 
 /* Eliminates the first `rows` block rows of a matrix A [n (n + 1)/2][9] of n block rows. In the
- * result, the eliminated rows contain L^T and D^-1 L^-1 A, and the other rows contain the Schur
+ * result V, the eliminated rows contain L^T and D^-1 L^-1 A, and the other rows contain the Schur
  * complement. Block column `late` is zero above row rows - 1; `late` is n if there is no such
  * column. d [3 rows] is the diagonal of D. */
 static inline __attribute__((always_inline)) void

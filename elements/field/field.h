@@ -101,9 +101,9 @@ enum { FIELD_INNER = 2 * NODE_COORDINATES };
 /* Computes B, which represents the motion of a straight two-node element relative to the field. A
  * mode v of the nodes [14, in the axes of the element] with the eigenvalue lambda = omega^2 obeys
  *   v . K v = lambda v . M v + lambda^2 v . B v + O(lambda^3), B = M_bu^T K_bb^-1 M_bu,
- * where b are the displacements between fixed ends. B is the flexibility of the element with fixed
- * ends under the inertia forces of the static field. The matrix B gives twice the complementary
- * energy
+ * where b are the displacements between fixed ends and u those of the nodes. B is the flexibility
+ * of the element with fixed ends under the inertia forces of the static field. The matrix B gives
+ * twice the complementary energy
  *   min over r: int s . C s dx, s = s_p v + s_r r,
  * where the resultants s_p are in equilibrium with these inertia forces, and s_r are due only to
  * forces and bimoments at the ends. B [14 x 14] is symmetric and positive semidefinite. Its unit is

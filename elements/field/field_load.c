@@ -19,7 +19,7 @@ enum {
 /* A vector y: the interpolated director or position of the nodes plus the sum of sign m_k
  * functional. */
 typedef struct field_vector {
-    int director; /* index of the director, or NONE if y is a position */
+    int director; /* index of the director, or PLACE if y is a position */
     struct {
         int k, functional;
         double sign;

@@ -5,16 +5,19 @@
  *
  *   kappa = 2 Im(Q^-1 Q'), v = R(Q)^T y.
  *
- * In the axes of the section, A = u^-1 dQ/m and D = u^-1 dQ'/m, let A0 and D0 be the scalar parts,
- * and A and D the vector parts. Then dkappa = 2 D - A0 kappa - 2 eta A - A x kappa, dv = dy - 2 A x
- * v, d2kappa = 2 (A0^2 - |A|^2) kappa + 8 eta A0 A + 4 A0 A x kappa - 4 (A0 D + D0 A + A x D), d2v
- * = 4 A0 A x v + 4 A x (A x v) - 4 A x dy, from the expansion of Q^-1 Q' and of the rotation 2 Im
- * Q/Re Q.
+ * With Q = m u, |u| = 1 and eta = m'/m, let A0 and A be the scalar and the vector part of u^-1
+ * dQ/m, and D0 and D those of u^-1 dQ'/m, in the axes of the section. Then
+ *
+ *   dkappa = 2 D - A0 kappa - 2 eta A - A x kappa,  dv = dy - 2 A x v,
+ *   d2kappa = 2 (A0^2 - |A|^2) kappa + 8 eta A0 A + 4 A0 A x kappa - 4 (A0 D + D0 A + A x D),
+ *   d2v = 4 A0 A x v + 4 A x (A x v) - 4 A x dy,
+ *
+ * from the expansion of Q^-1 Q' and of the rotation 2 Im Q/Re Q.
  *
  * A rotation of node k by the spatial increment theta changes q_k to exp(theta/2) q_k. The first
- * derivative is 1/2 theta q_k, the second -1/4 |theta|^2 q_k. Therefore A = N_k a_k theta and D =
- * N'_k a_k theta. The caller chooses the unit of length. The functions evaluate one element or
- * several in lanes (real.h). */
+ * derivative is 1/2 theta q_k, the second -1/4 |theta|^2 q_k. Therefore (A0, A) = N_k a_k theta and
+ * (D0, D) = N'_k a_k theta with a matrix a_k [4 x 3]. The caller chooses the unit of length. The
+ * functions evaluate one element or several in lanes (real.h). */
 #ifndef BEAMWORK_GEOMETRICALLY_EXACT_DEFORMED_H
 #define BEAMWORK_GEOMETRICALLY_EXACT_DEFORMED_H
 

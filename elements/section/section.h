@@ -124,7 +124,7 @@ status section_compute(const section_spec *spec, section *out, fault *f);
 
 /* Sections given by two row-major matrices. For the strains of the Simo-Reissner beam along the
  * line of the member,
- *   (N, Qy, Qz, Mx, My, Mz) = C (gx, gy, gz, kx, ky, kz),
+ *   (N, Qy, Qz, Mx, My, Mz) = C (gx, gy, gz, kx, ky, kz).
  * The kinetic energy per length is 1/2 v . M v, where v = (vx, vy, vz, wx, wy, wz) contains the
  * velocity of the line and the angular velocity in section axes (Hodges, Nonlinear Composite Beam
  * Theory, 2006, chapters 4 and 5).

@@ -52,7 +52,7 @@ typedef enum stress_measure {
  * and the centre. The points of a wall are on both surfaces, at the ends, in the middle, and where
  * y, z or omega is zero, which is where the shear flow is largest. The outer corner where two walls
  * meet is added. `constants` must be computed from the description. Returns REFUSED for a section
- * given by constants, which has no points. */
+ * given by constants or matrices, which has no points. */
 status stress_points_of(const section_spec *, const section *constants, stress_points *, fault *);
 
 /* Returns the largest von Mises stress, or the largest or smallest normal stress, of all points

@@ -75,10 +75,10 @@ void lumped_add(const lumped_mass *l, double share, const node_state *x,
  * through the nodes exactly: one half each for two nodes, Simpson's rule for three. */
 void lumped_shares(int nodes, const double place[], double share[]);
 
-/* Computes the inertia of an element whose mass is lumped at its nodes with the given shares. */
 /* Adds zeros for additional unknowns to the outputs of n nodes: [n] -> [wide], [n x n] -> [wide x
  * wide]. */
 void inertia_widen(int n, int wide, inertia_output *out);
+/* Computes the inertia of an element whose mass is lumped at its nodes with the given shares. */
 status lumped_element(const lumped_mass *whole, int nodes, const double share[],
                       const node_state x[], const element_rotating_frame *frame,
                       inertia_output *out);

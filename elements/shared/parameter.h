@@ -13,7 +13,7 @@ typedef struct parameter_type {
     const char *unit;    /* unit in SI, "1" for a plain number, or "" for a choice */
     double value;        /* default value, or the index of the default choice */
     double min, max;     /* inclusive limits, not used for a choice */
-    const char *choices; /* "shear_flow|printed|misprinted", or NULL for a number */
+    const char *choices; /* words "a|b|c", or NULL for a number */
     const char *summary; /* one line */
 } parameter_type;
 

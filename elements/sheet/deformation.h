@@ -164,15 +164,14 @@ static inline void sheet_rates_add_second(const sheet_local_state *s, const shee
     memset(A, 0, sizeof A);
     sheet_rates_weights(s, t, relative, bend, g);
     sheet_rates_turn(s, r, g, A);
-    /* derivatives of 1/cos yp with respect to zp, and of tan yp with respect to w_x: bend times
-     * yp' */
+    /* the time derivatives of 1/cos yp in zp' and of tan yp in w_x are proportional to bend yp' */
     const real yp = bend * s->tan_yp + relative[0] * s->sec_yp * s->sec_yp, yp_v = yp * -r->inverse;
     A[SHEET_RATE_P + 2][SHEET_RATE_P + 1] += yp;
     A[SHEET_RATE_P + 2][SHEET_RATE_V + 2] += yp * r->inverse;
     A[SHEET_RATE_V + 1][SHEET_RATE_P + 1] += yp_v;
     A[SHEET_RATE_V + 1][SHEET_RATE_V + 2] += yp_v * r->inverse;
-    /* d(across)/dt = ... - yq' zq' and d(zq')/dt = ... + yq' across; derivatives of 1/cos zq with
-     * respect to px, and of tan zq with respect to yq */
+    /* d(across)/dt = ... - yq' zq' and d(zq')/dt = ... + yq' across; then the time derivatives of
+     * 1/cos zq in px' and of tan zq in yq' */
     const real zq = (t[SHEET_LOCAL_PX] * s->tan_zq - t[SHEET_LOCAL_YQ] * s->sec_zq) * s->sec_zq;
     for (int j = 0; j < SHEET_RATE_MIXED; j++) {
         const int column = sheet_rates_mixed[j];

@@ -121,7 +121,8 @@ typedef struct sheet_strains_table {
                        [rad/m] */
     double rest[SHEET_STRAINS]; /* strains of the stress-free element, which are subtracted [m] */
     double Lambda[SHEET_STRAINS * SHEET_LOCAL_COORDINATES]; /* [m per coordinate] */
-    int terms; /* nonzero entries jk and kj of Q_i for j <= k, without Q_2, Q_7 and Q_8 */
+    int terms; /* number of nonzero entries jk and kj of Q_i for j <= k; Q_7 and Q_8, which equal
+                  Q_2, are not listed */
     struct {
         double c;
         int i, j, k;

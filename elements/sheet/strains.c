@@ -2,11 +2,12 @@
  *   kx = phi_x' + phi_y' phi_z, ky = phi_y' + phi_z' phi_x, kz = phi_z' - phi_y' phi_x,
  *   gx = u_x' - phi_y (phi_y/2 + u_z') - phi_z (phi_z/2 - u_y') + Ite phi_x'^2/2,
  *   gy = gy0 + phi_x (phi_y + u_z'), gz = gz0 + phi_x (phi_z - u_y'),
- * over the linear solution of N Eqs. 14-19:
- *   e1 = int gx, e2 = L int kx, e3 = int [(L-s) ky - gz], e4 = int [s ky + gz], e5 = int [(L-s) kz
- *   + gy], e6 = int [s kz - gy], e7 = L^2 Wp + L int phi_y' phi_z, e8 = L^2 Wq + L int phi_y'
- *   phi_z. If Phi = 0, the strains are those of N Eq. 37, where the last term of e1 is misprinted
- *   with L^2 instead of L. */
+ * with Ite = Ip/A, over the linear solution of N Eqs. 14-19:
+ *   e1 = int gx, e2 = L int kx, e3 = int [(L-s) ky - gz], e4 = int [s ky + gz],
+ *   e5 = int [(L-s) kz + gy], e6 = int [s kz - gy],
+ *   e7 = L^2 Wp + L int phi_y' phi_z, e8 = L^2 Wq + L int phi_y' phi_z.
+ * If Phi = 0, the strains are those of N Eq. 37, where the last term of e1 is misprinted with L^2
+ * instead of L. */
 #include "elements/sheet/sheet.h"
 
 #include <math.h>

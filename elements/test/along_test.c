@@ -275,7 +275,7 @@ static void closed_path(int stages, const double curvature[3])
     free(s.data);
 }
 
-/* In rigid motions, nodal forces and load have the same work and the same resultants. */
+/* In rigid motions, nodal forces and load must have the same work and the same resultants. */
 static void resultants(int stages, const double curvature[3])
 {
     const along_subject s = subject_of(stages, 0, curvature);
@@ -315,7 +315,7 @@ static double moment_left(const along_subject *s, const double q[], const double
     return vec3_norm(sum);
 }
 
-/* For the undeformed element, forces are linear in q. */
+/* For the undeformed element, forces must be linear in q. */
 static void linear(int stages, int matrices, const double curvature[3], int across)
 {
     const along_subject s = subject_of(stages, matrices, curvature);

@@ -291,9 +291,9 @@ static void linear_stiffness(const element_type *type, const section *c, double 
     type->stress(data, e, NULL, &(stress_output){.C = S});
 }
 
-/* Cantilever of one element under tip forces and moments with It = 0, for which the stiffness of
- * beamw with coupled strains is exact at the nodes. In the exact beam, the resultants at the shear
- * centre cause bending (with torsion and warping) and the constant shear strains F Q/G. */
+/* Cantilever of one element under tip forces and moments with It = 0, for which beamw_consistent
+ * must be exact at the nodes. In the exact beam, the resultants at the shear centre cause bending
+ * (with torsion and warping) and the constant shear strains F Q/G. */
 static void one_element_is_exact(void)
 {
     section c = check_section();

@@ -254,7 +254,7 @@ static void field_tests(void)
     fixed_ends();
 }
 
-/* The field of n nodes contains every polynomial of degree n: Lagrange's polynomials of the
+/* The field of n nodes must contain every polynomial of degree n: Lagrange's polynomials of the
  * positions have degree n - 1, and the slopes of the nodes add the highest power. */
 static void polynomials(void)
 {

@@ -418,7 +418,8 @@ typedef void strains_function(int count, const element_data *const data[], const
 typedef void stresses_function(int count, const element_data *const data[], const double *const e[],
                                const double *const inner[], stress_output out[], status outcome[]);
 
-/* All versions of the functions of each family; its types select one for the processor. */
+/* Versions without AVX2 of the functions of each family. The types select the version for the
+ * processor. */
 static const struct {
     const element_type *type;
     strains_function *strain;

@@ -32,7 +32,7 @@ static section rectangle(double width, double height, double ky, double kz)
     return sections_computed(&spec);
 }
 
-/* Without given shear factors, a wall has the same constants as a rectangle. */
+/* Without given shear factors, a wall must have the same constants as a rectangle. */
 static void rectangle_is_a_wall(double h, double t)
 {
     const section wall = wall_section(h, t, 0, 0, 0), wide = rectangle(h, t, 0, 0),
@@ -288,7 +288,7 @@ static void box(void)
     gsl_test_rel(c.F[4], square / (c.Iy * c.Iy), 1e-13, "box: shear along the webs");
 }
 
-/* The constants of a regular polygon tend to those of a thin ring, with errors of order 1/n^2. */
+/* The constants of a regular polygon must converge to those of a thin ring with order two. */
 static void ring(void)
 {
     enum { N = 32 };
@@ -386,7 +386,7 @@ static void cells(void)
                      "two cells, other order: shear %d", i);
 }
 
-/* Additional points within walls do not change the constants. */
+/* Additional points within walls must not change the constants. */
 static void points_between(void)
 {
     section_spec one = box_spec();

@@ -1,6 +1,7 @@
 /* Cantilever of N section 4.1: a sheet of 100 x 100 x 2.25 mm whose tip is deflected by 0.15 L
- * without rotation in 15 steps. Warping is restrained. Node p of every element is towards the root.
- * The expected values are those of an independent prototype of the same equations. */
+ * without rotation in 15 steps. Warping is restrained. Node p of every element is towards the root,
+ * except in reversed cantilevers. The expected values are those of an independent prototype of the
+ * same equations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -143,7 +144,7 @@ static int step(cantilever *c, double deflection, double *K, double *right)
     return ITERATIONS + 1;
 }
 
-/* Computes the compliances of the tip about x and z. A dead spatial moment m at the tip adds -1/2
+/* Computes the compliances of the tip along x and z. A dead spatial moment m at the tip adds -1/2
  * m~ to the Hessian in the exponential chart. */
 static void compliance(const cantilever *c, double *K, double *right, double *C_xx, double *C_zz)
 {

@@ -132,8 +132,8 @@ static void over_the_area(const wagner_shape *s, int thick, double angle)
                  "%s ten times larger", s->name);
 }
 
-/* Sections with an axis of symmetry, and walls that meet in one point, behave equally in both
- * directions of twist; other sections do not. */
+/* Sections with an axis of symmetry, and walls that meet in one point, must behave equally in both
+ * directions of twist, other sections must not. */
 static void one_sided(const wagner_shape *s, double angle)
 {
     const section_spec spec = spec_of(s, 0, 1, angle);
@@ -150,8 +150,8 @@ static void one_sided_zed(void)
     const double b = 0.07, h = 0.1, t = 2e-3; /* h is half of the web depth */
     const section_spec spec = spec_of(&shapes[4], 0, 1, 0);
     const double flange = b * t, web = 2 * h * t, area = web + 2 * flange;
-    /* omega minus its value in the web: 0 in the web, h b at the ends of the flanges, and h b/2 in
-     * the mean of a flange */
+    /* omega minus its value in the web: 0 in the web, h b at the ends of the flanges, and h b/2 on
+     * average in a flange */
     const double mean = 2 * flange * h * b / 2 / area;
     const double omega_r2 = 2 * flange * h * b * (h * h / 2 + b * b / 4),
                  r2 = 2 * flange * (h * h + b * b / 3) + web * h * h / 3,
@@ -189,7 +189,8 @@ static void equal_angle(void)
                  "equal angle, by hand: int r^4, shortening, bending");
 }
 
-/* The constant of a wall with its thickness terms is that of a rectangle, (w^5 t + w t^5)/1440. */
+/* The constant of a wall with its thickness terms must be that of a rectangle, (w^5 t + w
+ * t^5)/1440. */
 static void strip(double w, double t)
 {
     for (int i = 0; i < 4; i++) {
@@ -205,7 +206,7 @@ static void strip(double w, double t)
     }
 }
 
-/* The fibres of a thin ring have equal lengths for any twist, so the constant is almost zero. */
+/* The fibres of a thin ring keep equal lengths in torsion, so the constant must be almost zero. */
 static void ring(void)
 {
     enum { N = 32 };
@@ -266,7 +267,7 @@ static section_spec rectangle_spec(double width, double height)
 }
 
 /* Compares the largest shear stress tau due to a torque T = k (2a)^2 (2b) tau with Timoshenko's
- * table of k for the sides 2b/2a. */
+ * table of k for the ratio 2b/2a of the sides. */
 static void torsion(double ratio, double coefficient, int flat)
 {
     const double t = 0.01, w = ratio * t;
@@ -327,8 +328,8 @@ static void rectangle(void)
                  1e-12, "lying and standing");
 }
 
-/* The stresses, integrated over the walls, equal the resultants. Simpson's rule is exact, because
- * all stresses are at most quadratic along a wall. */
+/* The stresses, integrated over the walls, must equal the resultants. Simpson's rule is exact,
+ * because all stresses are at most quadratic along a wall. */
 static void integrated(const char *name, const section_spec *spec)
 {
     static const double by[4][4] = {{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}};
@@ -360,8 +361,8 @@ static void integrated(const char *name, const section_spec *spec)
                 const double y = (at[i].y + at[i ^ 1].y) / 2, z = (at[i].z + at[i ^ 1].z) / 2;
                 torque += share * ((y - c.ys) * tau[1] - (z - c.zs) * tau[0]);
             }
-            if (k == 3) /* the part that varies through the wall, which is half of t^3/3; the other
-                           half is due to stresses across the wall */
+            if (k == 3) /* adds the torque of the stresses that vary through the wall and of those
+                           across the wall, half of t^3/3 each */
                 torque += length * t * t * t / 3;
             from += 6;
             while (from < p.count && (p.count - from) >= 2 &&
@@ -534,7 +535,8 @@ static void walls(void)
     gsl_test(checked(&p, &wide, &f) != STATUS_REFUSED, "walls that hang together otherwise");
 }
 
-/* Walls may taper only within their planes. The web is along the z axis rotated by `angle`. */
+/* A taper must be rejected if walls leave their planes. The web is along the z axis rotated by
+ * `angle`. */
 static void turned_walls(double angle)
 {
     const double c = cos(angle), d = sin(angle);

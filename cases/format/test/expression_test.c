@@ -96,7 +96,7 @@ static void check_mistakes(const scope *names)
     }
 }
 
-/* Parentheses and signs that are nested too deeply are rejected, so that they cannot exhaust the
+/* Parentheses and signs that are nested too deeply must be rejected, because they could exhaust the
  * stack. */
 static void check_depth(void)
 {
