@@ -300,8 +300,8 @@ static int has_reference(const reach_question *q, int quantity)
 }
 
 /* Writes the quantities to which the answer applies: "every quantity", or the number of those with
- * a reference value and the names of the others. Curves are ignored. Returns the number of
- * quantities with a reference value. *all: the number of quantities except curves. */
+ * a reference value and the names of the others. Curves do not count; their names follow. Returns
+ * the number of quantities with a reference value. *all: the number of quantities except curves. */
 static int write_requested(FILE *to, const reach_question *q, int *all)
 {
     const char *before = " (without a reference: ";

@@ -309,7 +309,7 @@ class Solve(ProgramTest):
         self.refused(2, "one -f and one -n", "solve", "elastica", "-f", "beamw", "-n", "1,2")
 
     def test_the_theory_that_the_case_asks_for(self):
-        """The default is Engesser's theory."""
+        """Without a choice, the shear theory of a buckling load must be Engesser's."""
         record = self.record("solve", "shear_column")
         self.assertIn("engesser", record["cell"]["features"])
         load = next(q for q in record["quantities"] if q["quantity"] == "buckling_load")

@@ -132,7 +132,7 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
             self.assertLess(abs(b[name] / value - 1), 1e-7, name)
 
     def test_harmonic_reaction(self):
-        """Reactions are along the axes of the node, so only the component that the motion prescribes has a reaction."""
+        """Reactions are along the axes of the node, so only the prescribed component must have a reaction."""
         text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0]}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], axes: {x: [1, 1, 0], z: [0, 0, 1]}, hold: [uy], drive: {ux: go}}}
 members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}

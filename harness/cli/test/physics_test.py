@@ -102,7 +102,7 @@ class PhysicsTest(SceneCase):
         self.near(self.column(section, more="omit: [shear]\n")["up"], 43535, 1e-3)
 
     def test_kinds(self):
-        """The symmetry of the section determines the kind of the buckling mode."""
+        """The buckling mode must be of the kind that follows from the symmetry of the section."""
         for section, kind in (("rectangle: {width: 0.02, thickness: 0.03}", "flexural"),
                               ("tube: {diameter: 0.04, thickness: 2e-3}", "flexural, double"),
                               ("constants: {A: 1.6e-3, Iy: 3e-6, Iz: 4e-6, It: 8e-9, Iw: 1e-12}", "torsional"),
@@ -133,7 +133,7 @@ class PhysicsTest(SceneCase):
             self.near(self.column(tee, length)["up"], exact, 1e-2)
 
     def test_unequal_flanges_under_a_moment(self):
-        """The critical moments of both signs differ because of int z (y^2 + z^2) dA."""
+        """Because of int z (y^2 + z^2) dA, the critical moments of both signs must differ."""
         text = walls([(-0.1, -0.15), (0, -0.15), (0.1, -0.15), (-0.05, 0.15), (0, 0.15),
                       (0.05, 0.15)], ("ab", "bc", "be", "de", "ef"), 0.012).replace(
                           "{from: b, to: e, thickness: 0.012}", "{from: b, to: e, thickness: 0.008}")
@@ -216,9 +216,9 @@ class PhysicsTest(SceneCase):
             self.near(swings["wanted"], math.sqrt(stiff / (RHO * Ip)) / (4 * length), 3e-3)
 
     def test_strip_that_rotates(self):
-        """A strip whose width is in the plane of rotation has the torque (G It + N Ip/A) w' with N = rho A W^2 (L^2
-        - x^2)/2, and, per length, the propeller moment W^2 rho (I1 - I2) w. w: twist angle, W: angular velocity,
-        x: distance from the hub. The exact frequency follows from a series of w in odd powers of x."""
+        """A strip whose width is in the plane of rotation has the torque (G It + N Ip/A) w' with
+        N = rho A W^2 (L^2 - x^2)/2, and, per length, the propeller moment W^2 rho (I1 - I2) w. w: twist angle, W: angular
+        velocity, x: distance from the hub. The frequency must be that of a series of w in odd powers of x."""
         b, t, length, speed = 40e-3, 1e-3, 0.4, 300.0
         I1, I2, terms = t * b ** 3 / 12, b * t ** 3 / 12, 5
         Ip, It = I1 + I2, b * t ** 3 / 3 * (1 - 0.63025 * t / b)
@@ -239,7 +239,8 @@ class PhysicsTest(SceneCase):
         self.near(self.solved(text, "-n", 32)["f"], exact, 3e-3)
 
     def test_rotary_inertia(self):
-        """The third mode of Timoshenko's pinned bar, with and without rotary inertia."""
+        """The third bending mode of Timoshenko's pinned bar must have its known frequency, with and without rotary
+        inertia."""
         text = BAR.format(width=50e-3, thickness=30e-3, length=1, material=MATERIAL,
                           rest="analyses:\n  v: {modal: {wanted: 8}}\nquantities:\n"
                           "  f: {frequency: {analysis: v, which: 2, family: bending_y}, unit: Hz}")

@@ -262,13 +262,13 @@ class OtherModel(ProgramTest):
             self.assertEqual(text.count("without shear; the omission changes no value"), 1)
 
     def test_no_load_at_all(self):
-        """Without loads, every value is zero, so missing physics has no effect."""
+        """Without loads, every value is zero, so a formulation with missing physics must count as the same model."""
         one = self.series(*self.scene("0.05", "0", "0"))[0]["beamw_vlasov"]
         self.assertEqual((one["other_model"], one["model_change"]), (False, 0))
 
     def test_a_deep_beam(self):
-        """Shear contributes a tenth of the deflection. The formulation must be shown, but excluded from rankings and
-        agreements."""
+        """Shear contributes a tenth of the deflection. A formulation without shear must be shown, but excluded from
+        rankings and agreements."""
         deep = self.scene("0.1", "1", "0")
         series, record = self.series(*deep)
         one = series["beamw_vlasov"]

@@ -88,8 +88,8 @@ class RestartTest(SceneCase):
                 self.assertGreater(abs(float(one["z"])), 1e-3)
 
     def test_to_round_off(self):
-        """If the second run chooses new pivots, or the end of the first run shortens a step, the results agree only to
-        within rounding or the tolerance of the steps."""
+        """If the second run chooses new pivots, or the end of the first run shortens a step, the results must still
+        agree to within rounding or the tolerance of the steps."""
         for changes, most in (({"how": "radau"}, 1e-9), ({"how": "radau", "damp": 1e-3}, 1e-9),
                               ({"how": "radau", "tol": 1e-8}, 1e-4), ({"how": "alpha", "step": 0.01}, 1e-9)):
             with self.subTest(**changes):

@@ -343,7 +343,7 @@ static void unobserved(void)
     }
 }
 
-/* The outcome of a cell is the worse of two outcomes, in either order. */
+/* The outcome of a cell must be the worse of two outcomes, in either order. */
 static void cells(void)
 {
     for (int good = 0; good < OUTCOME_KINDS; good++)
@@ -374,7 +374,7 @@ static void cells(void)
             }
 }
 
-/* A known deviation applies to a range of x that includes both ends to within rounding. */
+/* A known deviation must apply to a range of x that includes both ends to within rounding. */
 static void ranges(void)
 {
     static const struct {
@@ -406,8 +406,9 @@ static void expect_tests(void)
     unobserved();
 }
 
-/* An inaccurate value is under-resolved if the error decreases with more elements; otherwise it is
- * wrong. The neighbouring meshes are artificial: finer or coarser, with and without values. */
+/* An inaccurate value must count as under-resolved if the error decreases with more elements, and
+ * otherwise as wrong. The neighbouring meshes are artificial: finer or coarser, with and without
+ * values. */
 
 enum { MESHES = 1 + OUTCOME_NEIGHBOURS };
 static const double exact = 7;

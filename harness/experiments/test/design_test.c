@@ -38,7 +38,7 @@ static void grid(void)
     axis_free(&a[1]);
 }
 
-/* The five points are those printed in the GSL manual. */
+/* The first five points must be those printed in the GSL manual. */
 static void sobol(void)
 {
     static const double right[] = {0.5, 0.5, 0.75, 0.25, 0.25, 0.75, 0.375, 0.375, 0.875, 0.875};

@@ -114,7 +114,8 @@ static void failures(void)
     folder_remove(&of);
 }
 
-/* The run is killed at twenty random times, then runs to completion. */
+/* After twenty runs were killed at random times, the next run must complete the work with the same
+ * result. */
 static void killed(void)
 {
     const test_folder of = folder_make();

@@ -111,8 +111,8 @@ static void map_is(const tally *t)
     gsl_test_rel(tally_edge(t, 1, 1), 20, 0, "second line");
 }
 
-/* Points without a solution come first. The other points follow in decreasing order of the error on
- * the finest mesh. */
+/* Points without a solution must come first. The other points must follow in decreasing order of
+ * the error on the finest mesh. */
 static void worst_are(const tally *t)
 {
     gsl_test_int(t->worsts[0], 3, "worst points");

@@ -43,8 +43,8 @@ class Decks(ExportTest):
                                            atol=1e-12)
 
     def test_walls(self):
-        """Adjacent bricks must share their faces, and no space may be filled twice. The area must be that of the walls,
-        except where a wall ends inside another wall. The deck states the difference."""
+        """Adjacent bricks must share their faces, and no space may be filled twice. The area must be that of the
+        walls, except where a wall ends inside another wall. The deck must state the difference."""
         faces = [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
         for section, (area, twice) in WALLS.items():
             deck = self.deck(self.scene(cantilever(1.0).replace(RECTANGLE, section)), "-n", "3")
@@ -89,8 +89,8 @@ class Decks(ExportTest):
         self.assertIn("leaf_spring_guide.yaml; thickness=0.0004\n", deck)
 
     def test_one_turn(self):
-        """If the sequence of rotations of a node has one angle about z, the deck prescribes the rotation about z and
-        fixes the rotations about x and y."""
+        """If the sequence of rotations of a node has one angle about z, the deck must prescribe the rotation about z
+        and fix the rotations about x and y."""
         deck = self.deck(self.scene(hinge()), "-n", "2").read_text(encoding="utf-8")
         moment = re.search(r"^\*\*Q moment\|N m\|forces\|4\|(\d+)\|3\|", deck, re.M)
         states = [step for step in deck.split("*STEP") if step.startswith(",NLGEOM")]
@@ -220,8 +220,8 @@ class Answers(ExportTest):
 class Solved(ExportTest):
 
     def test_cantilever(self):
-        """Exact values of a cantilever are the tip deflection F L^3/(3 E I) + 6 F L/(5 G A) and the tip rotation F
-        L^2/(2 E I)."""
+        """The tip deflection of a cantilever must be F L^3/(3 E I) + 6 F L/(5 G A), and the tip rotation F L^2/(2 E
+        I)."""
         found = self.solved(self.scene(cantilever(2.0)), "-n", "10")
         bent = 2 * LENGTH**3 / (3 * YOUNG * INERTIA)
         sheared = 1.2 * 2 * LENGTH / (YOUNG / 2 * WIDTH * HEIGHT)
@@ -230,7 +230,7 @@ class Solved(ExportTest):
                                delta=1e-3)
 
     def test_elastica(self):
-        """For F L^2/(E I) = 2, exact values of the elastica are the deflection 0.49346 L and the shortening 0.16064 L
+        """For F L^2/(E I) = 2, the deflection of the elastica must be 0.49346 L, and the shortening 0.16064 L
         (Mattiasson 1981)."""
         force = 2 * YOUNG * INERTIA / LENGTH**2
         found = self.solved(self.scene(cantilever(force, PATH)), "-n", "16")
@@ -239,8 +239,8 @@ class Solved(ExportTest):
         self.assertAlmostEqual(found["held"] / -force, 1, delta=1e-5)
 
     def test_arc(self):
-        """For a bar bent by an end rotation a, exact values are the deflection (1 - cos a) L/a and the shortening (1 -
-        sin a/a) L. The bar is oblique, and its rotation axis is not a coordinate axis."""
+        """For a bar bent by an end rotation a, the deflection must be (1 - cos a) L/a, and the shortening (1 - sin
+        a/a) L. The bar is oblique, and its rotation axis is not a coordinate axis."""
         angle, c, s = 1.2, 0.8, 0.6
         text = cantilever(0.0, PATH).replace(
             "tip:  {at: [0.02, 0.1, 0]", "tip:  {at: [0.02, 0.08, 0.06], rotation: {vector: [none, "
@@ -257,7 +257,7 @@ class Solved(ExportTest):
         self.assertAlmostEqual(found["turn"], -c * angle, delta=1e-6)
 
     def test_compliance(self):
-        """Exact compliances of the end of a cantilever are L/(E I), L^2/(2 E I) and L/(E A)."""
+        """The compliances of the end of a cantilever must be L/(E I), L^2/(2 E I) and L/(E A)."""
         text = cantilever(1.0).replace("run: {linear: {}}", "run: {compliance: {node: tip}}")
         entries = {"turn_turn": ("rz", "rz", "rad/(N m)", LENGTH / (YOUNG * INERTIA)),
                    "turn_move": ("rz", "ux", "rad/N", -LENGTH**2 / (2 * YOUNG * INERTIA)),
@@ -288,8 +288,8 @@ class Solved(ExportTest):
             self.assertAlmostEqual(more[name], percent, delta=0.1, msg=name)
 
     def test_wagner_moments(self):
-        """A channel of 4 m loaded at its centroid twists and moves transversely to its load. The solid moves 12 % more
-        than beams without int y (y^2 + z^2) dA, and 0.6 % less than beams with this term."""
+        """A channel of 4 m loaded at its centroid twists and moves transversely to its load. The solid must move 12
+        % more than beams without int y (y^2 + z^2) dA, and 0.6 % less than beams with this term."""
         text = cantilever(0.0, "{static: {stations: [1]}}").replace(RECTANGLE, CHANNEL).replace(
             "force: [0.0, 0, 0]", "force: [0, 0, -3e3]").replace("[0.02, 0.1, 0]", "[0.02, 4, 0]")
         text = text.replace("shear_modulus: 100e9", "shear_modulus: 80e9")
@@ -304,8 +304,8 @@ class Solved(ExportTest):
             self.assertLess(solid / beam, most)
 
     def test_leaf_spring_guide(self):
-        """Plates resist anticlastic bending, so the solid is stiffer than beams by percentages that do not vanish on
-        finer meshes."""
+        """Plates resist anticlastic bending, so the solid must be stiffer than beams by percentages that do not
+        vanish on finer meshes."""
         scene = EXAMPLES / "leaf_spring_guide.yaml"
         solid = self.solved(scene, "-n", "20")
         told = self.record("solve", "--scene", scene, "-f", "collocation", "-n", "4")

@@ -115,15 +115,15 @@ class Import(ProgramTest):
         self.assertIn("given again", self.read(HEAD + COLUMNS + ROWS + ROWS, 2).stderr)
 
     def test_axes(self):
-        """If the x axis of the other program is the -y axis of beamwork, C_ux_Fx of that program is C_uy_Fy of
-        beamwork. An entry changes sign if only one of its indices refers to this axis."""
+        """If the x axis of the other program is the -y axis of beamwork, C_ux_Fx of that program must become C_uy_Fy
+        of beamwork. An entry must change its sign if only one of its indices refers to this axis."""
         self.read(HEAD + "# axes: x=-y y=x z=z\n" + COLUMNS +
                   "C_ux_Fx, m/N, 2,,,, 3,\nC_ux_Fy, m/N, 2,,,, 4,\n")
         found = {row["quantity"]: (row["value"], row["factor"]) for row in self.stored()}
         self.assertEqual(found, {b"C_uy_Fy": (3, 1), b"C_uy_Fx": (-4, -1)})
 
     def test_mirrored_axes(self):
-        """A reflection reverses one axis and the signs of rotations about the other axes."""
+        """A reflection must reverse one axis and the signs of rotations about the other axes."""
         self.read(HEAD + "# axes: x=x y=-y z=z\n# convention: spatial\n" + COLUMNS +
                   "C_ux_Mz, 1/N, 2,,,, 3,\nC_uy_Mz, 1/N, 2,,,, 4,\nC_thz_Mz, rad/(N m), 2,,,, 5,\n")
         self.assertEqual({row["quantity"]: row["value"]
@@ -247,7 +247,8 @@ class Import(ProgramTest):
         self.assertIn("finest mesh, n = 8: 0.4615", " ".join(done.stdout.split()))
 
     def test_several_beside(self):
-        """Several imported files are compared. Each file may be given once, and each program may occur once at a point."""
+        """Several imported files must be compared in one run. A file that is given twice, or a program that occurs
+        twice at a point, must be rejected."""
         self.read(
             HEAD.replace("MBDyn 1.7.3, 3-node", "rival") + COLUMNS + ROWS +
             "# case: elastica\nw_over_L, 1, 2,,,, 1,\n")
@@ -332,8 +333,8 @@ class Import(ProgramTest):
                              code=status)
 
     def test_files_of_mbdyn(self):
-        """Reads files that MBDyn 1.7.3 wrote for data/mbdyn_sheet.mbd. The model has four 3-node beams, and its error
-        is 0.06 % of the exact value."""
+        """Reads files that MBDyn 1.7.3 wrote for data/mbdyn_sheet.mbd. The model has four 3-node beams; the largest
+        error, that of u_x, is 0.06 %."""
         self.mapped(MAPS / "mbdyn.yaml", DATA / "mbdyn_sheet.mov", DATA / "mbdyn_sheet.jnt")
         found = {row["quantity"].decode(): row["value"] for row in self.stored()}
         for name, value in (("u_x", 9.864219e-2 - 0.1), ("F_y", 3492.813), ("M_z", -172.2694)):

@@ -174,7 +174,7 @@ static void paths(const gathering *g)
     gather_free(&list);
 }
 
-/* The curves of several meshes follow one another. */
+/* The points of the curves of several meshes must follow one another. */
 static void curves(const gathering *g)
 {
     subjects list = {0};
@@ -393,7 +393,7 @@ static void line_expect(const reach_line_bench *b, double level, const char *rig
     gsl_test(strcmp(line, right) != 0, "'%s', not '%s'", line, right);
 }
 
-/* Quantities without a reference value are listed together. Curves are excluded. */
+/* Quantities without a reference value must be listed together, and curves separately. */
 static void not_every_quantity(void)
 {
     reach_line_bench b;

@@ -338,7 +338,8 @@ class StateSpace(Matrices):
         self.assertGreater(checked, len(FORMULATIONS))
 
     def test_free(self):
-        """A free structure has six rigid-body modes with poles at zero, and no poles in the right half-plane."""
+        """A free structure has six rigid-body modes with poles at zero. It must have no poles in the right
+        half-plane."""
         scene = BENT.replace("stiffness: [100, 200, 50, 1, 2, 3], ", "").replace("  modes: {modal: {damped: yes%s}}\n", "%.0s") % (
             2700, "mass: 0.3, inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0]", "", "", "", "",
             "", responses("node: tip, component: uy, force: mid, along: uz"))

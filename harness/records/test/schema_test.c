@@ -98,8 +98,8 @@ static void all_same(const record_type *type, const void *a, const void *b)
                      list[i]->name);
 }
 
-/* One record of each kind in a cell is transferred between processes, with distinct values,
- * including matrices and curves. */
+/* One record of each kind in a cell, with distinct values, matrices and curves, must pass unchanged
+ * between processes. */
 static void pipe_carries_all(void)
 {
     double x[2] = {1, 2}, y[2] = {3, 4}, path = 5, compliance[36], stiffness[36];

@@ -116,7 +116,8 @@ static void new_ones(void)
     free(text);
 }
 
-/* If there are many cases, the cases that pass share lines. Other cases never share lines. */
+/* If there are many cases, the cases that pass must share lines. Other cases must never share
+ * lines. */
 static void passing(void)
 {
     static table_bench b;
@@ -300,12 +301,13 @@ static void unexpected_tests(void)
     holds(&b, "\n 6. unknown cases in the reference values: 2; the first is gone\n");
 }
 
-/* Texts on the stability of a path, which join steps with equal stability, for several analyses. */
+/* Texts on the stability of a path, for several kinds of analyses. Consecutive steps with equal
+ * stability must be joined. */
 
 enum { STABILITY_MOST = 16 };
 
 /* Checks the text for a path. There is one letter for each step: o open, d no divergence, s stable,
- * u unstable, h held. The steps end at 0.5, 1, ... */
+ * u unstable, g growing, h held. The steps end at 0.5, 1, ... */
 static void is(const char *letters, scene_analysis_kind kind, const char *expected)
 {
     static const char letter[] = "odsugh";
