@@ -376,7 +376,8 @@ static int joins(const char *word)
     return strcmp(word, "and") == 0 || strcmp(word, "or") == 0 || strcmp(word, "not") == 0;
 }
 
-/* Returns the next word of a valid expression that is a name, not an operator; NULL: none. */
+/* Copies the next word of a valid expression that is a name, not an operator. Returns the rest of
+ * the expression; NULL: there is no such word. */
 static const char *next_word(const char *at, char word[SELECT_WORD])
 {
     do {

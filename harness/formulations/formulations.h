@@ -50,11 +50,13 @@ enum { ASSIGNMENT_VALUE = 64 };
 
 /* Sets "NAME=VALUE", where VALUE is a number in its range or the name of a choice. *index: receives
  * the index; may be NULL. If `any` is not NULL, a value "*" is skipped and marked in `any`.
- * REFUSED: the message names the word and the most similar known name. */
+ * REFUSED: the text has another form, NAME is unknown, or VALUE is not allowed; the message names
+ * the text and, for an unknown name, the most similar name. */
 status assignment_set(const assignment_list *, const char *text, double value[], int any[],
                       int *index, fault *f);
 /* Sets the parameters of "NAME=VALUE;NAME=VALUE", in which each name may occur once. Other
- * parameters keep their values. "" sets nothing. */
+ * parameters keep their values. "" sets nothing. REFUSED: assignment_set rejects a part, or a name
+ * occurs twice. */
 status assignment_parse(const assignment_list *, const char *text, double value[], int any[],
                         fault *f);
 /* Writes the parameters in the form that assignment_parse reads. Only values that differ from their
@@ -140,7 +142,7 @@ int formulation_choice(const element_type *type, int index, int choice, formulat
 unsigned formulation_bears_on(const formulation *chosen);
 
 /* Adds a formulation in the form of the option -f, or "all". REFUSED: a formulation is unknown or
- * given twice, or there are more than `most`. */
+ * given twice, an option is invalid, or there are more than `most`. */
 status formulation_list_add(const char *text, int most, formulation list[], int *count, fault *f);
 
 /* All formulations: those of elements/, followed by those loaded at run time. */
@@ -159,8 +161,9 @@ int formulations_is_loaded(const element_type *t);
 int formulations_is_new(const element_type *t);
 /* Marks a formulation as accepted (reference/accepted.csv). An unknown name is ignored. */
 void formulations_accept(const char *name);
-/* Adds a type. REFUSED: the name already exists, or is a word with another meaning ("all"). The
- * caller keeps ownership of the type and of `from`, the value of --element (NULL: none). */
+/* Adds a type. REFUSED: the name already exists or is reserved ("all"), the type is inconsistent,
+ * or too many types are loaded. The caller keeps ownership of the type and of `from`, the value of
+ * --element (NULL: none). */
 status formulations_add(const element_type *t, const char *from, fault *f);
 /* Returns the value of --element that loaded the type; NULL: the type was not loaded. */
 const char *formulations_element(const element_type *t);
@@ -200,8 +203,9 @@ void parameters_text(const case_type *c, const double value[], char *text, int s
 void parameters_source_text(const case_type *c, const double value[], char *text, int size);
 /* returns the number of parameters of the original source, which come first in the table */
 int parameters_of_source(const case_type *c);
-/* Returns the FNV-1a hash of "name=%.17g;" for all parameters in the order of the table. The number
- * of a choice is its index. For parameters marked in `any`, "name=*;" is hashed. */
+/* Returns the FNV-1a hash of "name=%.17g;" for all parameters in the order of the table, except
+ * those that the program has added and that are 0. The number of a choice is its index. For
+ * parameters marked in `any`, "name=*;" is hashed. */
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[]);
 
 /* Texts of the parameters of the previous point, which are reused. Between neighbouring rows of a
@@ -222,8 +226,8 @@ uint64_t parameters_hash_next(const case_type *c, const double value[], const in
 
 /* Loads a formulation, which remains loaded until the program ends. REFUSED: the file is not a
  * shared object, has no such symbol, has another interface version (ABI, size) or an incomplete
- * description, or the text is not a command. The message is one line that names the file and the
- * remedy. */
+ * description, or too many processes are loaded, or the text is not a command. The message is one
+ * line that names the file and the remedy. */
 status plugin_load(const char *path, const element_type **out, fault *f);
 
 /* Generated lists of all formulations in elements/ and of all cases in cases/, NULL-terminated. */

@@ -49,9 +49,9 @@ typedef struct handshake {
     void *memory;
 } handshake;
 
-/* Reads the first line of a process. who: start of every error message. After an
- * error, nothing needs to be freed. The owner sets type.constants. REFUSED: the line does not
- * follow the protocol. */
+/* Reads the first line of a process. program_name: start of every error message. After an error,
+ * nothing needs to be freed. The owner sets type.constants. REFUSED: the line does not follow the
+ * protocol. */
 status handshake_read(const char *program_name, const char *line, size_t length, handshake *out,
                       fault *f);
 
@@ -89,10 +89,11 @@ typedef struct channel {
     int reported;
 } channel;
 
-/* Makes a channel. REFUSED: the command has no words. FAULT: out of memory. */
+/* Makes a channel. REFUSED: words_split rejects the command. FAULT: out of memory. */
 status channel_init(channel *, const char *command, fault *);
-/* Starts the process, or starts it again if it has ended, and reads its first line into
- * line[HANDSHAKE_MOST + 1], terminated by '\0'. REFUSED: the process writes no line. */
+/* Starts the process, after ending an earlier one, and reads its first line into
+ * line[HANDSHAKE_MOST + 1], terminated by '\0'. REFUSED: the command does not exist, or the process
+ * writes no first line or more than this line. FAULT: the process cannot be created. */
 status channel_start(channel *, char line[], fault *);
 /* Returns 1 if this process started the child and the child is running. */
 int channel_runs(const channel *);
@@ -100,7 +101,7 @@ int channel_runs(const channel *);
  * and returns their address; NULL: out of memory. */
 void channel_begin(channel *);
 void *channel_add(channel *, size_t count);
-/* Sends the request and waits for the answer. *body: the answer of `least` to `most` bytes
+/* Sends the request and waits for the answer. *body: the answer of `least` or `most` bytes
  * (*count), valid until the next request. NOT_CONVERGED, SINGULAR, REFUSED: the process reports
  * this outcome with a message. FAULT: the channel is broken or the process has ended; `trouble`
  * gives the reason. */
@@ -138,8 +139,9 @@ typedef void gather_element(void *context, gather *, int i);
 typedef void gather_evaluate(void *context, gather *, int first, int count);
 enum { GATHER_TOGETHER = 4096 }; /* largest number of states in one evaluation */
 
-/* Calls element(context, g, i) twice for each of `count` elements, with one call of `evaluate` in
- * between. If memory is short, calls it once with g NULL. */
+/* Calls element(context, g, i) twice for each of `count` elements, in groups of elements, with
+ * calls of `evaluate` for their states in between. If memory is short, g is NULL in the second or
+ * only call for an element. */
 void gather_run(int count, int nodes, size_t size, gather_element *, gather_evaluate *,
                 void *context);
 /* Returns the answer [size] for the state x[nodes]. Returns NULL in the first pass, in which the

@@ -14,8 +14,8 @@
 #include "harness/numerics/numerics.h"
 
 /* Ends a child of this process: immediately if `now` is 1, otherwise after a short time in which it
- * may exit. Returns its status from waitpid; -1: this function killed the child. For a child of
- * another process, only the channels are closed. */
+ * may exit. Returns its status from waitpid; -1: this function killed the child, or there is no
+ * child of this process. For a child of another process, only the channels are closed. */
 static int child_end(child *, int now);
 
 enum { TO_READ, TO_WRITE };

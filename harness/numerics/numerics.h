@@ -144,10 +144,10 @@ typedef struct eigen_side {
     double *mu;       /* [count] largest magnitude first */
     double *mode;     /* [count x n] vectors with x^T K x = 1 */
     double *residual; /* [count] the distance from mu to an eigenvalue is at most residual |mu| */
-    double *error;    /* [count] estimated relative error of mu, at most about residual^2 */
-    int rounding;     /* number of candidates that were rejected as rounding errors of A */
+    double *error; /* [count] estimated relative error of mu, about residual^2 if mu is isolated */
+    int rounding;  /* number of candidates that were rejected as rounding errors of A */
     /* NOT_CONVERGED: the iteration ended before the requested eigenvalues were proved to be
-     * complete */
+     * complete, or a value is NaN */
     status status;
     /* reason for NOT_CONVERGED; the values found are still the first values of their side */
     char reason[FAULT_TEXT];
@@ -164,7 +164,8 @@ typedef struct eigen_result {
  * converge; the values found on both sides are kept. A value counts as zero and is not returned if
  * it is within the rounding error of the largest value or of its quadratic form. In large problems,
  * values below 1e-9 of the largest value are also not returned. `error` gives the accuracy of a
- * value. A value without significant digits is not returned. */
+ * value. A value without significant digits is replaced by NaN, and the outcome is then
+ * NOT_CONVERGED. */
 status eigen_solve(const eigen_problem *problem, eigen_result *out, fault *f);
 void eigen_free(eigen_result *r);
 
