@@ -454,13 +454,15 @@ int harmonic_border(const vibration *);
 
 enum { HARMONIC_SHAPES_OF_MOTION = 4, HARMONIC_SHAPES = 2 * HARMONIC_SHAPES_OF_MOTION };
 
-/* Sets the right-hand side for an input. A prescribed motion has the value 1 in x[all]. */
+/* Sets the right-hand side x[all + loops] for an input. The coordinate of a prescribed motion
+ * becomes 1. */
 status harmonic_input(const vibration *, const scene_response *, double w, double complex x[],
                       fault *);
 /* Sets y[border] of the direct solution to U^T r of the driven coordinate of the input. Returns 0
  * if the input is a force. */
 int harmonic_carried(const vibration *, const scene_response *, double y[]);
-/* Computes the linear form o of a quantity in the displacements: the quantity is o^T x. */
+/* Computes the linear form o[all + loops] of a quantity in the displacements: the quantity is o^T
+ * x. */
 void harmonic_output(vibration *, const scene_response *, double w, double complex o[]);
 /* Returns the part of the input that acts directly on the prescribed motion whose reaction is read.
  * */
@@ -500,7 +502,7 @@ struct harmonic_modes {
         *entry; /* [count x count] scaled and factored D; entries of D in the order of v->first */
     double *scale; /* [count] */
     int *pivot;
-    double complex *y, *inverse, *half; /* [count]; [kept x kept] */
+    double complex *y, *inverse, *half; /* [count]; [kept x kept]; [2 kept x kept] */
     double *work;                       /* [2 n] */
     double w, positive; /* w: circular frequency; positive: lower bound of the real part of D beyond
                            the modes */

@@ -48,7 +48,7 @@ static int is_defined(const scene *s, const scene_quantity *q, fault *f)
     return 1;
 }
 
-/* Returns 0 if the quantity requires a strain energy, which the formulation need not have. */
+/* Returns 0 if the quantity requires a strain energy that the formulation does not have. */
 static int has_energy(const analysis_context *c, const scene_quantity *q, fault *f)
 {
     const int of = q->what.kind == SCENE_BALANCE ? (int)q->what.of.balance : SCENE_KINETIC;

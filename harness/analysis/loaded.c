@@ -161,9 +161,8 @@ typedef struct loaded_search {
         sigma[POINTS]; /* shift: the first sigma; K + shift scale is far from singular */
     int points;
     double noise; /* bound of the rounding error of sigma[0] */
-    double estimate, change,
-        /* unstable: smallest path parameter that is known to be beyond the critical point */
-        unstable;
+    /* unstable: smallest path parameter that is known to be beyond the critical point */
+    double estimate, change, unstable;
     int wanted;  /* number of loads requested */
     double size; /* length of the path so far */
     /* predicted distance from the start to the first critical point, from the rate of K at the

@@ -12,7 +12,8 @@ static status condensation_patterns(condensation *s, int ends, fault *f);
 
 /* Returns 1 if members can be condensed, and at least one has `from` or more elements. Conditions:
  * all loads with a stiffness act at the ends of members, no member lies on an elastic foundation,
- * the axes do not rotate, the scene is spatial and the model does not keep all coordinates. */
+ * the axes do not rotate, the scene is spatial, elements have neither forces with a history nor
+ * additional unknowns, and the model does not keep all coordinates. */
 static int applies(const equations *eq, int from)
 {
     const model *m = eq->m;

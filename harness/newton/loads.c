@@ -8,7 +8,8 @@
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 
-/* Relative to the moment: largest asymmetry of its stiffness that is a rounding error. */
+/* Largest asymmetry of the stiffness of a moment that is a rounding error, relative to the moment.
+ */
 static const double potential = 1e-12;
 
 /* Returns bits LUMPS_*. In a motion with lumped mass, weights are lumped at the ends of elements;

@@ -215,8 +215,8 @@ quantities: {{li: {{internal: {{analysis: li, member: n, end: to, resultant: N}}
                         self.assertAlmostEqual(got[name], force / 2, delta=1e-5 * force)
 
     def test_bent(self):
-        """A straight member mounted along an arc between two clamps has the moment -EI k. An initially curved member
-        mounted straight has the moment EI k. If one end is released, both have their stress-free shape."""
+        """A straight member mounted along an arc between two clamps has the moment EI k. An initially curved member
+        mounted straight has the moment -EI k. If one end is released, both have their stress-free shape."""
         k = 0.5
         for formulation in ("collocation", "geometrically_exact", "sheet_second_consistent"):
             for own, free in ((k, -k), (0, k)):

@@ -70,8 +70,8 @@ class FurtherLoads(ProgramTest):
                     self.assertAlmostEqual(value, right, delta=3e-9*right)
 
     def test_storey(self):
-        """Two critical loads of sway are equal, and the third is that of twist. Within 1e-9 of the latter, Newton's
-        method fails."""
+        """Two critical loads of sway are equal, and the third is that of twist. It must be found, although Newton's method
+        fails within 1e-9 of it."""
         EI, EA, GJ, L, r = 2e4, 2e8, 3.2e3, 2, 0.5
 
         def twist(P):
