@@ -166,8 +166,8 @@ quantities:
 """
 
     def test_stress(self):
-        """The shear stress of a box that is free to warp is Bredt's stress plus a part that varies linearly through
-        the wall."""
+        """The shear stress of a box that is free to warp must be Bredt's stress plus a part that varies linearly
+        through the wall."""
         area, swept, perimeter = 2*(0.1*3e-3 + 0.06*2e-3), 2*0.1*0.06, 2*(0.1/3e-3 + 0.06/2e-3)
         It = swept**2/perimeter + 2*(0.1*3e-3**3 + 0.06*2e-3**3)/3
         tau = max(300/It*(swept/perimeter/t + t) for t in (2e-3, 3e-3))
@@ -214,8 +214,8 @@ quantities:
         self.assertEqual(*written)
 
     def test_weight_of_a_body(self):
-        """A body of weight P, with its centre of mass at the distance a beyond the tip, deflects the tip by P L^3/(3
-        E I) + P a L^2/(2 E I)."""
+        """A body of weight P, with its centre of mass at the distance a beyond the tip, must deflect the tip by P
+        L^3/(3 E I) + P a L^2/(2 E I)."""
         heavy = LEAF.replace("  push: {force: [0, 1, 0], on: tip}", "  weight: {gravity: [0, -9.81, 0], on: tip}")
         body = heavy.replace("tip:  {at: [0.1, 0, 0]}", "tip:  {at: [0.1, 0, 0], mass: 0.01, centre: [0.02, 0, 0]}")
         self.assertNotIn("push", body)
@@ -324,8 +324,8 @@ class ExamplesTest(SceneCase):
             self.assertAlmostEqual(got[name] / value, 1, delta=1e-6)
 
     def test_folded_leaf_stage(self):
-        """With three folded leaves at 120 degrees, the stiffness of the stage is the same in all directions of their
-        plane."""
+        """With three folded leaves at 120 degrees, the stiffness of the stage must be the same in all directions of
+        their plane."""
         path = EXAMPLES / "folded_leaf_stage.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 2))
         self.assertAlmostEqual(got["k_x"] / got["k_y"], 1, delta=1e-12)

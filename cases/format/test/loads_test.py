@@ -146,7 +146,7 @@ class LoadsTest(SceneCase):
             self.assertRegex(done.stderr, r":11:3: l0: it (acts|rotates) out of the plane, .*; correct this, or remove plane: xy\n$")
 
     def test_units(self):
-        """With units mm and N, positions as fractions of the length are not converted, and load vectors are."""
+        """With units mm and N, load vectors must be converted, but not positions as fractions of the length."""
         def loads(millimetre):
             force, moment, line, moments, arm = (f"[{x}, {2*x}, {3*x}]" for x in (1, 0.5*millimetre, 2/millimetre, 0.25, 0.125*millimetre))
             more = [f"distributed: {line}, on: bar, from: 0.25, to: 0.5, at: {arm}, to_value: [0, {8/millimetre}, 0]",
@@ -193,7 +193,7 @@ class MotionTest(SceneCase):
         return values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1, *more))
 
     def test_constant_push(self):
-        """A load without a function of time is constant from t = 0: u = F/k (1 - cos w t)."""
+        """A load without a function of time must be constant from t = 0: u = F/k (1 - cos w t)."""
         k = self.stiffness()
         exact = PUSH * (1 - math.cos(math.sqrt(k / 0.1) * 0.5)) / k
         self.assertAlmostEqual(self.moved("")["u"] / exact, 1, delta=1e-4)
@@ -243,8 +243,8 @@ class MotionTest(SceneCase):
         self.assertNotEqual(got[0], got[1])
 
     def test_mass(self):
-        """Mass is consistent by default. The message that rejects it names the element or the integrator that does
-        not support it."""
+        """Mass must be consistent by default. A message that rejects consistent mass must name the element or the
+        integrator that does not support it."""
         text = reader_file("howto/dynamics.md", "swing.yaml")
         lumped = self.scene(text.replace("0..1/100", "0..1/100, mass: lumped"), "lumped.yaml")
         usual = self.scene(text, "usual.yaml")
@@ -388,7 +388,7 @@ class StabilityTest(SceneCase):
                          ["yes", "yes", "no", "no"])
 
     def test_meshes(self):
-        """`converge` reports the path parameter at which the stability changes."""
+        """`converge` must report the path parameter at which the stability changes."""
         text = self.answered("converge", "--scene", self.scene(COLUMN), "-f", "collocation", "-f", "beamw").stdout
         self.assertIn("collocation had unstable states:\n  n = 1: stable up to 0.95", text)
         line = self.answered("solve", "--scene", self.scene(COLUMN), "-f", "collocation").stdout

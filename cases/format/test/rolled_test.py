@@ -196,7 +196,7 @@ class ProfilesTest(SceneCase):
                                        msg=f"{constant} of {name}")
 
     def test_sizes_without_fillets(self):
-        """The area of T-sections and of angles that are not in the table is that of sharp corners."""
+        """T-sections, and angles that are not in the table, must have the area of sharp corners."""
         got = self.constants({
             "t": "t: {depth: 0.1, flange: 0.1, flange_thickness: 0.01, web_thickness: 0.01}",
             "l": "profile: L100x77x8",
@@ -210,8 +210,8 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["given"]["A"], 28.48e-4, delta=5e-7)
 
     def test_angles(self):
-        """The shear centre of an angle is at the intersection of the mid-lines of its legs. Exchanging the leg
-        lengths rotates the section."""
+        """Compares the constants of angles with tables. The shear centre must be at the intersection of the mid-lines
+        of the legs, and exchanging the leg lengths must change the sign of the angle of the principal axes."""
         sections = {f"s{i}": f"profile: {name}" for i, name in enumerate(ANGLES)}
         got = self.constants(sections)
         for key, printed in zip(sections, ANGLES.values()):
@@ -233,8 +233,8 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(e[2], -23.22e-3, delta=1e-5)
 
     def test_angle_bends_askew(self):
-        """The deflection of a cantilever L100x75x8 is d = F L^3/3E [Iz, -Iyz; -Iyz, Iy]/(Iy Iz - Iyz^2), with second
-        moments about axes parallel to the legs."""
+        """A force F along z must deflect a cantilever L100x75x8 by (uy, uz) = F L^3/3E (-Iyz, Iz)/(Iy Iz - Iyz^2),
+        with second moments about axes parallel to the legs."""
         text = scene({"l": "profile: L100x75x8"}, loads={"p": "[0, 0, 10]", "t": "[0, 0, 0]"})
         text = text.replace("  t: {force: [0, 0, 0], on: b}", "  t: {moment: [10*l.ey, 0, 0], on: b}")
         text = text.replace("  uz:", "  uy: {displacement: {analysis: run, node: b, component: uy}}\n  uz:")
@@ -246,7 +246,8 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["uy"] / (-flexibility * Iyz), 1, delta=4e-3)
 
     def test_stresses_of_an_angle(self):
-        """A moment about z causes the stress -M (Iy y - Iyz z)/(Iy Iz - Iyz^2), with axes parallel to the legs."""
+        """A moment M about z must cause the stress -M (Iy y - Iyz z)/(Iy Iz - Iyz^2), with axes parallel to the
+        legs."""
         def spandrel(sign, y, z, sy, sz, r, n=4000):
             strips = [(r / n * h, (i + 0.5) * r / n, h) for i in range(n)
                       for h in [r - math.sqrt(r * r - (r - (i + 0.5) * r / n)**2)]]
@@ -274,7 +275,8 @@ class ProfilesTest(SceneCase):
             self.assertEqual(max(stress), stress[0])
 
     def test_stresses_of_mid_lines(self):
-        """Stresses in a thin-walled section are computed on its outer surface, with second moments of the mid-lines."""
+        """Stresses in a thin-walled section must be those on its outer surface, with second moments of the
+        mid-lines."""
         h, b, t = 0.2, 0.1, 0.01
         Iy, Iz = t * h**3 / 6 + b * t * h**2 / 2, t * b**3 / 6 + h * t * b**2 / 2
         box = f"box: {{depth: {h}, flange: {b}, flange_thickness: {t}, web_thickness: {t}}}"

@@ -354,7 +354,7 @@ class UnitsTest(SceneCase):
             self.assertAlmostEqual(found[name]/1e3/exact[name], 1, delta=1e-6, msg=name)
 
     def test_continued(self):
-        """Stations of a continuation are displacements here, so they have the unit of length."""
+        """Stations of a continuation with displacement control must have the unit of length."""
         si, mm = [self.solved(filled(CONTINUED, UNITS=units, NEAR=near, FAR=4*near, **numbers))
                   for units, near, numbers in (("", 1e-3, METRES), ("units: mm, N, MPa", 1, MILLIMETRES))]
         exact, found = values(si), values(mm)
@@ -451,7 +451,8 @@ class Doubtful(SceneCase):
                       "densities are in t/mm^3", self.told("7850", "1").stderr)
 
     def test_larger_than_the_structure(self):
-        """With EA/l = 84000 N/mm, a force of 168 MN causes a displacement as large as the structure, 2000 mm."""
+        """A displacement larger than the structure must be reported. With EA/l = 84000 N/mm, a force of 168 MN causes
+        2000 mm, the size of the structure."""
         self.assertEqual(self.told("7.85e-9", "167e6").stderr, "")
         self.assertIn("ux: a linear analysis gives a displacement of 1.01 times the size of the structure",
                       self.told("7.85e-9", "169e6").stderr)
@@ -460,8 +461,8 @@ class Doubtful(SceneCase):
         self.assertRegex(self.told("7.85e-9", "1").stdout, r"\nN +0 N mm")
 
     def test_kelvin(self):
-        """The load factor of a temperature load may have the unit K in every unit system. Other units require a
-        factor."""
+        """The load factor of a temperature load may have the unit K in every unit system. Other units must be rejected
+        without a factor."""
         self.assertRegex(self.answered("solve", "--scene", self.scene(WARM), "-f", "beamw", "-n", 8).stdout,
                          r"\ndT +\S+ K")
         self.refused(2, "remove 'unit', or give a 'factor' in this unit", "solve", "--scene",

@@ -111,8 +111,8 @@ class WarpingTest(SceneCase):
                     [f"fixed, {told}"])
 
     def test_tied(self):
-        """Warping is restrained at nodes attached to a body. At the node of the body, it is restrained if members or
-        springs are joined to attached nodes."""
+        """Warping must be restrained at nodes attached to a body. At the node of the body, it must be restrained if
+        members or springs are joined to attached nodes."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         part = base + "  body: {at: [4, 0, 0]}\n" + TIP + ", part_of: body}\n" + CANTILEVER
         self.assertEqual(self.words(part), ["fixed, fixed"])
@@ -180,7 +180,7 @@ instances:
         self.assertEqual(self.words(scene), ["fixed, free"] * 4)
 
     def test_continued(self):
-        """Two members in one line share their warping coordinate at the common node."""
+        """Two members in one line must share their warping coordinate at the common node."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  mid: {at: [1, 0, 0], mass: 2}\n" + TIP + "}\n"
         two = base + "members:\n  one: {from: base, to: mid, section: SECTION, y: [0, 1, 0]}\n" + \
             "  two: {from: mid, to: tip, section: SECTION, y: [0, 1, 0]}\n"
@@ -217,7 +217,7 @@ instances:
                 self.assertEqual(self.words(scene), told)
 
     def test_towards(self):
-        """Two members whose x axes are opposite share their warping if the section is symmetric."""
+        """Two members whose x axes are opposite must share their warping only if the symmetry of the section allows it."""
         two = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  mid: {at: [1, 0, 0]}\n" + TIP + "}\n" + \
             "members:\n  one: {from: base, to: mid, section: SECTION, y: [0, 1, 0]}\n" + \
             "  two: {from: tip, to: mid, section: SECTION, y: Y}\n"
