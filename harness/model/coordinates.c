@@ -94,8 +94,8 @@ static void number_release(model *m, int index)
     }
 }
 
-/* Counts of coordinates without an unknown: fixed, fixed because they leave the plane, and
- * determined by constraints; and of unconnected vertices. */
+/* Numbers of fixed coordinates, of coordinates that are fixed because they leave the plane, of
+ * unconnected vertices, and of coordinates that constraints determine. */
 typedef struct coordinates_tally {
     int held, across, unused, tied;
 } coordinates_tally;

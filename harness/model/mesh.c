@@ -462,10 +462,10 @@ static void add_scalars(model *m, int (*named)[2])
     }
 }
 
-/* Returns the weight of a node near the end of n equal lengths. The weighted sums integrate cubics
- * exactly. In slender bending, lumped masses with these weights therefore have the same order of
- * convergence as distributed masses. The rules are Gregory's for n >= 6 and the closed Newton-Cotes
- * rules for n < 6. */
+/* Returns the weight of a node near the end of n equal lengths. For n > 1, the weighted sums
+ * integrate cubics exactly. In slender bending, lumped masses with these weights therefore have the
+ * same order of convergence as distributed masses. The rules are Gregory's for n >= 6 and the
+ * closed Newton-Cotes rules for n < 6. */
 static double weight_of(int n, int node)
 {
     static const double closed[][3] = {{0.5, 0, 0},

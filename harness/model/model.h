@@ -746,7 +746,7 @@ int kinematics_coordinate(const model *, int node, int component);
 enum { KINEMATICS_MOST = 6 + SCENE_RELEASED };
 /* Computes the Jacobian T[6 x m] (row-major) of the six spatial increments of a vertex with respect
  * to the m coordinates on which it depends. index[m]: indices of these coordinates. Returns m <=
- * size; m is 6 for a node. */
+ * size; m is at most 6 for a node. */
 int kinematics_node_jacobian(const model *, const model_state *, int node, int size, int index[],
                              double T[]);
 /* Computes the current vector [m] from the body of a vertex to the vertex. */

@@ -201,9 +201,9 @@ static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Sets the limit and returns 1 if the order still changes or if there are only three meshes;
- * returns 0 in other cases. The uncertainty follows from the largest of the last changes and the
- * smallest plausible order. */
+/* Sets the limit and returns 1 if the order still changes or if there are only three meshes.
+ * Returns 0 if an order is missing or not plausible. The uncertainty follows from the largest of
+ * the last changes and the smallest plausible order. */
 static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int k = m->count - 3;
@@ -234,9 +234,9 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* If no order was observed, sets the limit to the last value. The uncertainty follows from the
- * largest of the last three changes, each reduced according to the nominal order. It is larger if
- * the changes increase. */
+/* Sets the limit to the last value, if no plausible order was observed. The uncertainty follows
+ * from the largest of the last three changes, each reduced according to the nominal order. It is
+ * larger if the changes increase. */
 static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int last = m->count - 1;

@@ -213,8 +213,8 @@ static void find_truths(const sweep *s, const truths *t, verdict *v)
     v->predicted = truth_predicted(t, p->type, p->parameter, name, one->formulation.key);
 }
 
-/* Returns a published value of the same model and theory that differs from the limit and has a
- * lower rank than the reference value; NULL: none. */
+/* Returns a published value of the same model and theory, other than the reference value, that
+ * differs from the limit by more than the sum of both uncertainties; NULL: none. */
 static const truth *contradiction(const sweep *s, const truths *t, const verdict *v)
 {
     const series *one = &s->series[v->series];

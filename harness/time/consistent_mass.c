@@ -82,8 +82,8 @@ void consistent_mass_subtract(const model *m, const model_state *s, const double
     }
 }
 
-/* Adds B Q to A[columns x columns]. Q [3 x 3] maps the rotations of a node, which start at `at`, to
- * its translations. */
+/* Adds the columns of B for the translations of a node, multiplied by Q[3 x 3], to the columns of A
+ * for its rotations. The coordinates of the node start at `at`. */
 static void add_through(int columns, int at, const double B[], const double Q[9], double A[])
 {
     for (int i = 0; i < columns; i++)

@@ -552,7 +552,7 @@ double damping_power(const equations *eq, const double rate[])
     return sum + dashpots_power(m, rate + of_members(m));
 }
 
-/* Returns the number of rotations about fixed axes that are free or prescribed. */
+/* Returns the number of rotations that have rows: free, prescribed, or fixed with a kept row. */
 static int turns_of(const model *m, int vertex)
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -569,7 +569,7 @@ rotation_form forms_of(const model *m, int vertex)
     return turns_of(m, vertex) == 3 ? FORM_BODY : FORM_AXIS;
 }
 
-/* Returns 1 if at most one rotation is free. Fixed rotations whose rows are kept count as free. */
+/* Returns 1 if at most one rotation is not fixed, even if fixed rotations have kept rows. */
 static int keeps_axis(const model *m, int vertex)
 {
     int moving = 0;

@@ -825,9 +825,10 @@ status massless_accelerate(const model *, const frame_masses *, const model_stat
 
 /* Extrema of reactions, resultants, stresses, energies and momenta during a motion. The values at
  * the ends of steps are those of the scheme. Between the ends, a cubic through four consecutive
- * ends (order 4) gives the time of an extremum, and a probe step computes the value at this time.
- * The extremum counts only if this value differs from the cubic by less than the cubic exceeds the
- * values at both ends. Extrema that the steps do not resolve are thus rejected. */
+ * ends (order 4) gives the time and the value of an extremum, and a probe step to this time gives
+ * the error of the value. The extremum counts only if this error is smaller than the amount by
+ * which the cubic exceeds the values at both ends. Extrema that the steps do not resolve are thus
+ * rejected. */
 
 enum { EXTREMA_ENDS = 4 }; /* number of consecutive ends of steps */
 

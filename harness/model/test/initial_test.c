@@ -227,8 +227,8 @@ static void centreline_tests(void)
 
 enum { WHOLE, LOADED, OWN };
 
-/* Builds three members in a row. The first has no loads between its ends, the others have, and the
- * third has a given number of elements. */
+/* Builds three members in a row. No load starts, ends or acts within the first, but loads do so in
+ * the others. The third has a given number of elements. */
 static void row(scene *s)
 {
     const double y[3] = {0, 1, 0};

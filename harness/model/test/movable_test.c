@@ -1,5 +1,5 @@
 /* The spaces of possible motions must have the dimensions that exact axes give, despite round-off
- * and different units in the axes. */
+ * in the axes and for any unit of length. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -125,7 +125,7 @@ static void nothing(void)
 }
 
 /* Free rotations transmit no moment. The moment must be reduced to its part perpendicular to the
- * free rotations, which is exactly zero if these span space. */
+ * free rotations, which is exactly zero if there are free rotations in all directions. */
 static void prescribed_moment(void)
 {
     uint64_t state = 3;

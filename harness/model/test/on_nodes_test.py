@@ -87,8 +87,8 @@ class OnNodes(ProgramTest):
                 self.assertAlmostEqual(math.log2(coarse / fine), order, delta=0.05)
 
     def test_halves(self):
-        """With one element, half of the uniform load acts at the tip. The deflection is (q L/2) L^3/(3 EI) instead of q
-        L^4/(8 EI)."""
+        """With one element, half of a lumped uniform load q acts at the tip, so the deflection must be (q L/2) L^3/(3
+        EI) instead of q L^4/(8 EI)."""
         scene = SCENE.replace("beamwork: 1", "beamwork: 1\nomit: [shear]") % ("", "d: {distributed: [0, 20, 0], on: beam%s}",
                                                                             "run: {linear: {}}")
         exact, lumped = (self.cell(scene % how, 1)[1] for how in ("", ", lumped: yes"))
@@ -132,8 +132,8 @@ class OnNodes(ProgramTest):
             self.assertLess(abs(value / exact - 1), bound, elements)
 
     def test_rigid_rods_have_their_inertia(self):
-        """Simpson's weights integrate cubics exactly, so a rigid rod with two or more elements has the moment of
-        inertia m L^2/12."""
+        """The shares of mass at nodes integrate cubics exactly, so a rigid rod of mass m and length L with two or more
+        elements must have the moment of inertia m L^2/12."""
         for integrator in ("conserving", "explicit"):
             for elements in (2, 3, 4, 5, 6, 9):
                 path = self.folder / "rod.yaml"
@@ -144,8 +144,8 @@ class OnNodes(ProgramTest):
                 self.assertAlmostEqual(json.loads(done.stdout)["quantities"][0]["value"] / right, 1, delta=1e-11)
 
     def test_resultants_beside_masses_at_nodes(self):
-        """Resultants must be exact with any number of elements. They are m w^2 (L^2 - x^2)/2 in a steadily rotating
-        rod, and those of a cantilever under its own weight at the start of a conserving motion."""
+        """Resultants must be exact with any number of elements: the axial force m w^2 (L^2 - x^2)/2 in a rod of mass m
+        per length that rotates steadily, and those of a cantilever at the start of a conserving motion."""
         for elements in (1, 2, 3, 4, 6, 9):
             for scene, right in ((TURNING, {"N": 7800*1e-4*100*(1 - 0.09)/2}),
                                  (WEIGHED, {"M": -7800*1e-4*0.01*0.49/2, "V": -7800*1e-4*0.01*0.7})):

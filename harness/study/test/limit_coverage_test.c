@@ -415,7 +415,7 @@ static void settled(void)
              l.limit_uncertainty);
     double v[DOUBLED];
     fill(DOUBLED, mesh, 0.3, 8,
-         v); /* the last change is 0.3/16^8 = 7e-11 of 3, and the previous one is 2e-8 */
+         v); /* the limit is 3, the last change 0.3/16^8 = 7e-11, the previous one 2e-8 */
     l = limit_of(&(limit_sequence){DOUBLED, mesh, v, NAN, 2, 8, 0});
     is_kind(l, LIMIT_CONVERGED, "a high order that has reached the noise");
     gsl_test_rel(l.order, 8, 0.02, "shows its order above it");

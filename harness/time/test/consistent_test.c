@@ -333,8 +333,8 @@ extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_free_flight_plane, case_release,
     case_leaf_guide, case_rigid_body, case_pendulum;
 
-/* Impulse of the force along x. The triangle rises at 8 N/s for 2.5 s and then falls back. The step
- * is 8 N for the same time. */
+/* Impulse of the force along x. The force is a triangle, which rises at 8 N/s for 2.5 s and falls
+ * at the same rate, or a step of 8 N for 2.5 s. */
 static double impulse_of_triangle(double t)
 {
     const double rise = fmin(t, 2.5), fall = fmin(fmax(t - 2.5, 0), 2.5);

@@ -1,4 +1,4 @@
-"""The integrator conserving has order 2 if a node with an eccentric mass is driven."""
+"""The integrator conserving must have order 2 if a node with an eccentric mass is driven."""
 import numpy
 from scipy.integrate import solve_ivp
 

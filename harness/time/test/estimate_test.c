@@ -58,8 +58,8 @@ static void begin(const scene *s, flying *f)
 }
 
 /* Returns the error estimate of RADAU5 for y = (x, v), y' = J y + (0, F/m) (Hairer & Wanner II,
- * IV.8, eq. 8.19): (1 - h c J)^-1 [c h y'(0) + e . z], where c is the inverse of the real
- * eigenvalue of A^-1. */
+ * IV.8, eq. 8.19): (1 - h c J)^-1 [c h y'(0) + e . z], where z are the increments of the stages,
+ * and c is the inverse of the real eigenvalue of A^-1. */
 static double radau_of(double x, double v, double eta, double F0, double F1, double h)
 {
     const double s = sqrt(6), c0 = 0.2748888295956773677478286,

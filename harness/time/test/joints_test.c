@@ -262,8 +262,8 @@ static void bodies_fly(flight *f, int steps, double h, double *drift, double *an
     gsl_test(outcome != STATUS_OK, "steps of %g s: %s", h, f->why.text);
 }
 
-/* Returns the error of R at 10 s which is the largest error of its entries. The exact value is
- * computed by quadrature of the precession. */
+/* Returns the largest error of an entry of R at 10 s. The exact value was computed by quadrature of
+ * the precession. */
 static double error_of_body(double h)
 {
     static const double exact[9] = {0.1439879275647, -0.9562925632996, 0.2545034579204,

@@ -77,8 +77,8 @@ class MassDampingTest(ProgramTest):
         return {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_free(self):
-        """The momenta of a free structure must decay as exp(-a t), and the lost energy must equal the dissipated
-        energy."""
+        """With mass-proportional damping a, the momenta of a free structure must decay as exp(-a t), and the lost
+        energy must equal the dissipated energy."""
         for how, most in HOW:
             for formulation in ("collocation", "sheet_third") if how[12] != "e" else ("sheet_third",):
                 plain, damped = (self.values(FREE % (how, a), formulation) for a in (0, 3))

@@ -82,10 +82,10 @@ static void start_tests(void)
     release("0", 1);
 }
 
-/* Resultants between nodes in a motion must agree with a closed form. A rod along x spins about z
- * through its end: r = sin(k X)/(k cos(k L)) and N = EA (cos(k X)/cos(k L) - 1) with k^2 = m
- * w^2/EA. For small strains, N is m w^2 (L^2 - X^2)/2. With lumped masses, the order is 2 at nodes
- * and between them. */
+/* Resultants between nodes in a motion must agree with a closed form. A rod of length L and mass m
+ * per length along x spins about z through its end. The point at X moves to r = sin(k X)/(k cos(k
+ * L)), and N = EA (cos(k X)/cos(k L) - 1) with k^2 = m w^2/EA. For small strains, N is m w^2 (L^2 -
+ * X^2)/2. With lumped masses, the order is 2 at nodes and between them. */
 
 extern const element_type element_geometrically_exact, element_collocation;
 
@@ -234,8 +234,9 @@ static void ends_tests(void)
     }
 }
 
-/* Tests stiffness-proportional damping. A slow mode decays at the rate eta w/2, a rigid rotation
- * does not decay, and the lost energy is accounted for. */
+/* Tests stiffness-proportional damping eta. The lowest mode, of angular frequency w, must have the
+ * damping ratio eta w/2. A rigid rotation must not decay, and the lost energy must be dissipated.
+ */
 
 extern const element_type element_geometrically_exact;
 
