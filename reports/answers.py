@@ -28,12 +28,13 @@ LEVELS = tuple(data.REACH)
 
 @dataclass
 class Way:
-    """The coarsest mesh of a formulation for which it and all finer meshes are within a level."""
+    """The coarsest mesh of a formulation for which the errors of this mesh and of all finer meshes are within a
+    level."""
     key: str
     n: int
     cost: float  # cost of counted work, with the cost coefficients of the reference machine [s]
     clock: object  # data.Clock: measured time
-    error: float  # error of the requested quantities on the mesh that has the largest magnitude
+    error: float  # error on the mesh, the largest in magnitude of the requested quantities
     worst: object  # data.Verdict: the worst verdict on the requested quantities
     defects: list  # the verdicts other than pass
     priced: bool = True  # True if the formulation has separate cost coefficients, False for general ones

@@ -201,7 +201,7 @@ double clock_processor_seconds(void);
 typedef struct gyroscopic_problem {
     /* K and M have the same symmetric pattern; the upper triangle of G is stored */
     const sparse *K, *M, *G;
-    /* factor after factor_numeric; its values are replaced if K is indefinite */
+    /* factor after factor_numeric; its values are replaced if K + shift M replaces K */
     matrix_factor *K_factor;
     int wanted;               /* number of requested modes, which have the lowest frequencies */
     eigen_product *K_product; /* computes y = K x more accurately than the matrix product; NULL: not
@@ -217,7 +217,7 @@ typedef struct gyroscopic_result {
     double *frequency;
     double *growth; /* [count] growth; zero if K is positive definite */
     double *error;  /* [count] estimated error of lambda, relative to |lambda| */
-    double *mode;   /* [count x n] real or imaginary part of the motion, whichever is larger */
+    double *mode;   /* [count x n] real part of the motion, at the phase at which it is largest */
     int negative;   /* number of negative eigenvalues of K */
     /* number of negative eigenvalues of K that the modes do not explain: as many growing modes, or
      * modes with negative energy, are missing */
@@ -251,7 +251,7 @@ typedef enum newton_phase {
     PHASE_ASSEMBLY,
     PHASE_FACTORISATION,
     PHASE_SOLUTION,
-    PHASE_REST, /* time outside the iterations; the following parts do not belong to an iteration */
+    PHASE_REST, /* time outside the iterations */
     PHASES
 } newton_phase;
 
@@ -385,8 +385,9 @@ void second_order_free(second_order *);
 /* Computes a reduced model q = T x. The caller frees T [(n + motions) x (columns + motions)] in any
  * case. T consists of the static shapes of the interface coordinates (edge[n] 1) and the first
  * modes with these fixed. Without an interface, T consists of modes and the static shapes of
- * forces; this is REFUSED if the structure is free. *modes becomes the number of modes in T, which
- * is larger if the requested number would separate modes with the same frequency. */
+ * forces. REFUSED: the structure is free even if the interface is fixed, or too few modes have
+ * mass. *modes becomes the number of modes in T, which is larger if the requested number would
+ * separate modes with the same frequency. */
 status second_order_reduce(const second_order *, const char edge[], int *modes, second_order *out,
                            double **T, fault *);
 /* Computes the undamped natural frequencies [Hz] with the prescribed motions at rest: [n]; NAN:

@@ -1,6 +1,6 @@
 /* Closes feedback loops around a state-space form x' = A x + B w. For each loop, the factor u = Kp
- * (r - y) + Kd (r' - y') + Ki z, with z' = r - y, is added to its input. The references r are
- * states, and their rates are inputs. */
+ * (r - y) + Kd (r' - y') + Ki z, with z' = r - y, is multiplied by `times` and added to its input.
+ * The references r are states, and their rates are inputs. */
 #include <stdlib.h>
 #include <string.h>
 

@@ -70,8 +70,8 @@ typedef struct ask_tally {
  * question in failures (a printf format). */
 int ask_count(ask_tally *, const answer *, const char *what, ...)
     __attribute__((format(printf, 3, 4)));
-/* Prints the counts. Fails the test if an answer failed, if more answers were rejected than
- * allowed, or if no value was found although the physics is supported. */
+/* Fails the test if an answer failed, if more answers were rejected than allowed, or if no value
+ * was found although the physics is supported. */
 void ask_conclude(const ask_tally *, const element_type *, const char *test);
 
 #endif
