@@ -37,8 +37,8 @@ void arnoldi_free(arnoldi_result *);
 
 /* Centre lines of the structure in all solutions, for pictures. */
 
-/* Collects the shapes of the undeformed structure, of at most `most` states of every path, of
- * linear solutions and of modes. */
+/* Collects the shapes of the undeformed structure, of at most `most` states of every path, of the
+ * frames of motions, of linear solutions and of modes. */
 status collect_shapes(const analysis_context *, int most, shapes *, fault *);
 
 /* Matrices for small motions about the states of all solutions. */

@@ -34,7 +34,8 @@ static status check_flutter(newton_run *n, flutter_check *flutter, int last_reso
                : flutter_check_state(flutter, n->c, n->state, record, f);
 }
 
-/* Reverses the step, so that it can be repeated in shorter steps. */
+/* Restores the state at the start of the step, so that the step can be repeated in shorter steps.
+ */
 static void take_back(newton_run *n, const step_record *record)
 {
     history_drop_step(n->c->result, record);

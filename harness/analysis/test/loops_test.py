@@ -111,8 +111,8 @@ class Loops(ProgramTest):
         return {q["quantity"]: q for q in record["quantities"]}
 
     def test_poles(self):
-        """Three loops: a damper and a spring; an integral, with a cubic characteristic polynomial; and a loop that
-        drives a mode that it does not measure."""
+        """The poles of loops with and without an integral, which measure the driven cart or the tool, must be the zeros of
+        the characteristic polynomial. Growth must be reported."""
         for at, gains in (("cart", {"kp": 150, "kd": 7}), ("cart", {"kp": 80, "kd": 12, "ki": 90}),
                           ("tool", {"kp": 3, "kd": 0.02, "ki": 2}), ("tool", {"kp": 60, "kd": 9}), ("cart", {"ki": 40}),
                           ("tool", {"kp": 40, "kd": 8, "ki": 100})):

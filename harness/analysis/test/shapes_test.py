@@ -85,7 +85,6 @@ class Solution(ProgramTest):
         length = numpy.ptp(position[0], axis=0).max()
         moved = numpy.linalg.norm(position[state] - position[0], axis=1).max() / length
         turn = 2 * numpy.arccos(numpy.abs((q[state] * q[0]).sum(axis=1))).max()
-        # x axes of the triads are tangents of the line
         self.assertAlmostEqual(max(moved / 0.1, turn / 0.5), 1, delta=2e-2)
 
     def test_lines(self):
