@@ -331,15 +331,14 @@ typedef struct element_type {
     void (*line)(const element_data *, const node_state x[], int count, line_output out[]);
     /* Optional: number of additional unknowns of each node, in addition to its 7 coordinates, for
      * example slopes or further modes of warping; default: 0. They are dimensionless numbers that
-     * are zero in the undeformed state and do not change in a rigid motion. With w unknowns in
-     * each node, the coordinates of an element are the 7n coordinates of its nodes, followed by the
-     * unknowns of the first node, then those of the next node. J, F, M and all other arrays have
-     * 7n + wn columns. The
-     * elements of a member share the unknowns of their common nodes. Members share the unknowns
-     * of a node if they share the warping amplitude and have the same axes there. All other
-     * unknowns of ends are free, except those in `held`. A type with additional unknowns has no
-     * `along`, `line`, `equations_many` and `unstressed`. Without `inertia`, and in transient
-     * analyses, the unknowns have no mass. */
+     * are zero in the undeformed state and do not change in a rigid motion. With w unknowns in each
+     * node, the coordinates of an element are the 7n coordinates of its nodes, followed by the
+     * unknowns of the first node, then those of the next node. J, F, M and all other arrays have 7n
+     * + wn columns. The elements of a member share the unknowns of their common nodes. Members
+     * share the unknowns of a node if they share the warping amplitude and have the same axes
+     * there. All other unknowns of ends are free, except those in `held`. A type with additional
+     * unknowns has no `along`, `line`, `equations_many` and `unstressed`. Without `inertia`, and in
+     * transient analyses, the unknowns have no mass. */
     int (*scalars)(const double options[]);
     /* Additional unknowns that are zero at ends of members with restrained warping: bit i for
      * unknown i. Default: none. */

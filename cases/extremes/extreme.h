@@ -35,8 +35,7 @@ typedef enum extreme_criterion {
 
 typedef struct extreme {
     const char *name;
-    const char *group; /* name of the extremes of one kind for several cases, which form one column
-                          of a map */
+    const char *group; /* name shared by the extremes of one kind on several cases */
     const char *summary;
     const char *base;  /* name of the base case */
     const char *fixed; /* "name=value;..." for parameters that differ from their defaults */

@@ -242,8 +242,8 @@ static double longest(const scene *s)
     return most;
 }
 
-/* Structures in SI units satisfy the bounds. For example, the wave speed in solids is between 30
- * m/s and 30 km/s. */
+/* Structures in SI units satisfy the bounds below. For example, the wave speed in solids is between
+ * 30 m/s and 30 km/s. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT])
 {
     static const double soft[2] = {1e3, 1e6}, stiff = 1e8, wide = 15, slow = 30, fast = 3e4;

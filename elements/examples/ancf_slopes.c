@@ -6,16 +6,16 @@
  * z r_z(x), r cubic, r_y and r_z linear in x. All products of two of these vectors and their
  * derivatives at the Gauss points are strains. The Green-Lagrange strains of the continuum are
  * linear in them: E_xx = e0 + y e1 + z e2 + y^2 e3 + y z e4 + z^2 e5, 2 E_xy = e6 + y e7 + z e8, 2
- * E_xz = e9 + y e10 + z e11, E_yy = e12, E_zz = e13, 2 E_yz = e14
+ * E_xz = e9 + y e10 + z e11, E_yy = e12, E_zz = e13, 2 E_yz = e14.
  *
  * energy=continuum: the original element, with the energy of a continuum (Saint Venant-Kirchhoff)
  * in a rectangle. It locks. E_yy and E_zz cannot vary over the cross-section, so in bending they
  * remain zero, and the bending stiffness is E I (1-nu)/((1+nu)(1-2nu)): Poisson locking (Gerstmayr,
  * Sugiyama and Mikkola, J. Comput. Nonlinear Dyn. 8 (2013)). Cross-sections do not warp, so the
  * torsional stiffness is G (Iy + Iz).
- * energy=selective: Poisson's ratio only acts on the strains of the axis, reduced integration, and
- * the shear and torsional stiffnesses of the cross-section. The bending that a uniform curvature
- * lacks is added to the shear flexibility, as l^2/(12 E I) (MacNeal, Comput. Struct. 8 (1978)).
+ * energy=selective: Poisson's ratio acts only on the strains of the axis, integration is reduced,
+ * and the shear and torsional stiffnesses are those of the cross-section. If it is rigid in shear,
+ * its shear flexibility is l^2/(10 E I); MacNeal, Comput. Struct. 8 (1978), has l^2/(12 E I).
  *
  *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK ancf_slopes.c -lm -o ancf_slopes.so
  *   beamwork verify --element ./ancf_slopes.so -f ancf_slopes */

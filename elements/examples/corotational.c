@@ -1,11 +1,11 @@
 /* A corotational beam with two nodes: the linear beam in axes that follow the element. It returns
  * forces and stiffness, as a user element of a finite element program does.
  *   axes: x along the chord, y in the plane of the chord and the mean of the y axes of the nodes
- *   (Battini
- *     and Pacoste, Comput. Methods Appl. Mech. Engrg. 191 (2002));
+ *     (Battini and Pacoste, Comput. Methods Appl. Mech. Engrg. 191 (2002));
  *   rotations of the nodes relative to these axes: measured by the sine, t = axis sin(angle)
- * (Crisfield, ibid. 81 (1990)); stiffness: the complete derivative; the names of its parts are from
- * Felippa and Haugen, ibid. 194 (2005)
+ *     (Crisfield, ibid. 81 (1990));
+ *   stiffness: the complete derivative; its parts have the names of Felippa and Haugen, ibid. 194
+ *     (2005).
  *
  *   cc -O2 -shared -fPIC -I FOLDER_OF_BEAMWORK corotational.c -lm -o corotational.so
  *   beamwork verify --element ./corotational.so -f corotational */

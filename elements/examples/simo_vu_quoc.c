@@ -46,7 +46,7 @@ static status prepare(const element_request *request, element_data *out, fault *
     const int shear = (request->features & FEATURE_SHEAR) != 0;
     (void)f;
     out->length = l;
-    /* rigid in shear: the shear stiffness of an element that bends as its nodes require */
+    /* rigid in shear: residual bending flexibility l^2/(12 EI) (MacNeal 1978) */
     const double one[6] = {c->young * c->A,
                            shear ? c->shear_modulus / c->F[0] : 12 * EI[1] / (l * l),
                            shear ? c->shear_modulus / c->F[4] : 12 * EI[0] / (l * l),

@@ -69,7 +69,7 @@ static status force(const element_data *d, const node_state x[], force_output *o
     const double coords[6] = {0, 0, 0, d->length, 0, 0}, zero[N] = {0}, step = 1;
     double rhs[N] = {0}, K[N * N] = {0}, svars[STATES] = {0}, energy[8] = {0}, pnewdt = 1;
     double u[N];
-    for (int k = 0; k < 2; k++) { /* strains without the rigid motion of the element */
+    for (int k = 0; k < 2; k++) { /* motion from the undeformed element at the origin */
         for (int i = 0; i < 3; i++)
             u[6 * k + i] = x[k].r[i] - coords[3 * k + i];
         rotation_vector(x[k].R, u + 6 * k + 3);
