@@ -273,7 +273,7 @@ class Summary:
     """Summary of a case over all formulations. `wins` is [(scheme, number of problems in which it has the lowest cost
     or ties)]. `reached` is the number of problems in which a scheme reaches the level, and `count` that of all
     problems. `best` are the Ways of the scheme with the most wins. `keeping` is [(scheme, cost relative to the lowest
-    cost)] of the cheapest Way in each problem that conserves energy to round-off."""
+    cost)]: for each problem, the cheapest Way that conserves energy to round-off."""
 
     wins: tuple
     reached: int

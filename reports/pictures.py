@@ -14,7 +14,7 @@ from reports.shapes import CLAMPED, FRAME, bodies, distance, exaggeration, read,
 
 NAVIGATION = [("pictures.html", "pictures")]
 FLAT = 0.02  # ratio of extent to size below which a structure is treated as plane
-FAR, NEARLY = 0.45, 0.9  # fractions of the largest distance from the start
+FAR, NEARLY = 0.45, 0.9  # fractions of the largest distance from a state (see chosen)
 
 MEMBER, BODY, SUPPORT = np.array([0.52, 0.71, 0.87]), np.array([0.93, 0.80, 0.62]), "#1c2430"
 LIGHT = np.array([0.35, -0.55, 0.76])

@@ -84,8 +84,9 @@ def lines(rules, verdicts):
 
 
 def covered(verdicts):
-    """Returns (number of limits that agree with their predictions within both uncertainties, number of limits with a
-    prediction) for all verdicts. These numbers justify that agreement is decided by the uncertainties alone."""
+    """Returns (number of limits whose distance from their prediction is at most three times the uncertainty of the
+    limit plus that of the prediction, number of limits with a prediction) for all verdicts. These numbers justify that
+    agreement is decided by the uncertainties alone."""
     told = [v for v in verdicts if v["predicted"] is not None and v["limit"] is not None]
     near = [
         abs(v["limit"] - v["predicted"]) <= SURELY *

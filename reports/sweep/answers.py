@@ -55,7 +55,7 @@ class Answer:
     decided: str = ""
 
     def decide(self):
-        """Sets `decided`. On the finest mesh that is not sufficient at all points, the deciding quantity is within the
+        """Sets `decided`. On the finest mesh that is not sufficient at some points, the deciding quantity is within the
         tolerance at clearly fewer points than every other quantity."""
         short = [i for i, r in enumerate(self.of) if r.reached < r.known]
         if not short or not self.single:

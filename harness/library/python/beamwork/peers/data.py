@@ -245,7 +245,7 @@ class Scene:
         return max(m.length for m in self.members.values())
 
     def mesh(self, n: int, order: int = 1) -> Mesh:
-        """Returns n elements for each member, or for each piece between loads on the member."""
+        """Returns the mesh with n elements for each member or, if loads divide the member, for each of its pieces."""
         nodes = [MeshNode(i, node.name, node.at) for i, node in enumerate(self.nodes.values())]
         numbers = {node.name: i for i, node in enumerate(self.nodes.values())}
         elements: list[MeshElement] = []
