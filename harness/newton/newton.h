@@ -480,8 +480,9 @@ enum { SHAPES_ALL = 1 << 30, SHAPES_MODES = 6, SHAPES_FRAMES = 60, SHAPES_FEW = 
 status shapes_alloc(shapes *, fault *);
 void shapes_free(shapes *);
 const char *shapes_kind_name(shape_kind);
-/* Returns the number of frames of a motion when at most `most` states of a path are stored. This is
- * `most`, or SHAPES_FRAMES if `most` is at most SHAPES_FEW or at least SHAPES_ALL. */
+/* Returns the number of frames of a motion when at most `most` states of a path are stored. 0 if
+ * `most` is 0; otherwise `most`, or SHAPES_FRAMES if `most` is at most SHAPES_FEW or at least
+ * SHAPES_ALL. */
 int shapes_frames(int most);
 
 /* Degree of freedom that a row of a model's matrices represents. */
