@@ -268,8 +268,7 @@ static const char *form_of(const char *path, fault *f)
 static status find_reports(char folder[PATH_MAX], fault *f)
 {
     char script[PATH_MAX];
-    TRY(derive_script("../../reports/graph.py", script,
-                      f)); /* relative to the folder reference/derive */
+    TRY(derive_script("../../reports/graph.py", script, f)); /* from reference/derive */
     if (access(script, R_OK) != 0 || realpath(script, folder) == NULL)
         return fault_set(f, STATUS_FAULT,
                          "%.200s: the plotting program was not found; run from a clone or an "

@@ -240,8 +240,8 @@ static void corrupt(const test_element *s, double by, check_result *one)
         }
 }
 
-/* Checks that a NaN or Inf in a strain does not give a finite stress if the element has a stiffness
- * for this strain. */
+/* Checks that a NaN or Inf in a strain gives an error status, or an energy or stress that is not
+ * finite, if the element has a stiffness for this strain. */
 static void corrupt_strains(const test_element *s, double by, check_result *one)
 {
     const double none[NONFINITE_M] = {0};

@@ -483,7 +483,7 @@ typedef struct integrators_plan_request {
     const case_type *type;
     const double *parameter;
     formulation formulation;
-    int elements; /* 0: as in the second mesh of the case */
+    int elements; /* 0: as in the second mesh of the case, or 4 if it has fewer meshes */
     int methods;
     const integrators_method *method;
     integrators_list steps, tolerances; /* count 0: none */
@@ -491,7 +491,8 @@ typedef struct integrators_plan_request {
     int whole; /* 1: a step without a solution ends the motion; 0: such a step is halved */
 } integrators_plan_request;
 
-/* If neither steps nor tolerances are given, sets them from the step size of the scene. */
+/* Sets a missing number of elements. If neither steps nor tolerances are given, sets steps from the
+ * step size of the scene, and default tolerances. REFUSED: the scene has no motion. */
 status integrators_plan_default(integrators_plan_request *, fault *);
 /* Appends a group of runs. REFUSED: the scene has no motion, or there is nothing to run. */
 status integrators_plan_add(integrators *, const integrators_plan_request *, fault *);

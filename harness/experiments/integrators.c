@@ -180,8 +180,8 @@ void integrators_order_fill(integrators *p)
                               : NAN;
 }
 
-/* Returns PASS if both of two consecutive orders reach the nominal order except for
- * integrators_order_slack, LOW if neither does, and UNDECIDED otherwise. */
+/* Returns LOW if two consecutive orders are both below the nominal order by more than
+ * integrators_order_slack, PASS if neither is, and UNDECIDED otherwise. */
 static integrators_order_kind evaluate(const integrators_ladder *l)
 {
     const double least = l->method->order - integrators_order_slack;
@@ -411,7 +411,7 @@ static void print_standing(FILE *to, const integrators *p, const integrators_gro
     }
 }
 
-/* Prints the three integrators that reach the error `level` at the lowest cost. */
+/* Prints up to three integrators that reach the error `level` at the lowest cost. */
 static void print_level(FILE *to, const integrators *p, int group, double level)
 {
     const char *name[INTEGRATORS_METHODS_MOST];

@@ -203,7 +203,8 @@ const char *test_element_coordinate(const test_element *s, int c, char words[TES
     return words;
 }
 
-/* Describes an element that differs from that with a rectangular section: " [options, section]". */
+/* Describes how the element differs from a straight element with default options and a rectangular
+ * section: " [options, section]", or "" if it does not. */
 static void describe(const test_element_request *what, const formulation *chosen, test_element *s)
 {
     static const char *const section_words[] = {"", "unsymmetric section",

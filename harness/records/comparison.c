@@ -190,8 +190,8 @@ static const result_value *value_named(const result_cell *c, int near, const cha
     return NULL;
 }
 
-/* Compares the absolute errors of two values. A value without a reference value can only be
- * reported as changed. */
+/* Compares two values by their errors. A value without a reference value can only be reported as
+ * changed. */
 static void compare_value(const listing *l, const result_value *a, const result_value *b)
 {
     const comparison_limits *m = l->limits;

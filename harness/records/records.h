@@ -379,8 +379,8 @@ typedef struct subjects {
     int bad;           /* 1: out of memory */
 } subjects;
 
-/* Reference values with which quantities are compared: those used for the verdicts, or the stored
- * values if nothing was evaluated. Both pointers may be NULL. */
+/* A sweep, and the reference values with which its quantities are compared: those of the verdicts
+ * in `evaluated` or, if this is NULL, `truths`. Both may be NULL. */
 typedef struct gathering {
     const sweep *sweep;
     const evaluation *evaluated;

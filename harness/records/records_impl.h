@@ -43,7 +43,7 @@ int results_part_differ(const stored_results *a, const stored_results *b, const 
 int results_part_is_fresh(const results_part *p, const char *series);
 void results_part_free(results_part *);
 
-extern const record_type record_omission; /* omissions at a value (only in the CSV of a solution) */
+extern const record_type record_omission; /* omitted physics (only in the CSV of a solution) */
 
 extern const schema_field names_of_quantity[]; /* name and unit of the quantity */
 

@@ -216,8 +216,8 @@ static int is_of(const cell_row *cell, const case_value_row *value)
            strcmp(cell->point, value->point) == 0;
 }
 
-/* Takes the values of a cell, starting at *next. The values are in the order of their cells.
- * Returns 0 if out of memory. */
+/* Reads the values of a cell, starting at row *next of the table. The values are in the order of
+ * their cells. Returns 0 if out of memory. */
 static int take_values(const case_tables *t, const cell_row *row, int *next, result_cell *cell)
 {
     int count = 0;
@@ -309,7 +309,7 @@ static status take_limits(const char *path, const char *of, const case_tables *t
     return STATUS_OK;
 }
 
-/* Takes the cells of a case. *t: freed by results_case_read(), even after a failure. */
+/* Reads the cells of a case. *t: freed by results_case_read(), even after a failure. */
 static status take_case(const char *path, hid_t at, const char *name, case_tables *t,
                         stored_results *out, fault *f)
 {

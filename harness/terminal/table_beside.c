@@ -151,7 +151,7 @@ static void write_sentences(FILE *to, const block *b)
         char text[2 * FAULT_TEXT];
         const beside_column *c = &b->list[i];
         if (c->shown.kind == VERDICT_PASS || c->shown.kind == VERDICT_OTHER_MODEL)
-            continue; /* undecided limits are listed once, at the end */
+            continue; /* other models are listed at the end */
         if (c->shown.kind == VERDICT_NO_TRUTH && (c->row != NULL || !b->known))
             continue; /* the heading states the common verdict */
         sentence_of_verdict(&c->shown, b->q->least_order, text, sizeof text);

@@ -128,8 +128,8 @@ static void rows(FILE *to, const sweep *s, const evaluation *j, int at, char don
     }
 }
 
-/* Prints the time in microseconds per iteration for each part and for the remaining solution, and
- * for the dense reference if it was timed. */
+/* Prints the time per iteration [us] of each part and of the remaining solution, and the time [ms]
+ * of the dense reference if it was timed. */
 static void parts_of(FILE *to, const series *one, int mesh)
 {
     const cell_timing *t = &one->timing[mesh];
