@@ -151,8 +151,8 @@ def worst_of(verdicts):
 
 
 def rounds(found):
-    """Returns the verdicts, sorted such that the first cases of all entries precede the second cases. Every entry is
-    then examined within the time limit."""
+    """Returns the verdicts, sorted such that the first cases of all entries precede the second cases, because the time
+    limit may prevent the examination of the last verdicts."""
     of_rule = {}
     for rule, case in sorted(found, key=lambda key: -abs(found[key]["error"] or 0)):
         of_rule.setdefault(rule, []).append((rule, case))

@@ -147,8 +147,8 @@ def noise_of(predicted, measured):
 
 
 def validate(cells, names):
-    """Returns predictions of every run from cost coefficients that were fitted without its case: first with, then
-    without the coefficients of its formulation."""
+    """Returns two predictions of every run: from cost coefficients that were fitted without its case, and from general
+    cost coefficients that were fitted without its formulation."""
     cases = sorted({c["case"] for c in cells})
     own, generic = np.zeros(len(cells)), np.zeros(len(cells))
     for fold in range(FOLDS):

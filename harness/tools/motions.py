@@ -2,9 +2,11 @@
 mesh, its limit and the uncertainty.
 
 usage: motions.py PROGRAM [CASE...] [--fine] [-o FILE.csv]     The exit status is 1 if the distance of a limit from its
-reference value exceeds both uncertainties. It also counts the limits whose uncertainty exceeds a hundredth of the
-largest value of their unit; --fine uses finer meshes, and takes longer. One integration serves all instants of a
-structure: the scene requests at each time the quantities that the case requests at one. The steps are so short that the time-integration error is below the error of the meshes; geometrically_exact is the formulation with the most accurate limits.
+reference value exceeds both uncertainties. The program also counts the limits whose uncertainty exceeds a hundredth of
+the largest value of their unit; --fine uses finer meshes, and takes longer. One integration serves all instants of a
+structure: the scene requests at each time the quantities that the case requests at one. The steps are so short that the
+time-integration error is below the error of the meshes; geometrically_exact is the formulation with the most accurate
+limits.
 """
 import argparse
 import concurrent.futures

@@ -102,8 +102,8 @@ def leading(point, quantity):
 
 
 def telling(point, quantities):
-    """Returns the first quantity for which most formulations have an error on their coarsest mesh, or otherwise the
-    first quantity."""
+    """Returns the first quantity for which the errors of most formulations on their coarsest mesh exceed round-off and
+    the uncertainty of the reference value, or otherwise the first quantity."""
     def tells(quantity):
         least = max(digits_of(point, quantity) or 0, NEARLY)
         first = [pairs[0][1] for pairs in (finite(s, quantity) for s in point.series) if pairs]
