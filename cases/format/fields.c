@@ -178,8 +178,9 @@ static int find_entry(const fields *f, const char *text, scene_list list, int ow
     return found;
 }
 
-/* Returns the name in a node of the tree, with loop names replaced. Sets *port to 1 if it is a
- * port. */
+/* Returns the name in a node of the tree, or the word of a parameter with this name. If it is a
+ * port of the instance, sets *port to 1 and returns the node of the scene that is connected to it.
+ */
 static const char *name_of(const fields *f, const document_node *n, scene_list list, int *port)
 {
     const scope *known = scope_find(f->names, n->text, strlen(n->text));

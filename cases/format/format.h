@@ -132,14 +132,14 @@ FILE *line_open(const char *path);
 void line_skip_mark(FILE *from);
 /* Removes blanks at both ends of the line in place. */
 char *line_trim(char *line);
-/* Returns 1 if the line is UTF-8 without control characters. */
+/* Returns 1 if the line is UTF-8 without control characters other than tabs. */
 int line_is_text(const char *line);
 /* Splits a line at commas in place, and trims the fields. A field may be in quotes, within which ""
  * stands for one quote. Returns the number of fields, or a larger number than `most` if there are
  * too many. */
 int line_split(char *line, char *field[], int most);
-/* Splits a line into words separated by blanks, in place. Returns the number of words, or a larger
- * number than `most` if there are too many. */
+/* Splits a line into words separated by blanks or commas, in place. Returns the number of words, or
+ * a larger number than `most` if there are too many. */
 int line_words(char *line, char *word[], int most);
 /* Returns 1 and sets *value if the whole text is a finite number, whose exponent may start with D.
  * Otherwise returns 0. */

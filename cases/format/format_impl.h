@@ -222,8 +222,8 @@ int builder_stations(const fields *f, const char *values, double **path, double 
 /* Adds default analyses and quantities if the file has none. */
 void builder_defaults(builder *b);
 
-/* Reads a section given by dimensions (I, channel, Z, angle, box). Returns 1 and sets the points
- * and walls. Returns 0 for other sections. */
+/* Reads a section given by dimensions (I, T, channel, Z, angle, box) or by the name of a rolled
+ * section. Returns 1 and sets the points and walls. Returns 0 for other sections. */
 int build_shapes_read(const fields *f, section_spec *spec);
 
 /* Returns 1 if all conditions {NAME: VALUE, NAME: [VALUE, ...], ...} are satisfied or `conditions`
@@ -271,8 +271,9 @@ const entry_field *keys_any(const entry_field *table);
 int keys_check(const document_node *root, mistakes *m);
 
 /* Reads a list of numbers or a range: a..b (steps of 1), a..b step c, or a..b/n (n equal parts).
- * The last / precedes n, so a quotient as b must be in parentheses. Both ends are included. Returns
- * the number of values, or -1 after an error. *out belongs to the arena. */
+ * The last / precedes n, so a quotient as b must be in parentheses. Both ends are included, except
+ * a b that is not a whole number of steps from a. Returns the number of values, or -1 after an
+ * error. *out belongs to the arena. */
 int range_values(const document_node *n, const scope *names, arena *a, mistakes *m, double **out);
 /* Returns 1 if the node is a range. */
 int range_is(const document_node *n);

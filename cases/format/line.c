@@ -59,7 +59,7 @@ static int following(unsigned char first)
 }
 
 /* Returns the number of bytes of the character that starts at `at`, or 0 if the character is
- * invalid or a control character. */
+ * invalid or a control character other than a tab. */
 static int character_length(const unsigned char *at)
 {
     if (at[0] < 0x80)

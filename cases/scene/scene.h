@@ -712,7 +712,7 @@ const scene_internal *scene_internal_of(const scene_quantity *q);
 const scene_stress *scene_stress_of(const scene_quantity *q);
 /* Returns 1 if the quantity is of this kind and of this analysis. */
 int scene_requests(const scene_quantity *q, int analysis, scene_quantity_kind kind);
-/* Returns 1 if the quantity needs reactions, resultants or stresses. */
+/* Returns 1 if the quantity needs reactions, resultants, stresses or deflections. */
 int scene_reads_forces(const scene_quantity *q);
 /* Returns 1 if the analysis is used: by a quantity, an imperfection or another used analysis.
  * Without quantities, all analyses are used. */
@@ -729,7 +729,7 @@ int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
  * quantities. The functions of this header use no solver and no formulation.
  *
  * Every scene_* function that adds an entry returns the index of the entry in its list, or -1 if
- * out of memory (scene_valid reports this once, at the end). */
+ * out of memory (scene_validate reports this once, at the end). */
 
 /* Largest number of meshes of a scene or a command. */
 enum { SCENE_MESHES = 24 };
@@ -1212,7 +1212,8 @@ typedef struct along_path_words {
     char text[256];
 } along_path_words;
 along_path_words along_path_end(const scene *, int acting);
-/* Returns REFUSED if a value is not proportional to the path parameter from 0 to 1. */
+/* Returns REFUSED if a load or driver varies nonlinearly between the path parameters 0 and 1.
+ */
 status along_path_proportional(const scene *, int acting, fault *);
 
 /* Changes of a scene that must not change its results. */
@@ -1453,7 +1454,8 @@ char meaning_axis(int component);
 /* Returns "force along" or "moment about". */
 const char *meaning_load(int component);
 void meaning_ordinal(FILE *to, int order);
-/* Writes text such as "displacement of node_1 (...) along x" or "rotation of ... about x". */
+/* Writes text such as "displacement of node_1 (...) along x" or "rotation of node_1 (...),
+ * component x of its rotation vector". */
 void meaning_coordinate(FILE *to, const scene *s, int node, int component);
 
 /* A word of scene files for physics that a scene may omit. */

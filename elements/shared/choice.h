@@ -4,7 +4,8 @@
 
 #include "elements/shared/status.h"
 
-/* Reads the number at the start of `text` and sets *end to the character after the number. Returns
+/* Reads the decimal number at the start of `text` and sets *end to the character after the number.
+ * Returns
  * 1. Returns 0 if a number is missing or outside the range of a double: infinite, or below
  * 2.2e-308, where digits would be lost. */
 int number_read(const char *text, const char **end, double *out);
