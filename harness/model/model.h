@@ -68,7 +68,7 @@ typedef struct model_size {
 model_size model_sizes(const model *);
 /* Returns 1 if elements have a consistent mass matrix in this motion. */
 int model_spreads(const model *, int analysis);
-/* Creates the same model with one element per member. */
+/* Creates the same model with one element per piece of a member. */
 status model_coarse(const model *, model **, fault *);
 /* Creates the same model with twice as many elements. */
 status model_halved(const model *, model **, fault *);
@@ -99,9 +99,9 @@ typedef struct model_state model_state;
 const char *model_formulation(const model *);
 const double *model_options(const model *);
 unsigned model_leaves(const model *);
-/* Fills the shape of a mode or state, for identification and pictures: displacement (3), rotation
- * (3) and warping of every vertex, in order along the members. Returns the number of vertices. u:
- * [vertices x 7]; position: [vertices x 3], undeformed. */
+/* Fills the shape of a mode x, for identification and pictures: displacement (3), rotation (3) and
+ * warping of every vertex. model_member_vertices gives the order of vertices along a member.
+ * Returns the number of vertices. u: [vertices x 7]; position: [vertices x 3], undeformed. */
 int model_shape(const model *, const double x[], double *u, double *position);
 int model_member_vertices(const model *, int member,
                           /* vertices of a member, in order; NULL: returns only their number */
@@ -602,8 +602,8 @@ void dashpots_matrix(const model *, const model_state *, double more, sparse *C)
 void dashpots_strains(const model *, const model_state *, int spring, double d[], double J[]);
 void dashpots_stressed(const model *, const model_state *, int spring, const double sigma[],
                        double force[], double K[]);
-/* Returns the name of a spring, such as "spring s" or "foundation of beam". Springs of members
- * follow those of the scene. */
+/* Returns the name of a spring, such as "spring s" or "foundation of member beam". Springs of
+ * members follow those of the scene. */
 scene_words model_spring_called(const model *, int spring);
 /* Returns the energy of all springs [J]. */
 double discrete_stored(const model *, const model_state *);
@@ -612,9 +612,9 @@ double discrete_stored(const model *, const model_state *);
 void discrete_node_force(const model *, const model_state *, const element_rotating_frame *,
                          int node, double F[6]);
 
-/* Writes text such as "beam has 6 elements, 2 in each of 3 pieces: its loads begin, end or act at
- * 0.3, 0.5 of its length". A long list is truncated. elements 0: writes the text for any number n.
- * The text is "" if each member has the requested number. */
+/* Writes text such as "beam has 6 elements, 2 in each of 3 pieces, because loads begin, end or act
+ * at 0.3, 0.5 of the length". A long list is truncated. elements 0: writes the text for any number
+ * n. The text is "" if each member is a single piece. */
 void division_words(const scene *, int elements, char *text, size_t room);
 
 /* Transform forces or matrices from element coordinates to coordinates of the model, in place. K:
@@ -683,8 +683,8 @@ unsigned features_omitted(const scene *);
  * constants does not define. A constant that is given as zero is defined. */
 unsigned features_not_given(const scene *, int section);
 /* Returns 1 if a section of walls has a bimoment that causes torsion and the analyses depend on it.
- * No formulation models this effect. Returns 0 without stresses, or if warping or the Wagner torque
- * is omitted. */
+ * No formulation models this effect. Returns 0 without stresses, in a plane, or if warping or the
+ * Wagner torque is omitted. */
 int features_one_sided(const scene *, int section);
 /* Like features_needed, but with the shear theory of the type in stability instead of the requested
  * theory. */
@@ -697,8 +697,8 @@ int features_sheared(const scene *);
 /* Returns the name of the theory, such as "Haringx", the text of the type for SHEAR_OWN, or "" for
  * 0. */
 const char *features_theory_words(const element_type *, unsigned theory);
-/* Returns the features on which a quantity depends. Inertia is included only for a frequency or a
- * rotating structure. */
+/* Returns the features on which a quantity depends. Inertia is included only for modal and harmonic
+ * analyses and for rotating structures. */
 unsigned features_needed_by_quantity(const scene *, int quantity);
 
 /* returns 1 if the shear centre differs from the centroid */
@@ -1007,8 +1007,8 @@ void turns_put_between(const model *, const model_state *, double out[]);
 void turns_take_between(const model *, int count, const double in[], model_state *);
 
 /* Returns 1 if a vector of more than half a revolution has changed its direction. Near a full
- * revolution, such a change takes a very short time. At the full revolution, the result is a
- * rounding error. */
+ * revolution, such a change takes a very short time. At the full revolution, rounding errors decide
+ * the result. */
 int turns_swung(const double from[3], const double to[3]);
 /* Returns 1 if the angle `size` is within `near` [rad] of one or more full revolutions. */
 int turns_full(double size, double near);

@@ -176,11 +176,11 @@ typedef struct omission {
 } omission;
 
 /* Finds the physics of a scene that the type omits, and bounds the resulting change of values. The
- * bound is unknown if no formulation includes all these physics, or if that formulation finds no
- * values. The type then solves another model. */
+ * type solves another model if the bound is large or unknown, for example because no formulation
+ * includes all these physics. */
 void omission_of(const scene *, const element_type *, omission *out);
-/* Writes "without shear: changes no value by more than 2e-06", or "another model: shear is not
- * modelled (changes frequency_1 by about 16 %)". */
+/* Writes "without shear; the omission changes no value by more than 2e-06", or "another model:
+ * shear not modelled (changes frequency_1 by about 16 %)". */
 enum { OMISSION_TEXT = OMIT_WORDS + SCENE_NAME + FAULT_TEXT + 80 };
 void omission_words(const omission *, char text[OMISSION_TEXT]);
 
@@ -554,8 +554,9 @@ void evaluation_end(const sweep *s, truths *t, int whole, evaluation *out);
 status evaluation_make(const sweep *s, truths *t, int whole, evaluation *out, fault *f);
 void evaluation_free(evaluation *j);
 enum { EVALUATION_AS_EXPECTED = 0, EVALUATION_DIFFERS = 1, EVALUATION_NOTHING = 3 };
-/* Returns the exit status: 0 if all verdicts are as expected, 1 if a verdict that affects the exit
- * status is not, 3 if nothing was evaluated. */
+/* Returns the exit status: 0 if all results are as expected; 1 if a verdict that affects the exit
+ * status is not, or after another failure, such as a regression or an inconsistent record; 3 if
+ * nothing was evaluated. */
 int evaluation_exit(const evaluation *j);
 /* Returns "pass", "fail" or "nothing was judged". */
 const char *evaluation_outcome(const evaluation *j);
@@ -563,7 +564,7 @@ const char *evaluation_outcome(const evaluation *j);
 /* Returns the diagonal of the smallest box, along the axes, that contains all nodes [m]. */
 double change_size(const scene *);
 /* Returns the scale of a quantity [unit of the quantity]; smaller values may be rounding errors.
- * The scale is the largest of near_zero, 1e-9 times the other values in the same unit, and a
+ * The scale is the largest of near_zero, 1e-9 times the values of the same analysis and unit, and a
  * physical scale. The latter is 1e-14 for strains, 1e-12 for rotations, and 1e-12 times the size of
  * the structure for lengths. */
 double change_scale(const scene *s, int quantity, const solve_result *r);
@@ -628,7 +629,7 @@ status columns_read(const table_columns *r, const columns_field *field, void *ba
 /* Difference between two curves of a quantity, from two meshes or two formulations. */
 
 /* Returns the largest difference over the common points, relative to the largest magnitude of the
- * second curve. NAN: there are no common points, or `one` does not reach the end. at: point with
+ * second curve. NAN: there are no common points, or a curve does not reach the end. at: point with
  * the largest difference (may be NULL). Points of a path with given stations are matched by number,
  * other points by abscissa. */
 double curve_error_between(const scene *s, int quantity, const solve_result *one,
@@ -966,8 +967,9 @@ status default_choice_elements(const cell_request *, const formulation *chosen, 
 
 /* Chooses formulation and mesh together. Candidates are the formulations that rank equal with the
  * first in default_choice_formulation: at most five, and at most two per family. In each step, the
- * mesh with the lowest counted work is solved. The first candidate that converges is chosen.
- * request: the cell without formulation and elements. */
+ * mesh with the lowest counted work is solved. The first candidate that converges is chosen; if
+ * none converges, the one whose values change least. request: the cell without formulation and
+ * elements. */
 status default_choice_both(const cell_request *, const rule_subject *where, const rule *rules,
                            int count, double requested, default_choice *out, fault *f);
 
@@ -1096,8 +1098,8 @@ extern const double reach_level[REACH_LEVELS]; /* 10 %, 1 %, 0.1 %, 0.01 % */
 typedef struct reached {
     /* index of the series, and index of the coarsest mesh that meets the target */
     int series, mesh;
-    /* [s] cost of the counted work; INFINITY: the formulation uses finite differences or runs in
-     * another process, and ranks after all others */
+    /* [s] cost of the counted work; INFINITY: the formulation is not ranked by its work
+     * (reach_unranked), and is listed after all others */
     double cost;
     const verdict *defect; /* first verdict other than pass; NULL: all verdicts are pass */
 } reached;
@@ -1113,8 +1115,8 @@ typedef struct reach_question {
     double level; /* relative error */
 } reach_question;
 
-/* Returns why a type is not ranked by its work: "by differences" or "in another process"; "": it is
- * ranked. */
+/* Returns why a type is not ranked by its work: "by differences", "in another process" or
+ * "implemented with its misprint"; "": it is ranked. */
 const char *reach_unranked(const element_type *type);
 /* Returns the index of the coarsest mesh for which the errors on this mesh and on all finer meshes
  * are within the target; -1: none. */

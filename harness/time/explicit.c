@@ -14,7 +14,8 @@
 /* Computes dydt at time t [s] for y; the signature is GSL's. The state at this time is stored in
  * `at`. */
 static int explicit_rates(double t, const double y[], double dydt[], void *context);
-/* Checks the masses. REFUSED: a coordinate of the undeformed model has no inertia. */
+/* Checks the model. REFUSED: a coordinate of the undeformed model has no inertia, or a member has
+ * an offset or a released end. */
 static status explicit_check(const model *, const frame_masses *, fault *);
 
 static double error_of(const explicit_scheme *s)

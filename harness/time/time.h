@@ -86,9 +86,9 @@ typedef struct frame_masses {
     double damping;
 } frame_masses;
 
-/* Lumps the masses of elements: half of the mass at each node of a two-node element. Elements with
- * three nodes have the weights of Simpson's rule (Jonker, Eq. 73). The mass of a released end moves
- * with the rotations and shifts of this end. */
+/* Lumps the masses of elements at their nodes (mesh_element.share). Elements with three nodes have
+ * the weights of Simpson's rule (Jonker, Eq. 73). The mass of a released end moves with the
+ * rotations and shifts of this end. */
 status frame_masses_alloc(const model *, frame_masses *, fault *);
 /* Like frame_masses_alloc, for rigid bodies only; the elements have consistent masses. */
 status frame_masses_alloc_bodies(const model *, frame_masses *, fault *);

@@ -31,8 +31,9 @@ double dense_output_reading(const dense_output *, const scene_quantity *, double
  * those in the state with rates v and accelerations a at `time`. */
 double work_power(outer_work *, const model_state *, const double v[], const double a[],
                   double time, const double along[]);
-/* Returns the work [J] of external forces in a step: the mean of the forces at both ends times the
- * increment inc[free + driven]. The error is of second order; constant forces have none. */
+/* Returns the work [J] of external forces in a step, the mean of the forces at both ends times the
+ * increment inc[free + driven], plus the work of free strains. The error is of second order;
+ * constant forces have none. */
 double work_trapezoid(outer_work *, const motion_state *from, const motion_state *to,
                       const double inc[]);
 
@@ -625,7 +626,8 @@ void drive_at(const equations *, const model_state *from, double time, double in
  * frame, and 1 otherwise. It is meant for reference values of a given mesh. Positions are
  * increments from the start of a step. */
 
-/* Allocates the integrator. REFUSED: a coordinate has no inertia. */
+/* Allocates the integrator. REFUSED: a coordinate has no inertia, or a member has an offset or a
+ * released end. */
 status explicit_alloc(const scheme_request *, motion_scheme **, fault *);
 
 /* Internals of the explicit integrator. */
@@ -740,11 +742,12 @@ double discontinuities_before(const model *, double time);
  * increment, v = v0 + g inc, a = a0 + b inc. Strains and stresses of elements are unknowns, so
  * stiff elements need no additional iterations. */
 
-/* Returns 1 if the last factors may be used again, because corrections are below 1e-4. The error
- * due to old factors is the product of two successive corrections. In stiff members, the
- * corrections of stresses (newton.h) show it. The largest possible limit was measured with members
- * that are 1e6 times stiffer in elongation. If the limit exceeds 2e-4, corrections stop decreasing
- * and steps of 0.2 s fail. Below 2e-4, the number of iterations is the same as with new factors. */
+/* Returns 1 if the last factors may be used again, because corrections are below 1e-4 and at most
+ * a tenth of the previous ones. The error due to old factors is the product of two successive
+ * corrections. In stiff members, the corrections of stresses (newton.h) show it. The largest
+ * possible limit was measured with members that are 1e6 times stiffer in elongation. If the limit
+ * exceeds 2e-4, corrections stop decreasing and steps of 0.2 s fail. Below 2e-4, the number of
+ * iterations is the same as with new factors. */
 int stage_stands(const newton_convergence *);
 
 typedef struct motion_stage {
@@ -813,7 +816,7 @@ status massless_motion(const model *, const frame_masses *, const model_state *,
 /* Finds the quantities of the analysis that read the acceleration or the jerk of a node that moves
  * without inertia: *undefined[quantities of the scene], which the caller frees. Accelerations of
  * massless coordinates are unknown (see consistent_massless). REFUSED: the analysis has no other
- * quantities. */
+ * quantities, and no analysis follows it. */
 status massless_readings(const model *, const frame_masses *, const model_state *, int analysis,
                          unsigned char **undefined, fault *);
 /* Removes motions without inertia from a[free], given in the coordinates of forms_rates. */
