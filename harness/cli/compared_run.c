@@ -50,7 +50,7 @@ static status lap_here(compared_run *c, double *seconds, fault *f)
             return outcome;
     }
     const double end = start + (1 + c->slowdown) * (clock_processor_seconds() - start);
-    do /* runs until the additional time has passed */
+    do /* waits actively until the additional time has passed */
         *seconds = clock_processor_seconds() - start;
     while (start + *seconds < end);
     return STATUS_OK;

@@ -47,8 +47,8 @@ int main(int count, char **arguments)
     /* HDF5 must not clean up at exit: beamwork closes all HDF5 objects, and the exit handler of
      * HDF5 crashes or prints many lines if memory is exhausted. */
     H5dont_atexit();
-    /* A file that exceeds the file size limit then causes a write error, which is reported in one
-     * line. */
+    /* If the signal is ignored, a file that exceeds the file size limit causes a write error, which
+     * is reported in one line. */
     signal(SIGXFSZ, SIG_IGN);
     return message_finish(run(count, arguments));
 }

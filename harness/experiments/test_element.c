@@ -132,7 +132,7 @@ void test_element_state(const test_element *s, double size, unsigned seed, node_
 void test_element_rigid_motion(const test_element *s, const double turn[3], const node_state x[],
                                node_state out[])
 {
-    static const double shift[3] = {0.317, -1.21, 2.37}; /* [lengths] */
+    static const double shift[3] = {0.317, -1.21, 2.37}; /* in element lengths */
     double q[4], R[9];
     rotation_exp(turn, q);
     rotation_matrix(q, R);

@@ -243,7 +243,7 @@ static void comparison_cells(const listing *l, const result_cell *a, const resul
     if (l->before->swept)
         comparison_lines_cost(l, a->cost, b->cost);
     else if (!results_part_differ(l->before, l->after,
-                                  l->name)) /* this work is that of the requested quantities only */
+                                  l->name)) /* the work depends on the requested quantities */
         comparison_lines_work(l, a->work, b->work, 1);
     compare_values(l, a, b);
 }

@@ -89,7 +89,7 @@ void table_path_matrices(FILE *to, const scene *s, const solve_result *r)
 
 static void row_of_event(FILE *to, const path_event *e)
 {
-    const double least = 5e-10; /* relative error of values with nine digits */
+    const double least = 5e-10; /* smallest relative error that is assumed */
     char control[ROUNDING_TEXT], factor[ROUNDING_TEXT];
     rounding_known(e->control, fmax(e->control_error, least * fabs(e->control)), control);
     rounding_known(e->factor, fmax(e->factor_error, least * fabs(e->factor)), factor);
