@@ -60,8 +60,8 @@ def counted(cases):
 
 
 def coverage(rows):
-    """Returns [(number of series whose limit is within its uncertainty of the reference value, number of series)]
-    without the finest mesh, the two finest meshes and so on, starting with all meshes."""
+    """Returns [(number of series whose limit is within its uncertainty of the reference value, number of series)] with
+    all meshes, then without the finest mesh, without the two finest meshes, and so on."""
     sums = {}
     for row in rows:
         covered, series = sums.get(row["left_out"], (0, 0))

@@ -7,7 +7,7 @@
 #include "elements/math/rotation.h"
 #include "harness/formulations/adapted.h"
 
-/* out += weight f(point). */
+/* Adds weight f(point) to out. */
 static int add(stencil_function *f, const void *context, int count, int i, double si, int j,
                double sj, double weight, double out[])
 {

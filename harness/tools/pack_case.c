@@ -88,7 +88,8 @@ static void write_parameters(const parameter_type *p)
     puts("{0}};\n");
 }
 
-/* Writes the case. If its file specifies the mass model, the case has a parameter for it. */
+/* Writes the case. If the file specifies the mass model, the case has a parameter for the mass
+ * model. */
 static void write_case(const scene_file *file, int nodes)
 {
     const char *shared = scene_file_states(file, "mass") ? "case_mass_omit" : "case_omit";

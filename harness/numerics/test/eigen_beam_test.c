@@ -496,7 +496,7 @@ static void test_both_signs(void)
 }
 
 /* Two strings are coupled only by A. A multiplies the displacements of one string by the slopes of
- * the other, so every value is double and occurs with both signs. */
+ * the other, so every value must be double and occur with both signs. */
 static void test_coupled_strings(int masses)
 {
     enum { WANTED = 3 };
@@ -522,7 +522,7 @@ static void test_coupled_strings(int masses)
     strings_free(&s);
 }
 
-/* If A has rank 3 (two positive values, one negative), no further values are found. */
+/* If A has rank 3 (two positive values, one negative), no further values may be found. */
 static void test_rank(int iterate)
 {
     enum { MASSES = 150 };

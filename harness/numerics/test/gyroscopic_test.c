@@ -56,7 +56,7 @@ static void definite(void)
         }
 }
 
-/* Two uncoupled copies of a problem have every frequency twice. */
+/* Two uncoupled copies of a problem must have every frequency twice. */
 static void equal_frequencies(void)
 {
     static const int size[] = {5, 50};
@@ -80,8 +80,9 @@ static void equal_frequencies(void)
     }
 }
 
-/* Without gyroscopic terms, a problem with two unknowns diverges. With strong gyroscopic terms, it
- * is stable. The eigenvalues are the roots of lambda^4 + (k1 + k2 + g^2) lambda^2 + k1 k2. */
+/* With weak gyroscopic terms, a problem with two negative stiffnesses must diverge. With strong
+ * gyroscopic terms, it must be stable. The eigenvalues are the roots of lambda^4 + (k1 + k2 + g^2)
+ * lambda^2 + k1 k2. */
 static void indefinite(void)
 {
     static const double k1 = -1, k2 = -2, g[] = {0.5, 4};
@@ -116,8 +117,8 @@ static void indefinite(void)
     free(p.K);
 }
 
-/* For K = -diag(1, 4), gyroscopic forces stabilise the motion if g >= sqrt(1) + sqrt(4). Real parts
- * due to round-off must not be reported as growth. */
+/* For K = -diag(1, 4), gyroscopic forces must stabilise the motion if g >= sqrt(1) + sqrt(4). Real
+ * parts due to round-off must not be reported as growth. */
 static void held_from(void)
 {
     static const double g[] = {2.999, 3.001};

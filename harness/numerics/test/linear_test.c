@@ -177,9 +177,9 @@ static void random_matrices(kind what, const char *name, double allowed)
     gsl_test(!(worst < allowed), "%s: as LAPACK within %.1f eps times the condition", name, worst);
 }
 
-/* The upper triangle and the full symmetric matrix have the same condition number. For a chain of n
- * springs held at one end, the result must be the exact condition number in the 1-norm, with rows
- * and columns scaled to a unit diagonal. */
+/* The upper triangle and the full symmetric matrix must have the same condition number. For a chain
+ * of n springs held at one end, the result must be the exact condition number in the 1-norm, with
+ * rows and columns scaled to a unit diagonal. */
 static void condition_of_a_triangle(void)
 {
     enum { N = 6 };
@@ -383,7 +383,7 @@ static void count_parts(void *context, int first, int end)
     ((int *)context)[first] = 1;
 }
 
-/* If more threads are requested than THREAD_POOL_MOST, only THREAD_POOL_MOST are used, with one
+/* If more threads are requested than THREAD_POOL_MOST, only THREAD_POOL_MOST must be used, with one
  * part for each. */
 static void no_more_than_there_is_room_for(int threads)
 {

@@ -53,7 +53,7 @@ def scene(element, turn=np.eye(3), space=True, reverse=False, small=1e-4, unit=1
 
 
 def closed_form(element, space, small):
-    """Displacements and rotations of the tip of the linear beam."""
+    """Returns the displacements and rotations of the tip of the linear beam."""
     shear = 1 / SECTION["GA"] if "shear" in element.offers else 0
     (Fx, Fy, Fz), (Mx, My, Mz) = (np.array(v) * small for v in (FORCE, MOMENT))
     if not space:

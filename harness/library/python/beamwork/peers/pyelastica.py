@@ -75,8 +75,8 @@ class Rod(Model):
             raise Refused("drive: this driver has no driven nodes")
 
     def _rod(self) -> Any:
-        """A rod whose first node is the clamped one. Directors: y, z and x of the section; a rod that
-        runs against the member has y, -z and -x."""
+        """Returns a rod whose first node is the clamped one. Directors: y, z and x of the section;
+        a rod that runs against the member has y, -z and -x."""
         import elastica
         import numpy as np
 
@@ -195,7 +195,8 @@ class Rod(Model):
         return self.rod.director_collection.copy()
 
     def _state(self) -> State:
-        """The rotation of the free end is extrapolated from the last two elements."""
+        """Returns the state. The rotation of the free end is extrapolated from the last two
+        elements."""
         import numpy as np
 
         q = self.rod.director_collection
