@@ -505,7 +505,7 @@ static void check_parameters(const fields *f, scene_scheme scheme)
                              of_alpha[i]);
 }
 
-/* Returns the integrator. Some sets of parameters of alpha are named integrators, which `motion -u`
+/* Returns the integrator. Rejects the names of alpha with certain parameters, which `motion -u`
  * compares. */
 static scene_scheme scheme_of(const fields *f)
 {

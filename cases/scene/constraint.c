@@ -210,7 +210,7 @@ static int motion_at(const scene *s, scene_tie at)
                                     : n->angle[at.coordinate - SCENE_RX];
 }
 
-/* Returns 1 if a diaphragm determines the component. */
+/* Returns 1 if the component belongs to a diaphragm. */
 static int is_across(const scene *s, int node, int component)
 {
     for (int i = 0; i < s->constraints; i++)

@@ -210,7 +210,7 @@ status entry_check(const scene *s, const entry_field *table, const void *entry, 
     return STATUS_OK;
 }
 
-/* Returns the power of a base unit (m or kg) in a word of a unit: m, N, kg = N s^2/m, Pa = N/m^2, J
+/* Returns the power of a base unit (m or N) in a word of a unit: m, N, kg = N s^2/m, Pa = N/m^2, J
  * = N m, W = N m/s. Returns 0 for other words. */
 static int base_power(const char *word, size_t size, entry_base base)
 {

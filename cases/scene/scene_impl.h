@@ -37,7 +37,8 @@ status scene_validate_turns(const scene *s, int node, fault *f);
  * constraints form a loop. */
 status scene_validate_constraints(const scene *s, fault *f);
 
-/* Returns REFUSED if an imperfection has neither a mode nor shifts, or if no analysis uses it. */
+/* Returns REFUSED if the analysis of a mode has no undamped modes, if shifts are invalid, or if no
+ * analysis uses the imperfections. */
 status scene_validate_imperfections(const scene *s, fault *f);
 
 /* Checks load cases and combinations, and the entries that select them. */
