@@ -1,8 +1,9 @@
 /* Small motions about a state with rates: M x'' + (C + G) x' + K x, where x contains increments of
- * the coordinates, with rotations about fixed axes. For a free rotation with W = R^T w, dW = R^T x'
- * and dW' = R^T (x'' - w x x'), so M w~ is subtracted from the derivatives with respect to the
- * rates. Strains of damped members have the rates J v, where v contains the rates of the state.
- * Small motions x change these rates by J x' + J' x, where J' is the rate of J along the motion. */
+ * the coordinates, with rotations about fixed axes. The rates of a free rotation are the angular
+ * velocity w in the axes of the frame, W = R^T w. Then dW = R^T x' and dW' = R^T (x'' - w x x'),
+ * so M w~ is subtracted from the derivatives with respect to the rates. Strains of damped members
+ * have the rates J v, where v contains the rates of the state. Small motions x change these rates
+ * by J x' + J' x, where J' is the rate of J along the motion. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>

@@ -16,7 +16,7 @@ typedef struct motion_state {
     /* [J] work of external forces, and energy dissipated by damping, since t = 0 */
     double work, dissipated;
     /* [model_stresses] strain rates of damped members, and the derivatives of these rates for
-     * generalized-alpha; NULL: no damping */
+     * generalized-alpha and conserving steps; NULL: no damping */
     double *strain, *strain2;
     /* largest stress so far, and last contraction of Newton's method (see newton.h) */
     double stress, contraction;
