@@ -256,7 +256,8 @@ static void linear_tests(void)
     nothing_to_solve();
 }
 
-/* Tests singular matrices of every kind, and beams without supports. */
+/* Matrices that are singular to working precision must be reported as singular, including those of
+ * beams without supports. Matrices with tiny or huge entries must not. */
 
 static status outcome_of(const sparse *s, fault *f)
 {
@@ -303,8 +304,8 @@ static void small_singular_matrices(void)
     matrices_free(&s);
 }
 
-/* Factors the matrix of a beam of n elements. The first `held` unknowns of its first node are held.
- */
+/* Factors the matrix of a beam of n elements. Springs support the first `held` unknowns of its
+ * first node. */
 static status beam_outcome(int n, int held, int unsymmetric)
 {
     double k[16], g[16], m[16];
