@@ -262,7 +262,8 @@ class MassTest(SceneCase):
         return [(n, tuple(w for one in ASKED.get(n, ()) for w in ("--set", one))) for n in having]
 
     def lumped_differs(self, case, point):
-        """The results must be bit-for-bit those of the same scene with `mass: lumped`, and be marked as lumped."""
+        """With mass=lumped, a value must differ from that of the usual mass, and only this run must be marked as
+        lumped. Returns the values of both runs."""
         usual, lumped = (self.record("solve", case, *WHERE, *point, *mass) for mass in ((), LUMPED))
         self.assertEqual(usual["parameters"]["mass"], "usual")
         self.assertEqual(lumped["parameters"]["mass"], "lumped")
@@ -285,7 +286,8 @@ class MassTest(SceneCase):
                 self.assertIn("\nmass: lumped\n", self.answered("scene", case, *point, *LUMPED).stdout)
 
     def test_reference_values_hold(self):
-        """With half of the mass of an element at each node, the limit must be the same, and the order must be 2."""
+        """Reference values must also apply with mass=lumped: frequencies must converge to them, and `truth` must
+        print the same values."""
         found = self.record("solve", "deep_beam", "-f", "collocation", "-n", 64, *LUMPED)
         errors = [q["error"] for q in found["quantities"] if q["quantity"].startswith("frequency")]
         self.assertTrue(errors and all(e is not None and 1e-6 < abs(e) < 1e-3 for e in errors), errors)

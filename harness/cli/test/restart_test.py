@@ -139,7 +139,8 @@ class RestartTest(SceneCase):
                       self.answered("solve", "--scene", path, "--restart", ends).stdout)
 
     def test_a_window_before_a_second_motion(self):
-        """A motion that continues another motion of the scene must begin where the other ends."""
+        """A motion that continues another motion of the scene begins where the other ends. A statistic over earlier
+        times must be rejected."""
         text = SWING.replace("quantities:", "  later: {motion: {stations: [end+1], integrator: how, step: step, "
                              "tolerance: tol, about: swing}}\nquantities:\n  mean: {rate: {analysis: later, "
                              "node: tip, component: ux, take: mean}, when: {from: end}}")

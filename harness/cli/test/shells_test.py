@@ -78,7 +78,7 @@ class Shell(unittest.TestCase):
                     self.folder / "a_folder" / "leaf.yaml")
 
     def check(self, prepare, *command):
-        """Types each line with a tab, then sends it. Control-U clears the rest of the previous line."""
+        """Types each line with a tab, sends it, and checks the arguments that the command receives."""
         shell = Terminal(self.folder, *command)
         self.addCleanup(shell.close)
         shell.say("\n".join((*prepare, SHOW, "printf '%s%s\\n' rea dy")) + "\n")

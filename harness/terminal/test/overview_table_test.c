@@ -116,8 +116,8 @@ static void new_ones(void)
     free(text);
 }
 
-/* If there are many cases, the cases that pass must share lines. Other cases must never share
- * lines. */
+/* If there are many cases, those that pass must share lines, and so must those without a verdict.
+ * Every other case must have its own row. */
 static void passing(void)
 {
     static table_bench b;
