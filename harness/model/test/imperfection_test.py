@@ -215,7 +215,7 @@ omit: [shear]
             self.refused(2, words, "solve", "--scene", self.scene(filed), "-n", 1)
 
     def test_shifted_lengths(self):
-        """Strains refer to the shifted length. A member with the length 1 m in the scene is 0.98 m long after the
+        """Strains must refer to the shifted length. A member with the length 1 m in the scene is 0.98 m long after the
         shift, and its unstressed length is 0.979 m."""
         def bar(at, length, shift):
             return f"""beamwork: 1

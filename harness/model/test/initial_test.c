@@ -111,7 +111,7 @@ static void not_offered(void)
     scene_free(&s);
 }
 
-/* The energy of an element is zero in its stress-free state, for any arc. */
+/* The energy of an element must be zero in its stress-free state, for any arc. */
 static void no_energy_at_rest(const char *name)
 {
     static const double none[ELEMENT_MAX_STRAINS] = {0};
@@ -185,8 +185,8 @@ static void moved(const char *name, const double tip[6], centreline_point out[PO
     scene_free(&s);
 }
 
-/* A cubic with the end tangents of an arc deviates from the arc by angle^3/384. The triads follow
- * its tangents and distribute a twist evenly. */
+/* A cubic with the end tangents of an arc deviates from the arc by angle^3/384. The triads must
+ * follow its tangents and distribute a twist evenly. */
 static void arc(const char *name, double angle, double twist)
 {
     const double radius = angle > 0 ? 1 / angle : 0;

@@ -78,7 +78,7 @@ static int solve(const element_type *type, int count, const kinds_link links[], 
     return outcome == STATUS_OK;
 }
 
-/* Equal members have one kind of element. Each property that differs adds a kind. */
+/* Equal members must have one kind of element. Each property that differs must add a kind. */
 static void counts(const element_type *type)
 {
     static const struct {
@@ -104,7 +104,7 @@ static void counts(const element_type *type)
     }
 }
 
-/* Arcs of equal length that are curved to opposite sides differ only in their curvature. */
+/* Arcs of equal length that are curved to opposite sides must be of different kinds. */
 static void arcs(const element_type *type)
 {
     const kinds_link links[] = {{0, 1, 0, 0.1}, {0, 1, 0, -0.1}};
@@ -114,8 +114,8 @@ static void arcs(const element_type *type)
         gsl_test_int(kinds, 2, "%s: arcs to either side", type->name);
 }
 
-/* Without loads and initial strains there is no stress. An element that used the length of another
- * would be stressed. */
+/* Without loads and initial strains there must be no stress. An element that used the length of
+ * another would be stressed. */
 static void lengths(const element_type *type)
 {
     static const double apart[] = {1e-3, 1e-6, 1e-9, 1e-11};
@@ -131,8 +131,8 @@ static void lengths(const element_type *type)
     }
 }
 
-/* With the strain e in one of two equal links, the force at the end is -EA e/2, and the joint moves
- * by e/2 times the length of a link. */
+/* With the strain e in one of two equal links, the force at the end must be -EA e/2, and the joint
+ * must move by e/2 times the length of a link. */
 static void strains(const element_type *type)
 {
     static const double strain[] = {1e-3, -1e-7, 1e-10};
@@ -150,8 +150,8 @@ static void strains(const element_type *type)
     }
 }
 
-/* Members whose areas differ by 2e-6 are of different kinds. They share a force in proportion to
- * their stiffness. */
+/* Members whose areas differ by 2e-6 are of different kinds. They must share a force in proportion
+ * to their stiffness. */
 static void sections(const element_type *type)
 {
     const double A0 = side[0] * side[0], A1 = side[1] * side[1], force = 1e-6 * young * A0;

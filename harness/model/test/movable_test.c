@@ -177,9 +177,9 @@ static void make(const char *name, const test_element_request *what, test_elemen
     gsl_test(test_element_make(what, out, &f) != STATUS_OK, "%s: prepared %s", name, f.text);
 }
 
-/* Lumped masses at nodes follow the rule for loads: the trapezoidal rule with two nodes, Simpson's
- * rule with three nodes. The second moment of mass about an end is exact only with three nodes. The
- * twist has the polar inertia of the section. */
+/* Lumped masses at nodes must follow the rule for loads: the trapezoidal rule with two nodes,
+ * Simpson's rule with three nodes. The second moment of mass about an end is exact only with three
+ * nodes. The twist must have the polar inertia of the section. */
 static void lumped_moments(const char *name)
 {
     formulation chosen;

@@ -64,8 +64,8 @@ static void expect(const consistency_bench *b, int consistent, const char *what)
     gsl_test(!consistent && why[0] == '\0', "%s: it says why", what);
 }
 
-/* A count that is too small is always inconsistent. A count that is too large is inconsistent only
- * if the solution does no other work. */
+/* A count that is too small must always be inconsistent. A count that is too large must be
+ * inconsistent only if the solution does no other work. */
 static void counts(scene_analysis_kind kind)
 {
     const struct {

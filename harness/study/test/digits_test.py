@@ -117,7 +117,7 @@ class Digits(ProgramTest):
                 self.assertLess(apart[128], 0.6 * apart[64])
 
     def test_hexapod(self):
-        """The twelve joints of the hexapod are checked at the end of the stroke."""
+        """At the end of the stroke of the hexapod, the distance from the derived limit must decrease as in test_joints."""
         for formulation in PRINTED:
             with self.subTest(formulation=formulation):
                 apart = self.from_prediction("hexapod", formulation, ("wagner=0", ),

@@ -78,8 +78,8 @@ static void publications(void)
     bench_free(&b);
 }
 
-/* If a limit was derived, the range of a rule applies to the distance from this limit, not from the
- * reference value. */
+/* If a limit was derived, the range of a rule must apply to the distance from this limit, not from
+ * the reference value. */
 static void bound_by_the_derived_limit(void)
 {
     static char kind[] = "wrong limit, as predicted|undecided";

@@ -132,8 +132,8 @@ static void known_badly(void)
     finish(&b);
 }
 
-/* Two families with one limit and two with another do not agree. If three families have one limit
- * and two another, the limit of the three is the agreed limit. */
+/* Two families with one limit and two with another must not agree. If three families have one limit
+ * and two another, the limit of the three must be the agreed limit. */
 static void disagreements_of_families(void)
 {
     families_bench b;
@@ -151,8 +151,8 @@ static void disagreements_of_families(void)
     finish(&b);
 }
 
-/* If limits agree with equally many families, the one with the smallest uncertainty is the centre.
- * A formulation whose distance from the centre exceeds its uncertainty must be reported. */
+/* If limits agree with equally many families, the one with the smallest uncertainty must be the
+ * centre. A formulation whose distance from the centre exceeds its uncertainty must be reported. */
 static void known_best(void)
 {
     families_bench b;

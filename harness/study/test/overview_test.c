@@ -263,7 +263,7 @@ static const size_t failing[] = {
     offsetof(evaluation, unobserved), offsetof(evaluation, unmet),
     offsetof(evaluation, flaws),      offsetof(evaluation, breaches),
     offsetof(evaluation, regressions)};
-/* Counts that make the run fail if they are zero. */
+/* Counts of which at least one must exceed zero; otherwise nothing was evaluated. */
 static const size_t checking[] = {offsetof(evaluation, evaluated),
                                   offsetof(evaluation, agreements)};
 enum {
@@ -491,8 +491,8 @@ static void with_prediction(evaluation_bench *b, double limit)
     bench_add_prediction(b, limit);
 }
 
-/* The limit is accurate, so the uncertainty of the derived limit determines the verdict, for any
- * size and sign of the error. Without this uncertainty, even a distance of a thousandth of the
+/* The limit is accurate, so the uncertainty of the derived limit must determine the verdict, for
+ * any size and sign of the error. Without this uncertainty, even a distance of a thousandth of the
  * error is too large. */
 static void sharp_limits(void)
 {
@@ -517,7 +517,7 @@ static void sharp_limits(void)
     }
 }
 
-/* The limit is uncertain, so three times its uncertainty determines the verdict. */
+/* The limit is uncertain, so three times its uncertainty must determine the verdict. */
 static void uncertain_limits(void)
 {
     evaluation_bench b;

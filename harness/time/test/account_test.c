@@ -223,7 +223,7 @@ static long checks_flutter(const equations *eq, strain_update *c, model_state *s
     return eq->run->counters.stress_evaluations - before;
 }
 
-/* After all elements agree, they are evaluated again only after larger corrections and in a new
+/* After all elements agree, they must be evaluated again only after larger corrections and in a new
  * step. */
 static void again(const equations *eq, strain_update *c, model_state *s)
 {

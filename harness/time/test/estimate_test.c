@@ -370,9 +370,9 @@ static void motion_massless_tests(void)
     limit();
 }
 
-/* Steps of all integrators: the trapezoidal rule is reversible, a rigid body without torque follows
- * its exact motion with the order of the scheme, and steps end at slope discontinuities of
- * loads. */
+/* Steps of all integrators: the trapezoidal rule must be reversible, a rigid body without torque
+ * must follow its exact motion with the order of the scheme, and steps must end at slope
+ * discontinuities of loads. */
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space;

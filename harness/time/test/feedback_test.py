@@ -190,7 +190,7 @@ class Elongation(Driven):
             self.assertAlmostEqual(self.solved("0.01", part, "linear: {}")["x"], 0.01, 12)
 
     def test_motion(self):
-        """The mass follows m x'' = k (s(t) - x), s = 0.01 (1 - cos 7 t). Its eigenfrequency is 10 rad/s."""
+        """The mass must follow m x'' = k (s(t) - x), s = 0.01 (1 - cos 7 t). Its eigenfrequency is 10 rad/s."""
         t = 1.3
         x = 0.01 * (1 - 100 / 51 * np.cos(7 * t) + (100 / 51 - 1) * np.cos(10 * t))
         for scheme, step, near in (("radau", 0.01, 1e-7), ("alpha", 5e-4, 1e-4)):

@@ -74,7 +74,7 @@ class ShortStepsTest(SceneCase):
                 self.assertAlmostEqual(sum(steps), 1 + beyond, delta=1e-14, msg=(scheme, beyond))
 
     def test_equal_instants(self):
-        """Both loads jump at 0.3 s. After the jumps, x = 0.6 (1 - cos(10 (t - 0.3)))."""
+        """Both loads jump at 0.3 s, after which the motion must be x = 0.6 (1 - cos(10 (t - 0.3)))."""
         for scheme, most in (("radau", 1e-6), ("explicit", 1e-5), ("alpha", 2)):
             for end in ("0.2", "0.3", "3*0.1"):
                 got, steps = self.solve(JUMPS % (end, scheme, scheme))

@@ -135,7 +135,7 @@ static void between_nodes_tests(void)
 }
 
 /* Two rods swing on a ball joint in space, with released rotations or translations between them.
- * The inertia of released ends must move with them, because energy would otherwise be gained. */
+ * The inertia of released ends must move with the ends; otherwise the energy would increase. */
 
 extern const element_type element_geometrically_exact;
 
@@ -177,7 +177,7 @@ static void linked_tests(void)
     }
 }
 
-/* Ends that are released from their nodes have inertia at the position of the end, with every
+/* Ends that are released from their nodes must have inertia at the position of the end, with every
  * integrator. All integrators must give the same motion and reaction, with errors of at least
  * second order. */
 
