@@ -13,7 +13,7 @@
 #include "elements/math/scalar.h"
 #include "elements/shared/masses.h"
 
-/* Adds the axis of the next angle of a sequence. The length of the axis is arbitrary. */
+/* Adds the axis of the next angle of a sequence. The length of `axis` has no effect. */
 static void add_axis(const double axis[3], mesh_vertex *v)
 {
     const double length = vec3_norm(axis);

@@ -65,7 +65,7 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
 {
     const mesh_vertex *frame = model_vertex(m, index);
     const int own =
-        index < model_first_release(m); /* a released end has rates only if it is a ball joint */
+        index < model_first_release(m); /* released coordinates do not move, except ball joints */
     double R[9], velocity[3], body[3];
     velocity_of(m, s, index, field, velocity);
     rotation_matrix(&s->q[4 * index], R);

@@ -158,7 +158,7 @@ static void lengthen(motion_course *w, double step, double whole, int rejected)
     if (w->how->tolerance > 0 && step < whole)
         w->h = fmax(
             w->h,
-            whole); /* a step that was shortened to end at a station does not limit the next step */
+            whole); /* a step shortened to end at a discontinuity does not limit the next step */
     if (w->how->tolerance <= 0 && rejected == 0)
         w->h = fmin(w->how->step, 2 * w->h); /* return to the size before halving */
 }

@@ -102,7 +102,7 @@ static void put_turn(const dense_output *b, int vertex, double h)
                 &(between_ends){t[1][k], {rate[0][k], rate[1][k]}, {second[0][k], second[1][k]}});
 }
 
-/* Interpolates a ball joint linearly, because it has no rates. */
+/* Interpolates the rotation vector of a ball joint linearly. */
 static void put_ball(const dense_output *b, int vertex)
 {
     const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;

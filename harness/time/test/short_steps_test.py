@@ -1,4 +1,5 @@
-"""Constant steps must end at the stations without a very short last step, whose rates would be round-off."""
+"""Constant steps must end at jumps and at the end of a motion without a very short last step, whose rates would be
+round-off."""
 import math
 import unittest
 
