@@ -187,8 +187,8 @@ void omission_words(const omission *, char text[OMISSION_TEXT]);
 /* The list of known deviations (reference/findings.csv): expected verdicts other than pass. Each
  * rule has one cause. */
 
-/* Lists contain words separated by blanks. Words may contain the wildcards * and ?. A list matches
- * if one of its words matches. */
+/* Lists contain words separated by blanks. Words may contain the wildcards *, ? and [...]. A list
+ * matches if one of its words matches. */
 typedef struct rule {
     char *name;         /* one word */
     char *formulations; /* list of formulations, with options ("beamw:mass=lumped") or without */

@@ -22,17 +22,19 @@ extern const double omission_safety;
  * omitted. NAN: a value is missing, or no formulation supports all physics of the scene. */
 double omission_on_mesh(const scene *, unsigned what, int elements);
 
-/* Returns 1 if the condition is true. A term is a feature that the scene requires ("shear", "not
- * shear"), or compares a parameter of the case ("omega>0", "load=tip|mid", "tip_deflection!=0.015";
- * also <, <= and >=). If the case does not have the parameter, the term is false. */
+/* Returns 1 if the lists of the rule match the subject and the condition is true. A term of the
+ * condition is a feature that the scene requires ("shear", "not shear"), or compares a parameter of
+ * the case ("omega>0", "load=tip|mid", "tip_deflection!=0.015"; also <, <= and >=). If the case
+ * does not have the parameter, the term is false. */
 int rules_hold(const rule *, const rule_subject *);
 
-/* Returns the features that the condition of the rule contains; 0: none. */
+/* Returns the features that the condition of the rule contains without "not"; 0: none. */
 unsigned rules_features(const rule *);
 /* Records that a verdict confirmed a derived limit that is listed in the rule. */
 void rules_confirm_limit(rule *, const rule_subject *);
-/* Finds the first term of the condition that is neither a feature nor a parameter of the cases of
- * the rule, and copies it to `word`. Returns 0 if there is none. cases: NULL-terminated. */
+/* Finds the first term of the condition that is neither a feature nor a valid comparison with a
+ * parameter of the cases of the rule, and copies it to `word`. Returns 0 if there is none. cases:
+ * NULL-terminated. */
 enum { RULES_WORD = 128 };
 int rules_bad_condition(const rule *, const case_type *const cases[], char word[RULES_WORD]);
 /* Copies the next word of a list. Returns the rest of the list; NULL: there are no more words. */
