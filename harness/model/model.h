@@ -177,8 +177,8 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
 
 typedef struct division {
     int *first; /* [members + 1] number of pieces of all previous members */
-    /* [pieces + 1] ends of the pieces, 0 .. 1 of the initial length; a member starts at
-     * place[first[member] + member] */
+    /* [pieces + members] ends of the pieces of each member, 0 .. 1 of the initial length; a member
+     * starts at place[first[member] + member] */
     double *place;
     int *each; /* [members] elements per piece */
 } division;
@@ -885,8 +885,8 @@ void movable_of(int columns, const double *T, double length, movable *out);
 void movable_prescribed(int columns, const double *T, const double m[3], double out[3]);
 
 /* Describes what is lumped, with the order of convergence in space: loads with `lumped`, masses
- * that a motion, the scene or the formulation lumps, and loads that are lumped with these masses. A
- * long list is truncated. The text is "" if nothing is lumped. */
+ * that a motion, the scene or the formulation lumps, loads that are lumped with these masses, and
+ * foundations. A long list is truncated. The text is "" if nothing is lumped. */
 void on_nodes(const scene *s, const element_type *type, const double options[], char *text,
               size_t room);
 
@@ -980,8 +980,8 @@ int supports_root(const int part[], int vertex);
 int supports_mover(const model *, int vertex, int apart);
 /* Computes G[6 x 6], the rigid motion (m, rad) of a position due to the motions of the origin. */
 void supports_rigid(const double position[3], double length, double G[36]);
-/* Sets out[6 x 6] to the sum of squares of the motions about the origin that the supports of a node
- * prevent. */
+/* Computes the matrix out[6 x 6] of the motions that the supports of a node prevent, for rigid
+ * motions about the origin. */
 void supports_prevented(const model *, int node, const double origin[3], double out[36]);
 /* Adds to sum[6 x 6] the squares of the motions that springs between the part and the ground
  * prevent. The stiffness of the springs has no effect. */

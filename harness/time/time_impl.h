@@ -369,8 +369,8 @@ double inertia_damping_power(const model *, const frame_masses *, const model_st
 
 typedef struct massive {
     int ready;
-    /* [nodes and bodies x 2 x 9] projections onto translations and onto rotations without inertia,
-     * with rotations in the axes of the frames; NULL: all motions have inertia */
+    /* [vertices without released ends x 2 x 9] projections onto translations and onto rotations
+     * without inertia, with rotations in the axes of the frames; NULL: all motions have inertia */
     double *light;
 } massive;
 
@@ -408,7 +408,7 @@ typedef struct conserving {
     double *elastic;
     /* [masses x 9] projection onto rotations without inertia, in the axes of the frames */
     double *massless;
-    /* [springs x 3 x SPRING_STRAINS] e and sigma at the end of the step, and sigma_n */
+    /* [springs x 4 x SPRING_STRAINS] e and sigma at the end of the step, sigma_n and e_n */
     double *spring;
     double *slot; /* [deformables x slot_size] data that the evaluation stores for the update */
     int slot_size;
