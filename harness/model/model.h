@@ -796,9 +796,10 @@ void metric_of(const model *, double weight[]);
 /* Returns the share of nodal displacements in the squared norm of an increment [free + driven]
  * (metric_of). */
 double metric_shift_part(const model *, const double dx[]);
-/* Returns the distance between two states (square root of the mean of metric_of). light[vertices x
- * 2 x 9]: for each vertex, projections (3 x 3, row-major) onto the excluded displacements and onto
- * the excluded rotations, the latter in the axes of the vertex; NULL: nothing is excluded. */
+/* Returns the distance between two states (square root of the mean of metric_of). light[vertices
+ * without released ends x 2 x 9]: projections (3 x 3, row-major) onto the excluded displacements
+ * and onto the excluded rotations, the latter in the axes of the vertex; NULL: nothing is excluded.
+ */
 double metric_distance(const model *, const model_state *, const model_state *,
                        const double light[]);
 /* Returns the largest angle [rad], over the nodes, between the orientations of a node in two
