@@ -111,6 +111,21 @@ const char *missing_in_section(const element_type *type, const section *c, int c
     return NULL;
 }
 
+/* Returns 1 if warping causes shear strains in a section of the scene, which the type does not
+ * have. */
+static int omits_shear_of_warping(const scene *s, const element_type *type)
+{
+    const unsigned both = FEATURE_SHEAR | FEATURE_WARPING;
+    if (!(type->limits & LIMIT_WARPING_RIGID) || (features_needed(s) & both) != both)
+        return 0;
+    for (int i = 0; i < s->sections; i++) {
+        section c;
+        if (scene_constants(s, i, &c, NULL) == STATUS_OK && !c.matrices && c.Iw > 0 && c.F[8] > 0)
+            return 1;
+    }
+    return 0;
+}
+
 static int limit_hit(const scene *s, const element_type *type, char *words, int size)
 {
     const int warps = (features_needed(s) & FEATURE_WARPING) != 0;
@@ -122,7 +137,8 @@ static int limit_hit(const scene *s, const element_type *type, char *words, int 
         if (limit != NULL)
             return snprintf(words, (size_t)size, "%s", limit) > 0;
     }
-    return 0;
+    return omits_shear_of_warping(s, type) &&
+           snprintf(words, (size_t)size, "shear deformation due to warping") > 0;
 }
 
 /* Names the inertia that a motion requires but the type does not have. Returns 0 if none is
@@ -218,8 +234,10 @@ static unsigned omits_of_sections(const scene *s, const element_type *type)
 unsigned missing_omits(const scene *s, const element_type *type)
 {
     char words[OMIT_WORDS];
-    const unsigned missing = features_needed_of(s, type) & ~type->offers & can_be_omitted(s);
-    return missing | omits_of_sections(s, type) |
+    const unsigned missing = features_needed_of(s, type) & ~type->offers & can_be_omitted(s),
+                   omits = missing | omits_of_sections(s, type);
+    const int shear = !(omits & FEATURE_WARPING) && omits_shear_of_warping(s, type);
+    return omits | (shear ? OMIT_SHEAR_WARPING : 0) |
            (lacks_of(s, type, words, sizeof words) > 1 ? OMIT_SHEAR_Y : 0);
 }
 
@@ -228,11 +246,13 @@ void missing_omit_words(unsigned omits, char words[OMIT_WORDS])
     static const struct {
         unsigned bit;
         const char *words;
-    } more[] = {{OMIT_SHEAR_Y, "shear along y"}, {OMIT_SHEAR_COUPLING, "coupling of shear"}};
+    } more[] = {{OMIT_SHEAR_Y, "shear along y"},
+                {OMIT_SHEAR_COUPLING, "coupling of shear"},
+                {OMIT_SHEAR_WARPING, "shear due to warping"}};
     words[0] = '\0';
     if ((omits & (FEATURE_END - 1)) != 0)
         feature_words(omits & (FEATURE_END - 1), words, OMIT_WORDS);
-    for (int i = 0; i < 2; i++) {
+    for (int i = 0; i < 3; i++) {
         const size_t used = strlen(words);
         if (omits & more[i].bit)
             snprintf(words + used, OMIT_WORDS - used, "%s%s", used > 0 ? ", " : "", more[i].words);
@@ -243,8 +263,9 @@ void missing_omit(section *c, unsigned omits)
 {
     for (int i = 0; i < 9; i++) {
         const int off = i % 4 != 0 && (omits & (FEATURE_ECCENTRIC | OMIT_SHEAR_COUPLING)),
-                  along_y = (i < 3 || i % 3 == 0) && (omits & OMIT_SHEAR_Y);
-        if (off || along_y)
+                  along_y = (i < 3 || i % 3 == 0) && (omits & OMIT_SHEAR_Y),
+                  of_warping = (i >= 6 || i % 3 == 2) && (omits & OMIT_SHEAR_WARPING);
+        if (off || along_y || of_warping)
             c->F[i] = c->D[i] = 0;
     }
     if ((omits & (FEATURE_ECCENTRIC | OMIT_SHEAR_COUPLING)) && !c->matrices)

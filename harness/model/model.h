@@ -812,10 +812,11 @@ double metric_turn_between(const model *, const model_state *, const model_state
 
 /* Physics that can be omitted and has no FEATURE_* bit. */
 enum {
-    OMIT_SHEAR_Y = FEATURE_END,            /* shear flexibility along y */
-    OMIT_SHEAR_COUPLING = FEATURE_END << 1 /* shear coupling between y and z, and with warping */
+    OMIT_SHEAR_Y = FEATURE_END,             /* shear flexibility along y */
+    OMIT_SHEAR_COUPLING = FEATURE_END << 1, /* shear coupling between y and z, and with warping */
+    OMIT_SHEAR_WARPING = FEATURE_END << 2   /* shear flexibility due to warping */
 };
-enum { OMIT_WORDS = 200, OMIT_BITS = 16 }; /* length of their names; number of bits */
+enum { OMIT_WORDS = 200, OMIT_BITS = 17 }; /* length of their names; number of bits */
 
 /* Names the physics that the type does not support, or a limit that the scene exceeds. `words` is
  * empty if and only if there is none. Returns 0 if the type supports everything that the scene

@@ -361,10 +361,10 @@ static void get_limits(const subject *s, field_value *out)
          "no element is so long that its axial force makes its transverse stiffness indefinite"},
         {LIMIT_EIGHTH_TWIST, "twist of an element below an eighth of a turn"},
         {LIMIT_NOT_OBJECTIVE, "rigid rotations of a deformed element change its strains; the error "
-                              "vanishes with more elements"},
+                              "may remain on fine meshes"},
         {LIMIT_PATH_DEPENDENT, "the strains depend on the path that led to a state; the error "
-                               "vanishes with more elements"},
-        {LIMIT_WARPING_RIGID, "no shear deformation due to warping, so no closed cells that warp"},
+                               "may remain on fine meshes"},
+        {LIMIT_WARPING_RIGID, "no shear deformation due to warping"},
         {LIMIT_FLAT_ARC, "the arc of a curved element rises by less than 2 radii of gyration of "
                          "its section (of a leaf: 0.58 thicknesses)"},
     };

@@ -149,6 +149,7 @@ static unsigned absent_in(const section *c)
         return 0;
     absent |= rigid ? FEATURE_SHEAR : 0;
     absent |= c->F[0] <= 0 ? OMIT_SHEAR_Y : 0;
+    absent |= c->F[8] <= 0 || c->Iw <= 0 ? OMIT_SHEAR_WARPING : 0;
     absent |= fabs(c->wagner_torque) <= 0 ? FEATURE_WAGNER_TORQUE : 0;
     absent |=
         fabs(c->wagner_y) <= moment && fabs(c->wagner_z) <= moment ? FEATURE_WAGNER_MOMENTS : 0;
