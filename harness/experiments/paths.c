@@ -364,7 +364,7 @@ static void hold_against_declared(const formulation *chosen, const measures *out
             checks_deviation(checks_open(c, of[i].check_result, exact), one->error[k],
                              "%s: the error after %g turns or cycles is %.2g of the largest value; "
                              "correct the rotations or 'commit', or declare %s",
-                             one->name, one->error[k], one->at[k], of[i].word);
+                             one->name, one->at[k], one->error[k], of[i].word);
     }
 }
 

@@ -312,15 +312,15 @@ class MotionTest(SceneCase):
                            ("path: [0, 1], factor: [0, 0], time: 100*t", False)):
             path = self.block(time, follows)
             text = self.answered("solve", "--scene", path, "-f", "beamw", "-n", 1).stdout
-            self.assertEqual("push has factor 1 where the path ends, but 0" in re.sub(r"\s+", " ", text),
+            self.assertEqual("the factor of push is 1 at the end of the path, but 0" in re.sub(r"\s+", " ", text),
                              told, text)
 
     def test_what_ends_too_early(self):
         path = self.block("time: exp(1000*t)")
         done = self.answered("solve", "--scene", path, "-f", "beamw", "-n", 1, code=1)
-        self.assertIn("the motion ends before 0.5 s; give a smaller step", re.sub(r"\s+", " ", done.stdout))
+        self.assertIn("the motion stopped before 0.5 s; give a smaller step", re.sub(r"\s+", " ", done.stdout))
         done = self.answered("solve", "--scene", self.block("time: 1"), "-f", "beamw", "-n", 1)
-        self.assertNotIn("the motion ends before", re.sub(r"\s+", " ", done.stdout))
+        self.assertNotIn("the motion stopped before", re.sub(r"\s+", " ", done.stdout))
 
     def test_time_is_t(self):
         self.refused(2, "did you mean 't'?", "solve", "--scene", self.block("time: 2*time"))

@@ -367,7 +367,7 @@ class CurvesTest(SceneCase):
         for n, percent in zip((1, 2), shown):
             error = 100*max(abs(a - b) for a, b in zip(value[n], value[4]))/size
             self.assertAlmostEqual(percent, error, delta=1e-3*error + 1e-4)
-        self.assertIn("from collocation", block.splitlines()[2])
+        self.assertRegex(block, r"\n +n +.*  from collocation\n")
         record = self.record("converge", "--scene", path, "-f", "beamw", "-f", "collocation")
         found, = (c for c in record["series"][0]["curves"] if c["quantity"] == "k_z")
         self.assertEqual((found["x_name"], found["x_unit"], found["reference"]), ("place", "mm", "collocation"))

@@ -57,7 +57,7 @@ class GapsTest(SceneCase):
 
     def test_refused(self):
         text = scene(0, "[1]")[2]
-        for points, words in (("at: [0, 0], value: [0, 1]", "do not ascend"), ("at: [0, 1], value: [0, -1]", "decrease,"),
+        for points, words in (("at: [0, 0], value: [0, 1]", "does not ascend"), ("at: [0, 1], value: [0, -1]", "decrease,"),
                               ("at: [0, 1], value: [1, 2]", "is not 0"), ("at: [0], value: [0]", "two or more points"),
                               ("at: [0, 1], value: [0]", "two or more points")):
             bad = re.sub(r"s1: .*", f"s1: {{to: n1, tables: {{uy: {{{points}}}}}}}", text)

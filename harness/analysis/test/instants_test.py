@@ -190,7 +190,7 @@ class Instants(ProgramTest):
         scene = BEAD.replace("modal: {about: spin, time: %(time)r, damped: yes, axes_of: hub}",
                              "compliance: {about: spin, node: bead}").replace("frequency", "compliance")
         scene = scene.split("quantities")[0]
-        self.assertIn("follow a static path", self.solved(scene, status=1))
+        self.assertIn("name a static analysis", self.solved(scene, status=1))
         scene = (BEAD % {"time": 0.1}).replace("mass: 0.5, hold: [rx", "mass: 0.5, hold: [uy, rx")
         self.assertIn("replace 'axes_of'", self.solved(scene, status=1))
 

@@ -141,7 +141,7 @@ class Completion(ProgramTest):
     def test_names(self):
         cases, formulations = (sorted(path.stem for end in ("c", "yaml")
                                       for path in (ROOT / folder).glob("*." + end))
-                               for folder in ("cases", "elements"))
+                               for folder in ("cases/benchmarks", "elements"))
         self.assertEqual(sorted(self.offered("solve", "")), cases)
         self.assertEqual(self.offered("solve", "c_column", ""), [])
         self.assertEqual(self.offered("bench", "c_column", "elas"), ["elastica"])
