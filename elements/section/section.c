@@ -169,7 +169,7 @@ static status invert_on_support(const double from[9], double to[9], const char *
     }
     if (dense_cholesky(n, scaled) != 0)
         return fault_set(f, STATUS_REFUSED,
-                         "section: the shear rigidity matrix %s is not positive definite, because "
+                         "section: the shear matrix %s is not positive definite, because "
                          "its off-diagonal entries are too large for %s_y = %g, %s_z = %g, %s_w = "
                          "%g; correct the data of the section",
                          name, name, from[0], name, from[4], name, from[8]);

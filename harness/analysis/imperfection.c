@@ -147,7 +147,9 @@ static status add_mode(const analysis_context *c, int index, double mode[], doub
     if (!(most > 0) || sign == 0)
         return fault_set(f, STATUS_REFUSED, "%s: the mode %s; give another mode%s",
                          scene_called(c->scene, SCENE_IMPERFECTIONS, index).text,
-                         most > 0 ? "does not move along the given direction" : "shifts no member",
+                         most > 0
+                             ? "has its largest displacement perpendicular to the given direction"
+                             : "shifts no member",
                          most > 0 ? " or direction" : "");
     for (int i = 0; i < size.free; i++)
         x[i] += sign * p->amplitude / most * mode[i];

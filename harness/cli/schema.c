@@ -20,9 +20,11 @@ const char *const results_about[] = {
     "curve_x, curve_value: points of all curves of a case, one curve after the other.",
     "shapes/POINT (verify --shapes, solve --shapes; attributes formulation, elements): members "
     "(nodes p, q, section), first_point, bodies of the nodes (body or -1, fixed components as "
-    "bits), released (components at both ends of members, as bits), sections/I (corners of walls, "
-    "y and z in m), and of every state kind, analysis, value, scale and [states x points] "
-    "position, orientation (quaternion), force, moment, bimoment, nodes.",
+    "bits), released (components at both ends of members, as bits), sections/I and, for tapered "
+    "members, far_ends/MEMBER (corners of walls, y and z in m). For each state: kind, acting (load "
+    "case or combination), analysis, value and scale; with [states x points] position, orientation "
+    "(quaternion), force, moment and bimoment; with [states x nodes] nodes (positions of the "
+    "nodes).",
     "The table 'points' also has a column for each parameter of the case. The keys are point, "
     "formulation and elements.",
     "/experiments/NAME contains the results of the verb NAME (option -o; all verbs except verify), "

@@ -127,11 +127,10 @@ static void feature_subsets(const formulation *chosen, check_results *c)
         checks_current(c, "prepare, strain and stress with %s", words);
         const feature_outcome found = evaluated(chosen, features, &why);
         count[found]++;
-        checks_require(
-            finite, found != BAD,
-            "prepare: with only %s the element fails (%s); support the feature, or reject "
-            "it with a reason",
-            words, why.text[0] != '\0' ? why.text : "the stiffness is not finite");
+        checks_require(finite, found != BAD,
+                       "prepare: the element fails with only these features: %s (%s); support this "
+                       "combination, or reject it with a reason",
+                       words, why.text[0] != '\0' ? why.text : "the stiffness is not finite");
     }
     checks_deviation(
         few, (double)count[REFUSED] / (1 << OPTIONAL),

@@ -92,7 +92,7 @@ void rows_label(const model *m, row_label out[])
 enum { AXIAL, ALONG_Y, ALONG_Z, TWIST, MEASURES };
 
 /* Computes the components of the motion of a vertex in the axes of the member: x, y, z, and the
- * twist times r. */
+ * twist times `radius`. */
 static void components(const double R[9], double radius, const double u[7], double out[MEASURES])
 {
     for (int k = 0; k < 3; k++)
@@ -101,7 +101,7 @@ static void components(const double R[9], double radius, const double u[7], doub
 }
 
 /* Computes measures for modes without translation of vertices: rotations of the section about z and
- * y times r, and warping times r^2. */
+ * y times `radius`, and warping times `radius`^2. */
 static void turns(const double R[9], double radius, const double u[7], double out[MEASURES])
 {
     out[AXIAL] = 0;
@@ -230,7 +230,7 @@ status modes_identify(const model *m, const scene *s, const double mode[], mode_
 }
 
 /* Computes the sums of squares of two motions: translation of shear centres across members, and
- * twist times r. */
+ * twist times `radius`. */
 static void bends_and_twists(const model *m, const scene *s, const motion *shape, int stays,
                              double *bends, double *twists)
 {

@@ -1086,8 +1086,9 @@ typedef struct internal_inertia {
     /* adds to ends[2][7] the inertia forces of the masses that are lumped at the first and at the
      * last node of the element */
     void (*ends)(const void *context, int element, double ends[2][7]);
-    /* density[nodes][force, moment about the node's frame]: inertia force per initial length, in
-     * global axes, if the element's mass is evenly distributed and has the motion of the node */
+    /* density[nodes][force, moment about the origin of the node's frame]: inertia force and moment
+     * per unit initial length, in global axes, if the mass of the element were evenly distributed
+     * and moved with the node */
     void (*along)(const void *context, int element, double density[ELEMENT_MAX_NODES][6]);
     const void *context;
 } internal_inertia;

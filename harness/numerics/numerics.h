@@ -157,7 +157,8 @@ typedef struct eigen_result {
     int n;
     eigen_side positive, negative;
     long solutions, factorisations;
-    double dense_operations; /* sum of n^3 over the solutions with dense matrices */
+    double
+        dense_operations; /* sum of n^3 over the eigenvalue problems solved with dense matrices */
 } eigen_result;
 
 /* Solves the problem. REFUSED: K is not positive definite. NOT_CONVERGED: one of the sides did not
@@ -223,7 +224,8 @@ typedef struct gyroscopic_result {
      * modes with negative energy, are missing */
     int unproven;
     long solutions, factorisations;
-    double dense_operations; /* sum of n^3 over the solutions with dense matrices */
+    double
+        dense_operations; /* sum of n^3 over the eigenvalue problems solved with dense matrices */
 } gyroscopic_result;
 
 status gyroscopic_solve(const gyroscopic_problem *, gyroscopic_result *, fault *);

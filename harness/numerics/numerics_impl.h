@@ -260,7 +260,7 @@ static inline int triangular_column_of(int place)
 int triangular_rows_factor_plain(const triangular_rows *, const double a[]);
 int triangular_rows_factor_avx2(const triangular_rows *, const double a[]);
 
-/* A symmetric matrix and its factor, in the order of elimination. */
+/* Sparsity pattern of a symmetric matrix and of its factor, in the order of elimination. */
 typedef struct triangular_pattern {
     int n;
     /* upper triangle of the matrix: starts of the columns [n + 1], and rows [column[n]] */

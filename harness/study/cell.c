@@ -392,7 +392,7 @@ void omission_words(const omission *o, char text[OMISSION_TEXT])
     text[0] = '\0';
     if (o->what == 0)
         return;
-    if (o->exact)
+    if (o->exact || o->change == 0)
         snprintf(text, OMISSION_TEXT, "without %s; the omission changes no value", o->words);
     else if (!o->other)
         snprintf(text, OMISSION_TEXT, "without %s; the omission changes no value by more than %.1g",

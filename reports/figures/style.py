@@ -110,7 +110,7 @@ def line_of(options):
 
 
 class Styles:
-    """Styles of formulations. `keys` are all formulation keys of a results file, sorted by name."""
+    """Styles of formulations. `keys` are the formulation keys of a results file, in any order and possibly repeated."""
 
     def __init__(self, keys):
         self.order = sorted(set(keys))

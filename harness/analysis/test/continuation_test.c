@@ -502,8 +502,8 @@ static void straight_column(scene *s, int stations, const double path[])
     scene_add_static(s, stations, path, 1);
 }
 
-/* Newton's method stays on the straight path, where the tangent has as many negative eigenvalues as
- * there are lower critical loads. */
+/* Newton's method stays on the straight path, where the number of negative eigenvalues of the
+ * tangent is the number of critical loads below the applied load. */
 static void inertia_counts_critical_loads(void)
 {
     const double weak = PI * PI / 4;
