@@ -229,6 +229,14 @@ class Scene:
     meanings: Mapping[str, str]
     raw: Mapping[str, Any]
 
+    def held_at(self, node: MeshNode) -> set[str]:
+        """Returns the fixed components of a node of the mesh; in a plane scene, also those out of the plane."""
+        held = set(self.nodes[node.name].hold) if node.name is not None else set()
+        if self.plane is not None:
+            normal = ({"x", "y", "z"} - set(self.plane)).pop()
+            held |= {"u" + normal} | {"r" + axis for axis in self.plane}
+        return held
+
     def load_factor(self, load: Load, path: float) -> float:
         """Returns the factor of a load at a path parameter."""
         if "factor" in load.raw:

@@ -63,7 +63,7 @@ class Frame(Model):
         self.held = {
             (number, COMPONENTS.index(c))
             for number in range(len(mesh.nodes))
-            for c in self._held(number)
+            for c in self.scene.held_at(self.mesh.nodes[number])
         }
         self.unknowns = 6 * len(mesh.nodes) - len(self.held | set(self.driven))
         self.settings = (
@@ -71,14 +71,6 @@ class Frame(Model):
         )
         self._import()
         self.model: Any = self._new("CrBeamElement3D2N")
-
-    def _held(self, number: int) -> set[str]:
-        node = self.mesh.nodes[number]
-        held = set(self.scene.nodes[node.name].hold) if node.name is not None else set()
-        if self.scene.plane is not None:
-            normal = ({"x", "y", "z"} - set(self.scene.plane)).pop()
-            held |= {"u" + normal} | {"r" + axis for axis in self.scene.plane}
-        return held
 
     def _import(self) -> None:
         import KratosMultiphysics as km

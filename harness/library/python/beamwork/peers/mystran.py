@@ -59,14 +59,6 @@ class Bars(Model):
             raise Refused("drive: this driver has no driven nodes")
         self.bulk = self._structure() + self._loads()
 
-    def _held(self, number: int) -> set[str]:
-        node = self.mesh.nodes[number]
-        held = set(self.scene.nodes[node.name].hold) if node.name is not None else set()
-        if self.scene.plane is not None:
-            normal = ({"x", "y", "z"} - set(self.scene.plane)).pop()
-            held |= {"u" + normal} | {"r" + axis for axis in self.scene.plane}
-        return held
-
     def _structure(self) -> str:
         """Returns the lines of the structure. Sections have E = G = 1, so that areas and moments of
         area are stiffnesses."""
@@ -74,7 +66,7 @@ class Bars(Model):
         self.unknowns = 6 * len(self.mesh.nodes)
         for node in self.mesh.nodes:
             out.append(_card("GRID", node.number + 1, None, *map(float, node.at)))
-            held = self._held(node.number)
+            held = self.scene.held_at(node)
             self.unknowns -= len(held)
             digits = "".join(str(i + 1) for i, c in enumerate(COMPONENTS) if c in held)
             if digits:

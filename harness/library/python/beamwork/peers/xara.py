@@ -110,7 +110,7 @@ class Frame(Model):
         }
         self._refuse()
         self.model: Any = self._new()
-        self.unknowns = sum(6 - len(self._held(n)) for n in range(len(mesh.nodes)))
+        self.unknowns = sum(6 - len(self.scene.held_at(self.mesh.nodes[n])) for n in range(len(mesh.nodes)))
         self.settings = (
             f"Umfpack, Newton, NormDispIncr {self._tolerance():.0e}, steps halved where they fail"
             + ("" if element == "force" or self._planar() else ", at least 8 steps")
@@ -149,15 +149,6 @@ class Frame(Model):
                 return True
         return False
 
-    def _held(self, number: int) -> set[str]:
-        node = self.mesh.nodes[number]
-        held = set(self.scene.nodes[node.name].hold) if node.name is not None else set()
-        if self.scene.plane is not None:
-            axes = self.scene.plane
-            normal = ({"x", "y", "z"} - set(axes)).pop()
-            held |= {"u" + normal} | {"r" + axis for axis in axes}
-        return held
-
     def _points(self) -> list[list[float]]:
         """Returns the positions of the nodes. Inner nodes are on the chord, as ExactFrame
         requires."""
@@ -195,7 +186,7 @@ class Frame(Model):
         model = xara.Model(ndm=3, ndf=6, rotations="Iter")
         for number, at in enumerate(self._points()):
             model.node(number, tuple(at))
-            held = self._held(number)
+            held = self.scene.held_at(self.mesh.nodes[number])
             model.fix(number, *(int(c in held) for c in COMPONENTS))
         tags: dict[tuple[str, float], int] = {}
         for number, e in enumerate(self.mesh.elements, start=1):
