@@ -63,7 +63,6 @@ static void reversed(void)
     scene_free(&s);
 }
 
-/* In the matrices of a section, only entries that couple z with x or y must change sign. */
 static void reversed_section(void)
 {
     scene s;
@@ -282,7 +281,6 @@ static void in_millimetres(void)
     scene_free(&s);
 }
 
-/* Checks the side of a position at a discontinuity in a reversed member and in a split member. */
 static void sides(void)
 {
     static const struct {
@@ -489,11 +487,10 @@ static void check_joints(void)
     check_joint("t^2", "2*t - 1", 2, -1);
     check_joint("t^2", "2*t - 1.1", 2, 0);
     check_joint("t^2", "t", 2, 1);
-    check_joint("t^2", "t", 1, -1); /* the discontinuity is at `end`, so it does not matter */
+    check_joint("t^2", "t", 1, -1);
     check_joint("t^2", "7", 0.5, -1);
 }
 
-/* Checks that the function is finite up to the time `where`, or everywhere if `where` is NAN. */
 static void check_finite(const char *before, const char *behind, int derivatives, double end,
                          double where)
 {

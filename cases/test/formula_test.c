@@ -126,7 +126,6 @@ static void check_edges(void)
     check_edge("t + asin(1)", 1, 1, 1, 1);
 }
 
-/* Checks the position, counted from 1, and the words of the error. */
 static void check_refused(const char *text, int character, const char *words)
 {
     formula *f = NULL;
@@ -212,8 +211,6 @@ static void constants_tests(void)
 {
     constants_follow();
 }
-
-/* Reads data of one kind from an analysis or quantity of another kind, which must abort. */
 
 typedef void kinds_reader(const void *analysis_or_quantity);
 

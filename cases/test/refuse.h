@@ -11,7 +11,6 @@ enum { ROOT, TIP, BODY };
 
 static const double y_axis[3] = {0, 1, 0};
 
-/* Makes a cantilever with a static path and with a body at its tip, which is driven along y. */
 static inline void refuse_unchanged(scene *s)
 {
     const double station[2] = {0, 1};
@@ -43,8 +42,6 @@ static inline void refuse_one_line(const char *what, const fault *f)
     gsl_test(strchr(f->text, ';') == NULL, "%s: says what to do: %s", what, f->text);
 }
 
-/* Checks that the changed scene is rejected with this message, and that the unchanged scene is
- * accepted. */
 static inline void refuse_scene(const refusal *r)
 {
     scene s;

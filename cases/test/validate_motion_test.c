@@ -283,8 +283,6 @@ static void validate_motion_tests(void)
     accepts(weighs_at_a_node, "a mass at a node only");
 }
 
-/* Rejected nodes. */
-
 static const double x_axis[3] = {1, 0, 0}, zero[3] = {0, 0, 0};
 
 static void position(scene *s)
@@ -402,9 +400,6 @@ static void validate_node_tests(void)
     refuse_all(sizeof node_refusals / sizeof node_refusals[0], node_refusals);
 }
 
-/* Rejected analyses and quantities. */
-
-/* Replaces the analyses by a continuation. */
 static void driven(scene *s)
 {
     const double station[] = {0, 1};

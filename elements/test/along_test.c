@@ -239,7 +239,6 @@ static void rate(int stages)
     free(s.data);
 }
 
-/* Checks that the work of the load on a closed path of the nodes is zero. */
 static void closed_path(int stages, const double curvature[3])
 {
     enum { SIDES = 3, RULE = 12 };
@@ -248,8 +247,7 @@ static void closed_path(int stages, const double curvature[3])
     load_of(20, 1, q);
     quadrature_points(RULE, at, weight);
     double corner[SIDES][N];
-    for (int c = 0; c < SIDES;
-         c++) { /* on each side, one node rotates about one axis, so that the path closes */
+    for (int c = 0; c < SIDES; c++) {
         memset(corner[c], 0, sizeof corner[c]);
         corner[c][0] = c == 1 ? 0.0005 : 0;
         corner[c][8] = c == 2 ? 0.0005 : 0;
@@ -275,7 +273,6 @@ static void closed_path(int stages, const double curvature[3])
     free(s.data);
 }
 
-/* In rigid motions, nodal forces and load must have the same work and the same resultants. */
 static void resultants(int stages, const double curvature[3])
 {
     const along_subject s = subject_of(stages, 0, curvature);
@@ -293,8 +290,6 @@ static void resultants(int stages, const double curvature[3])
     free(s.data);
 }
 
-/* Returns the magnitude of the sum of the moments of the load and of the nodal forces about the
- * first node, in the undeformed geometry. */
 static double moment_left(const along_subject *s, const double q[], const double F[],
                           const node_state x[])
 {
@@ -315,7 +310,6 @@ static double moment_left(const along_subject *s, const double q[], const double
     return vec3_norm(sum);
 }
 
-/* For the undeformed element, forces must be linear in q. */
 static void linear(int stages, int matrices, const double curvature[3], int across)
 {
     const along_subject s = subject_of(stages, matrices, curvature);

@@ -48,8 +48,7 @@ static void start(pair_subject *s, const element_type *type, const section *c, d
     start_with(s, type, c, l0, features, "", 0);
 }
 
-/* Returns a sheet without warping shear, which N neglects. The element is only 0.1 m long, so that
- * shear affects bending in both directions. */
+/* Returns a sheet without warping shear, which N neglects. */
 static section sheet(void)
 {
     section_spec spec = section_spec_rectangle(2e11, 7.7e10, 0.06, 0.02);
@@ -62,7 +61,6 @@ static section sheet(void)
 
 extern const element_type element_beamw, element_beamw_consistent, element_sheet_second_consistent;
 
-/* Computes ebar_k = e_k + 1/2 e^T Q_k e, where Q_k is the geometric stiffness of a unit stress. */
 static void modified(const pair_subject *s, const node_state x[2], double ebar[STRAINS])
 {
     double e[STRAINS];
@@ -79,8 +77,6 @@ static void modified(const pair_subject *s, const node_state x[2], double ebar[S
     }
 }
 
-/* Displaces the nodes by amounts of size `small` and rotates the whole element. The elongation is
- * of size small^2, as N assumes. */
 static void state(double l0, double small, int planar, node_state x[2])
 {
     static const double turn[2][3] = {{0.31, -0.62, 0.47}, {-0.55, 0.83, 0.29}},
@@ -153,7 +149,6 @@ static void same_element(void)
     }
 }
 
-/* A helix with extension and shear must give exactly the strains gamma and kappa, of any size. */
 static void uniform_strains(double size)
 {
     const double l0 = 1.7, gamma[3] = {0.11 * size, -0.23 * size, 0.31 * size},
@@ -190,7 +185,6 @@ static void uniform_strains(double size)
         gsl_test_abs(e[k], expected[k], 1e-14 * l0, "uniform strains, turn %.2f: e%d", t, k + 1);
 }
 
-/* In pure bending, a cantilever must roll up exactly with any number of elements. */
 static void pure_bending(void)
 {
     const double l0 = 1.3, turn = 2.9;
@@ -262,8 +256,6 @@ static void inside_follows(void)
     }
 }
 
-/* Checks stiffness and stresses under a compression that outweighs the bending stiffness in
- * the Hessian of the internal modes. The Hessian is then factorised with pivots. */
 static void inside_compressed(void)
 {
     static const double v[STRAINS] = {0.1, -0.7, 0.6, 0.5, -0.9, 0.4, 0.3, 0.8};
@@ -308,9 +300,6 @@ static void consistent_tests(void)
     for (size_t i = 0; i < sizeof turns / sizeof turns[0]; i++)
         derivatives(turns[i]);
 }
-
-/* With hyperbolic twist functions, one element of beamw_consistent must be exact in linear theory
- * for any coupling of the strains. */
 
 extern const element_type element_beamw_consistent;
 
@@ -437,8 +426,7 @@ static void middle_of(const section *c, double l0, beamw_twist_kind torsion, con
 
 /* Returns the difference of the third-order energies of two halves and of the whole, relative to
  * their magnitude. The difference is zero if and only if the geometric stiffness is integrated over
- * the exact linear solution. The middle node is in equilibrium, so its displacement is needed only
- * to first order. */
+ * the exact linear solution. */
 static double third_order_apart(const section *c, double l0, beamw_twist_kind torsion,
                                 unsigned features, unsigned seed)
 {

@@ -1,4 +1,3 @@
-/* Tests of functions that end the process. */
 #ifndef BEAMWORK_ENDED_H
 #define BEAMWORK_ENDED_H
 

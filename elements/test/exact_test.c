@@ -16,12 +16,11 @@ enum { MOST = ELEMENT_MAX_COORDINATES, STRAINS = ELEMENT_MAX_STRAINS };
 static section steel(double width, double height)
 {
     section_spec spec = section_spec_rectangle(200e9, 200e9 / 2.6, width, height);
-    spec.given.Iw = pow(width * height, 3) / 144; /* thin rectangle, as in the expected values */
-    spec.shear_factor[0] = spec.shear_factor[1] = 13.0 / 15.3; /* 10 (1 + nu)/(12 + 11 nu) */
+    spec.given.Iw = pow(width * height, 3) / 144;
+    spec.shear_factor[0] = spec.shear_factor[1] = 13.0 / 15.3;
     return sections_computed(&spec);
 }
 
-/* Returns a section with these stiffnesses. */
 static section products(double EA, double GA, double GJ, double EI)
 {
     section c;
@@ -204,8 +203,6 @@ static void exact_tests(void)
     collocation();
 }
 
-/* Exact properties of one element, and values of an independent prototype. */
-
 extern const element_type element_beamw_first, element_beamw, element_beamw_vlasov,
     element_beamw_consistent;
 
@@ -270,8 +267,7 @@ static void check_form_of(const element_type *type, const check_form *expected)
     dense_add_congruence(8, 14, J, C, H, work);
     compare("e", type->name, 8, e, expected->e, 1e-14);
     compare("energy", type->name, 1, &energy, &expected->energy, 1e-12);
-    compare("force", type->name, 14, force, expected->force,
-            1e-12); /* J has full rank, so these forces determine sigma */
+    compare("force", type->name, 14, force, expected->force, 1e-12);
     compare("tangent", type->name, 14 * 14, H, expected->tangent, 1e-12);
 }
 
@@ -291,9 +287,6 @@ static void linear_stiffness(const element_type *type, const section *c, double 
     type->stress(data, e, NULL, &(stress_output){.C = S});
 }
 
-/* Cantilever of one element under tip forces and moments with It = 0, for which beamw_consistent
- * must be exact at the nodes. In the exact beam, the resultants at the shear centre cause bending
- * (with torsion and warping) and the constant shear strains F Q/G. */
 static void one_element_is_exact(void)
 {
     section c = check_section();
@@ -315,7 +308,6 @@ static void one_element_is_exact(void)
     element_beamw_consistent.prepare(&request, data, &f);
     element_beamw_consistent.strain(data, x, &(strain_output){.J = &L[0][0]});
     dense_add_congruence(8, 14, &L[0][0], S, K, work);
-    /* the root is clamped with warping restrained, so the last seven coordinates are free */
     double A[49], b[7] = {0, 1.3, -0.7, 40, 25, -60, 500};
     int pivot[7];
     for (int i = 0; i < 7; i++)

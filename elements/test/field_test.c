@@ -1,4 +1,3 @@
-/* Tests loads on the displacement field between the nodes (elements/field). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -103,7 +102,6 @@ static void derivatives(const displacement_field *f, int kind, const char *name)
                  nodes_asymmetry(n, K));
 }
 
-/* After a rigid rotation, nodal forces and loads must have the same resultant. */
 static void resultants(const displacement_field *f, int kind, const char *name)
 {
     double d[N], none[N] = {0}, F[N], force[3] = {0}, moment[3] = {0}, expected[2][3] = {{0}};
@@ -171,8 +169,6 @@ static void closed_path(const displacement_field *f, int kind, const char *name)
     for (int step = 0; step < STEPS; step++) {
         const double pi = acos(-1), t = 2 * pi * (step + 0.5) / STEPS, h = 2 * pi / STEPS;
         double at[N], F[N];
-        /* Translations and warping follow a closed path. Each node rotates back and forth about one
-         * axis, because rotations about different axes would not return to the initial rotation. */
         for (int i = 0; i < N; i++)
             at[i] = cos(t) * d[i] +
                     (i % NODE_COORDINATES >= 3 && i % NODE_COORDINATES < 6 ? 0 : sin(t) * more[i]);
@@ -336,9 +332,6 @@ static void field_inner_tests(void)
         }
 }
 
-/* Compares coefficients of the potential of the third-order sheet element with values computed with
- * 120 digits. */
-
 extern const element_type element_sheet_second, element_sheet_third, element_sheet_third_printed;
 
 enum { COEFFICIENTS_N = 8, MX = 1, MYP, MYQ, MODES = 5 };
@@ -396,7 +389,6 @@ static void coefficients(void)
     double worst = 0;
     for (size_t row = 0; row < sizeof bimoment_values / sizeof bimoment_values[0]; row++) {
         const double lambda = bimoment_values[row].lambda, *value = bimoment_values[row].value;
-        /* L = GJ = 1, EIw = 1/lambda^2 */
         const section c = {.young = 1,
                            .shear_modulus = 1,
                            .A = 1,
@@ -434,8 +426,6 @@ static void coefficients(void)
              worst);
 }
 
-/* Without warping stiffness, the torque t causes the uniform twist rate t/GJ. This is the limit
- * lambda -> inf, from which the coefficients differ by terms of order 1/lambda. */
 static void uniform_torsion(void)
 {
     static const double torque[SHEET_TORSION_MODES][SHEET_TORSION_DEGREE + 1] = {
@@ -487,8 +477,6 @@ static void second_order_limit(void)
                 printed ? &element_sheet_third_printed : &element_sheet_third;
             stiffness_at_rest(&element_sheet_second, &c, features, second);
             stiffness_at_rest(type, &c, features, third);
-            /* without amplitudes, the strains e7, e8 and e2 are equal, and only the sum of their
-             * stiffnesses matters */
             if (!warping)
                 for (int pass = 0; pass < 2; pass++) {
                     double *C = pass == 0 ? second : third;

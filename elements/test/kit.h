@@ -8,7 +8,7 @@
 #include "elements/section/section.h"
 
 /* Returns 64 bits of splitmix64 (Steele, Lea, Flood, OOPSLA 2014), the same sequence on every
- * machine. Seeds may be small and adjacent. */
+ * machine. */
 uint64_t random_bits(uint64_t *seed);
 /* Returns a random multiple of 2^-52, uniformly distributed in [-1, 1). */
 double random_number(uint64_t *seed);

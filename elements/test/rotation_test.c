@@ -15,9 +15,6 @@
 #include "elements/sheet/sheet.h"
 #include "elements/test/kit.h"
 
-/* Elements of two kinds in runs of different lengths, each in a different state, for the comparison
- * of one call for many elements with single calls. */
-
 enum { MANY = 11, S = ELEMENT_MAX_STRAINS, X = ELEMENT_MAX_COORDINATES, INNER = 24 };
 
 typedef struct answers {
@@ -241,8 +238,6 @@ static void rotation_tests(void)
     triads();
 }
 
-/* Compares points along an arc of constant curvature with the integral of its tangent. */
-
 enum { POINTS = 16 };
 
 /* Integrates r = int exp(turn s) e ds from 0 to x. The difference r - x e is integrated instead of
@@ -309,8 +304,7 @@ typedef void equations_function(int count, const element_data *const data[], con
 
 static const struct {
     const element_type *type;
-    equations_function *equations; /* function to be tested besides the one that the type selects
-                                      for the processor */
+    equations_function *equations;
 } family[] = {{&element_sheet_second, sheet_lanes_second_equations_plain},
               {&element_sheet_second_consistent, sheet_lanes_second_equations_plain},
               {&element_sheet_third, sheet_lanes_third_equations_plain},
@@ -344,7 +338,6 @@ static void alone_of(const batch *b, int k, const double e[], int tangent, whole
         dense_add_congruence(n, columns, out->J, out->C, out->K, work);
 }
 
-/* Ignores the sign of zero, because the sign of an empty sum is arbitrary. */
 static int differs(const whole *a, const whole *b)
 {
     const double *p = a->J, *q = b->J;
@@ -418,13 +411,11 @@ typedef void strains_function(int count, const element_data *const data[], const
 typedef void stresses_function(int count, const element_data *const data[], const double *const e[],
                                const double *const inner[], stress_output out[], status outcome[]);
 
-/* Versions without AVX2 of the functions of each family. The types select the version for the
- * processor. */
 static const struct {
     const element_type *type;
     strains_function *strain;
     stresses_function *stress;
-    double option[3]; /* values of the first options of the type */
+    double option[3];
 } lanes_family[] = {
     {&element_beamw, beamw_lanes_modes_plain, beamw_lanes_modified_plain, {0}},
     {&element_beamw_vlasov, beamw_lanes_modes_plain, beamw_lanes_modified_plain, {0}},

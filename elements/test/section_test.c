@@ -32,7 +32,6 @@ static section rectangle(double width, double height, double ky, double kz)
     return sections_computed(&spec);
 }
 
-/* Without given shear factors, a wall must have the same constants as a rectangle. */
 static void rectangle_is_a_wall(double h, double t)
 {
     const section wall = wall_section(h, t, 0, 0, 0), wide = rectangle(h, t, 0, 0),
@@ -145,7 +144,6 @@ static void torsion_of_a_rectangle(double a, double b)
     gsl_test_rel(rectangle(b, a, 0, 0).It, rectangle(a, b, 0, 0).It, 1e-14, "the sides exchanged");
 }
 
-/* Returns Saint-Venant's warping function in a quarter of a rectangle, by its series. */
 static double warping_at(double y, double z, double a, double b)
 {
     double omega = y * z;
@@ -157,8 +155,6 @@ static double warping_at(double y, double z, double a, double b)
     return omega;
 }
 
-/* Compares the warping constant with int omega^2 dA and, for thin rectangles, with its limit for
- * zero thickness. */
 static void warping_constant(double width, double height)
 {
     enum { N = 20 };
@@ -175,8 +171,7 @@ static void warping_constant(double width, double height)
 }
 
 /* The constant of the torque that is cubic in the twist rate is 1/8 int (r^2 - mean of r^2)^2 dA
- * for any rectangle. It is w^5 t/1440 for a thin rectangle (N Eq. 46), and twice this value for a
- * square. */
+ * for any rectangle. */
 static void wagner_torque(double width, double height)
 {
     enum { N = 5 };
@@ -288,7 +283,6 @@ static void box(void)
     gsl_test_rel(c.F[4], square / (c.Iy * c.Iy), 1e-13, "box: shear along the webs");
 }
 
-/* The constants of a regular polygon must converge to those of a thin ring with order two. */
 static void ring(void)
 {
     enum { N = 32 };
@@ -343,8 +337,7 @@ static section_spec two_cells(int swapped, double skew)
     spec.points = 6;
     spec.walls = 7;
     spec.cells = 2;
-    for (int i = 0; i < 6; i++) { /* swapped: the walls have another root, reversed directions, and
-                                     the opposite order */
+    for (int i = 0; i < 6; i++) {
         const int p = swapped ? 5 - i : i;
         spec.point[p][0] = b * point[i][0] + (i == 1 || i == 4 ? skew : 0);
         spec.point[p][1] = h * point[i][1];
@@ -386,7 +379,6 @@ static void cells(void)
                      "two cells, other order: shear %d", i);
 }
 
-/* Additional points within walls must not change the constants. */
 static void points_between(void)
 {
     section_spec one = box_spec();

@@ -22,7 +22,7 @@ enum { TIP_UY = 1, TIP_THZ = 5, TIP_WARP = 6 };
 typedef struct cantilever {
     const element_type *type;
     element_data *data;
-    int n, reversed; /* 1 if node p of every element is towards the tip */
+    int n, reversed;
     node_state node[MOST + 1];
     double e[MOST][N], sigma[MOST][N]; /* [element][strain] unknowns that each element eliminates */
 } cantilever;
@@ -239,7 +239,6 @@ static void sheet_cantilever_tests(void)
         gsl_test_abs(100 * (C_zz / exact - 1), consistent[i].percent, consistent[i].rounding,
                      "sheet_second_consistent, n = %d: error of C_zz in percent", consistent[i].n);
     }
-    /* the elements are not symmetric in p and q */
     solve(&element_sheet_second, 1, 1, &C_xx, &C_zz);
     gsl_test_rel(C_zz, 2.0197e-8, 3e-5, "sheet_second, reversed: C_zz");
     solve(&element_sheet_third, 1, 1, &C_xx, &C_zz);
@@ -368,8 +367,6 @@ static void derivatives_of_strain(const element_type *type)
     free(data);
 }
 
-/* Compares the derivatives of energy and sigma with finite differences. For the third-order
- * element, also compares G with finite differences of C. */
 static void derivatives_of_stress(const element_type *type)
 {
     static const double stencil[4] = {1, -8, 8, -1}, at[4] = {-2, -1, 1, 2};

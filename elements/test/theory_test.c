@@ -54,8 +54,7 @@ static void modified(const section *c, double l, const double e[E + 1], double e
     ebar[6] += (e[2] * (e[3] / 5 + e[4] / 10) - (e[3] + e[4]) * e[7] / 30 + e[4] * e[8] / 10) / l;
 }
 
-/* Returns the energy of elements/beamw.md as a sum of squares. Phi[3] are the shear parameters for
- * y, z and w. */
+/* Phi[3] are the shear parameters for y, z and w. */
 static double squares(const section *c, double l, const double Phi[3], const double b[E + 1])
 {
     const double l2 = l * l, l3 = l2 * l, A = (b[7] - b[8]) / 2, G = c->shear_modulus;
@@ -101,7 +100,6 @@ static void beamw(void)
     }
 }
 
-/* Returns the energy of elements/sheet_second.md, including P_x and the Wagner torque. */
 static double sheet_energy(const section *c, double l, const double e[E + 1])
 {
     const double l3 = l * l * l, G = c->shear_modulus, sum = e[7] + e[8],
@@ -154,8 +152,6 @@ static void theory_tests(void)
     sheets();
 }
 
-/* Tests the elimination inside collocation elements, with and without row exchange. */
-
 extern const element_type element_collocation;
 
 enum { OUTER = EXACT_STAGES_OUTER, UNKNOWNS = EXACT_STAGES_UNKNOWNS, MOST = EXACT_STAGES_MAX };
@@ -172,8 +168,6 @@ static exact_stages strip(int stages, unsigned features)
     return s;
 }
 
-/* Returns the largest difference between two stiffnesses C, relative to the diagonal entries of the
- * same strains. */
 static double departure(const double a[], const double b[])
 {
     double worst = 0;
@@ -236,7 +230,6 @@ static void both(int stages, unsigned features)
     gsl_test(!(following < 1e-7), "%d stages: unknowns follow alike (%.1e)", stages, following);
 }
 
-/* A straight element under a compression at which it would buckle between fixed ends. */
 static void compressed(int stages)
 {
     const exact_stages s = strip(stages, FEATURE_SHEAR | FEATURE_LARGE);
@@ -382,8 +375,6 @@ static void layer_means(const amplitude *a, const double x[], const double w[], 
     gsl_integration_glfixed_table_free(t);
 }
 
-/* Returns the largest difference of S z from the exact gradient, relative to the largest entry of
- * the gradient. */
 static double warping_departure(const beam_constants *c, const amplitude *a)
 {
     const int m = a->stages + 2;
@@ -412,8 +403,6 @@ static double warping_departure(const beam_constants *c, const amplitude *a)
     return worst / size;
 }
 
-/* Compares one layer or one polynomial term at a time, so that a large term cannot hide the error
- * of another. */
 static void warping_compare(int stages, double lambda, double shear)
 {
     const beam_constants c = {.GJ = 0.7, .EIw = 0.7 / (lambda * lambda), .F = {[8] = shear}};
@@ -427,8 +416,7 @@ static void warping_compare(int stages, double lambda, double shear)
     for (int k = 0; k < stages; k++) {
         amplitude a = {.stages = stages, .lambda = lambda};
         a.p[k] = 1;
-        if (k > 0) /* a constant amplitude needs no torque and no bimoment, and is checked together
-                      with all other terms */
+        if (k > 0)
             smooth = worst_of(smooth, warping_departure(&c, &a));
     }
     amplitude a = {.stages = stages, .lambda = lambda};

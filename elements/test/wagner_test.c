@@ -132,8 +132,6 @@ static void over_the_area(const wagner_shape *s, int thick, double angle)
                  "%s ten times larger", s->name);
 }
 
-/* Sections with an axis of symmetry, and walls that meet in one point, must behave equally in both
- * directions of twist, other sections must not. */
 static void one_sided(const wagner_shape *s, double angle)
 {
     const section_spec spec = spec_of(s, 0, 1, angle);
@@ -143,11 +141,9 @@ static void one_sided(const wagner_shape *s, double angle)
              angle, found);
 }
 
-/* Closed form for the Z-section. A rotation by pi about the centroid does not change omega.
- * Therefore both flanges have the same integrals. */
 static void one_sided_zed(void)
 {
-    const double b = 0.07, h = 0.1, t = 2e-3; /* h is half of the web depth */
+    const double b = 0.07, h = 0.1, t = 2e-3;
     const section_spec spec = spec_of(&shapes[4], 0, 1, 0);
     const double flange = b * t, web = 2 * h * t, area = web + 2 * flange;
     /* omega minus its value in the web: 0 in the web, h b at the ends of the flanges, and h b/2 on
@@ -162,8 +158,6 @@ static void one_sided_zed(void)
                  "Z, by hand");
 }
 
-/* Checks the closed form 1/8 (int r^4 dA - Ip^2/A) for legs of length b and thickness t that meet
- * at one end. */
 static void cruciform(void)
 {
     const section_spec spec = spec_of(&shapes[0], 0, 1, 0);
@@ -171,9 +165,6 @@ static void cruciform(void)
     gsl_test_rel(c.wagner_torque, 2 * 4e-3 * pow(0.1, 5) / 45, 1e-13, "cruciform, by hand");
 }
 
-/* Closed form for an equal-leg angle with legs of length b and thickness t. At the distance s from
- * the corner, r^2 = s^2. The mean b^2/3 and the part due to bending in the plane of symmetry are
- * subtracted. */
 static void equal_angle(void)
 {
     const double b = 0.08, t = 3e-3, A = 2 * b * t;
@@ -189,8 +180,6 @@ static void equal_angle(void)
                  "equal angle, by hand: int r^4, shortening, bending");
 }
 
-/* The constant of a wall with its thickness terms must be that of a rectangle, (w^5 t + w
- * t^5)/1440. */
 static void strip(double w, double t)
 {
     for (int i = 0; i < 4; i++) {
@@ -206,7 +195,6 @@ static void strip(double w, double t)
     }
 }
 
-/* The fibres of a thin ring keep equal lengths in torsion, so the constant must be almost zero. */
 static void ring(void)
 {
     enum { N = 32 };
@@ -241,10 +229,6 @@ static void wagner_tests(void)
     ring();
 }
 
-/* Tests stresses at the points of sections. The integrals of the stresses over the walls must equal
- * the resultants. In torsion of a rectangle, the stresses must have the coefficients published by
- * Timoshenko (Theory of Elasticity, 1970, section 109). */
-
 static stress_points points_of(const section_spec *spec, const section *c)
 {
     static stress_points p;
@@ -266,8 +250,6 @@ static section_spec rectangle_spec(double width, double height)
     return spec;
 }
 
-/* Compares the largest shear stress tau due to a torque T = k (2a)^2 (2b) tau with Timoshenko's
- * table of k for the ratio 2b/2a of the sides. */
 static void torsion(double ratio, double coefficient, int flat)
 {
     const double t = 0.01, w = ratio * t;
@@ -281,19 +263,16 @@ static void torsion(double ratio, double coefficient, int flat)
                  "torsion of 1 : %g, flat %d", ratio, flat);
 }
 
-/* Compares the stresses at the middles of the sides with the slope of Prandtl's stress function,
- * from its double sine series. */
 static void torsion_exact(void)
 {
     const double t = 0.02, w = 0.03;
     const section_spec spec = rectangle_spec(w, t);
     const section c = sections_computed(&spec);
     const stress_points p = points_of(&spec, &c);
-    double shorter =
-        0; /* the stress function as a single series, in 1/cosh of the other coordinate */
+    double shorter = 0;
     for (int n = 1; n < 200; n += 2)
         shorter += 1 / (n * n * cosh(n * PI * t / (2 * w)));
-    for (int i = 0; i < p.count; i++) /* tau_xy at z = w/2 */
+    for (int i = 0; i < p.count; i++)
         if (p.point[i].y == 0 && p.point[i].z > 0)
             gsl_test_rel(p.point[i].across[3][0], -w * (1 - 8 / (PI * PI) * shorter), 1e-3,
                          "middle of the short side, by the other series");
@@ -343,8 +322,7 @@ static void integrated(const char *name, const section_spec *spec)
             const stress_point *at = &p.point[from];
             const double length = hypot(at[4].y - at[0].y, at[4].z - at[0].z);
             double t = 0;
-            for (int w = 0; w < spec->walls; w++) { /* identifies the wall by its length, because
-                                                       the walls in these tests differ in length */
+            for (int w = 0; w < spec->walls; w++) {
                 const double *a = spec->point[spec->wall[w].from],
                              *b = spec->point[spec->wall[w].to];
                 if (fabs(hypot(b[0] - a[0], b[1] - a[1]) - length) < 1e-9)
@@ -361,8 +339,7 @@ static void integrated(const char *name, const section_spec *spec)
                 const double y = (at[i].y + at[i ^ 1].y) / 2, z = (at[i].z + at[i ^ 1].z) / 2;
                 torque += share * ((y - c.ys) * tau[1] - (z - c.zs) * tau[0]);
             }
-            if (k == 3) /* adds the torque of the stresses that vary through the wall and of those
-                           across the wall, half of t^3/3 each */
+            if (k == 3)
                 torque += length * t * t * t / 3;
             from += 6;
             while (from < p.count && (p.count - from) >= 2 &&
@@ -522,8 +499,6 @@ static void walls(void)
              f.text);
     ends_are_ends("walls", &p, &wide);
     section_taper_at(&p, &wide, 0.5, &at);
-    /* two flanges of 1.5 mm x 45 mm at a distance of 50 mm from the middle: Iw = 2 t b^3/12
-     * (h/2)^2 */
     gsl_test_rel(sections_computed(&at).Iw, 2 * 1.5e-3 * pow(0.045, 3) / 12 * 0.05 * 0.05, 1e-12,
                  "half way: Iw");
     gsl_test(checked(&p, &deep, &f) != STATUS_REFUSED || strstr(f.text, "warps") == NULL,
@@ -535,8 +510,6 @@ static void walls(void)
     gsl_test(checked(&p, &wide, &f) != STATUS_REFUSED, "walls that hang together otherwise");
 }
 
-/* A taper must be rejected if walls leave their planes. The web is along the z axis rotated by
- * `angle`. */
 static void turned_walls(double angle)
 {
     const double c = cos(angle), d = sin(angle);

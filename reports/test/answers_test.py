@@ -14,7 +14,6 @@ from reports.test.browser_test import CHROMIUM, chromium
 from reports.test.results import Site, verdict
 
 
-# Tests of the rules in reports/answers.py.
 def clock(*rounds):
     return data.Clock(0, min(rounds), min(rounds), max(rounds), 5 if len(rounds) > 1 else 1, rounds)
 
@@ -153,7 +152,7 @@ class Page(ProgramTest):
         for case in self.cases:
             for point in case.points:
                 for series in point.series:
-                    if series.other:  # a series with another model is within no level, even if its error is small
+                    if series.other:
                         self.assertFalse(any(v.reach for v in series.verdicts), series.key)
                         continue
                     for v in series.verdicts:

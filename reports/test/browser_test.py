@@ -10,7 +10,6 @@ from harness.tools.kit.program import ProgramTest, drawn, run
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which(
     "google-chrome")
 
-# A document with all pages in frames, which collects errors.
 DRIVER = """<!DOCTYPE html><html><head><link rel="icon" href="data:,"></head><body><pre id="out"></pre>{frames}<script>
 addEventListener("load", () => {{
   let out = [];
@@ -25,7 +24,6 @@ addEventListener("load", () => {{
 
 
 def chromium(folder, *arguments, software=False):
-    """Runs Chromium. If `software` is True, WebGL uses no graphics card."""
     graphics = ["--use-angle=swiftshader", "--enable-unsafe-swiftshader"
                 ] if software else ["--disable-gpu"]
     return subprocess.run([
@@ -97,7 +95,7 @@ class Browser(ProgramTest):
         content = pdf.read_bytes()
         self.assertTrue(content.startswith(b"%PDF"))
         self.assertGreaterEqual(len(re.findall(rb"/Type\s*/Page\b", content)),
-                                2)  # one sheet for each case
+                                2)
 
 
 if __name__ == "__main__":

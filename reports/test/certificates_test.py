@@ -89,7 +89,6 @@ class Page(ProgramTest):
         self.assertIn('href="certificates.html#beamw"', self.formulation)
 
 
-# Formulations without a rank are shown and marked on all pages but are never first.
 EXAMPLES = ROOT / "elements" / "examples"
 NAMES = {"timoshenko": "by differences", "timoshenko_py": "in another process"}
 
@@ -163,7 +162,7 @@ class Drawn(ProgramTest):
             for page in ("index.html", "tapered_cantilever.html", "formulations.html"):
                 self.assertRegex(self.page(page),
                                  re.escape(f"formulation_{name}.html") + "[^(]*" + re.escape(words))
-            self.assertIn(f"{name} {words}", self.page("tapered_cantilever.html"))  # a legend
+            self.assertIn(f"{name} {words}", self.page("tapered_cantilever.html"))
             marks = json.loads(re.search(r'id="chosen"[^>]*>(.*?)</script>',
                                          self.page("explorer.html"))[1])["marks"]
             self.assertEqual(marks[name], words[1:-1])
@@ -193,8 +192,6 @@ class Drawn(ProgramTest):
         self.assertIn("whose costs cannot be ranked", page)
 
     def test_results_without_costs(self):
-        """Results of earlier versions contain no costs. The page must then state why there is no formulation of lowest
-        cost."""
         old = self.folder / "old.h5"
         shutil.copy(self.results, old)
         with h5py.File(old, "r+") as file:

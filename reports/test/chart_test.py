@@ -89,10 +89,9 @@ class Charts(unittest.TestCase):
         curve = re.search(r'data-p="0"><polyline points="([^"]+)"', image.markup).group(1)
         (x0, y0), (x1, y1) = (map(float, p.split(",")) for p in curve.split())
         self.assertLess(x0, x1)
-        self.assertLess(y0, y1)  # a smaller error is farther down
+        self.assertLess(y0, y1)
 
 
-# Figures for papers, drawn by matplotlib from the charts of the pages.
 class Papers(unittest.TestCase):
 
     def setUp(self):
@@ -157,7 +156,6 @@ class Papers(unittest.TestCase):
             self.written(["svg"], "nowhere")
 
     def test_pgf(self):
-        """PGF figures require LaTeX. Without LaTeX, the message must name the packages."""
         try:
             found = self.written(["pgf"])
         except paper.Impossible as why:
@@ -212,8 +210,6 @@ class Figures(unittest.TestCase):
 class Looks(unittest.TestCase):
 
     def test_for_ever(self):
-        """The colour and the marker of a formulation must depend only on its name. Options may change only the line
-        style."""
         for keys in (["beamw"], ["another", "beamw"]):
             self.assertEqual(Styles(keys).of("beamw")["color"], "#0072b2")
         self.assertEqual(Styles.of("mine"), Styles.of("mine"))
@@ -258,8 +254,6 @@ class Geometry(unittest.TestCase):
         self.assertEqual(len(shapes.hull(corners)), 12)
 
     def test_chosen(self):
-        """The states near the middle and at the end of a path must be selected or, if the path returns to its start,
-        both extremes."""
         for moved, wanted in (([0, 0.75, 1.499, 2.25,
                                 3], [0, 2, 4]), ([0, 0.6, 1.2, 1.8, 2.4,
                                                   3], [0, 3, 5]), ([0, -3, -1.5, 0, 1.5,
@@ -282,8 +276,6 @@ class Geometry(unittest.TestCase):
 
 
     def test_view_of_a_plane(self):
-        """A motion in the xy plane must be viewed from above, with x to the right. Motions out of this plane, even
-        small ones, must not."""
         flat = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [0, 1, 0]]], float)
         lifted = np.array([[[0, 0, 0], [1, 0, 0]], [[0, 0, 0], [1, 0, 0.01]]], float)
         for points, wanted in ((flat, (-90, 74)), (flat[..., [0, 2, 1]], (-58, 24)),
@@ -382,7 +374,6 @@ class Sizes(ProgramTest):
             self.assertEqual(len(markers), len(set(markers)), page.name)
 
     def test_verdicts(self):
-        """Only the pages of cases may list verdicts, once each and in short rows."""
         rows = 0
         for page in self.site.glob("*.html"):
             text = page.read_text(encoding="utf-8")

@@ -76,7 +76,6 @@ class Drawings(unittest.TestCase):
                                 "coupled: rz equal (wheel_2, clutch)"])
 
     def test_loads_on_parts_of_members(self):
-        """Arrows must be only on the loaded part and must be longer where the load is larger."""
         one = scene.read(run("scene", "--scene", str(LOADED)).stdout)
         self.assertEqual(len(one.loads), 19)
         figure = draw.draw(one)
@@ -157,13 +156,11 @@ analyses: {a: {linear: {}}}
         frame = np.array([[0, 0, 0], [0, 0, 3.0], [4, 0, 3]])
         down, out = [np.array([0, 0, -1.0])], [np.array([0, 1.0, 0])]
         self.assertTrue(geometry.choose_view(frame, down, [], True).face_on)
-        self.assertTrue(geometry.choose_view(frame, [], out, True).face_on)  # a moment about the normal of the plane
+        self.assertTrue(geometry.choose_view(frame, [], out, True).face_on)
         self.assertFalse(geometry.choose_view(frame, out, [], True).face_on)
-        self.assertFalse(geometry.choose_view(frame[:2], down, [], True).face_on)  # the section is visible
+        self.assertFalse(geometry.choose_view(frame[:2], down, [], True).face_on)
 
     def test_far_axes(self):
-        """A distant axis of rotation must only be described in text, because drawing it would make the structure
-        small."""
         text = """
 name: turns
 sections: {s: {rectangle: {width: 0.1, thickness: 0.1}}}

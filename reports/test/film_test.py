@@ -17,7 +17,6 @@ from reports.test.browser_test import CHROMIUM, chromium, console
 TIMES = np.linspace(0, 0.5, 26)
 CASE = "spherical_joint"
 
-# Script that runs before those of a film: page contents are in view at once, and the test controls the clock.
 CLOCK = """<script>
 window.due = null; window.requestAnimationFrame = next => { window.due = next; };
 window.IntersectionObserver = class {
@@ -25,7 +24,6 @@ window.IntersectionObserver = class {
   observe(target) { this.seen([{ isIntersecting: true, target }]); }
 };</script>"""
 
-# Script that performs the actions of a test and writes `out` into the page.
 ACTION = """<pre id="out"></pre><script>addEventListener("load", () => {{
   const out = {{}}, place = document.querySelector("div.viewer");
   const q = what => place.querySelector(what), time = () => q("output").textContent;
@@ -71,7 +69,6 @@ class Film(ProgramTest):
         self.assertLess(np.ptp(off, axis=(0, 1)).max(), 1.01 * half / shapes.WHOLE)
 
     def test_sections_turn_with_their_frames(self):
-        """The axes of the last frame must be those of the first frame, rotated by angular velocity times time."""
         s = shapes.read_file(self.results, CASE)
         angle = 2.0 * (TIMES[-1] - TIMES[0])
         turn = np.array([[np.cos(angle), -np.sin(angle), 0], [np.sin(angle), np.cos(angle), 0],

@@ -161,7 +161,7 @@ class Bar(unittest.TestCase):
 
         self.assertEqual(title("errata.html"), "Papers & errata")
         self.assertEqual(title("elastica.html"), "Cases")
-        self.assertIsNone(title("formulation_beamw.html"))  # no page lists formulations
+        self.assertIsNone(title("formulation_beamw.html"))
 
 
 class Words(unittest.TestCase):
@@ -206,7 +206,6 @@ def texts():
 
 
 def claims(text):
-    """Returns [(True if recommended, named cases)] from the recommendations in the text."""
     said = dict(formulation.sections(text))[formulation.CHOICE]
     bullets = re.findall(r"^\* \*\*(For|Not for)\*\* (.*)$", said, flags=re.M)
     return [(kind == "For", re.findall(r"`(\w+)`", words)) for kind, words in bullets]

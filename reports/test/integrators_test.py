@@ -26,8 +26,6 @@ class Answers(unittest.TestCase):
         self.assertEqual({p.stiffening for p in self.every}, {1})
 
     def test_best(self):
-        """The integrators must be in the order of their costs, which are known because errors are C step^p and costs
-        are c/step."""
         for level in integrators.LEVELS:
             found = integrators.answer(self.one, level)
             costs = {}

@@ -178,7 +178,6 @@ class Truths(ProgramTest):
             g["value"] = np.arange(6.0)
 
     def test_of_all_instants(self):
-        """Only reference values at the default parameters must be used, and none of other models."""
         found = motion_page.truths_of(self.path, "swing", "x", 9.0)
         self.assertEqual([(t.time, t.value) for t in found], [(1, 0), (2, 1), (9, 2)])
         self.assertEqual(motion_page.truths_of(self.path, "nothing", "x", 9.0), [])

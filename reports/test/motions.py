@@ -22,7 +22,6 @@ def run(integrator, step, worse=1.0, **more):
 
 
 def fate(integrator, step, stiffening):
-    """Returns the outcome of a run, which depends on the integrator, the step and the stiffness."""
     if integrator == "conserving":
         return "exact"
     if integrator == "alpha":
@@ -90,7 +89,6 @@ def record(cases=("pendulum", "free_flight_space"),
 
 
 def integrator_runs():
-    """Returns records of three cases in the form that `make lab L=integrators` writes."""
     check = {"case": "elbow", "parameters": "time=3", "formulation": "collocation", "elements": 8,
              "distances": [3e-9, 4e-10], "uncertainty": 1e-10, "steps": 50, "reason": ""}
     refused = {**check, "case": "release", "distances": [None, None], "reason": "no inertia"}

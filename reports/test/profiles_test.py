@@ -138,7 +138,6 @@ class Weights(unittest.TestCase):
         self.assertEqual([compared.profile(question, True)[k][-1] for k in "ab"], [1, 1])
 
     def test_second_names_and_other_truths(self):
-        """Second names, and quantities without an exact reference value, must not count as problems."""
         names = [tried(k, {"C_xx": GOOD, "C_ux_Fx": GOOD, "f": GOOD}) for k in "ab"]
         for one in names:
             one.meshes[0].values = {"C_xx": 2.0, "C_ux_Fx": 2.0, "f": 3.0}

@@ -16,7 +16,6 @@ from reports.figures.style import Styles
 from reports.test import results
 
 
-# Files that other commands write next to the results.
 MESHES = {"parameters": "shear=0", "meshes": [8, 256]}
 EXPERIMENTS = [
     {
@@ -146,7 +145,7 @@ class Report(ProgramTest):
                 self.assertNotRegex(text, "then <code>make report|hold no ", page.name)
         about = (self.site / "environment.html").read_text(encoding="utf-8")
         self.assertIn("<code>make stress</code>", about)
-        self.assertNotIn("<code>make lab L=causes</code>", about)  # the command has left its file
+        self.assertNotIn("<code>make lab L=causes</code>", about)
 
     def test_bar(self):
         for page, title in (("deviations.html", "Deviations"), ("warping_torsion.html", "Cases"),
@@ -176,7 +175,6 @@ class Report(ProgramTest):
         self.assertEqual(len(done.stderr.strip().splitlines()), 1)
 
 
-# The report of a user-defined scene without reference values, with a picture, and limits instead of verdicts.
 SWINGS = LEAF.replace("young: 210e9", "density: 7800, young: 210e9") + """
 analyses:
   swing: {motion: {stations: [0.005, 0.01], step: 1e-3}}
@@ -253,7 +251,6 @@ class SceneReport(ProgramTest):
                          [("u", ["a", "b"]), ("w", ["b"])])
 
 
-# Tests of pages of cases.
 class Site:
     def __init__(self):
         self.said, self.styles, self.paper = [], Styles([]), paper.Paper("", ())
@@ -281,8 +278,6 @@ def point(*found):
 class Figures(unittest.TestCase):
 
     def test_below_the_digits(self):
-        """Markers of errors below the uncertainty of the reference value (1e-6) must be hollow, and the legend must
-        explain them."""
         site, own = Site(), point(series("beamw", (1e-2, 1e-4, 1e-8, -1e-9)))
         image = plots.errors_figure(site, own, "u", own.series, ("elements",), "f")
         self.assertIn(OPEN, html.unescape(image.markup))
@@ -291,7 +286,7 @@ class Figures(unittest.TestCase):
         lost = re.search(r'points="([^"]+)" stroke="none"[^>]* style="([^"]*)"', image.markup)
         self.assertEqual([len(full[0].split()), len(lost[1].split())], [2, 2])
         self.assertEqual(len({p.split(",")[1] for p in lost[1].split()}), 1)
-        self.assertNotEqual(full[1], lost[2])  # the markers are different
+        self.assertNotEqual(full[1], lost[2])
         self.assertIn('fill-opacity=".07"', image.markup)
 
     def test_above_the_digits(self):
@@ -307,7 +302,6 @@ class Figures(unittest.TestCase):
         shown, further = plots.leading(own, "u")
         self.assertEqual([s.key for s in shown], [*names, "f0:mass=lumped"])
         self.assertEqual([s.key for s in further], ["sheet_third_printed", "f1:mass=lumped"])
-        # f0 and f11 are on the front; of the other series, the most accurate are drawn
         many = point(*[series(f"f{i}", (1e-2, 10.0**-i)) for i in range(12)])
         shown, further = plots.leading(many, "u")
         self.assertEqual(len(shown), MOST_CURVES)

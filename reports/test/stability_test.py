@@ -159,8 +159,6 @@ class Newton(ProgramTest):
         self.assertEqual(len(page["histories"][0][2]), 2)
 
 
-# Errors of analytic predictions are relative to the reference value of the point. There are none without a reference
-# value.
 def point(prediction):
     mesh = data.Mesh(1,
                      "ok",
@@ -257,7 +255,6 @@ class Beside(ProgramTest):
         self.assertTrue(data.style_beside(3)["hollow"])
 
 
-# Two runs of `verify` give the same formulations of lowest cost, although their times differ.
 SELECTION = ("elastica/default or c_column/default or spherical_joint/default or "
              "warping_torsion/default or rotating_cantilever/default")
 LEVELS = (*data.REACH, 3e-3, 2e-5)

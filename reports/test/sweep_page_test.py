@@ -19,8 +19,6 @@ KEYS = ("beamw", "collocation", "sheet_third")
 
 
 def errors(key):
-    """Returns the error of a formulation as a function of points and elements. beamw is within the tolerance for
-    small values on the first axis, collocation everywhere with 2 elements, and sheet_third nowhere."""
     level = {"beamw": lambda at, n: np.where(at[:, 0] < 0.55, 0.001, 0.5) / n**0.1,
              "collocation": lambda at, n: np.full(len(at), 0.03 / n**2),
              "sheet_third": lambda at, n: np.full(len(at), 0.3 / n)}
@@ -73,7 +71,7 @@ class Pages(ProgramTest):
         self.assertIn('id="sweep_errors"', page)
         drawn = re.search(r'<svg id="sweep_map".*?</svg>', page, re.S).group()
         names = re.findall(r">([a-z_]+)</text>", drawn)
-        self.assertEqual(names[:3], ["sheet_third", "beamw", "collocation"])  # the best formulation is on top
+        self.assertEqual(names[:3], ["sheet_third", "beamw", "collocation"])
         self.assertIn("beamw with 1 element is within 1 % where width ≤ 5 m", text_of(page))
 
     def test_three_axes(self):
@@ -84,7 +82,7 @@ class Pages(ProgramTest):
     def test_scattered(self):
         axes = [("width", "m", "halton", "linear"), ("angle", "rad", "halton", "linear")]
         few = self.page(axes, sweeps.scattered(100, (1, 10), (0, 0.9)))
-        self.assertEqual(few.count("<circle cx=") - 1, 300)  # one circle belongs to a hatch pattern
+        self.assertEqual(few.count("<circle cx=") - 1, 300)
         many = self.page(axes, sweeps.scattered(5000, (1, 10), (0, 0.9)))
         self.assertEqual(many.count("<circle cx="), 1)
         self.assertRegex(text_of(many), r"beamw with 1 element is within 1 % where width < 5\.\d")
@@ -161,7 +159,7 @@ class Pages(ProgramTest):
         self.assertIn('href="sweep_leaf-sizes.html"', first)
         page = (site / "sweep_leaf-sizes.html").read_text(encoding="utf-8")
         self.assertIn('href="formulation_collocation.html"', page)
-        self.assertNotIn('href="formulation_beamw.html"', page)  # the results do not contain this formulation
+        self.assertNotIn('href="formulation_beamw.html"', page)
         self.assertIn('aria-current="page">Sweeps</a>', page)
 
     def test_several(self):
@@ -279,7 +277,6 @@ class Chosen(ProgramTest):
         self.assertIn("!", found["after"][1])
 
     def own(self, *values):
-        """Returns the answer for these values: the sentence, and {formulation: (required elements, error)}."""
         fields = "".join(f'document.getElementById("own").elements.v{k}.value = "{value}";'
                          for k, value in enumerate(values))
         found = self.chosen(fields + 'document.getElementById("own").dispatchEvent('

@@ -15,8 +15,6 @@ QUANTITIES = (("u", "m"), ("v", "m"))
 
 
 class Counts(ProgramTest):
-    """Counts must be those of loops over the tables of the file."""
-
     def made(self, points=None, axes=(WIDTH, ANGLE), **more):
         draw = np.random.default_rng(7)
 
@@ -76,8 +74,6 @@ class Counts(ProgramTest):
         self.assertEqual(self.check(self.made()).shape, (10, 10))
 
     def test_costs_that_tie(self):
-        """If costs within a factor of 2.5 tie, the second formulation must have the lowest cost, or tie, at more
-        points. Its work is twice that of the first, and the work of the third is three times that of the first."""
         alone = self.check(self.made()).wins.sum(axis=0)
         tied = self.check(self.made(noise=2.5)).wins.sum(axis=0)
         self.assertGreater(tied[1], alone[1])
@@ -121,8 +117,6 @@ class Counts(ProgramTest):
         self.assertIsNone(second.first)
 
     def test_a_quantity_that_nothing_measures(self):
-        """If the second quantity of a point has no reference value, the result for both quantities must be unknown,
-        unless the first quantity is outside the tolerance."""
         def errors(at, n):
             both = np.stack([np.full(len(at), 1e-3), np.full(len(at), np.nan)], 1)
             both[at[:, 0] > 0.8, 0] = 0.5
@@ -160,7 +154,6 @@ class Counts(ProgramTest):
         self.assertEqual(answers.held(made.first.box), "all 50 points; 50 of all 100 cannot be judged")
 
     def test_a_ratio(self):
-        """The ratio of two axes with the same unit must be used if it describes the results better than the axes."""
         axes = (("length", "m", "sobol", "linear"), ("width", "m", "sobol", "linear"), ANGLE)
         points = sweeps.scattered(3000, (1, 10), (1, 4), (0, 0.9))
 
@@ -182,8 +175,6 @@ class Counts(ProgramTest):
             self.assertTrue(inside[outlier.point] and not good[outlier.point])
 
     def test_the_quantity_that_decides(self):
-        """The quantity that needs more elements must decide. If no quantity is within the tolerance, no quantity may
-        decide."""
         def made(errors):
             sweep = stored.read(sweeps.store(self.folder / "d.h5", (WIDTH, ANGLE),
                                              sweeps.grid(WIDTH, ANGLE), {"beamw": errors},
@@ -263,13 +254,11 @@ class Boxes(unittest.TestCase):
         self.assertEqual((box.good, box.bad, answers.held(box)), (34, 1, "34 of 35 points there"))
 
     def test_too_many_exceptions(self):
-        """Two exceptions in 35 must not be allowed."""
         box, _ = self.largest((WIDTH, ANGLE), lambda i, j: i >= 3 and j < 5 and (i, j) not in
                               ((6, 2), (5, 3)))
         self.assertLessEqual(box.bad, boxes.ALLOWED * box.points)
 
     def test_simple_before_large(self):
-        """Two more lines of ten points must not justify an additional bound, but eight more lines must."""
         def with_more(lines):
             return lambda i, j: i >= 5 or (i >= 4 and j < lines)
         self.assertEqual(self.largest((WIDTH, ANGLE), with_more(2))[1], "where width ≥ 6 m")
@@ -308,7 +297,6 @@ class Boxes(unittest.TestCase):
 class Fields(unittest.TestCase):
 
     def state(self, *reached, points=None):
-        """Returns the states of points with known first meshes within the tolerance."""
         look = maps.Look((1, 2, 4))
         reach = np.bincount(reached, minlength=5)
         found = int(maps.states(reach, np.array(points or len(reached)), look))
@@ -331,7 +319,6 @@ class Fields(unittest.TestCase):
         self.assertEqual(len(set(look.fill.values())), len(look.fill))
 
     def test_errors(self):
-        """The errors of a class must be between the upper end of the next smaller class and its own upper end."""
         levels = sweep_page.levels_of(0.003)
         self.assertIn(0.3, levels)
         for error in (1e-9, 0.0123, 0.01, 0.003, 0.0031, 0.5, 0.99):

@@ -13,11 +13,10 @@ AXIS = np.dtype([("name", "S64"), ("unit", "S16"), ("kind", "S8"), ("scale", "S8
                  ("count", "i4")])
 WORST = [("point", "i8"), ("formulation", "S64"), ("mesh", "i4"), ("quantity", "S32"),
          ("error", "f8"), ("status", "S16"), ("scene", "S128")]
-# Axes of ten lengths, ten angles and three words.
 WIDTH = ("width", "m", "linear", np.linspace(1, 10, 10))
 ANGLE = ("angle", "rad", "linear", np.linspace(0, 0.9, 10))
 SHAPE = ("shape", "1", "words", ("C", "box", "strip"))
-STEP = 20_000  # number of points that are written at once
+STEP = 20_000
 
 
 def grid(*axes):

@@ -28,7 +28,7 @@ class Kinds(unittest.TestCase):
     def test_every_column_of_the_judge_is_read(self):
         columns = set(re.findall(r"^  (\S+) ", told().split("\n\n")[0], re.M))
         left_out = {"case", "point", "parameters", "formulation", "unit", "asymptotic_from",
-                    "omitted", "assumed"}  # the last two are read for the series, not for the verdict
+                    "omitted", "assumed"}
         read = set(data.Verdict.__dataclass_fields__) - {"reach"} | set(data.REACH.values())
         self.assertEqual(columns - read, left_out)
 
@@ -143,7 +143,6 @@ class Checks(ProgramTest):
         self.assertEqual((found["mutants"], found["fuzz"]), (mutants, fuzz))
 
     def test_smallest_faults(self):
-        """Only faults of the shown cases may be listed, and each undetected fault must have a reason."""
         self.assertFalse(self.context(case("none"))["noticed"])
         found = self.context(case("elastica"), case("cross_flexure"))["noticed"]
         self.assertEqual({row["case"] for row in found["rows"]}, {"elastica", "cross_flexure"})
@@ -153,7 +152,6 @@ class Checks(ProgramTest):
             self.assertEqual(list(of), found["constants"])
 
     def test_coverages(self):
-        """The coverage of a group must be the sum over its cases."""
         rows = [row("collocation", 0, 4, 4), row("collocation", 1, 3, 2), row("beamw", 0, 5, 1)]
         one = data.Case("one", "", "", [], rows)
         two = data.Case("two", "", "", [], [row("collocation", 0, 6, 5)])
@@ -186,7 +184,6 @@ def known(quantity, kind, error, **more):
 
 
 def sheet(second_name):
-    """Returns results of a corrected formulation and of its misprint."""
     values = {"C_ux_Fx": 1.5, "C_xx": second_name, "C_zz": 2.0}
     told = known("C_ux_Fx", "wrong limit, as predicted", 0.01, predicted=1.01 * (1 + 1e-6))
     right = [told, known("C_xx", "biased", 4e-4), known("C_zz", "biased", -3e-4)]
@@ -248,7 +245,6 @@ class Deviations(unittest.TestCase):
         self.assertIsNone(found["farthest"])
 
     def test_what_is_left_open(self):
-        """The unexplained deviation of a limit must be relative to the reference value."""
         there = {"limit": 2.02, "truth": 2.0, "error": 0.01}
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", predicted=2.03, **there)), 0.005)
         self.assertAlmostEqual(deviations.left(verdict("q", "biased", **there)), 0.01)
@@ -270,7 +266,6 @@ class Deviations(unittest.TestCase):
             self.assertIn(f'id="{link.partition("#")[2]}"', site.pages["errata.html"]["body"])
 
     def test_every_table_of_the_errata_is_one(self):
-        """Every table of ERRATA.md must have an empty line above it, because it would otherwise be rendered as text."""
         text = (ROOT / "reference" / "ERRATA.md").read_text(encoding="utf-8")
         site = Site()
         deviations.write_errata(site)

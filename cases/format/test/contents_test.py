@@ -122,7 +122,6 @@ quantities:
 """
 
     def test_internal(self):
-        """Checks the resultants at both ends against statics."""
         path = self.scene(self.INTERNAL, "internal.yaml")
         exact = {"N": (5, 5), "Qy": (0.7, 0.7), "Qz": (0.7, 0.3), "Mx": (1, 1), "My": (-1, 0), "Mz": (1.4, 0)}
         for formulation in ("collocation", "geometrically_exact", "beamw", "beamw_consistent"):
@@ -136,7 +135,6 @@ quantities:
                     inside = {"Qy": 0.7, "Qz": 0.3 + 0.2*b, "Mx": 1, "My": -0.3*b - 0.1*b*b}
                     for name, value in inside.items():
                         self.assertAlmostEqual(got[f"{name}_at_{place}"], value, delta=1e-10)
-                    # torque = Saint-Venant part + warping part
                     self.assertAlmostEqual(got[f"Mx_saint_venant_at_{place}"] + got[f"Mx_warping_at_{place}"] +
                                            got["ys"]*inside["Qz"] - got["zs"]*inside["Qy"], 1, delta=1e-9)
                 for name, value in {"My_max": 0, "My_min": -1, "My_largest": 1, "Qz_max": 0.7, "Qz_min": 0.3}.items():
@@ -166,8 +164,6 @@ quantities:
 """
 
     def test_stress(self):
-        """The shear stress of a box that is free to warp must be Bredt's stress plus a part that varies linearly
-        through the wall."""
         area, swept, perimeter = 2*(0.1*3e-3 + 0.06*2e-3), 2*0.1*0.06, 2*(0.1/3e-3 + 0.06/2e-3)
         It = swept**2/perimeter + 2*(0.1*3e-3**3 + 0.06*2e-3**3)/3
         tau = max(300/It*(swept/perimeter/t + t) for t in (2e-3, 3e-3))
@@ -296,7 +292,6 @@ class ExamplesTest(SceneCase):
         self.refused(2, "would overwrite", "verify", "--scene", self.folder, "-o", taken)
 
     def test_leaf_spring_guide(self):
-        """Compares the stiffness in the undeformed state with a closed form."""
         path = EXAMPLES / "leaf_spring_guide.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 4))
         self.assertAlmostEqual(got["k_drive"] / 2624.536778, 1, delta=1e-9)
@@ -324,8 +319,6 @@ class ExamplesTest(SceneCase):
             self.assertAlmostEqual(got[name] / value, 1, delta=1e-6)
 
     def test_folded_leaf_stage(self):
-        """With three folded leaves at 120 degrees, the stiffness of the stage must be the same in all directions of
-        their plane."""
         path = EXAMPLES / "folded_leaf_stage.yaml"
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 2))
         self.assertAlmostEqual(got["k_x"] / got["k_y"], 1, delta=1e-12)
@@ -343,8 +336,6 @@ class ExamplesTest(SceneCase):
         self.assertRegex(done.stdout, r"sheet_second, [\w,\s]+: another model: warping not modelled")
 
 
-# The reference values in these files are closed-form solutions. The formulation that `solve` selects must reproduce
-# them, and no wrong value may have the status ok.
 SCENES = sorted((ROOT / "cases" / "format" / "test" / "textbook").glob("*.yaml"))
 CLOSE = 2e-3
 

@@ -96,8 +96,6 @@ static void check_mistakes(const scope *names)
     }
 }
 
-/* Parentheses and signs that are nested too deeply must be rejected, because they could exhaust the
- * stack. */
 static void check_depth(void)
 {
     static const char *const repeated[] = {"(", "-", "2^", "abs("};
@@ -305,9 +303,6 @@ static void document_tests(void)
     check_many();
 }
 
-/* Returns the message for a unit. For units other than SI, it contains the SI unit and the
- * conversion. */
-
 static const char *message_of(const char *unit, mistakes *m)
 {
     const document_node text = {
@@ -347,8 +342,6 @@ static const struct {
                {"kHz", "Hz", 1e3},
                {"rpm", "rad/s", PI / 30}};
 
-/* Checks the conversion in a remedy such as "write 20 mm as 20e-3 with unit: m". The value must be
- * `factor` times the amount, and the unit must be `si`. */
 static void remedy_of(const char *unit, const char *si, double factor)
 {
     mistakes m;

@@ -42,7 +42,6 @@ KINDS = {
 FORCES, MOMENTS = ("force", "force within", "distributed"), ("moment", "moment within", "distributed moment")
 ON_MEMBERS = ("force within", "moment within", "distributed", "distributed moment")
 SPREAD = ("distributed", "distributed moment")
-# for each key, further kinds of load that can have it
 KEYS = {
     "where: 0.75": (),
     "from: 0.25": SPREAD,
@@ -54,7 +53,6 @@ KEYS = {
     "follower: true": FORCES + MOMENTS,
     "path: [0, 1], factor: [0, 2]": tuple(KINDS)
 }
-# defaults, which may be written for every load
 NOTHING = ("from: 0, to: 1", "lumped: no", "at: [0, 0, 0]", "axes: fixed", "follower: no")
 ANALYSES = {
     "linear": "{linear: {}}",
@@ -108,8 +106,6 @@ class LoadsTest(SceneCase):
             self.assertIn(key, once)
 
     def test_analyses(self):
-        """Writes and reads files with all kinds of loads and analyses. Analyses that require a potential must reject
-        loads without one; the message names the load."""
         several = [said for kind, said in KINDS.items() if kind != "all"]
         several += [f"{KINDS[kind]}, from: 0.25, to: 0.5, to_value: [4, 5, 6], follower: true" for kind in SPREAD]
         for analysis, said in ANALYSES.items():
@@ -146,7 +142,6 @@ class LoadsTest(SceneCase):
             self.assertRegex(done.stderr, r":11:3: l0: it (acts|rotates) out of the plane, .*; correct this, or remove plane: xy\n$")
 
     def test_units(self):
-        """With units mm and N, load vectors must be converted, but not positions as fractions of the length."""
         def loads(millimetre):
             force, moment, line, moments, arm = (f"[{x}, {2*x}, {3*x}]" for x in (1, 0.5*millimetre, 2/millimetre, 0.25, 0.125*millimetre))
             more = [f"distributed: {line}, on: bar, from: 0.25, to: 0.5, at: {arm}, to_value: [0, {8/millimetre}, 0]",
@@ -193,7 +188,6 @@ class MotionTest(SceneCase):
         return values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1, *more))
 
     def test_constant_push(self):
-        """A load without a function of time must be constant from t = 0: u = F/k (1 - cos w t)."""
         k = self.stiffness()
         exact = PUSH * (1 - math.cos(math.sqrt(k / 0.1) * 0.5)) / k
         self.assertAlmostEqual(self.moved("")["u"] / exact, 1, delta=1e-4)
@@ -201,7 +195,6 @@ class MotionTest(SceneCase):
         self.assertAlmostEqual(doubled / exact, 2, delta=1e-3)
 
     def stiffness(self):
-        """Returns the stiffness of the spring and the wire in parallel [N/m]."""
         text = BLOCK.replace(", TIME", "").replace(", at: 0.5", "")
         path = self.scene(text.replace("ANALYSES", "swing: {linear: {}}"))
         got = values(self.record("solve", "--scene", path, "-f", "collocation", "-n", 1))
@@ -243,8 +236,6 @@ class MotionTest(SceneCase):
         self.assertNotEqual(got[0], got[1])
 
     def test_mass(self):
-        """Mass must be consistent by default. A message that rejects consistent mass must name the element or the
-        integrator that does not support it."""
         text = reader_file("howto/dynamics.md", "swing.yaml")
         lumped = self.scene(text.replace("0..1/100", "0..1/100, mass: lumped"), "lumped.yaml")
         usual = self.scene(text, "usual.yaml")
@@ -361,7 +352,6 @@ quantities:
   short: {{displacement: {{analysis: press, node: head, component: ux, take: curve}}}}
   shorter: {{displacement: {{analysis: again, node: head, component: ux}}}}
 """
-# A shaft that rotates faster than its first critical speed.
 SHAFT = COLUMN.replace("static: {stations: [0.5, 0.95, 1.05, 1.5]}",
                        "static: {stations: [1], spin: {omega: [200, 0, 0]}}").replace(f"-{EULER!r}", "-1e-6")
 
@@ -388,7 +378,6 @@ class StabilityTest(SceneCase):
                          ["yes", "yes", "no", "no"])
 
     def test_meshes(self):
-        """`converge` must report the path parameter at which the stability changes."""
         text = self.answered("converge", "--scene", self.scene(COLUMN), "-f", "collocation", "-f", "beamw").stdout
         self.assertIn("collocation had unstable states:\n  n = 1: stable up to 0.95", text)
         line = self.answered("solve", "--scene", self.scene(COLUMN), "-f", "collocation").stdout

@@ -15,7 +15,6 @@
 enum { MOST = 128, KEY = 400, KINDS = SCENE_READING + 1 };
 static int seen[KINDS], requested;
 
-/* Writes a text that identifies the quantity: what it extracts, its factor and its offset. */
 static void key_of(const char *text, const scene_quantity *q, char key[KEY])
 {
     char start[SCENE_NAME + 8];
@@ -200,8 +199,6 @@ static void meaning_tests(void)
         gsl_test(seen[kind] == 0, "quantities of kind %d: %d", kind, seen[kind]);
     printf("%d quantities\n", requested);
 }
-
-/* Compares the parameters of a case that the build stored with those of its scene file. */
 
 static void compare_parameters(const char *name, const parameter_type *packed,
                                const parameter_type *read)

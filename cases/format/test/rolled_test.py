@@ -145,8 +145,6 @@ def half_unit(printed):
 
 
 def scene(sections, material="young: 210e9, shear_modulus: 81e9, density: 7850", loads=None):
-    """Returns a scene file with these sections and `loads`. The default loads are forces of 1e12 times a section
-    constant, from which the constants are read."""
     loads = loads or {
         f"{name}_{k}": f"[{name}.{k}*1e12, 0, 0]" for name in sections for k in CONSTANTS
     }
@@ -180,7 +178,6 @@ class ProfilesTest(SceneCase):
                             half_unit(printed) * 1.001, f"{constant} of {name}: {got[constant]}")
 
     def test_channels(self):
-        """Compares the printed constants of channels with those of thin-walled channels, to detect misprints."""
         sections = {name: f"profile: {name}" for name in UPN}
         got = self.constants(sections)
         written = self.answered("scene", "--scene", self.scene(scene(sections))).stdout
@@ -196,7 +193,6 @@ class ProfilesTest(SceneCase):
                                        msg=f"{constant} of {name}")
 
     def test_sizes_without_fillets(self):
-        """T-sections, and angles that are not in the table, must have the area of sharp corners."""
         got = self.constants({
             "t": "t: {depth: 0.1, flange: 0.1, flange_thickness: 0.01, web_thickness: 0.01}",
             "l": "profile: L100x77x8",
@@ -210,8 +206,6 @@ class ProfilesTest(SceneCase):
         self.assertAlmostEqual(got["given"]["A"], 28.48e-4, delta=5e-7)
 
     def test_angles(self):
-        """Compares the constants of angles with tables. The shear centre must be at the intersection of the mid-lines
-        of the legs, and exchanging the leg lengths must change the sign of the angle of the principal axes."""
         sections = {f"s{i}": f"profile: {name}" for i, name in enumerate(ANGLES)}
         got = self.constants(sections)
         for key, printed in zip(sections, ANGLES.values()):
@@ -275,8 +269,6 @@ class ProfilesTest(SceneCase):
             self.assertEqual(max(stress), stress[0])
 
     def test_stresses_of_mid_lines(self):
-        """Stresses in a thin-walled section must be those on its outer surface, with second moments of the
-        mid-lines."""
         h, b, t = 0.2, 0.1, 0.01
         Iy, Iz = t * h**3 / 6 + b * t * h**2 / 2, t * b**3 / 6 + h * t * b**2 / 2
         box = f"box: {{depth: {h}, flange: {b}, flange_thickness: {t}, web_thickness: {t}}}"
@@ -287,7 +279,6 @@ class ProfilesTest(SceneCase):
             self.assertAlmostEqual(got / (My * (h + t) / 2 / Iy + Mz * (b + t) / 2 / Iz), 1, delta=1e-9, msg=(My, Mz))
 
     def test_beam(self):
-        """Compares the deflection P L^3/(3 E Iy) and the stress P L/Wel of a cantilever, with printed constants."""
         text = scene({"beam": "profile: ipe 200"}, loads={"p": "[0, 0, 1000]"})
         text += "omit: {shear: yes}\n"
         for formulation in ("beamw_consistent", "geometrically_exact", "collocation"):

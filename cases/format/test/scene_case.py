@@ -11,7 +11,6 @@ class SceneCase(ProgramTest):
         return path
 
     def same_again(self, path, *where):
-        """Checks that the scene written by the program gives the same values bit for bit, and returns these values."""
         again = self.scene(self.answered("scene", "--scene", path).stdout, f"{path.stem}_again.yaml")
         got, twice = (values(self.record("solve", "--scene", p, *where)) for p in (path, again))
         self.assertEqual(got, twice)

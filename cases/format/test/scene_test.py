@@ -13,7 +13,6 @@ from harness.tools.kit.scenes import LEAF, bad_scenes
 
 
 GOOD = ROOT / "cases/format/test/good"
-# the whole motion takes too long for a test
 PART = {"hexapod_motion": ("--set", "time=0.05")}
 
 
@@ -40,15 +39,12 @@ class SceneTest(SceneCase):
         self.assertEqual((told["file"], told["more"]), (str(path), 0))
 
     def test_unknown_parameter(self):
-        """The message about an unknown parameter must name the command that lists the parameters, and this command
-        must succeed."""
         path = self.scene(LEAF)
         self.refused(2, f"'beamwork list --scene {path}' shows the names", "solve", "--scene", path,
                      "--set", "force=3")
         self.answered("list", "--scene", path)
 
     def test_first_scene(self):
-        """A scene of ten lines must give the tip deflection P L^3/(3 E I) + P L/(k G A)."""
         path = self.scene(LEAF)
         record = self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)
         area, inertia = 50e-3 * 0.5e-3, 50e-3 * 0.5e-3 ** 3 / 12
@@ -56,7 +52,6 @@ class SceneTest(SceneCase):
         self.assertAlmostEqual(values(record)["tip_uy"] / exact, 1, delta=1e-9)
 
     def test_bytes(self):
-        """Different line endings, byte order marks and non-ASCII letters must not change the scene."""
         own = self.answered("scene", "--scene", self.scene(LEAF)).stdout
         for name, text in (("ends", LEAF.replace(
                 "\n", "\r\n")), ("mark", "\ufeff" + LEAF), ("letters", LEAF + "# Größe – 大きさ\n")):
@@ -97,8 +92,6 @@ class SceneTest(SceneCase):
             self.assertEqual(again, written)
 
     def test_needs_of_earlier_versions(self):
-        """The key `needs` of earlier versions must omit all physics that it does not list, except warping. A line must
-        state that `omit` replaces it."""
         rest = ["shear", "trapeze", "wagner_moments", "wagner_torque", "rotary_inertia"]
         buckles = LEAF + ("analyses:\n  run: {buckling: {}}\nquantities:\n"
                           "  P: {critical_factor: {analysis: run}, unit: \"1\"}\n")
@@ -125,7 +118,6 @@ class SceneTest(SceneCase):
         self.refused(2, "did you mean 'width'", *where, "--set", "wdth=0.1")
 
     def test_truths_of_a_point(self):
-        """A reference value with parameters must apply only at this parameter point."""
         path = self.scene(
             LEAF.replace("width: 50e-3", "width: width").replace(
                 "sections:", "parameters:\n  width: {value: 50e-3, unit: m}\nsections:") +
@@ -168,7 +160,6 @@ class SceneTest(SceneCase):
             self.assertLessEqual(used, set(schema["properties"]))
 
     def test_summaries_say_more_than_keys(self):
-        """The summary of a key must contain more than the name of the key."""
         self.assertEqual(re.findall(r"^ *(\w+) +(?:NAME|TEXT|EXPR|\.\.\.) +\1(?: \[| \*|$)",
                                     self.answered("scene", "--keys").stdout, re.M), [])
 
@@ -208,7 +199,6 @@ quantities:
   moment: {internal: {analysis: travel, member: left.leaf, end: from, resultant: Mz}, unit: "N m"}
 """
 
-# Changes that make the guide invalid, each with its message without the position.
 WRONG = [
     ("hold: all}\n      top: {at: [0, 0.08, 0]", "hold: all}\n      top: {at: [0, 0, 0]",
      "left.leaf: its ends coincide"),
@@ -228,7 +218,6 @@ class NamesTest(SceneCase):
         self.assertIsNone(NUMBERED.search(text), (what, NUMBERED.search(text)))
 
     def line(self, code, words, *arguments):
-        """Checks that the message is one line that contains the words. Returns the line."""
         done = run(*arguments)
         self.assertEqual(done.returncode, code, done.stderr)
         self.assertIn(words, done.stderr)
@@ -335,7 +324,6 @@ meshes: {shear: {0: [1, 2], 1: [1, 2, 4]}}
 class ChoicesTest(SceneCase):
 
     def written(self, *assignments):
-        """Returns the loads and the lines `omit` and `meshes` of the scene written at these parameter values."""
         given = [word for one in assignments for word in ("--set", one)]
         text = self.answered("scene", "--scene", self.scene(CHOSEN), *given).stdout
         loads = text[text.index("loads:"):text.index("analyses:")].split()[1:]
@@ -389,7 +377,6 @@ class PartsTest(SceneCase):
         self.assertAlmostEqual(abs(got["tip_ux"]) / own["tip_uy"], 1, delta=1e-12)
 
     def test_springs_of_a_part(self):
-        """The stiffness of a spring in a rotated instance must be T K T^T, at a port and between nodes of the part."""
         turn, a = 0.4, [3e3, 1e3, 2e3, 4.0, 5.0, 6.0]
         c, s = math.cos(turn), math.sin(turn)
         R = np.kron(np.eye(2), [[c, -s, 0], [s, c, 0], [0, 0, 1]])

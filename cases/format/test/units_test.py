@@ -11,7 +11,6 @@ from harness.tools.kit.program import ROOT, run
 
 GOOD = ROOT / "cases/format/test/good"
 
-# Entries of the kinds that no other scene contains, with as few keys as possible.
 BARE = [
     """sections:
   b: {rectangle: {width: 0.02, thickness: 0.01}, young: 7e10, shear_modulus: 2.6e10, density: 2700}
@@ -88,8 +87,6 @@ quantities:
 
 
 def tables(schema):
-    """Yields the path, the properties and the required keys of every map that the schema describes."""
-
     def below(node, place):
         if "properties" in node:
             yield place, node["properties"], node.get("required", [])
@@ -103,7 +100,6 @@ def tables(schema):
 
 
 def maps(scene, schema, place=()):
-    """Yields the path, the entries and the schema properties of every map of a scene that the schema describes."""
     if isinstance(scene, dict) and "properties" in schema:
         yield place, scene, schema["properties"]
         for key, value in scene.items():
@@ -191,7 +187,6 @@ class KeysTest(SceneCase):
                     if done.returncode == 0:
                         self.assertEqual(done.stdout, written, (place, key, entry))
                         tried.add((place, key))
-        # maps below `parts` have the same keys as those of the scene
         self.assertEqual({one for one in wanted - tried if one[0][:1] != ("parts",)}, set())
 
 
@@ -354,7 +349,6 @@ class UnitsTest(SceneCase):
             self.assertAlmostEqual(found[name]/1e3/exact[name], 1, delta=1e-6, msg=name)
 
     def test_continued(self):
-        """Stations of a continuation with displacement control must have the unit of length."""
         si, mm = [self.solved(filled(CONTINUED, UNITS=units, NEAR=near, FAR=4*near, **numbers))
                   for units, near, numbers in (("", 1e-3, METRES), ("units: mm, N, MPa", 1, MILLIMETRES))]
         exact, found = values(si), values(mm)
@@ -451,8 +445,7 @@ class Doubtful(SceneCase):
                       "densities are in t/mm^3", self.told("7850", "1").stderr)
 
     def test_larger_than_the_structure(self):
-        """A displacement larger than the structure must be reported. With EA/l = 84000 N/mm, a force of 168 MN causes
-        2000 mm, the size of the structure."""
+        """With EA/l = 84000 N/mm, a force of 168 MN causes 2000 mm, the size of the structure."""
         self.assertEqual(self.told("7.85e-9", "167e6").stderr, "")
         self.assertIn("ux: a linear analysis gives a displacement of 1.01 times the size of the structure",
                       self.told("7.85e-9", "169e6").stderr)
@@ -461,8 +454,6 @@ class Doubtful(SceneCase):
         self.assertRegex(self.told("7.85e-9", "1").stdout, r"\nN +0 N mm")
 
     def test_kelvin(self):
-        """The load factor of a temperature load may have the unit K in every unit system. Other units must be rejected
-        without a factor."""
         self.assertRegex(self.answered("solve", "--scene", self.scene(WARM), "-f", "beamw", "-n", 8).stdout,
                          r"\ndT +\S+ K")
         self.refused(2, "remove 'unit', or give a 'factor' in this unit", "solve", "--scene",

@@ -40,7 +40,6 @@ TIP = f"  tip: {{at: [{LENGTH}, 0, 0]"
 class WarpingTest(SceneCase):
 
     def words(self, scene):
-        """Returns the warping conditions at both ends of each member. Shared coordinates are numbered."""
         text = self.answered("scene", "--scene", self.scene(HEAD + scene)).stdout
         return [
             re.sub(r"\{shared: (w\d+)\}", r"\1", word)
@@ -59,7 +58,6 @@ class WarpingTest(SceneCase):
             self.twist(scene, "-f", "collocation") / expected, 1, delta=1e-6, msg="collocation")
 
     def test_numbers(self):
-        """Checks that the closed-form values for the warping conditions differ enough to be distinguished."""
         self.assertGreater(SAINT_VENANT, 1.5 * ONE_HELD)
         self.assertGreater(ONE_HELD, 1.5 * BOTH_HELD)
 
@@ -111,13 +109,10 @@ class WarpingTest(SceneCase):
                     [f"fixed, {told}"])
 
     def test_tied(self):
-        """Warping must be restrained at nodes attached to a body. At the node of the body, it must be restrained if
-        members or springs are joined to attached nodes."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n"
         part = base + "  body: {at: [4, 0, 0]}\n" + TIP + ", part_of: body}\n" + CANTILEVER
         self.assertEqual(self.words(part), ["fixed, fixed"])
         self.is_twisted(part + TWIST.replace("on: tip", "on: body"), BOTH_HELD)
-        # a node at which only the position is observed or loaded does not change the warping
         looked = base + TIP + "}\n  eye: {at: [3, 0.1, 0], part_of: tip}\n" + CANTILEVER
         self.assertEqual(self.words(looked), ["fixed, free"])
         self.is_twisted(looked + TWIST, ONE_HELD)
@@ -129,8 +124,6 @@ class WarpingTest(SceneCase):
         self.assertEqual(self.words(both), ["fixed, fixed", "fixed, fixed"])
 
     def test_guide(self):
-        """Compares the transverse stiffness of a guide with two leaves, at the end of the stroke, with a reference
-        value."""
         guide = """nodes:
   base_a: {at: [0, 0, 0], hold: all}
   base_b: {at: [0.06, 0, 0], hold: [ux, uy, uz, ry, rz], drive: {rx: tilt}}
@@ -180,14 +173,12 @@ instances:
         self.assertEqual(self.words(scene), ["fixed, free"] * 4)
 
     def test_continued(self):
-        """Two members in one line must share their warping coordinate at the common node."""
         base = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  mid: {at: [1, 0, 0], mass: 2}\n" + TIP + "}\n"
         two = base + "members:\n  one: {from: base, to: mid, section: SECTION, y: [0, 1, 0]}\n" + \
             "  two: {from: mid, to: tip, section: SECTION, y: [0, 1, 0]}\n"
         beam = two.replace("SECTION", "beam")
         self.assertEqual(self.words(beam), ["fixed, w0", "w0, free"])
         self.is_twisted(beam + TWIST, ONE_HELD)
-        # one fork support between two members, then fork supports at their ends
         fork = "hold: [ux, uy, uz], fork: {axis: [1, 0, 0], web: [0, 0, 1]}"
         span = f"nodes:\n  left: {{at: [0, 0, 0], {fork}}}\n  tip: {{at: [{LENGTH / 2}, 0, 0]}}\n" + \
             f"  right: {{at: [{LENGTH}, 0, 0], {fork.replace('ux, ', '')}}}\nmembers:\n" + \
@@ -196,7 +187,6 @@ instances:
         self.assertEqual(self.words(span), ["free, w0", "w0, free"])
         self.is_twisted(span + TWIST, SPAN)
         self.assertEqual(self.words(beam.replace("mass: 2", fork)), ["fixed, w0", "w0, free"])
-        # members that do not form one beam
         corner = beam.replace("at: [3.0, 0, 0]", "at: [1, 3, 0]").replace(
             "tip, section: beam, y: [0, 1, 0]", "tip, section: beam, y: [1, 0, 0]")
         third = beam.replace("members:\n", "  side: {at: [1, 1, 0]}\nmembers:\n"
@@ -217,7 +207,6 @@ instances:
                 self.assertEqual(self.words(scene), told)
 
     def test_towards(self):
-        """Two members whose x axes are opposite must share their warping only if the symmetry of the section allows it."""
         two = "nodes:\n  base: {at: [0, 0, 0], hold: all}\n  mid: {at: [1, 0, 0]}\n" + TIP + "}\n" + \
             "members:\n  one: {from: base, to: mid, section: SECTION, y: [0, 1, 0]}\n" + \
             "  two: {from: tip, to: mid, section: SECTION, y: Y}\n"

@@ -6,14 +6,10 @@ import unittest
 from harness.tools.kit.program import ProgramTest, run
 
 
-# Loads along a member with one element and linear theory must be as accurate as forces and moments at the nodes. The
-# closed forms are those of the Timoshenko beam (J.S. Przemieniecki, Theory of Matrix Structural Analysis, 1968, sec. 5
-# and 10).
 L, q, m = 0.7, 3.0, 2.0
 E, G, A, Iy, Iz, It = 70e3, 27e3, 0.04, 3e-4, 2e-4, 4e-4
 HELD = {"clamped": ("all", "all"), "cantilever": ("all", "[]"), "propped": ("all", "[ux, uy, uz, rx]"),
         "hinged": ("[ux, uy, uz, rx]", "[ux, uy, uz]"), "guided": ("all", "[ux, rx, ry, rz]")}
-# directions in which a formulation is rigid in shear
 RIGID = {"beamw_vlasov": "yz", "sheet_second": "y", "sheet_third": "y", "sheet_third_printed": "y"}
 
 
@@ -123,8 +119,6 @@ class AlongMembers(ProgramTest):
                         self.check(formulation, support, kind)
 
 
-# Loads that begin, end or act within a member add nodes to the mesh. The resultants on both sides of such a load follow
-# from statics. The orders of convergence are the same as without such loads.
 SECTION = """sections: {s: {constants: {A: 0.04, Iy: 3e-4, Iz: 2e-4, It: 4e-4,
                F: [0.001, 0, 0, 0, 0.001, 0, 0, 0, 0]}, young: 70e3, shear_modulus: 27e3}}
 """
@@ -214,7 +208,7 @@ class DividedMember(ProgramTest):
                 step = [values[i + 1][name] - values[i][name] for i in range(3)]
                 for i in range(2):
                     if abs(step[i + 1]) < 1e-11 * abs(values[0][name]):
-                        continue  # only rounding errors, because collocation includes loads in its equilibrium
+                        continue
                     order = math.log2(abs(step[i] / step[i + 1]))
                     self.assertGreater(order, 3.6, f"{formulation}, {name}")
 
@@ -246,8 +240,6 @@ class DividedMember(ProgramTest):
         self.assertIn("'beam' is a member; a tension acts between two nodes; name a node", done.stderr)
 
 
-# Artefacts of the mesh must be rejected: an indefinite stiffness at rest, or a critical load proportional to the square
-# of the number of elements.
 RING = """beamwork: 1
 sections: {leaf: {rectangle: {width: 20e-3, thickness: %(t)s}, young: 200e9, shear_modulus: 80e9}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [0.1, 0.1, 0]}}
@@ -270,7 +262,6 @@ quantities:
   tension: {critical_factor: {analysis: b, which: 0, sign: negative}}
   compression: {critical_factor: {analysis: b, which: 0}}
 """
-# A clamped wire under tension N, with a transverse force at its tip.
 WIRE = """beamwork: 1
 sections: {s: {constants: {A: 1e-2, Iy: 1e-9, Iz: 1e-9, It: 2e-9, Iw: 0, wagner_torque: 0%(more)s}, young: 2e11,
                shear_modulus: 8e10, density: 7800}}
@@ -308,8 +299,6 @@ class Discretised(ProgramTest):
         return done.returncode, values, said
 
     def test_arcs(self):
-        """An arc of curvature k is accepted if EA l^4 k^2/EI of an element of length l is below the value for a rise of
-        two radii of gyration. The ratio is 64 (rise/radius of gyration)^2."""
         for n in (1, 2, 4, 8):
             turn = math.pi / 2 / n
             for side in (0.25, 0.98, 1.02, 30):
@@ -341,8 +330,6 @@ class Discretised(ProgramTest):
                 self.assertGreater(values["compression"], 0, (formulation, n))
 
     def test_tension_of_states(self):
-        """The largest accepted N l^2/EI is 12, 60 or 30 + sqrt(1620), depending on the formulation (tension N, element
-        length l). Beyond the limit, the tip displacement may have either sign, so no value may be returned."""
         for formulation, most in (("geometrically_exact:nodes=2", 12), ("geometrically_exact", 60),
                                   ("sheet_third", 30 + math.sqrt(1620)), ("sheet_third_printed", 30 + math.sqrt(1620))):
             for n in (1, 2, 16):
@@ -372,9 +359,7 @@ class Discretised(ProgramTest):
         self.assertNotIn("so long that its axial force", " ".join(run("list", "collocation").stdout.split()))
 
     def test_tension_with_shear(self):
-        """An element with three nodes accepts a tension N close to GA. In an element with two nodes, the
-        flexibilities due to bending and shear add up, so the largest accepted tension is lower."""
-        shear = ", F: [%r, 0, 0, 0, %r, 0, 0, 0, 0]" % (8e10 * 1e-4, 8e10 * 1e-4)  # 1/(k G A) = 1e-4 1/N
+        shear = ", F: [%r, 0, 0, 0, %r, 0, 0, 0, 0]" % (8e10 * 1e-4, 8e10 * 1e-4)
         for formulation, N, status in (("geometrically_exact", 9000.0, 0), ("geometrically_exact:nodes=2", 1900.0, 0),
                                        ("geometrically_exact:nodes=2", 1990.0, 1)):
             found, values, said = self.solve(WIRE % {"N": N, "more": shear}, formulation, 1)

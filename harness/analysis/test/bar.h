@@ -10,7 +10,6 @@
 
 enum { WANTED = 4, ELEMENTS = 16 };
 
-/* A square bar with E = 2e11 Pa, so slender that shear affects only the sixth digit. */
 static const double young = 2e11, side = 1e-3, length = 1;
 
 static inline double bar_rigidity(void)

@@ -54,8 +54,6 @@ static void limit_points(void)
     }
 }
 
-/* The tangent of a fine mesh is singular to working precision at some distance from a limit point.
- * Reference values: reference/derive/lee_frame.py. */
 static void limit_points_of_fine_meshes(void)
 {
     const double exact[2] = {1.8556727540, -0.94144315560};
@@ -77,7 +75,6 @@ static status build_column(const double value[], scene *s, fault *f)
     (void)f;
     const section_spec spec = sections_of(100, 40, 1, 40);
     scene_omit(s, FEATURE_SHEAR | FEATURE_TRAPEZE);
-    /* along x, or oblique */
     const double along[2][3] = {{1, 0, 0}, {0.48, 0.6, 0.64}},
                  across[2][3] = {{0, 1, 0}, {0.8, 0, -0.6}};
     const double *const t = along[value[1] != 0];
@@ -86,7 +83,7 @@ static status build_column(const double value[], scene *s, fault *f)
     scene_hold_all(s, root);
     scene_add_member(s, root, tip, scene_add_section(s, &spec), across[value[1] != 0]);
     scene_add_load(s, SCENE_FORCE, tip, -t[0], -t[1], -t[2]);
-    if (value[0] != 0) /* a zero moment, which makes the pattern of the matrix unsymmetric */
+    if (value[0] != 0)
         scene_add_load(s, SCENE_MOMENT, tip, 0, 0, 0);
     const int path = scene_add_continuation(
         s, 1, &end,
@@ -118,8 +115,6 @@ static void bifurcations(const char *assignment)
     cell_result_free(&r);
 }
 
-/* A space frame with a limit point and a bifurcation: it buckles out of its plane before it reaches
- * the limit point. */
 static void both_kinds(void)
 {
     static const event_kind kind[] = {EVENT_BIFURCATION, EVENT_LIMIT_POINT, EVENT_LIMIT_POINT};
@@ -279,8 +274,7 @@ static double value_of(const char *case_name, const char *chosen, int n,
 static void stiff_before_buckling(void)
 {
     const char *const included[] = {"prebuckling=included", "ratio=1e6", NULL};
-    const double linear = 4.012599344,
-                 of_1e4 = 4.013057842318; /* reference/derive/linear_buckling.py, equilibrium.py */
+    const double linear = 4.012599344, of_1e4 = 4.013057842318;
     gsl_test_rel(value_of("lateral_buckling", "collocation", 4, included, "load_factor"),
                  linear + (of_1e4 - linear) / 100, 1e-8,
                  "critical load, hardly any deflection before it");
@@ -450,8 +444,6 @@ static void guesses_change_nothing(void)
     cell_result_free(&halved);
 }
 
-/* The direction of an element changes results only of formulations that treat its ends differently,
- * and only by a discretisation error. */
 static void directions(void)
 {
     static const struct {
@@ -502,8 +494,6 @@ static void straight_column(scene *s, int stations, const double path[])
     scene_add_static(s, stations, path, 1);
 }
 
-/* Newton's method stays on the straight path, where the number of negative eigenvalues of the
- * tangent is the number of critical loads below the applied load. */
 static void inertia_counts_critical_loads(void)
 {
     const double weak = PI * PI / 4;
@@ -542,8 +532,7 @@ static void inertia_counts_critical_loads(void)
     }
 }
 
-/* Sums have a fixed order. Results and counted work must be bitwise equal with one thread and with
- * several, also if the last block of elements is incomplete. */
+/* Sums have a fixed order. */
 static void threads_change_no_bit(void)
 {
     static const struct {

@@ -110,7 +110,6 @@ static void reciprocity(void)
     }
 }
 
-/* near the solution, each correction is about the square of the previous one */
 static void quadratic(void)
 {
     const char *const none[] = {NULL};
@@ -227,8 +226,6 @@ static double block_difference(const double A[36], const double B[36])
     return worst;
 }
 
-/* Compliance and stiffness of a node that can rotate about two axes only must be independent of the
- * axes of the scene, to which the plane of the two axes may be oblique. */
 static void partly_free_turns(void)
 {
     static const char *const rotation[] = {"rotation=hinge", "rotation=first", "rotation=last",
@@ -291,8 +288,6 @@ static void prediction_solve(const char *const assignment[], cell_result *out)
     gsl_test(cell_run(&request, out, &f) != STATUS_OK, "solved: %s", f.text);
 }
 
-/* In the plane, all digits agree, because the element inverts N Eq. 37 accurately. Out of the
- * plane, fourth-order terms differ; for C_zz, their size is `apart`. */
 static void beside_the_element(const char *const assignment[], double in_plane, double apart)
 {
     cell_result r;
@@ -343,8 +338,6 @@ static void prediction_tests(void)
     beside_the_element(rigid, 1e-11, 1.5e-2);
 }
 
-/* A path with stored factors must give the same values as one without. */
-
 enum { STATIONS = 15 };
 
 static void walk_solve(const char *name, const char *type, int elements, newton_form newton,
@@ -383,8 +376,6 @@ static void compliances(void)
     cell_result_free(&own);
 }
 
-/* The tilt axis of the joint makes one revolution, so each component of the tilt has two extrema.
- * Steps near the extrema must not need more iterations. */
 static void turning_back(void)
 {
     enum { BEGINNING = 10 };
@@ -397,7 +388,6 @@ static void turning_back(void)
     cell_result_free(&r);
 }
 
-/* The first step has the size of the first station. Successful steps do not reduce the size. */
 static void shorter_first_steps(void)
 {
     cell_result whole, shorter;

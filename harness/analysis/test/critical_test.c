@@ -161,8 +161,6 @@ static void bent_in_a_frame(scene *s, const double direction[3])
     bar_push(s, low, y_axis, 1e-3);
 }
 
-/* An equal-leg angle section on fork supports, with its shear centre at the heel and without
- * warping stiffness. */
 static void angle(scene *s, int *foot, int *head)
 {
     section_spec spec = section_spec_constants(young, young / 2.6);
@@ -199,14 +197,11 @@ static void angle_compressed(scene *s, const double direction[3])
     bar_push(s, head, direction, -1);
 }
 
-/* Loads of one sign must not depend on whether the other sign is requested. Some formulations have
- * one spurious load of the other sign per element. */
 static void one_side_alone(const element_type *e, ask_tally *tally)
 {
     for (int n = 2; n <= 64; n *= 2) {
         loads both, alone;
-        ask_tally any = {
-            0}; /* counts requests for negative loads, which some formulations do not support */
+        ask_tally any = {0};
         if (!bar_find_signs(e, tally, angle_compressed, along_x, n, 1, &alone))
             return;
         bar_find_signs(e, &any, angle_compressed, along_x, n, 2, &both);

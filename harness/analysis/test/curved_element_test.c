@@ -1,6 +1,4 @@
-/* Elements with an initial shape of constant curvature and torsion. This shape has no stress. About
- * it, the stress is the derivative of the energy, and the geometric stiffness is the derivative of
- * the tangent. */
+/* Elements with an initial shape of constant curvature and torsion. This shape has no stress. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -109,7 +107,6 @@ static status stress_at(element_subject *s, const double e[], stress_output *out
     return type->stress(s->data, e, s->inner, out);
 }
 
-/* Returns the largest stress in the initial shape, relative to the stress due to a unit strain. */
 static double stress_of_arc(element_subject *s, const double motion[6])
 {
     node_state x[ELEMENT_MAX_NODES];
@@ -127,8 +124,6 @@ static double stress_of_arc(element_subject *s, const double motion[6])
     return worst;
 }
 
-/* Returns the largest difference between the derivative of the energy and the stress about the arc,
- * relative to the stress. */
 static double error_of_stress(element_subject *s)
 {
     const double h = 1e-5 * s->length;
@@ -149,9 +144,6 @@ static double error_of_stress(element_subject *s)
     return worst / largest;
 }
 
-/* Returns the largest difference between the geometric stiffness of a prestress and the derivative
- * of the tangent in the direction of the strain that corresponds to the prestress, relative to the
- * largest entry of the tangent without stress. */
 static double error_of_geometric(element_subject *s)
 {
     const int n = s->strains;
@@ -309,7 +301,6 @@ static void large_rotations(void)
         {"a uniform load", STRAIGHT, UNIFORM, {5.7, 7.5}, {1e-5, 2e-7}},
         {"a linear one", STRAIGHT, LINEAR, {5.7, 7.5}, {1e-5, 2e-7}},
         {"one along a curved member", CURVED, LINEAR, {5.5, 7}, {1e-5, 2e-7}},
-        /* loads on the displacement field that is the same for all elements */
         {"one that follows", STRAIGHT, FOLLOWER, {3.6, 3.6}, {1e-2, 1e-2}},
         {"a moment along", STRAIGHT, MOMENT, {3.6, 3.6}, {1e-2, 1e-2}},
     };

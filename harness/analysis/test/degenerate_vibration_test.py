@@ -4,11 +4,9 @@ import unittest
 from harness.tools.kit.program import ProgramTest
 
 
-# Frequencies of degenerate structures: equal frequencies, zero frequencies, massless members and released ends. They
-# are compared with closed forms or with equivalent structures.
 YOUNG, SHEAR, DENSITY, AREA, INERTIA, TWIST = 2e11, 8e10, 8000.0, 1e-4, 1e-9, 1.4e-9
 LINE = DENSITY * AREA
-WAVE = math.sqrt(YOUNG * INERTIA / LINE) / (2 * math.pi)  # [Hz] frequency per frequency factor, for the length 1 m
+WAVE = math.sqrt(YOUNG * INERTIA / LINE) / (2 * math.pi)
 SCENE = """beamwork: 1
 sections:
   s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1.4e-9, Iw: 0}, young: 2e11, shear_modulus: 8e10, density: 8000}
@@ -71,8 +69,6 @@ class Degenerate(ProgramTest):
                                      (found, right, *what))
 
     def test_two_of_each(self):
-        """The bending frequencies of a section with equal second moments occur in pairs. A free bar also has six zero
-        frequencies."""
         for formulation in self.each():
             within = 3e-2 if formulation.endswith("lumped") else 1e-3 if "exact" in formulation else 2e-4
             found = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=4, n=8)
@@ -100,8 +96,6 @@ class Degenerate(ProgramTest):
             self.refused(1, words, "solve", "--scene", self.scene(*scene), "-f", "collocation", "-n", 2, silent=False)
 
     def test_zeros(self):
-        """There are as many zero frequencies as there are motions that the supports allow: in space, in a plane, for
-        two separate bars, and for a bar on a hinge."""
         apart = f"{FREE}, {tip()}, c: {{at: [0, 3, 0]}}, d: {{at: [1, 3, 0]}}"
         two = f"{bar()}, n: {{from: c, to: d, section: s, y: [0, 1, 0]}}"
         hinge = f"{bar()}, {BEYOND % ('s', ', release: {from: [rz]}')}"
@@ -117,8 +111,6 @@ class Degenerate(ProgramTest):
                                  (formulation, scene, found))
 
     def test_one_member_has_mass(self):
-        """A massless arm beyond the tip of a cantilever does not change its frequencies. A massless bar is exact with
-        one element."""
         end = "c: {at: [1, 0, 0.5]}"
         arm = "arm: {from: b, to: c, section: light, y: [0, 1, 0]}"
         pair = f"{bar('light', ', divisions: %d')}, {BEYOND % ('s', ', divisions: 4')}"
@@ -130,8 +122,6 @@ class Degenerate(ProgramTest):
             self.same(one, many, 1e-8, formulation)
 
     def test_light_member_between_masses(self):
-        """A massless bar clamped at one end, with a mass at the other, has the frequency sqrt(3 EI/(m L^3))/(2 pi) and
-        only the modes of the mass. A free massless bar acts as a spring between two bodies."""
         stretch, twist, bend = YOUNG * AREA, SHEAR * TWIST, YOUNG * INERTIA
         for formulation in self.each():
             found = self.found(formulation, f"{HELD}, {tip(', mass: 2')}", bar("light"), wanted=5, n=2)
@@ -198,8 +188,6 @@ class Degenerate(ProgramTest):
             self.same(found, right, 1e-3, formulation)
 
     def test_offsets(self):
-        """A support at the end of a rigid arm is equivalent to a clamped end, and a body to a mass at the end of the
-        arm."""
         for formulation in self.each():
             plain = self.found(formulation, f"{HELD}, {tip()}", bar(), wanted=6)
             beside = "z: {at: [0, 0.3, 0.2], hold: all}, a: {at: [0, 0, 0], part_of: z}"
@@ -219,8 +207,6 @@ class Degenerate(ProgramTest):
                 self.same(self.found(formulation, nodes, member % (ends, *y), wanted=6), right, 1e-8, formulation)
 
 
-# Closed forms for straight unstressed members: bending with shear and rotary inertia, axial vibration, torsion,
-# restrained warping, with bodies and springs at the ends.
 E, NU, RHO, LENGTH = 2e11, 0.25, 8000.0, 1.0
 G = E / 2 / (1 + NU)
 ALL = ("collocation", "beamw", "beamw_vlasov", "beamw_first", "beamw_consistent", "sheet_second",
@@ -274,7 +260,6 @@ def timoshenko(section, wave, upper=False):
 
 
 def warped(section):
-    """Returns the first torsional frequency [Hz] of a cantilever with warping restrained at the root."""
     EIw, GIt, inertia = E * section["Iw"], G * section["It"], RHO * (section["Iy"] + section["Iz"])
 
     def determinant(f):
@@ -317,11 +302,9 @@ class FrequencyOrder(ProgramTest):
                     self.assertGreater(math.log2(coarse / fine), least)
 
     def bending(self, factor):
-        """Returns the frequency [Hz] of the slender beam, where omega = factor sqrt(EI/rho A)/L^2."""
         return factor * math.sqrt(E * SECTION["Iz"] / (RHO * SECTION["A"])) / (2 * math.pi)
 
     def test_slender_bending(self):
-        """The frequency factors are 3.51602 and 22.0345 for a cantilever, and 22.3733 for a free bar."""
         for formulation in ALL:
             for factor, held in ((3.5160152685, ", hold: all"), (22.034491565, ", hold: all"),
                                  (22.373285448, "")):
@@ -362,7 +345,6 @@ class FrequencyOrder(ProgramTest):
                     more=f"springs:\n  s: {{to: b, stiffness: [{stiffness!r}, 0, 0, 0, 0, 0]}}\n")
 
     def test_warping(self):
-        """The decay length of warping is 0.3 to 0.03 of the member length."""
         for decay in (3, 30):
             section = {**SECTION, "Iw": G * SECTION["It"] / E / decay**2}
             self.fourth(WARPING, warped(section), constants=section, least=3.4, meshes=(16, 32),

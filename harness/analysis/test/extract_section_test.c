@@ -16,9 +16,7 @@ static void statics(const element_type *e, ask_tally *tally, int elements)
     scenes_ask(BARS, e, elements, &a, "load=all");
     if (!ask_count(tally, &a, "statics of %d elements", elements))
         return;
-    const double b = 1.3, /* length beyond the position 0.35 */
-        top = 0.5 / 0.9; /* position of the extreme of Mz, where its derivative is zero: 0.4 - 0.9 b
-                            + 0.1 */
+    const double b = 1.3, top = 0.5 / 0.9;
     const double exact[] = {0.5 + 0.1 * b,
                             0.4 - 0.9 * b,
                             -0.3 + 0.3 * b,
@@ -54,7 +52,7 @@ static double arc(double top, double u)
 static double elastica(double beyond)
 {
     double low = 0.5, high = 0.99999, least = 0, most;
-    for (int i = 0; i < 100; i++) { /* finds the sine at the tip for which theta = 0 at the root */
+    for (int i = 0; i < 100; i++) {
         const double top = (low + high) / 2;
         *(arc(top, sqrt(top)) < 2 ? &low : &high) = top;
     }
@@ -118,8 +116,6 @@ static void twists(const element_type *e, ask_tally *tally)
                  coarse[i], fine[i]);
 }
 
-/* A flat bar that is free to warp, under tension, bending and torsion at its tip. The normal stress
- * at the root is N/A + M/W. The shear stress is that of Saint-Venant torsion. */
 static void flat_bar(const element_type *e, ask_tally *tally)
 {
     const double w = 0.05, h = 0.004, l = 0.3;
@@ -132,9 +128,8 @@ static void flat_bar(const element_type *e, ask_tally *tally)
     scene_free(&s);
     if (!ask_count(tally, &a, "flat bar"))
         return;
-    const double N = 200 / (w * h), M = 3 * l * 6 / (w * h * h),
-                 tau = 2 * h / c.It, /* maximum shear stress on the long sides, for w/h > 10 */
-        exact[] = {N + M, N - M, N + 0.75 * M, sqrt(N * N + 3 * tau * tau)};
+    const double N = 200 / (w * h), M = 3 * l * 6 / (w * h * h), tau = 2 * h / c.It,
+                 exact[] = {N + M, N - M, N + 0.75 * M, sqrt(N * N + 3 * tau * tau)};
     for (int i = 0; i < a.count; i++)
         gsl_test_rel(a.value[i], exact[i], 1e-7, "%s: stress %s of a flat bar", e->name, a.name[i]);
 }
@@ -171,9 +166,6 @@ static void turns_beside_rest(const element_type *e, ask_tally *tally, int turni
                  turning_first);
 }
 
-/* A strip that is free to shorten and to warp, twisted by 0.6 rad. The twist rate kappa is uniform,
- * M = G J kappa + 4 E c kappa^3 with the section constant c (wagner_torque), and the edges are in
- * tension. */
 static void strip(const element_type *e, ask_tally *tally)
 {
     const double w = 0.04, h = 1e-3, l = 0.4;
@@ -194,8 +186,6 @@ static void strip(const element_type *e, ask_tally *tally)
         gsl_test_rel(a.value[i], exact[i], 1e-5, "%s: %s of a twisted strip", e->name, a.name[i]);
 }
 
-/* A blade that rotates about z, with its root on the axis: N = rho A Omega^2 (l^2 - x^2)/2, apart
- * from its elongation of about 1e-6. */
 static void blade(const element_type *e, ask_tally *tally)
 {
     const double l = 0.5, omega = 20;
@@ -209,8 +199,6 @@ static void blade(const element_type *e, ask_tally *tally)
     gsl_test_rel(a.value[1], root_stress, 1e-4, "%s: stress at the root", e->name);
 }
 
-/* A channel under a force at its centroid, clamped at the root. The torque about the shear centre
- * is F e, where e is its distance from the centroid. At the root, B = F e/lambda tanh(lambda l). */
 static void channel(const element_type *e, ask_tally *tally)
 {
     static answer a;
@@ -224,8 +212,6 @@ static void channel(const element_type *e, ask_tally *tally)
         return;
     const double l = 1.5, F = 40, k = sqrt(80e9 * c.It / (200e9 * c.Iw)),
                  B = F * fabs(c.ys) / k * tanh(k * l);
-    /* the stress is that at the outer corner of flange and web; web: distance of the shear centre
-     * of a thin C from the web */
     const double f = 0.05, h = 0.1, t = 3e-3, web = 3 * f * f / (h + 6 * f),
                  corner = h / 2 * (web + t / 2) + t / 2 * (web - t / 2),
                  most = F * l * (h + t) / 2 / c.Iy + B * corner / c.Iw;
@@ -251,8 +237,6 @@ static void tapered(const element_type *e, ask_tally *tally, int elements)
                      a.name[i], elements);
 }
 
-/* An angle section whose legs change along the member, so that its principal axes rotate. End
- * forces refer to the axes of the end sections. */
 static void turning_axes(const element_type *e, ask_tally *tally, int elements)
 {
     const double F[3] = {0, 30, 50};
@@ -311,7 +295,6 @@ static void everything(scene *s, int whole)
     }
 }
 
-/* Results are the same if the member is reversed, divided into two, or described in millimetres. */
 static void in_other_words(const element_type *e, ask_tally *tally)
 {
     static const scene_edit edits[] = {

@@ -6,7 +6,6 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# Clamped column of length 1, EI = 1 and mass 1. P/EA = 2e-6, so shortening is negligible.
 COLUMN = """beamwork: 1
 sections: {s: {constants: {A: 1e7, Iy: %(Iy)r, Iz: 1, It: 1, Ip: 2e-6}, young: 1, shear_modulus: 1e3%(density)s}}
 nodes: {base: {at: [0, 0, 0], hold: all}, tip: {at: %(at)s%(tip)s}}
@@ -63,8 +62,6 @@ def arch(n, pressure, density=""):
         ", ".join(f"m{i}: {{from: n{i}, to: n{i + 1}, section: s, y: [0, 1, 0]}}" for i in range(n)),
         ", ".join(f"p{i}: {{distributed: [0, {-pressure!r}, 0], on: m{i}, axes: member, follower: true}}" for i in range(n)))
 
-# A shaft whose ends can rotate about the transverse axes. Its far end is twisted, and then the ends are pushed
-# together.
 WOUND = """beamwork: 1
 sections: {s: {constants: {A: 1e6, Iy: 1, Iz: 1, It: 1}, young: 1, shear_modulus: 1%s}}
 nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz, rx]}, b: {at: [1, 0, 0], hold: [uy, uz], drive: {rx: wind}}}
@@ -103,7 +100,6 @@ class Flutter(ProgramTest):
             self.assertLess(abs(7*found/40.0537 - 1), 1e-5, formulation)
 
     def test_any_load(self):
-        """The critical load is independent of the base load, from 0.001 to 1000 times the critical load."""
         for size in (0.02, 19, 21, 20000):
             self.assertLess(abs(size*self.critical(tip_force(size))/20.05132 - 1), 1e-6, size)
 
@@ -117,7 +113,6 @@ class Flutter(ProgramTest):
             self.assertLess(abs(self.critical(tip_force(1), tip=f", mass: {mass}")/exact - 1), 2e-5, mass)
 
     def test_ziegler(self):
-        """The critical load of almost rigid bars differs from that of rigid bars by terms of order 1/EI."""
         for EI, part in ((1e4, 1e-4), (1e5, 1e-5)):
             for formulation in FORMULATIONS[:2]:
                 found = self.values(ZIEGLER % {"EI": EI}, 1, formulation)[0][0]
@@ -135,15 +130,11 @@ class Flutter(ProgramTest):
         self.assertRegex(said, "no critical load from path 0 to .* no divergence, and flutter requires mass; add a density to a section")
 
     def test_of_the_mesh(self):
-        """Beck's column without mass has no critical load. A critical load on a coarse mesh must be reported as an
-        artefact."""
         for formulation in ("collocation", "beamw", "geometrically_exact"):
             _, said = self.values(COLUMN % {**DEFAULT, "load": tip_force(1), "density": ""}, 4, formulation, status=1)
             self.assertRegex(said, "is an artefact of the mesh|no critical load from path 0 to", formulation)
 
     def test_wound(self):
-        """Greenhill's shaft, twisted by less or more than half a revolution and then compressed, has a double point
-        at M^2/4 + P = pi^2, with and without mass. At a torque of 2 pi, it buckles without compression."""
         for density in ("", ", density: 1e-9"):
             for angle in (0, 1e-9, 1, 3, 3.5, 5, 10):
                 found = self.values(WOUND % (density, angle), 8, "collocation")[0][0]
@@ -190,8 +181,6 @@ class Flutter(ProgramTest):
                     self.assertGreater(abs(found[2]/plain[2] - 1), damping/100)
 
     def test_growth(self):
-        """Sum and product of the squares of the two frequencies are smooth functions of the load, also where the
-        frequencies coincide."""
         sums = []
         for size in (20.0, 20.04, 20.06, 20.1):
             (f0, f1, growth), _ = self.values(COLUMN % {**DEFAULT, "load": tip_force(size), "quantities": MOTIONS, "Iy": 100.0})
@@ -210,8 +199,6 @@ class Flutter(ProgramTest):
             self.assertEqual(self.values(COLUMN % {**DEFAULT, **dead, "more": zero})[0], plain, zero)
 
     def test_arch(self):
-        """The assembled tangent of the arch is unsymmetric on coarse meshes, and symmetric in the limit of fine
-        meshes."""
         for density in ("", ", density: 1e-6"):
             for formulation in FORMULATIONS[:2]:
                 found = [self.values(arch(n, 3.0, density), 1, formulation)[0][0]*3 for n in (8, 16)]

@@ -62,8 +62,6 @@ loads: {{{loads}}}
 class FreeStrains(ProgramTest):
 
     def test_cantilever(self):
-        """Under uniform free strains, a cantilever becomes a stress-free arc. Linear analyses compute this
-        displacement to first order."""
         kappa, warm = -ALPHA * 50e3, ALPHA * 100
         text = beam("[]", loads="t: {temperature: 100, gradient: [50e3, 0], on: m}", more="""
 analyses: {li: {linear: {}}, st: {static: {stations: [0.5, 1]}}}
@@ -108,8 +106,6 @@ quantities:
                     self.assertIn("can move along", quantity["reason"])
 
     def test_prestressed_mechanism(self):
-        """The ties have stiffness only because of pretension or cooling. The message for linear statics and for
-        buckling must name the static path."""
         for pretension, heat in ((8000, 0), (8000, -20), (0, -20)):
             text = TIES % (f", pretension: {pretension}" * (pretension > 0), heat)
             u, forces, frequency = self.ties(pretension, heat)
@@ -128,8 +124,6 @@ quantities:
                     self.assertIn("; if pretension or temperatures make the structure stiff, use a static path", got[name]["reason"])
 
     def ties(self, pretension, heat):
-        """Returns the displacement of a mass between two hinged bars, the forces in the bars and the lowest
-        frequency."""
         def forces(u):
             a, b = math.hypot(0.4 + u[0], u[1]), math.hypot(0.6 - u[0], u[1])
             return pretension + E * A * (a / 0.4 - 1), E * A * (b / 0.6 - 1 - ALPHA * heat), a, b
@@ -198,8 +192,6 @@ quantities:
                     self.assertAlmostEqual(got[name], size, delta=tolerance * abs(size))
 
     def test_length(self):
-        """A member with a short unstressed length is in tension. Two equal members in series, of which one is
-        pretensioned, have half of this pretension."""
         for keys, force in ((", pretension: 500", 500), (f", unstressed_length: {L * (1 - 1e-5)}", E * A * 1e-5),
                             (", strain: [-1e-5, 0, 0]", E * A * 1e-5)):
             text = f"""nodes: {{a: {{at: [0, 0, 0], hold: all}}, b: {{at: [{L}, 0, 0], hold: [uy, uz, rx, ry, rz]}},
@@ -216,8 +208,6 @@ quantities: {{li: {{internal: {{analysis: li, member: n, end: to, resultant: N}}
                         self.assertAlmostEqual(got[name], force / 2, delta=1e-5 * force)
 
     def test_bent(self):
-        """A straight member mounted along an arc between two clamps has the moment EI k. An initially curved member
-        mounted straight has the moment -EI k. If one end is released, both have their stress-free shape."""
         k = 0.5
         for formulation in ("collocation", "geometrically_exact", "sheet_second_consistent"):
             for own, free in ((k, -k), (0, k)):
@@ -238,8 +228,6 @@ quantities:
                     self.assertAlmostEqual(loose["rz"], free * length, delta=1e-6)
 
     def test_stability_and_frequencies(self):
-        """A heated pinned member buckles at alpha T = pi^2 I/(A L^2). Below this temperature, its frequency is
-        f_0 sqrt(1 + N/N_E) with N < 0."""
         text = beam("[ux, uy, uz, rx]", loads="t: {temperature: 1, on: m}", more="""
 analyses: {cold: {modal: {}}, lin: {buckling: {}}, st: {static: {stations: [2, 4]}}, on: {buckling: {about: st}},
            warm: {modal: {about: st}}}
@@ -261,8 +249,6 @@ omit: [rotary_inertia, trapeze]
                 self.assertAlmostEqual(got["f"] / square, math.sqrt(1 - 4 / critical), delta=rough)
 
     def test_in_time(self):
-        """Under slow heating, a clamped-clamped member has the static force, and its energy is the work of the
-        heating."""
         for formulation in ("collocation", "geometrically_exact", "beamw_consistent", "sheet_second"):
             for integrator in ("alpha", "radau"):
                 text = beam("[uy, uz, rx, ry, rz]", loads="t: {temperature: 10, gradient: [100, 0], on: m, time: t^2}",

@@ -60,7 +60,6 @@ static int find(const element_type *e, const request *what, ask_tally *tally, an
     return ask_count(tally, out, "bar, force %g N", what->force);
 }
 
-/* [Hz] frequency of the root k L = `root` */
 static double bending(double root)
 {
     return root * root / (2 * PI * length * length) * sqrt(young * side * side / (12 * density));
@@ -70,8 +69,6 @@ static const double clamped[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.99
                                  14.137168391};
 static const double loose[] = {4.7300407449, 7.8532046241};
 
-/* Bending frequencies occur in pairs. Axial and torsional frequencies lie between them and are
- * counted only if requested. */
 static void cantilever(const element_type *e, ask_tally *tally)
 {
     static answer any, axial, across;
@@ -140,7 +137,6 @@ static double first_root(double t)
     return low;
 }
 
-/* The loads relative to Euler's load are: compression almost 1 and 1/2, tension 1/2 and 20. */
 static void loaded(const element_type *e, ask_tally *tally)
 {
     static const double part[] = {-0.999, -0.5, 0.5, 20};

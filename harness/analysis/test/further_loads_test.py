@@ -47,8 +47,6 @@ def columns(second_moments, wanted):
 
 
 def shortened(load, stiffness):
-    """Returns the critical load of a column that shortens before it buckles. `load` is the critical load without
-    shortening."""
     return scipy.optimize.brentq(lambda P: P*(1 - P/stiffness) - load, load, 2*load, xtol=1e-13*load)
 
 
@@ -70,8 +68,6 @@ class FurtherLoads(ProgramTest):
                     self.assertAlmostEqual(value, right, delta=3e-9*right)
 
     def test_storey(self):
-        """Two critical loads of sway are equal, and the third is that of twist. It must be found, although Newton's method
-        fails within 1e-9 of it."""
         EI, EA, GJ, L, r = 2e4, 2e8, 3.2e3, 2, 0.5
 
         def twist(P):

@@ -10,8 +10,6 @@ STIFFNESS = 3*200e9*0.02*0.01**3/12/LENGTH**3
 
 
 def scene(seed, stations):
-    """Returns a scene of a cantilever between stops that are up to 1e6 times as stiff, and the gaps and stiffnesses
-    of the stops."""
     draw = random.Random(seed)
     stiffness, force = STIFFNESS*10**draw.uniform(0, 6), 10**draw.uniform(0, 2.5)
     nodes, members, springs, gaps = "", "", "", []

@@ -62,14 +62,12 @@ def solve(rows, right):
 
 
 def exact(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
-    """Returns deflection and slope at the tip due to a tip force or a root displacement."""
     amplitude, roots, at, _ = waves(hertz, force, shift, tension, length, **damping)
     return (sum(a*e for a, e in zip(amplitude, at)),
             sum(a*k*e for a, k, e in zip(amplitude, roots, at)))
 
 
 def waves(hertz, force=0.0, shift=0.0, tension=0.0, length=1.0, **damping):
-    """Returns the amplitudes of the exponentials, their exponents, their values at the tip and the force on the root."""
     w = 2*math.pi*hertz
     roots, stiff = beam(hertz, tension, length, **damping)
     at = [cmath.exp(k*length) for k in roots]
@@ -130,7 +128,7 @@ class DampedModesTest(ProgramTest):
         found, ratios = self.masses(1, 2*3*40)
         self.same(found, [20*(-3 + math.sqrt(8)), 20*(-3 - math.sqrt(8))])
         self.same(ratios, [1, 1])
-        found, ratios = self.masses(1, 2*40) # a double eigenvalue has an error of the order of the square root of the machine precision
+        found, ratios = self.masses(1, 2*40)
         self.same(found[:1], [-20], 1e-6)
 
     def test_two_equal_masses(self):
@@ -196,8 +194,6 @@ class DampedModesTest(ProgramTest):
 
 
 class ByModesTest(ProgramTest):
-    """Modal solutions compared with direct solutions of the same scene, and with closed forms."""
-
     def solved(self, text, formulation="collocation", n=8):
         path = self.folder/"scene.yaml"
         path.write_text(text, encoding="utf-8")
@@ -241,7 +237,6 @@ class ByModesTest(ProgramTest):
                 self.close(text, ", solution: modal", formulation, n=4)
 
     def test_few_modes(self):
-        """The stated bound covers the error due to omitted modes and is not much larger than the error."""
         for text in self.scenes():
             for damping in ("", ", damping: {mass: 7, stiffness: 1e-3}"):
                 for modes, most in ((5, 1e-3), (8, 1e-5), (14, 1e-6)):
@@ -252,8 +247,6 @@ class ByModesTest(ProgramTest):
             self.close(lambda k: text(damping + k), ", solution: modal", most=1e-4, least=1e-9)
 
     def test_loops(self):
-        """Closed loops solved with all modes and with few modes: without damping, with an integral, and with
-        different measured and driven components."""
         acts = "path: [0, 1], factor: [0, 0], feedback: {node: tip, component:"
         for loops, commanded in ((f"servo: {{force: [0, 1, 0], on: tip, {acts} uy, proportional: 2000, derivative: 20, integral: 3000}}}}", 1),
                                  (f"servo: {{moment: [0, 0, 1], on: tip, {acts} uy, proportional: 9, derivative: 0.05}}}}, "
@@ -330,7 +323,6 @@ class ByModesTest(ProgramTest):
 
 
 class ExtremesTest(ProgramTest):
-    """Extremes between the frequencies of the analysis, for one mass on a spring, compared with the closed form."""
     OSCILLATOR = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 2e11, shear_modulus: 8e10}}
 nodes: {body: {at: [0, 0, 0], mass: 2, hold: [ux, uz, rx, ry, rz]}, top: {at: [1, 0, 0]}}
@@ -350,8 +342,6 @@ quantities:
                 self.answered("solve", "--scene", path, "-f", "collocation", "-n", 1).stdout)
 
     def test_closed_form(self):
-        """The extremes are independent of the frequencies of the analysis, even if the half-power bandwidth is far
-        below their spacing."""
         hertz = 20/(2*math.pi)
         for ratio in (0.2, 0.01, 1e-5):
             for frequencies in ("1..10/8:log", "1..10/200:log", "[3, 4]"):
@@ -400,7 +390,6 @@ quantities:
 """
 
     def test_what_is_not_excited(self):
-        """Undamped modes that are not excited must not change the extremes: modes of a separate part, and a mode with a node at the force."""
         w = 2*math.pi*numpy.linspace(0.5, 9, 850001)
         k, own = 700/3, 800/3 - w*w
         exact = {"middle": own/(own*(2j*w + 2*k) - 2*k*k), "left": k/(own*(2j*w + 2*k) - 2*k*k)}
@@ -491,7 +480,6 @@ class HarmonicTest(ProgramTest):
                 self.assertRegex(done.stdout + done.stderr, words)
 
     def test_proportional_damping(self):
-        """On a shaking base, damping proportional to mass depends on the absolute velocity."""
         damping = {"by_mass": 7, "by_stiffness": 2e-3}
         keys = ", damping: {mass: 7, stiffness: 2e-3}"
         forced = BEAM % ("hold: all", "", "", keys, FORCED)
@@ -516,7 +504,6 @@ class HarmonicTest(ProgramTest):
         self.near(one, other, 1e-12, "all")
 
     def test_stiffness_of_tables(self):
-        """The stiffness in proportional damping is that of the table segment in which the state lies."""
         text = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e9, shear_modulus: 4e8}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 2}}
@@ -538,8 +525,6 @@ quantities:
         self.assertAlmostEqual(got["im"] / exact.imag, 1, delta=1e-9)
 
     def test_about_a_state(self):
-        """The response of a beam under tension agrees with the closed form. The static path includes the elongation
-        of the beam, the linear analysis does not."""
         loads = "loads: {pull: {force: [2000, 0, 0], on: tip}}"
         stretched = 1 + 2000/(210e9*0.02*0.01)
         for kind, length in (("{static: {stations: [1]}}", stretched), ("{linear: {}}", 1)):
@@ -561,7 +546,6 @@ quantities:
             self.assertLess(abs(one - other), 1e-9*abs(one))
 
     def test_force_in_a_member(self):
-        """The spring moment at the root agrees with that of the exact beam."""
         scene = BEAM.replace("  tip: {at", "  cut: {at: [0, 0, 0]}\n  tip: {at").replace("from: root", "from: cut").replace(
             "springs: {", "springs: {joint: {from: root, to: cut, stiffness: [k, k, k, k, k, k]}, ").replace("c: 15", "c: 15, k: 1e10")
         scene = scene % ("hold: all", "", "", "", "".join(

@@ -1,6 +1,5 @@
 /* Hinges compared with closed forms: a beam, a three-hinged frame, columns, vibration, and
- * snap-through of a truss. The axes of a release are those of the section description, not its
- * principal axes. In a curved member, they are those at the released end. */
+ * snap-through of a truss. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -24,7 +23,6 @@ static void check(const cell_result *r, int i, double exact, double allowed, dou
              there ? r->scene.quantity[i].name : "a quantity", value, exact);
 }
 
-/* With only bending and axial deformation, one element per member is exact at the nodes. */
 static void statics(const char *chosen, double allowed)
 {
     cell_result r;
@@ -91,8 +89,6 @@ static void roof(const char *chosen)
 
 enum { REACTIONS = 3 };
 
-/* Members clamped at their outer ends and joined by hinges. Bits of `released`: reactions that must
- * be zero. All other reactions must differ from zero. */
 static void axes(const char *of, const char *chosen, int n, unsigned released, double least)
 {
     cell_result r;
@@ -129,8 +125,6 @@ static void hinge_tests(void)
 
 #define SPRINGS "harness/analysis/test/springs.yaml"
 
-/* An end released from a clamped node is equivalent to a support that is free in the released
- * component, in every analysis. */
 static void supported(const char *chosen, int dense)
 {
     static const char *const released[] = {"hinge", "two_turns", "ball", "slide"};

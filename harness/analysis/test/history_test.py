@@ -6,7 +6,6 @@ import unittest
 
 from harness.tools.kit.program import ProgramTest, run
 
-# A mass on a spring, with an output point off its centre. The mass has an initial force, velocity or twist.
 PUSHED = """beamwork: 1
 let: {m: 2, k: 200, J: 1, c: 100}
 sections:
@@ -70,7 +69,6 @@ class Histories(ProgramTest):
             self.assertLess(abs(got - e), within*largest)
 
     def test_rates(self):
-        """Errors decrease with the order of the integrator."""
         w, v = math.sqrt(200/2), math.sqrt(100)
         for integrator, coarse, factor in (("radau", 2e-5, 7), ("alpha", 0.06, 3.5)):
             errors = []
@@ -126,7 +124,6 @@ class Histories(ProgramTest):
         self.assertEqual([got[n]["unit"] for n in ("lines", "power", "force")], ["m", "m^2/Hz", "N^2/Hz"])
 
     def test_parseval(self):
-        """Parseval's theorem for an even, an odd and a prime number of stations."""
         for stations, count in (("0..1/60", 60), ("0..1/45", 45), ("0..1/97", 97), ("0..1/2", 2)):
             got, _ = self.curves(SHAKEN % {"shake": "1e-3*(exp(-3*t)*sin(40*t) + t^2)", "stations": stations, "when": ""})
             history = got["history"]["curve_value"][:count]

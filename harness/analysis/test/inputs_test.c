@@ -24,7 +24,6 @@ static double apart(const answer *a, const answer *b)
     return largest;
 }
 
-/* Doubling the input must double its effect on the answer. */
 static void superposition(const scene_input *in, const element_type *e, const answer *without,
                           const answer *with)
 {
@@ -175,7 +174,6 @@ static void law_of_linear(const scene_input *in, const element_type *e)
              off);
 }
 
-/* A static path that ends at the load factor of a continuation must end in the same state. */
 static void law_of_continuation(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer path;
@@ -188,8 +186,6 @@ static void law_of_continuation(const scene_input *in, const element_type *e, co
                  "%s: continuation, %s: the path at its factor", e->name, in->name);
 }
 
-/* A compliance is the derivative of its path. The compliance of the unloaded structure is that at
- * the start of any path. */
 static void law_of_compliance(const scene_input *in, scene_column column, const element_type *e,
                               const answer *with)
 {
@@ -216,8 +212,6 @@ static void law_of_compliance(const scene_input *in, scene_column column, const 
     }
 }
 
-/* Frequencies of the unloaded structure are those at the start of any path. About a path, elements
- * with two nodes have no internal motions, so a small difference is allowed. */
 static void law_of_modal(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer about;
@@ -233,8 +227,6 @@ static void law_of_modal(const scene_input *in, const element_type *e, const ans
              in->name, off);
 }
 
-/* Under small loads, the stresses of a linear analysis and those of the path must change
- * frequencies by equal amounts. */
 static void law_of_modal_linear(const scene_input *in, const element_type *e)
 {
     static answer rest, linear, path;
@@ -262,8 +254,6 @@ static void law_of_modal_linear(const scene_input *in, const element_type *e)
              in->name, off, largest);
 }
 
-/* The modal analysis about a path and a rotation analysis with angular velocity zero use different
- * solvers, but must have equal frequencies. */
 static void law_of_modal_about(const scene_input *in, const element_type *e)
 {
     static answer a;
@@ -285,7 +275,6 @@ static void law_of_modal_about(const scene_input *in, const element_type *e)
     }
 }
 
-/* At the critical load, the lowest frequency about the stresses of a linear analysis is zero. */
 static void law_of_buckling(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer near, nearer;
@@ -306,7 +295,6 @@ static void law_of_buckling(const scene_input *in, const element_type *e, const 
                  g);
 }
 
-/* The first critical load of an arch must be the first critical point of its path. */
 static void law_of_buckling_about(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer a;
@@ -331,8 +319,6 @@ static void law_of_buckling_about(const scene_input *in, const element_type *e, 
                  "%s: buckling about a path, %s: the first critical point", e->name, in->name);
 }
 
-/* At zero frequency, the response is the compliance. Direct and modal solutions with all modes
- * agree. */
 static void law_of_harmonic(const scene_input *in, scene_column column, const element_type *e,
                             const answer *with)
 {
@@ -367,8 +353,6 @@ static void law_of_harmonic(const scene_input *in, scene_column column, const el
              scene_column_name[column], in->name, off, by_modes.reason);
 }
 
-/* A motion starts from equilibrium. The harmonic response about its start is that about the
- * equilibrium state. */
 static void law_of_harmonic_instant(const scene_input *in, const element_type *e)
 {
     static answer state, instant;
@@ -392,7 +376,6 @@ static void law_of_harmonic_instant(const scene_input *in, const element_type *e
              e->name, in->name, off, instant.reason);
 }
 
-/* A static path in rotating axes and a rotation analysis end in the same state. */
 static void law_of_rotation(const scene_input *in, const element_type *e, const answer *with)
 {
     static answer path;
@@ -404,8 +387,6 @@ static void law_of_rotation(const scene_input *in, const element_type *e, const 
              in->name, off);
 }
 
-/* Motions that start from equilibrium remain in it. Inputs that are not functions of time keep
- * their values. */
 static void law_of_motion(const scene_input *in, const element_type *e, int continued)
 {
     static answer path, motion;
@@ -484,8 +465,6 @@ static void obey(const scene_input *in, scene_column column, const element_type 
     }
 }
 
-/* If the table states that an input has an effect in rotating axes or under loads without a
- * potential, it must change the answer. */
 static void part_of_inertia(const scene_input *in, scene_column column, const element_type *e)
 {
     static answer with, without;
@@ -576,8 +555,6 @@ static void alike(const char *name, const char *other, scene_column column, cons
              e->name, scene_column_name[column], name, other, off, one.reason, two.reason);
 }
 
-/* An arm at rest in rotating axes continues to rotate with its drive. Results differ slightly,
- * because the rotation analysis has distributed mass and the motion has lumped mass. */
 static void start_turning(const element_type *e)
 {
     static answer a;

@@ -24,7 +24,6 @@ static double apart_of(double a, double b, double scale)
     return size > 0 ? fabs(a - b) / size : 0;
 }
 
-/* Returns the largest difference of two curves, relative to the largest value of the curve. */
 static double curves_apart(const answer *a, const answer *b, int i)
 {
     double scale = a->scale[i], worst = a->points[i] == b->points[i] ? 0 : INFINITY;
@@ -70,7 +69,7 @@ typedef struct invariants_subject {
     const case_type *type;
     const element_type *formulation;
     ask_tally *tally;
-    int coarse; /* number of elements per member of the coarsest mesh with an answer */
+    int coarse;
 } invariants_subject;
 
 static void ask_about(const invariants_subject *s, int n, int keep_all, scene_edit edit,
@@ -112,9 +111,6 @@ static void same(const invariants_subject *s, const char *what, const answer *be
              quantity_name, apart);
 }
 
-/* Checks that retaining all coordinates does not change the answer. In some formulations, retained
- * warping coordinates make the twist cubic. The difference must then decrease by a factor of eight
- * on the next mesh. */
 static void keep_all(const invariants_subject *s, const answer *fine)
 {
     static answer finer, full;
@@ -144,7 +140,6 @@ static void one_case(const case_type *type, const element_type *e, ask_tally *ta
     const int both = ask_count(tally, &fine, "%s, n = %d", type->name, 2 * s.coarse);
     if (both)
         keep_all(&s, &fine);
-    /* in other formulations, the direction of members causes a discretisation error */
     if (!(e->limits & LIMIT_ORDER_DEPENDENT))
         same(&s, "the other order of nodes changes nothing", &coarse, s.coarse,
              (scene_edit){SCENE_EDIT_REVERSE, 0});
@@ -200,7 +195,6 @@ static void mirrors(const element_type *e)
     ask_conclude(&tally, e, "mirror images");
 }
 
-/* Three equal folds: a rotation by 120 degrees must not change the compliance of the joint. */
 static void thirds(const element_type *e)
 {
     static answer a;

@@ -1,5 +1,4 @@
-/* Linkages with large rotations. A four-bar linkage and a universal joint follow their exact paths
- * without internal forces. The message that rejects a linkage without a drive names the linkage. */
+/* Linkages with large rotations. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -67,7 +66,7 @@ static void add_bars(scene *s, int turning, int *second, int *third)
     scene_add_member(s, first, *second, profile, across);
     const int bar = scene_add_member(s, *second, *third, profile, across);
     scene_add_member(s, *third, last, profile, across);
-    scene_release_end(s, bar, 0, SCENE_RY); /* the member's y axis is the normal */
+    scene_release_end(s, bar, 0, SCENE_RY);
     scene_release_end(s, bar, 1, SCENE_RY);
     scene_add_load(s, SCENE_FORCE, *third, load[0], load[1], load[2]);
 }
@@ -109,8 +108,6 @@ static void solve_four_bar(const char *chosen, double angle, double force, const
     cells_solve(build_four_bar, chosen, 1, r);
 }
 
-/* Without a load, the members must move like rigid bars. The crank rotates by more than half a
- * revolution. */
 static void four_bar(const char *chosen)
 {
     cell_result r;
@@ -281,7 +278,7 @@ static void linkage_tests(void)
 
 #define SPRINGS "harness/analysis/test/springs.yaml"
 
-static const double length = 1.3, kappa = 3.7; /* stiffness of the springs in EI/length */
+static const double length = 1.3, kappa = 3.7;
 
 static void check(const cell_result *r, int i, double exact, double allowed, const char *chosen)
 {
@@ -324,8 +321,6 @@ static void supported(const char *chosen)
     cell_result_free(&r);
 }
 
-/* u is half of the product of wave number and length. The next two functions are zero at a
- * solution: tan u = -2 u/kappa in buckling, tan u + tanh u = -4 u/kappa in vibration. */
 static double buckled(double u)
 {
     return sin(u) + 2 * u / kappa * cos(u);
@@ -355,7 +350,6 @@ static void closed_forms(const char *chosen, int n, double allowed)
     cell_result_free(&r);
 }
 
-/* A very stiff spring is equivalent to a rigid body. */
 static void stiff(const char *chosen)
 {
     cell_result sprung, rigid;

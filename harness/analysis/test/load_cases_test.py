@@ -17,7 +17,6 @@ members:
   ab: {from: a, to: b, section: s, y: [0, 1, 0]}
   bc: {from: b, to: c, section: s, y: [0, 1, 0]PRETENSION}
 """
-# each load and its load case
 LOADS = {"weight": ("gravity: [0, -9.81, 0], on: all", "dead"), "wind": ("distributed: [2, 3, 0], on: bc, from: 0.3", "wind"),
          "hit": ("force: [-40, 5, 0], on: c", "wind"), "twist": ("moment: [0, 0, 2], on: ab, where: 0.4", "live"),
          "sun": ("temperature: 10, gradient: [100, 0], on: bc", "live")}
@@ -102,7 +101,7 @@ quantities:
   e: {energy: {analysis: on, of: strain}}
 """
         for formulation in ("collocation", "beamw_consistent", "sheet_third"):
-            follows = loads().replace("on: ab, where: 0.4", "on: b, follower: true")  # a load with the factor 0 has no effect
+            follows = loads().replace("on: ab, where: 0.4", "on: b, follower: true")
             cases = (HEAD + COMBINATIONS).replace("PRETENSION", "") + follows + analyses.replace(
                 "COMBINED", ", combination: ULS").replace("ALONE", "combination: ULS")
             plain = HEAD.replace("PRETENSION", "") + loads(FACTORS, skip=("live",)) + analyses.replace(

@@ -111,8 +111,6 @@ class Loops(ProgramTest):
         return {q["quantity"]: q for q in record["quantities"]}
 
     def test_poles(self):
-        """The poles of loops with and without an integral, which measure the driven cart or the tool, must be the zeros of
-        the characteristic polynomial. Growth must be reported."""
         for at, gains in (("cart", {"kp": 150, "kd": 7}), ("cart", {"kp": 80, "kd": 12, "ki": 90}),
                           ("tool", {"kp": 3, "kd": 0.02, "ki": 2}), ("tool", {"kp": 60, "kd": 9}), ("cart", {"ki": 40}),
                           ("tool", {"kp": 40, "kd": 8, "ki": 100})):
@@ -127,8 +125,6 @@ class Loops(ProgramTest):
                              max(s.real for s in expected) > 1e-9, (at, gains, expected))
 
     def test_single_mass(self):
-        """A PD loop acts as a spring and a dashpot. With an integral, the characteristic polynomial is cubic, even
-        without a spring."""
         text = """beamwork: 1
 sections: {bar: {constants: {A: 1e-4, Iy: 1e-9, Iz: 1e-9, It: 1e-9}, young: 1e6, shear_modulus: 8e5}}
 nodes:
@@ -153,8 +149,6 @@ omit: [trapeze, wagner_moments, wagner_torque]
                 self.assertAlmostEqual(complex(-found[f"d{i}"]["value"], 2*np.pi*found[f"f{i}"]["value"])/s, 1, 11)
 
     def test_slow_integral(self):
-        """A pole whose magnitude is far below that of the modes. All modes must be found, and growth must be
-        reported."""
         k, own = 2e7, np.array([[3e4, -3e4], [-3e4, 3e4]])
         rate = "  rate: {force: [1, 0, 0], on: tool, feedback: {node: tool, component: ux, derivative: -20}}\n"
         for ki, kd in ((1e-2, 0), (1e-4, 0), (1e-8, 0), (1e-2, -20), (1e-5, -20), (1e-8, -20)):
@@ -187,8 +181,6 @@ loads:
             self.assertEqual("a mode grows at 3.754" in done.stderr, kd < 0, done.stderr)
 
     def test_integral_of_drive(self):
-        """An integral loop drives a component with prescribed motion. It has no effect on the motion and no pole;
-        its force changes the reaction."""
         plant = Plant()
         (self.folder / "scene.yaml").write_text((SCENE % {
             "k1": 300, "c": 4, "at": "tool", "time": "", "still": "", "analyses": POLES + STEADY.replace("[0, ", "["),
@@ -205,7 +197,6 @@ loads:
             self.assertLess(abs(complex(curves["wall_real"][i], curves["wall_imaginary"][i])/wall - 1), 1e-9)
 
     def test_equal_real_poles(self):
-        """Round-off must not convert two equal real poles to a complex pair."""
         loop = "  %(c)s: {force: [%(x)s], on: cart, feedback: {node: cart, component: u%(c)s, proportional: 5, derivative: %(kd)s, integral: 3}}\n"
         for kd in (3, 100, 200):
             text = """beamwork: 1
@@ -269,7 +260,6 @@ quantities:
                 self.assertLess(abs(one/s - 1), 1e-6, (n, gains, i, one, s))
 
     def test_responses(self):
-        """Responses agree with the closed form. At zero frequency, an integral makes the control error zero."""
         quantities = "".join(read(f"{node}_{name}", node=node, component="ux", **keys) for name, keys in INPUTS.items()
                              for node in ("cart", "tool")) + "".join(
             read(f"wall_{name}", node="base", component="ux", of="reaction", **keys) for name, keys in INPUTS.items())
@@ -320,7 +310,6 @@ omit: [trapeze, wagner_moments, wagner_torque]
             self.assertLess(abs(complex(found["re"]["value"], found["im"]["value"]) - expected), 1e-9*abs(expected) + found["re"]["rounding"])
 
     def test_unstable(self):
-        """An unstable closed loop has no steady-state response; the open loop has one."""
         plant = Plant(at="tool", kp=60, kd=9)
         quantities = read("r", node="cart", component="ux", force="cart", along="ux")
         done = self.solve(plant, STEADY, quantities, at="tool", code=1, kp=60, kd=9)

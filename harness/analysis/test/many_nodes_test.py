@@ -23,7 +23,6 @@ members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}
 SLENDER = "omit: [shear, rotary_inertia]\n"
 TIP = "{displacement: {analysis: run, node: b, component: %s}}"
 
-# Consistent mass matrix of an element for translations only, by Gauss quadrature.
 OWN_MASS = """
 static status inertia(const element_data *d, const node_state x[], const element_rotating_frame *frame,
                       inertia_output *out)
@@ -97,8 +96,6 @@ serve(prepare, strain, name="cubic_py", summary="four nodes", source="quaternion
 
 
 class Many(PluginTest):
-    """Elements with five nodes at Gauss-Lobatto points, and with four equally spaced nodes."""
-
     @classmethod
     def setUpClass(cls):
         super().setUpClass()
@@ -224,7 +221,6 @@ quantities: {{u: {TIP % 'uy'}}}
         self.near(self.solved(text, n=4)["u"], -3 * exact, 1e-8)
 
     def test_arc_on_a_foundation(self):
-        """A stiff arc moves like a rigid body on its foundation, whose axes turn along it."""
         k, sections = (5.0, 20.0), HEAD.replace(f"young: {E}", "young: 1e16").replace(f"shear_modulus: {G}", "shear_modulus: 1e16")
         text = sections + f"""plane: xy
 nodes: {{a: {{at: [0, 0, 0]}}, b: {{at: [1, 1, 0]}}}}
@@ -234,7 +230,7 @@ analyses: {{run: {{linear: {{}}}}}}
 quantities: {{x: {TIP % 'ux'}, y: {TIP % 'uy'}}}
 """
 
-        def part(t, i, j):  # of the stiffness for rigid motions ux, uy, rz about a
+        def part(t, i, j):
             moved = numpy.array([[1, 0, math.cos(t) - 1], [0, 1, math.sin(t)]])
             axes = numpy.array([[math.cos(t), math.sin(t)], [-math.sin(t), math.cos(t)]]) @ moved
             return float(axes[:, i] * k @ axes[:, j])

@@ -1,5 +1,4 @@
-/* Abscissas of curves, and limit points. The load factor has an extremum at a limit point, but not
- * at a bifurcation. */
+/* Abscissas of curves, and limit points. */
 #include <float.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -90,7 +89,6 @@ static void abscissas(int continued)
         gsl_test(moved->value[i] != plain->value[i], "%s: values of point %d", what, i);
         gsl_test_abs(moved->x[i], times * plain->x[i] + shift, 1e-15, "%s: abscissa of point %d",
                      what, i);
-        /* in a continuation, the abscissa is the controlled coordinate */
         gsl_test_abs(plain->x[i],
                      continued ? plain->value[i] : scene_path_of(&r.scene.analysis[0])->value[i],
                      1e-9, "%s: point %d itself", what, i);
@@ -102,7 +100,6 @@ static void abscissas(int continued)
     cell_result_free(&r);
 }
 
-/* Returns the number of extrema of the load factor. */
 static int turns_of(const curve *c)
 {
     int turns = 0;
@@ -160,7 +157,6 @@ static void events(void)
              count[EVENT_BIFURCATION]);
 }
 
-/* The points of a path and the fraction of the work must be independent of the length unit. */
 static void units(const char *name, const char *parameters)
 {
     cell_result in_metres, r;
@@ -201,8 +197,6 @@ static int found(const char *name, const char *parameters, const element_type *e
     return ask_count(tally, out, "%s, %s, n = %d", name, parameters, n);
 }
 
-/* As GA tends to infinity, the deflection of the cantilever tends to that of the elastica (L = 1,
- * load 10, EI = 10). */
 static void stiff_in_shear(const element_type *e)
 {
     static const int n[2] = {4, 16};
@@ -246,7 +240,7 @@ static void nearly_straight(const element_type *e)
     ask_tally tally = {0};
     const double straight = curved(e, 0, &tally), more = curved(e, 1e-4, &tally),
                  slope = (more - curved(e, -1e-4, &tally)) / 2e-4;
-    const int least = isnan(slope) ? 0 : -15; /* 0: no curvature is checked */
+    const int least = isnan(slope) ? 0 : -15;
     for (int power = -5; power >= least; power -= 2) {
         const double curvature = pow(10, power), change = curved(e, curvature, &tally) - straight;
         gsl_test_abs(change, slope * curvature, 1e-3 * fabs(slope) * curvature + 2e-14,
@@ -282,7 +276,6 @@ static void limits_tests(void)
 
 static const double length = 1;
 
-/* Checks which sequences of corrections are accepted as converged. */
 static void sequences(void)
 {
     static const struct {
@@ -358,8 +351,6 @@ static void pushed(const element_type *e, ask_tally *tally, double slenderness,
                  e->name, slenderness, n, k, a.value[k] / exact - direction[k]);
 }
 
-/* One element that is too slender. The rounding errors of its forces are equal in every iteration,
- * so the corrections do not show them. */
 static void too_slender(const element_type *e)
 {
     static const double direction[3] = {0.8, 0.6, 0};
@@ -382,8 +373,6 @@ static void slender_bars(const element_type *e, ask_tally *tally)
                 pushed(e, tally, slenderness, direction[d], n);
 }
 
-/* With this number of elements, only two digits of a factorisation are correct. After refinement,
- * compliances must agree with those on a coarser mesh. */
 static void compliance_of_many(void)
 {
     static answer coarse, fine;

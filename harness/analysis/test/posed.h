@@ -60,13 +60,10 @@ static scene_load *spread(scene *s, double from, double to)
     return load;
 }
 
-/* Makes the section warp and adds an eccentric force with a potential, which twists the
- * cantilever. */
 static void twist(scene *s)
 {
     s->section[0].constants.Iw = 5e-9;
-    scene_set_body(s, TIP,
-                   (scene_body){.inertia = {2, 1, 1, 0, 0, 0}}); /* the body must be added first */
+    scene_set_body(s, TIP, (scene_body){.inertia = {2, 1, 1, 0, 0, 0}});
     scene_add_load(s, SCENE_FORCE, scene_add_attached(s, TIP, 1, 0.2, 0), 0, 5, 40);
 }
 
@@ -297,7 +294,6 @@ static void add(scene *s, const char *name)
 #undef IS
 }
 
-/* Adds the entries that the input requires. */
 static void carry(scene *s, const char *name)
 {
     static const char *const held[] = {"temperature",       "strain of a member", "pretension",
@@ -315,12 +311,11 @@ static void carry(scene *s, const char *name)
 
 static const double end_of_continuation = 0.01;
 
-/* A scene for one row and one column of the table. */
 typedef struct posed {
     const char *name;
     scene_column column;
     int with;
-    double times; /* factor of the input */
+    double times;
     double size;  /* factor of all loads, strains and motions */
     double grown; /* additional factor of loads that are not functions of the path */
     double end;   /* end of the static path */
@@ -391,7 +386,6 @@ static int move(scene *s, int from, scene_column column)
                                            .step = 1e-3});
 }
 
-/* Adds the analysis of the column, and before it the analysis on which it is based. */
 static int analyse(scene *s, const posed *p)
 {
     const scene_column column = p->column;
@@ -519,8 +513,7 @@ static void strain(scene_member *m, double length, double times)
 static void structure(const posed *p, scene *s)
 {
     static const double from = 0, whole = 1;
-    if (p->column == SCENE_OF_BUCKLING_ABOUT &&
-        !p->follows) /* the cantilever flutters under the follower force */
+    if (p->column == SCENE_OF_BUCKLING_ABOUT && !p->follows)
         arch(s);
     else
         base(s);
@@ -529,11 +522,9 @@ static void structure(const posed *p, scene *s)
         add(s, p->name);
     else
         carry(s, p->name);
-    /* the analysis that precedes the harmonic analysis rejects feedback */
     if (p->with && strcmp(p->name, "feedback") == 0 &&
         (p->column == SCENE_OF_HARMONIC_LINEAR || p->column == SCENE_OF_HARMONIC_ABOUT))
         scene_set_factor(s, s->loads - 1, 2, (const double[]){0, 1}, (const double[]){0, 0});
-    /* the limit-point search requires elements of equal length */
     for (int i = 0; i < s->loads && p->column == SCENE_OF_BUCKLING_ABOUT; i++)
         for (int k = 0; k < 2; k++)
             s->load[i].range[k] = round(2 * s->load[i].range[k]) / 2;

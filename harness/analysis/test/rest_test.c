@@ -20,7 +20,7 @@ enum { FORMULATIONS = 64 };
 
 typedef struct rest_tally {
     int points, checked, not_offered;
-    int of[FORMULATIONS]; /* number of checks of each formulation */
+    int of[FORMULATIONS];
 } rest_tally;
 
 static double dimension(const scene *s)
@@ -125,8 +125,6 @@ static void rests(const sweep_point *p, const formulation *chosen, int elements)
     if (outcome == STATUS_OK) {
         outcome = solve_scene(&s, m, NULL, &r, &f);
         worst = outcome == STATUS_OK ? largest(&s, &r, &quantity_name) : INFINITY;
-        /* an arc beyond the declared limit of its element is rejected, and the message names the
-         * limit */
         if (outcome == STATUS_NOT_CONVERGED && chosen->type->limits & LIMIT_FLAT_ARC &&
             strstr(f.text, "radii of gyration") != NULL)
             worst = 0;

@@ -1,6 +1,5 @@
-/* Structures in steady rotation. Results must be independent of the frame, the option values of
- * the formulation and the reference point of a body. The elongation of a thick beam has a closed
- * form. */
+/* Structures in steady rotation. Results must be independent of the frame, the option values of the
+ * formulation and the reference point of a body. */
 #include <gsl/gsl_math.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -83,8 +82,6 @@ static const parameter_type with_body_parameters[] = {
     {0},
 };
 
-/* Builds an inclined channel that rotates about an axis next to it. If value[BODY] is not zero, a
- * rigid arm connects its tip to another node. */
 static status build_with_body(const double value[], scene *s, fault *f)
 {
     (void)f;
@@ -111,8 +108,6 @@ static status build_with_body(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* The centrifugal and gyroscopic terms of a body with an offset are independent of its reference
- * point. */
 static void reference_point(void)
 {
     static const case_type type = {.name = "with_body",
@@ -165,8 +160,6 @@ static void at_rest(void)
     cell_result_free(&turning);
 }
 
-/* A beam that points towards the axis buckles under its own centrifugal force; the result must
- * report the instability. */
 static void instability_is_named(void)
 {
     const char *const inward[] = {"hub_radius=-2", "omega_star=4", NULL};
@@ -221,7 +214,6 @@ static void free_beam_tests(void)
 {
     frequencies("beamw_vlasov", 32, 1e-5);
     frequencies("beamw_first", 32, 1e-5);
-    /* at 600 elements, round-off in the assembly is noticeable, so solutions are refined */
     frequencies("beamw_vlasov", 600, 2e-7);
     frequencies("beamw_vlasov", 2400, 2e-7);
 }
@@ -311,8 +303,6 @@ static void frame_of_strips(void)
     }
 }
 
-/* Rounding errors of equal elements are equal, so their sum is much larger than that of independent
- * errors. */
 static void equal_elements(void)
 {
     const double critical = solve_value_of("lateral_buckling", "geometrically_exact", 256, 0,
@@ -320,8 +310,6 @@ static void equal_elements(void)
     gsl_test_rel(critical, 16.93613215047, 1e-6, "lateral buckling with 512 elements");
 }
 
-/* Two elements between fork supports have 14 modes, of which two are axial. In some of the others,
- * cross-sections at nodes rotate and warp without displacement. */
 static void modes_in_place(void)
 {
     for (int keep_all = 0; keep_all < 2; keep_all++)

@@ -34,8 +34,6 @@ quantities:
   lag:  {frequency: {analysis: r, which: 0}, unit: Hz}
   flap: {frequency: {analysis: r, which: 1}, unit: Hz}
 """
-# Under the centrifugal force on its mass, the wire behaves almost as a string. Its elements are longer than the
-# boundary layer of bending.
 WIRE = """beamwork: 1
 let: {d: 1e-3}
 sections: {wire: {constants: {A: pi*d^2/4, Iy: pi*d^4/64, Iz: pi*d^4/64, It: pi*d^4/32}, young: 2e9, shear_modulus: 1e9, density: 7800}}
@@ -48,12 +46,11 @@ quantities: {flap: {frequency: {analysis: r, which: 0, family: bending_z}, unit:
 EI, GJ, EA = 200e9*math.pi*0.02**4/64, 80e9*math.pi*0.02**4/32, 200e9*math.pi*0.01**2
 LENGTH, MASS, DIAMETRAL = 0.5, 5, 0.02
 K11, K12, K22 = 12*EI/LENGTH**3, -6*EI/LENGTH**2, 4*EI/LENGTH
-FIRST = math.sqrt(K11/MASS)  # first critical speed of JEFFCOTT
+FIRST = math.sqrt(K11/MASS)
 DEFAULT = {"flat": 1.0, "density": 1e-6, "polar": 0.04, "omega": 300.0, "last": 5, "omit": "shear"}
 
 
 def bending(omega, polar):
-    """Returns |w - W| for the real roots w of det(K - w^2 M + w W G) = 0."""
     def value(w):
         return (K11 - MASS*w*w)*(K22 - DIAMETRAL*w*w + polar*omega*w) - K12*K12
     limit = 10*(FIRST + math.sqrt(K22/DIAMETRAL) + polar/DIAMETRAL*omega)
@@ -123,8 +120,6 @@ class Rotors(ProgramTest):
                 self.close(self.frequencies(SHAFT % DEFAULT, formulation, n), expected(300, 0.04), 300, 2e-9)
 
     def test_masses(self):
-        """At the density 7.85 kg/m^3, the mass of the shaft is 2e-4 times that of the disc. Its effect on the
-        frequencies is of this order of magnitude."""
         for density in (7.85, 1e-3, 1e-6, 1e-9, 1e-12):
             for n in (2, 16):
                 found = self.frequencies(SHAFT % {**DEFAULT, "density": density}, "collocation", n)
@@ -156,7 +151,6 @@ class Rotors(ProgramTest):
                 self.assertIn("critical point", done.stderr)
 
     def known(self, scene, formulation, n, exact, within, floor=2e-13):
-        """Checks that errors are within the stated round-off, which must be below `within`."""
         done = self.solved(scene, formulation, n)
         self.assertEqual(len(done["quantities"]), len(exact))
         for q, right in zip(done["quantities"], exact):
@@ -166,8 +160,6 @@ class Rotors(ProgramTest):
             self.assertLess(abs(q["value"]/right - 1), q["rounding"] + floor, (formulation, n, q["quantity"]))
 
     def test_massless(self):
-        """Only three coordinates have mass, so there are three frequencies. With E = 200e9 Pa and 32 elements, the
-        matrix has only three correct digits for the soft modes, but frequencies must have all digits."""
         exact = (math.sqrt(400/9 + 1/0.81)/2/math.pi, math.sqrt(400*(1 + 1/9) + 1/0.81)/2/math.pi)
         for young, stretch in (("20e9", 1e-5), ("200e9", 1e-6)):
             for formulation in ("geometrically_exact", "collocation", "beamw"):
@@ -176,7 +168,7 @@ class Rotors(ProgramTest):
                     scene = ARM % young
                     values = [q["value"] for q in self.solved(scene, formulation, n)["quantities"]]
                     first = first or values
-                    for value, right in zip(first, exact):  # the exact values are those of a rigid arm
+                    for value, right in zip(first, exact):
                         self.assertLess(abs(value/right - 1), stretch, (formulation, young))
                     self.known(scene, formulation, n, first, 1e-10)
 
@@ -187,8 +179,6 @@ class Rotors(ProgramTest):
             self.assertIn("use fewer elements", q["reason"])
 
     def test_uncertainties(self):
-        """Errors are within the stated round-off. Near the critical speed, one frequency is almost zero and has
-        fewer correct digits."""
         at = critical(0.04)
         for formulation in ("collocation", "geometrically_exact", "beamw", "sheet_third"):
             for n in (1, 4, 16, 64):
@@ -216,8 +206,6 @@ class Rotors(ProgramTest):
                                within)
 
     def test_moment(self):
-        """If a moment may make matrices unsymmetric, both triangles are stored. The gyroscopic matrix must still be
-        added only once."""
         for moment in ("0", "1e-9"):
             scene = SHAFT % {**DEFAULT, "density": 1e-13}
             scene = scene.replace("analyses:", f"loads: {{turn: {{moment: [0, 0, {moment}], on: disc}}}}\nanalyses:")
@@ -235,8 +223,6 @@ class Rotors(ProgramTest):
         return self.solved(scene, "collocation", n)["steps"][-1]["stability"]
 
     def test_stability(self):
-        """With shaft stiffnesses k and 1.3 k in the two planes, K has 0, 0, 1, 2 and 2 negative eigenvalues at
-        increasing speeds."""
         for part, said in ((0.5, "stable"), (0.9, "stable"), (1.05, "unstable: grows"),
                            (1.2, "stable without damping"), (1.5, "stable without damping")):
             scene = JEFFCOTT % {**DEFAULT, "flat": 1.3, "omega": part*FIRST, "last": 0}
@@ -246,8 +232,6 @@ class Rotors(ProgramTest):
             self.assertEqual("stable without damping" in told, part > 1.1, told)
 
     def test_round_shaft(self):
-        """With equal stiffnesses in both planes, the frequencies in the rotating frame are |w -+ W|. Without
-        damping, the shaft is stable above the critical speed."""
         for part in (0.5, 0.999, 1.001, 1.5, 3.0):
             scene = JEFFCOTT % {**DEFAULT, "omega": part*FIRST, "last": 1}
             right = sorted(abs(FIRST*(1 + s*part))/2/math.pi for s in (-1, 1))
@@ -256,7 +240,6 @@ class Rotors(ProgramTest):
             self.assertEqual(self.stability(scene), "stable" if part < 1 else "stable without damping")
 
     def test_without_modes(self):
-        """An odd number of negative eigenvalues of K proves instability; an even number does not."""
         for part, said in ((0.9, "stable"), (1.05, "unstable: grows"), (1.5, "undecided")):
             scene = JEFFCOTT % {**DEFAULT, "flat": 1.3, "omega": part*FIRST, "last": 0}
             scene = scene.replace("frequency: {analysis: r, which: n}, unit: Hz",
@@ -331,7 +314,6 @@ class Bearings(ProgramTest):
         return done.returncode, " ".join((done.stdout + done.stderr).split())
 
     def test_journal(self):
-        """The determinant of the dynamic stiffness is zero at the eigenvalues. Responses are columns of its inverse."""
         for formulation in ("collocation", "geometrically_exact", "beamw"):
             got = self.values(JOURNAL, 2, formulation, stiffness=across(*BEARING), damping=across(*FILM),
                               analyses="d: {modal: {damped: yes}}, A: {harmonic: {frequencies: [9]}}, L: {linear: {}}",

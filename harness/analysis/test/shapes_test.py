@@ -74,8 +74,6 @@ class Solution(ProgramTest):
                                       rtol=1e-12)
 
     def test_modes(self):
-        """The first buckling mode is scaled so that its largest displacement is a tenth of the length or its largest
-        rotation is 0.5 rad."""
         _, shapes, _ = self.solve("c_column", "beamw_consistent", 16, "--shapes")
         kinds = list(shapes["kind"].asstr()[()])
         self.assertIn("buckling", kinds)
@@ -88,8 +86,6 @@ class Solution(ProgramTest):
         self.assertAlmostEqual(max(moved / 0.1, turn / 0.5), 1, delta=2e-2)
 
     def test_lines(self):
-        """The line between two nodes is a cubic whose end tangents are the x axes of the nodes times the element
-        length. Cross-sections are perpendicular to it."""
         for formulation in ("sheet_third", "collocation"):
             _, shapes, tables = self.solve("sheet_cantilever", formulation, 1, "--shapes")
             position, length = shapes["position"][-1], tables["points"]["length"][0]
@@ -119,7 +115,6 @@ class Solution(ProgramTest):
         self.assertEqual(size, abs(bimoment[0]))
 
     def test_supports_and_bimoments(self):
-        """The supports of each node are stored as six bits, in the order ux uy uz rx ry rz."""
         _, shapes, _ = self.solve("elastica", "collocation", 2, "--shapes")
         self.assertEqual(sorted(shapes["bodies"][:, 1]), [0, 0b111111])
         _, shapes, _ = self.solve("warping_torsion", "collocation", 4, "--shapes")
@@ -176,7 +171,6 @@ class Solution(ProgramTest):
         area.SetInputData(grid)
         area.Update()
         covered = vtk_to_numpy(area.GetOutput().GetCellData().GetArray("Area")).sum()
-        # the area of the quadrilaterals is almost that of the sheets
         self.assertAlmostEqual(covered / (12 * 0.0681 * 0.0282), 1, delta=2e-3)
 
     def test_vtk_steps(self):

@@ -1,5 +1,4 @@
-/* Singular stiffness matrices. A missing support must be distinguished from round-off, and no wrong
- * result may be reported. */
+/* Singular stiffness matrices. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -74,7 +73,6 @@ static void nothing(scene *s)
     (void)s;
 }
 
-/* free motion of the beam, scaled to the largest component 1; zeros: the beam is supported */
 static const struct {
     const char *what;
     void (*change)(scene *);
@@ -164,8 +162,6 @@ static void all_cases_are_held(void)
     }
 }
 
-/* With a stiffness ratio of 1e-20, or with very many elements, no digit of the result is correct.
- * The analysis must fail, without reporting a missing support. */
 static void round_off(void)
 {
     static const struct {
@@ -199,9 +195,6 @@ static void round_off(void)
     gsl_test(lost < 2, "%d were lost in round-off", lost);
 }
 
-/* The apex of a V with equal arms and different meshes is prescribed along the axis of symmetry.
- * It moves sideways only by round-off, so the drive cannot satisfy a condition on this
- * displacement. */
 static void driver_that_moves_nothing(double half_angle, int condition_component)
 {
     const double c = cos(half_angle), d = sin(half_angle), z[3] = {0, 0, 1}, path[2] = {0, 1},

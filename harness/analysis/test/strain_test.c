@@ -57,8 +57,6 @@ static int solved(scene *s, const element_type *e, ask_tally *tally, int n, answ
     return ask_count(tally, a, "%s, %d elements", s->name, n);
 }
 
-/* Two clamped members, one of which is heated. Then N = -EA eps/2, and the middle node moves by eps
- * L/4. */
 static void clamped(const element_type *e, ask_tally *tally)
 {
     static const double eps = 1e-4, hot[3] = {1e-4, 0, 0}, none[3] = {0};
@@ -121,8 +119,6 @@ static void portal(const element_type *e, ask_tally *tally)
     scene_add_quantity(&s, "N", "N", linear, scene_internal_at(1, 0.5, SCENE_N));
     if (!solved(&s, e, tally, 4, &a))
         return;
-    /* half of the frame: a column under a force at its head, where the beam adds the rotational
-     * stiffness 2 EI/width */
     const double k = E * Iz, head = height * height / (2 * k) / (height / k + width / (2 * k)),
                  flexibility = height * height * height / (3 * k) -
                                head * height * height / (2 * k) + width / (2 * E * A);
@@ -161,8 +157,6 @@ static void pinned(const element_type *e, ask_tally *tally)
     }
 }
 
-/* A heated column between walls is loaded at its middle. The load factor scales the axial forces P
- * and -P in the two halves, but not the thermal force. */
 static void column(const element_type *e, ask_tally *tally)
 {
     static answer a;
@@ -173,7 +167,7 @@ static void column(const element_type *e, ask_tally *tally)
     scene_add_load(&s, SCENE_FORCE, 1, -2, 0, 0);
     scene_add_quantity(&s, "P", "N", scene_add_buckling(&s, SCENE_NONE),
                        scene_critical_factor(1, 0));
-    if (solved(&s, e, tally, 16, &a)) /* root of the determinant of two spans */
+    if (solved(&s, e, tally, 16, &a))
         gsl_test_rel(2 * a.value[0], 28005.43, 1e-5, "%s: critical load of a hot column", e->name);
 }
 
@@ -292,7 +286,6 @@ static void ask_one(const element_type *e, ask_tally *tally, const double R[9], 
     scene_free(&s);
     if (!ask_count(tally, &a, "%s", what))
         return;
-    /* two cantilevers carry the load; their shear deformation is negligible */
     gsl_test_rel(along_force(&a, R), P / 6 / (turn_E * I), 5e-3, "%s: %s", e->name, what);
     gsl_test(!(a.value[4] > 0), "%s: %s has a frequency", e->name, what);
 }
@@ -339,9 +332,6 @@ static void idle_turn_tests(void)
              "a moment that nothing takes is refused (%s)", f.text);
     scene_free(&s);
 }
-
-/* Linear buckling with one constant and one scaled load. If both act along one line, the critical
- * factor is Euler's load minus the constant load. */
 
 enum { NO_MODE, PUSHES, PULLS, BOTH_GROW, CRITICAL, BENT, WAYS };
 

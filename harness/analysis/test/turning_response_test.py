@@ -34,7 +34,6 @@ def quantities():
 
 
 def expected(hertz, what, gain=0.0):
-    """Returns the responses of x, y, y' and of the force on the base to the unit input `what`."""
     s = 2j*np.pi*hertz
     D = np.array([[M*(s*s - W*W) + C[0]*s + K[0], -2*M*W*s], [2*M*W*s + gain, M*(s*s - W*W) + C[1]*s + K[1]]])
     spring = K[0] + C[0]*s
@@ -50,8 +49,6 @@ class TurningResponses(ProgramTest):
         return {c["quantity"]: c["curve_value"] for c in self.record("solve", "--scene", path, "-f", "collocation", "-n", 1)["curves"]}
 
     def test_closed_form(self):
-        """The closed form includes Coriolis forces, spin softening, dashpots and base motion. A feedback loop
-        measures x and drives y."""
         for about, gain in ((PATH, 0), (PATH, 20)):
             loads = "loads: {l: {force: [0, 1, 0], on: m, path: [0, 1], factor: [0, 0], feedback: {node: m, component: ux, proportional: 20}}}" if gain else ""
             found = self.curves((SPRUNG + quantities()).replace("ABOUT", about).replace("KEYS", "").replace("LOADS\n", loads + "\n" if loads else ""))
@@ -81,8 +78,6 @@ class TurningResponses(ProgramTest):
             self.assertAlmostEqual(H[0, 0] / expected(hertz, "fx")[1] if hertz else 1, 1, 9)
 
     def test_motion(self):
-        """In the axes of the driven hub, the response of a flexible arm is the same about a rotation and about an
-        instant of the corresponding motion."""
         text = """beamwork: 1
 sections: {s: {rectangle: {width: 0.01, thickness: 0.02}, young: 70e9, shear_modulus: 26e9, density: 2700}}
 nodes:

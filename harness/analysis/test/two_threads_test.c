@@ -93,8 +93,6 @@ static void compare_file(const char *path, const char *values, const char *with,
     scene_free(&s);
 }
 
-/* Motions with feedback, and motions with a hinge and damped members, which all integrators except
- * the explicit one support. */
 static void compare_motions(void)
 {
     static const char *const values[] = {

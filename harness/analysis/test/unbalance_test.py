@@ -28,7 +28,6 @@ SIX = "ux", "uy", "uz", "rx", "ry", "rz"
 
 
 def matrix(**entries):
-    """Returns the 36 entries of a spring matrix. The keyword `uy_uz` is the entry in row uy, column uz."""
     out = np.zeros((6, 6))
     for name, value in entries.items():
         row, column = name.split("_")
@@ -65,7 +64,6 @@ class Unbalance(ProgramTest):
         """In forward whirl, the response is y + i z = w^2/(K - i q - m w^2 + i c w), and z lags y by 90 degrees."""
         K = 3*E*I/L**3
         for film, cross, damping in ((0, 0, 30), (4e3, 1e3, 40)):
-            # the disc can rotate freely, and without rotary inertia its rotations are those of the shaft
             scene = text(disc="hold: [ux, rx]", stiffness=matrix(uy_uy=film, uz_uz=film, uy_uz=cross, uz_uy=-cross),
                          damping=matrix(uy_uy=damping, uz_uz=damping), quantities=read("uy") + read("uz"))
             found = self.solved(scene.replace(", inertia: [0.01, 0.006, 0.006, 0, 0, 0]", ""))
@@ -76,7 +74,6 @@ class Unbalance(ProgramTest):
                 self.assertAlmostEqual(found["uz_rx"][i]/Z, -1j, 9)
 
     def overhung(self, hertz, speed, k, c, axis_forces):
-        """Returns the responses uy, uz, ry, rz of the disc with gyroscopic moments."""
         w = 2*np.pi*hertz
         b = E*I/L**3
         K = np.array([[12, 0, 0, -6*L], [0, 12, 6*L, 0], [0, 6*L, 4*L*L, 0], [-6*L, 0, 0, 4*L*L]])*b
@@ -98,7 +95,6 @@ class Unbalance(ProgramTest):
                 self.assertLess(abs(found[f"{name}_rx"][i] - value), 1e-9*np.abs(expected).max(), (name, hertz))
 
     def test_modal(self):
-        """With all modes, the response must be the direct solution."""
         damp, parts = matrix(uy_uy=50, uz_uz=20), "".join(map(read, ("uy", "uz", "ry", "rz")))
         stiff = matrix(uy_uy=4e3, uz_uz=9e3)
         direct, modal = (self.solved(text(stiffness=stiff, damping=damp, quantities=parts, solution=solution))
@@ -107,8 +103,6 @@ class Unbalance(ProgramTest):
             self.assertLess(np.abs(modal[name] - values).max(), 1e-8*np.abs(values).max(), name)
 
     def test_axes(self):
-        """An unbalance in a rotation about x acts along y first and along z 90 degrees later; other axes follow by
-        cyclic permutation. The base reaction includes the unbalance force."""
         free = text(root="hold: all", disc="hold: [rx, ry, rz]", stiffness=matrix(ux_ux=1e4, uy_uy=2e4, uz_uz=3e4),
                     damping=matrix(ux_ux=30, uy_uy=30, uz_uz=30),
                     quantities="".join(read(c, axis) for axis in ("rx", "ry", "rz") for c in ("ux", "uy", "uz")))
@@ -124,7 +118,6 @@ class Unbalance(ProgramTest):
                     self.assertLess(abs(found[f"{SIX[component]}_{SIX[3 + axis]}"][i] - x), 1e-9*max(abs(x), 1e-6))
 
     def test_reaction(self):
-        """The unbalance acts on a fixed component. The reaction is minus the unbalance force."""
         found = self.solved(text(disc="hold: [ux, rx], drive: {uy: still}",
                                  motions="motions: {still: {unit: m, path: [0, 1], value: [0, 0]}}\n",
                                  quantities=read("uy", of="reaction") + read("uz")))
@@ -133,7 +126,6 @@ class Unbalance(ProgramTest):
             self.assertAlmostEqual(tilted, -1, 9)
 
     def test_units(self):
-        """In a scene in mm and N, mass has the unit N s^2/mm, so no unit of a result contains kg."""
         lines = []
         for name, component, part in (("shift", "uy", "real"), ("rate", "uy, of: velocity", "imaginary"), ("turn", "rz", "real")):
             lines.append(f"  {name}: {{response: {{analysis: steady, node: disc, component: {component}, part: {part}, "

@@ -1,5 +1,4 @@
-"""Compliances about loaded states compared with finite differences of paths with small loads. Rotations of nodes are
-sequences of angles."""
+"""Compliances about loaded states compared with finite differences of paths with small loads."""
 import numpy
 
 from harness.tools.kit.program import ProgramTest
@@ -84,22 +83,18 @@ class UnitLoads(ProgramTest):
         self.assertLess(numpy.max(numpy.abs(C - D) / numpy.outer(size, size)), 1e-6, words)
 
     def test_sequence(self):
-        """A support fixes one angle of a sequence. Its moment rotates with the node, so it is a reaction and not a
-        load."""
         for x, y in (("held", "free"), ("free", "held"), ("free", "free")):
             text = BENT.replace("angle: X", f"angle: {x}").replace("angle: Y", f"angle: {y}")
             self.alike(self.compliance(text, "b"), self.differences(text, "b", 1e-2), f"{x}, {y}")
-        text = BENT.replace(", {axis: x, angle: X}", "").replace("angle: Y", "angle: free")  # a support that fixes the rotation about the third axis
+        text = BENT.replace(", {axis: x, angle: X}", "").replace("angle: Y", "angle: free")
         self.alike(self.compliance(text, "b"), self.differences(text, "b", 1e-2), "two angles")
 
     def test_diaphragm(self):
-        """The moment of a diaphragm about its normal is not a load, neither on its master nor on a dependent node."""
         text = STOREY.replace("DRIVE", "")
         for node in "AB":
             self.alike(self.compliance(text, node), self.differences(text, node, 1e3), node)
 
     def test_released(self):
-        """If the prescribed master of a diaphragm is released, the moment that moves the floor becomes a load."""
         driven = STOREY.replace("DRIVE", ", drive: {rz: turn}") + "motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.1]}}\n"
         C, R = self.compliance(driven, "A", ", released: [rz]"), turn(self.moved(driven.replace("UNIT", ""), "A", [0] * 6)[3:])
         free, about = STOREY.replace("DRIVE", ""), numpy.arctan2(-R[0, 1], R[1, 1])

@@ -165,7 +165,6 @@ static void near_flutter(void)
         }
 }
 
-/* Damping of members reduces the flutter load, to 10.94 in the limit of small damping. */
 static void damped(void)
 {
     static const double load[] = {10.9, 10.97, 20};
@@ -184,7 +183,6 @@ static void damped(void)
     }
 }
 
-/* Without a load, the matrices are symmetric, and the frequencies are those of a clamped column. */
 static void unloaded(void)
 {
     static const double root[] = {1.8751040687, 4.6940911330, 7.8547574382, 10.995540735};
@@ -209,9 +207,6 @@ static void unsymmetric_tests(void)
     unloaded();
 }
 
-/* A rigid body is equivalent to point masses at nodes that are rigidly attached: at rest, under
- * load and in a rotating frame, for any reference point and orientation of the body. */
-
 enum { AS, SUPPORT, LOADED };
 enum { POINTS, AT_HUB, BESIDE };
 enum { FREE, HINGED };
@@ -230,7 +225,6 @@ static const double mass[MASSES] = {0.31, 0.17, 0.23, 0.41}, hub_at[3] = {0.53, 
                                         {0.58, 0.13, -0.16},
                                         {0.66, 0.02, -0.09}};
 
-/* Returns the equivalent body of the point masses; its centre of mass is relative to `from`. */
 static scene_body body_of_points(const double from[3])
 {
     scene_body b = {0};
@@ -379,9 +373,6 @@ static void body_tests(void)
     algorithms();
 }
 
-/* Classification of constructed modes: each family, any number of half-waves, members in any
- * direction, and modes without displacements of nodes. */
-
 enum { ELEMENTS = 24, MEMBERS = 2, MOST_WAVES = 5, TURN_Y = 4, TURN_Z = 5, WARPING = 6 };
 static const double length = 2;
 
@@ -429,7 +420,7 @@ static void add(const model *m, const double R[9], int member, int k, int waves,
 }
 
 typedef struct modes_part {
-    int component, waves; /* component in the axes of the first member, and number of half-waves */
+    int component, waves;
     double size;
 } modes_part;
 
@@ -470,7 +461,6 @@ static void in_direction(const double R[9])
                             (modes_part[]){{k, waves, k == 3 ? 1 / r : 1},
                                            {other, waves + 2, other == 3 ? 0.8 / r : 0.8}},
                             moved[k], waves, "the larger of two motions");
-            /* modes in which cross-sections rotate or warp without translation */
             static const int turn[] = {TURN_Z, TURN_Y, WARPING};
             const double unit[] = {1 / r, 1 / r, 1 / (r * r)};
             for (int k = 0; k < 3; k++) {

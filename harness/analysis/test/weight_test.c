@@ -78,7 +78,6 @@ static void all_analyses(scene *s, int by_hand)
     }
 }
 
-/* In every analysis, gravity and the explicit force m g give bitwise equal results. */
 static void by_hand(void)
 {
     scene s;
@@ -96,8 +95,6 @@ static void by_hand(void)
                  one.value[i], other.value[i]);
 }
 
-/* A cantilever with bodies that hang on a short stiff bar. The reactions balance both weights in
- * the displaced configuration. */
 static void hanging(void)
 {
     static const double down[3] = {0, -9.81, 0};
@@ -176,8 +173,6 @@ static void period(void)
                      steps[i] > 1000 ? 2e-7 : 2e-8, "period of scheme %d: %s", i, a.reason);
 }
 
-/* A heavy top on a pin that is fixed or slides. The sum of its kinetic energy and of the potential
- * -m g . r_c is constant. */
 static void top(int holds)
 {
     static const scene_body body = {
@@ -259,15 +254,7 @@ static void weight_tests(void)
     column(0.2);
 }
 
-/* Fork supports: the web stays between the guides, and the reaction moment rotates with the
- * section. Results are independent of the axes of the scene. */
-
-enum {
-    MOVED = 0,
-    MOMENT = 3,
-    TURN = 6,
-    VALUES = 9
-}; /* first indices of: displacement at mid-span, moment and rotation at the first fork */
+enum { MOVED = 0, MOMENT = 3, TURN = 6, VALUES = 9 };
 
 /* Builds a beam on two forks with a force at mid-span. Q rotates the scene from a beam along x with
  * its web along z. */
@@ -407,14 +394,10 @@ static void fork_tests(void)
     refuse("an axis across the member", axis_across);
 }
 
-/* Compliance of a node whose prescribed motion is released. The force and moment on the node are
- * partly loads and partly reactions. The compliance depends on their sum only, because both keep
- * their directions. */
-
 static const double young = 2e11, side = 0.02, length = 1;
 
 typedef struct released_request {
-    double force, moment; /* loads at the tip, in units of EI/l^2 and EI/l */
+    double force, moment;
     unsigned driven;
 } released_request;
 
@@ -457,8 +440,6 @@ static void released_solve(const element_type *type, const released_request *wha
     scene_free(&s);
 }
 
-/* Returns the largest difference of two compliance entries, relative to the geometric mean of the
- * corresponding diagonal entries. */
 static double apart(const answer *a, const answer *b)
 {
     double worst = 0;

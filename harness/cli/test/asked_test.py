@@ -164,7 +164,6 @@ quantities:
 
 
 class Selected(ProgramTest):
-    """A verdict must not depend on which other quantities are selected."""
     ONES = "c_column and length=4 and (sheet_second or beamw)", "unsymmetric_column/default", \
         "angle_column/default", "deep_beam/default", "shear_column/default", "sheet_wagner/default"
 
@@ -189,8 +188,6 @@ class Selected(ProgramTest):
             self.assertGreater(others, 0 if "column" in some else -1, some)
 
     def test_alike_in_converge(self):
-        """The buckling load does not depend on shear and Wagner moments, but the frequencies of the scene do. The
-        formulation must therefore count as another model, with and without a selection of the buckling load."""
         where = ("converge", "c_column", "--set", "length=4", "--set", "height=0.9", "--set", "width=0.3", "-f",
                  "sheet_second", "-n", "2,4,8,16")
         for more in ((), ("-k", "=buckling_load")):
@@ -221,7 +218,6 @@ class Had(ProgramTest):
         self.assertEqual(found.returncode, 0, found)
 
     def test_values_that_are_asked_for(self):
-        """A tapered open section must be rejected. Without a taper, the section must be accepted."""
         words = ("solve", "--scene", self.scene(BAR), "-f", "collocation", "-n", "2")
         self.refused(2, "own.yaml", *words)
         done = run(*words, "--set", "depth=0.2")
@@ -230,8 +226,6 @@ class Had(ProgramTest):
         self.refused(2, "did you mean 'depth'", *words, "--set", "deptj=0.2")
 
     def test_matrices_of_damping(self):
-        """C contains dashpots and the damping of members, which is proportional to K at rest. There must be no C if
-        nothing is damped."""
         def entries(folder, letter):
             lines = (self.folder/folder/"undeformed"/f"{letter}.mtx").read_text(encoding="utf-8").splitlines()
             rows = [line.split() for line in lines if not line.startswith("%")][1:]
@@ -271,8 +265,6 @@ class Solve(ProgramTest):
             self.assertLess(min(abs(t["error"]) for t in truths), 1e-3)
 
     def test_cost(self):
-        """The chosen formulation must cost at most twice as much as the formulation that achieves 0.1 % at the lowest
-        cost according to converge, which runs all formulations."""
         for case in ("elastica", "bend_45", "angle_column", "cross_flexure", "deep_beam", "lateral_buckling",
                      "carried_rod", "geradin_cardona", "loaded_cantilever", "weighted_column"):
             chosen = self.record("solve", case)["formulation"]
@@ -309,7 +301,6 @@ class Solve(ProgramTest):
         self.refused(2, "one -f and one -n", "solve", "elastica", "-f", "beamw", "-n", "1,2")
 
     def test_the_theory_that_the_case_asks_for(self):
-        """Without a choice, the shear theory of a buckling load must be Engesser's."""
         record = self.record("solve", "shear_column")
         self.assertIn("engesser", record["cell"]["features"])
         load = next(q for q in record["quantities"] if q["quantity"] == "buckling_load")

@@ -110,8 +110,6 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
                 self.assertLess(abs(q["error"]), 1e-6, f"{name}: {q['quantity']}")
 
     def test_slide(self):
-        """A pendulum that slides down a slope and hangs perpendicular to the slope must keep this direction. Every
-        point must have the acceleration g sin(slope)."""
         fall = 9.81 * math.sin(0.5) * 0.2**2 / 2
         for kind in ("alpha", "conserving", "radau"):
             found = self.values(SLIDE.replace("KIND", kind))
@@ -132,7 +130,6 @@ instances: {i: {part: p, at: [0.3, 0.2, 0.1], axes: {x: [0.36, 0.48, -0.8], z: [
             self.assertLess(abs(b[name] / value - 1), 1e-7, name)
 
     def test_harmonic_reaction(self):
-        """Reactions are along the axes of the node, so only the prescribed component must have a reaction."""
         text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0]}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], axes: {x: [1, 1, 0], z: [0, 0, 1]}, hold: [uy], drive: {ux: go}}}
 members: {m: {from: a, to: b, section: s, y: [0, 1, 0]}}

@@ -11,8 +11,6 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Makes a sweep with a path and a curve, solved on two meshes, with scatter and times as if
- * measured. */
 static void make(sweep *s)
 {
     static const int mesh[] = {1, 2};
@@ -134,9 +132,6 @@ static void cells_tests(void)
     sweep_free(&s);
 }
 
-/* Texts in manual pages must appear as they were written, even if their first character has a
- * meaning in roff. */
-
 static void written_as(const char *text, const char *wanted, const char *what)
 {
     char *got = NULL;
@@ -161,9 +156,6 @@ static void roff_tests(void)
                "78 columns");
 }
 
-/* Every word that the program prints as a result must be explained in the glossary. The words are
- * those of the tables of the program. */
-
 static glossary words;
 
 static void explained(const char *what, const char *word)
@@ -186,7 +178,7 @@ static void words_tests(void)
              "the glossary is read %s", f.text);
     for (int i = 0; i < VERDICT_KINDS; i++)
         explained("verdict", verdict_name((verdict_kind)i));
-    for (int i = 1; i < LIMIT_KINDS; i++) /* without the first kind, which is "none" */
+    for (int i = 1; i < LIMIT_KINDS; i++)
         explained("kind of limit", limit_kind_name((limit_kind)i));
     for (int i = 0; i <= STATUS_NO_VALUE; i++)
         explained("status", status_name((status)i));

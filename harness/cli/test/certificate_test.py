@@ -74,9 +74,7 @@ ROWS = re.compile(r"^    (.*) \\\\$", re.M)
 
 
 class Tables(Tested):
-    """LaTeX output must contain the numbers of the JSON output, the version, and the hash of the element."""
-
-    usual = None  # output for the unmodified example
+    usual = None
 
     def forms(self, *changes, code=0):
         if not changes and Tables.usual is not None:
@@ -101,7 +99,6 @@ class Tables(Tested):
             self.assertIn(found["json"]["commit"], found[form])
 
     def test_hash_of_a_command(self):
-        """The hash must be that of the named files; for a built-in formulation, that of the program."""
         script = self.folder / "timoshenko.py"
         script.write_bytes((EXAMPLES / "timoshenko.py").read_bytes())
         path = environment(PYTHONPATH=str(EXAMPLES))

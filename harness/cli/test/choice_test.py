@@ -1,5 +1,5 @@
 """The mesh and the formulation that solve chooses must meet the requested error, at about the lowest cost of all
-formulations. Values must be shown only with digits that are certain."""
+formulations."""
 import json
 import random
 import re
@@ -9,14 +9,12 @@ from harness.tools.kit.program import ROOT, ProgramTest
 
 ASKED = 1e-3
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
-# cases in which no formulation achieves 0.1 % according to converge
 UNANSWERED = set()
 # cases for which converge takes fifteen seconds, so the costs are not compared
 LONG = {"hexapod_motion"}
 
 
 def bar(chance, kind):
-    """Returns a random frame of one to three members, plane or spatial, with random supports, loads and quantities."""
     members = chance.randint(1, 3)
     at = [[0.0, 0.0, 0.0]]
     for _ in range(members):
@@ -58,9 +56,6 @@ class Choice(ProgramTest):
         return self.record("converge", *scene, "--error", "0.1%")
 
     def is_cheap(self, name, chosen, answers):
-        """Checks that the choice costs at most twice as much as the formulation with the lowest cost according to
-        converge. If converge did not rank the chosen formulation, half of the cost of the chosen mesh is used, as an
-        estimate for the previous mesh. Returns True if converge has ranked any formulation."""
         cost = {a["formulation"]: a["cost"] for a in answers["answers"] if a["rank"]}
         own = cost.get(chosen["formulation"], chosen["cell"]["cost"]/2)
         self.assertLessEqual(own, 2*min(cost.values(), default=own), f"{name}: {chosen['formulation']}, {cost}")
@@ -88,7 +83,6 @@ class Choice(ProgramTest):
         self.assertEqual(unanswered, UNANSWERED)
 
     def test_thirty_scenes(self):
-        """Four times as many elements must not change any value by more than the requested error."""
         chance = random.Random(17)
         path = self.folder / "scene.yaml"
         for i in range(30):
@@ -120,8 +114,6 @@ class Choice(ProgramTest):
         self.refused(2, "--error", "solve", "deep_beam", "-n", "4", "--error", "1%")
 
     def test_slow_convergence(self):
-        """For lateral-torsional buckling with shear, the order of convergence is below one. The error is then
-        larger than the change between the last two meshes. The estimate must allow for this."""
         path = self.folder / "beam.yaml"
         path.write_text("""beamwork: 1
 units: mm, N, MPa

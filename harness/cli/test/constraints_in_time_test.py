@@ -59,8 +59,6 @@ quantities:
 class ConstraintsInTime(ConstraintsCase):
 
     def test_one_node_in_two_in_time(self):
-        """Two nodes joined by constraints in all components must move as one node: with dashpots, with prescribed
-        components, and with and without mass."""
         mass = ", mass: 0.5, inertia: [0.01, 0.02, 0.015, 0, 0, 0]"
         beside = ", mass: 0.5, centre: [0.02, 0.01, 0.03], inertia: [0.01, 0.02, 0.015, 0, 0, 0]"
         for how, until, moves in (("alpha, step: 0.002", 0.1, beside), ("alpha, step: 0.002, mass: consistent", 0.1, ""),
@@ -78,9 +76,6 @@ class ConstraintsInTime(ConstraintsCase):
                 self.assertLess(abs(b["D"]), 1e-11 * abs(b["E"]), how)
 
     def test_half(self):
-        """Constraints make the displacements of the two halves of a symmetric structure equal in the plane of symmetry.
-        One half is displaced and has rotated axes. Both must move as the whole structure does, starting from a
-        static state."""
         for how in ("alpha, step: 0.001", "radau, step: 0.002", "conserving, step: 0.001", "explicit, step: 1e-5, mass: lumped"):
             found = []
             for half in (0, 1):
@@ -151,9 +146,6 @@ quantities:
                 self.assertLess(abs(found["D"]), 1e-9 * found["E"])
 
     def test_flight(self):
-        """Two free bars with equal or proportional translations and equal rotations must conserve energy, and must
-        have the momentum of the load: with the integrator conserving to within rounding, with radau to within
-        1e-6."""
         for ratio in (1, -2):
             for how in ("radau, tolerance: 1e-8", "conserving, step: 0.002"):
                 found = self.values(FLIGHT.replace("HOW", how).replace("RATIO", str(ratio)).replace("START", "{velocity: [0, 1, 0]}"))

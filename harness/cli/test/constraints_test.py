@@ -134,8 +134,6 @@ class Constraints(ConstraintsCase):
                              [line for line in b if not line.startswith("%")])
 
     def test_harmonic_reaction(self):
-        """A motion prescribes a component to which constraints couple other components. A quantity for its reaction
-        must be rejected, because it would be the sum for all these components."""
         path = self.folder / "followed.yaml"
         path.write_text(HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0]}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [1, 0, 0], drive: {uy: go}}, c: {at: [2, 0, 0]}}
@@ -151,7 +149,6 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
             self.assertIn("drives more components than the one", done.stdout + done.stderr)
 
     def test_units(self):
-        """The same scene in mm and N must give the same results."""
         text = GEAR.replace("AXES ", "").replace("WHO", "d").replace("OTHER", "b").replace("RATIO", "-2")
         one = self.values(text.replace("TORQUE", "40"))
         mm = (text.replace("beamwork: 1", "beamwork: 1\nunits: mm, N, MPa").replace("diameter: 0.02, thickness: 0.01", "diameter: 20, thickness: 10")
@@ -168,7 +165,6 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
         self.same(one, two.replace("CONSTRAINTS", "constraints: {one: {equal: [e, b], components: [ux, uy, rz]}}"), 1e-7)
 
     def test_sliders(self):
-        """Equal displacements along the slopes must make the member between two sliders act as a rigid link."""
         one = SLIDERS.replace("SLIDES", "part_of: p").replace("CONSTRAINTS", "")
         two = SLIDERS.replace("SLIDES", "axes: {x: [0.8, 0.6, 0], z: [0, 0, 1]}, hold: [uy, uz, rx, ry, rz]")
         self.same(one, two.replace("CONSTRAINTS", "constraints: {s: {equal: [p, q], components: ux}}"))
@@ -207,8 +203,6 @@ quantities: {r: {response: {analysis: h, node: NODE, component: uy, of: reaction
             self.assertLess(abs(turned[name] / plain[name] - 1), 1e-8, name)
 
     def test_lever(self):
-        """If the displacement of c is a multiple of that of b, the stiffness of the spring at c must act at b
-        multiplied by the square of this ratio. If one displacement is prescribed, the other must follow."""
         text = HEAD + """motions: {go: {unit: m, path: [0, 1], value: [0, 0.02]}}
 nodes:
   a: {at: [0, 0, 0], hold: all}
@@ -276,8 +270,6 @@ omit: [shear]
         self.assertGreater(found["f"], 1)
 
     def test_cell(self):
-        """A cell whose ends have equal motions must give the same results as one of three cells in a row whose outer
-        ends have equal motions."""
         found = []
         for cells in (1, 3):
             nodes = "".join(f"  l{i}: {{at: [{i}, 0, 0]}}\n  h{i}: {{at: [{i + 0.4}, 0.1, 0]}}\n" for i in range(cells))
@@ -302,8 +294,6 @@ quantities:
             self.assertLess(abs(found[1][name] / value - 1), 1e-7, name)
 
     def test_loop(self):
-        """The ends of a member have equal displacements. If the member is heated, the force must be -E A alpha T. Under
-        a transverse load, it must act as clamped."""
         text = HEAD.replace("density: 2000", "density: 2000, expansion: 1e-5") + """
 nodes: {a: {at: [0, 0, 0], hold: [uz, rx, ry]}, b: {at: [1, 0, 0], hold: [uz, rx, ry]}, m: {at: [0.5, 0, 0], hold: [ux, uz]}}
 members:

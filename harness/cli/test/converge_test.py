@@ -118,8 +118,6 @@ class Forms(unittest.TestCase):
         self.assertFalse(converge("text").endswith("\n\n"))
 
     def test_without_a_truth_families_agree(self):
-        """For another stroke there are no stored reference values. Errors must then be relative to the value on
-        which formulations agree, which gives no verdict."""
         new = ("converge", "--scene", str(LEAF), "--set", "stroke=0.009")
         done = run(*new, "-f", "all", "--format", "json")
         self.assertEqual(done.returncode, 0, done.stderr)
@@ -182,7 +180,6 @@ class Beside(ProgramTest):
         return text, json.loads(self.answered("converge", *words, "--format", "json").stdout)
 
     def agree(self, *words):
-        """The errors and values in the tables must be those in JSON, rounded."""
         text, record = self.both(*words)
         found, seen = tables(text), 0
         for one in record["series"]:

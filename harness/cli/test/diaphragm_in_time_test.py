@@ -8,7 +8,6 @@ from scipy.integrate import solve_ivp
 from harness.cli.test.constraints import ConstraintsCase
 from harness.tools.kit.program import ROOT, run
 
-# A floor on springs, with masses at the followers. NORMAL is z; for other normals, the axes are permuted cyclically.
 FLOOR = """beamwork: 1
 sections: {s: {rectangle: {width: 0.02, thickness: 0.03}, young: 2e9, shear_modulus: 0.8e9, density: 2000}}
 nodes:
@@ -175,8 +174,6 @@ class DiaphragmsInTime(ConstraintsCase):
                 self.assertLess(abs(found["D"]), 1e-10 * found["E"])
 
     def test_conserving(self):
-        """The integrator conserving must have order 2. To within rounding, it must conserve the energy of a floor, and
-        both momenta of a free floor."""
         text = re.sub(r"  (k|gain): .*\n", "", FLOOR)
         wanted, errors = exact(1, gain=0), []
         for step in (2e-3, 1e-3):
@@ -221,7 +218,6 @@ class DiaphragmsInTime(ConstraintsCase):
         self.assertLess(abs(found["across"]), 1e-12)
 
     def test_small(self):
-        """For small motions, the example must agree with the closed-form modes."""
         text = (ROOT / "cases" / "examples" / "eccentric_storey.yaml").read_text()
         stiff, soft = (12 * 30e9 * math.pi * d**4 / 64 / 27 for d in (0.4, 0.25))
         ky, kc, kt = 2 * (stiff + soft), 6 * (soft - stiff), 26 * (stiff + soft) + 2 * 12e9 * math.pi * (0.4**4 + 0.25**4) / 96
@@ -244,7 +240,6 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
                 self.assertLess(abs(found[name] / value - 1), 1e-6, f"{how}: {name}")
 
     def test_driven(self):
-        """The reactions of a driven floor must add up to the force of the drive."""
         text = FLOOR.replace("hold: [uz, rx, ry], mass: 100, inertia: [10, 10, 20, 0, 0, 0]", "hold: [uz, rx, ry], mass: 100, inertia: [10, 10, 20, 0, 0, 0], drive: {ux: go, rz: twist}")
         text = text.replace("loads:", "motions: {go: {unit: m, time: 0.1*t^2}, twist: {unit: rad, time: 2*t^2}}\nloads:")
         text = text.replace(", start: {velocity: [1, -2, 0], spin: [0, 0, 12]}", "").replace("quantities:", "quantities:" + "".join(
@@ -263,8 +258,6 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
             self.assertLess(abs(found["D"]), 1e-6 * found["E"])
 
     def test_body(self):
-        """A floor whose nodes cannot tilt must move as a rigid body. If they can tilt, it must move as a body on
-        universal joints."""
         for tilts, how, until, damps, close in (
                 (0, "radau, step: 0.002", 0.1, ", damping: 1e-4", 1e-8), (0, "alpha, step: 0.002, mass: consistent", 0.1, ", damping: 1e-4", 1e-8),
                 (0, "alpha, step: 0.002, mass: lumped", 0.1, "", 1e-8), (0, "explicit, step: 5e-6, mass: lumped", 0.0005, "", 1e-8),
@@ -286,8 +279,6 @@ omit: [shear, trapeze, wagner_torque, wagner_moments]
                 self.assertLess(abs(a[name] - value), close * abs(value) + 1e-14, f"{how} {tilts}: {name}")
 
     def test_ball_joints(self):
-        """Columns without weight that have ball joints at the floor act as springs for its rotation about the normal.
-        Universal joints there, with a hinge about the axis at the other end, must give the same motion."""
         k, spin, square = 3 * 2e6 / 27, 0.1, 8
         text = """beamwork: 1
 sections: {c: {constants: {A: 1e-2, Iy: 1e-5, Iz: 1e-5, It: 1e-5}, young: 2e11, shear_modulus: 8e10}}
@@ -317,7 +308,6 @@ omit: [trapeze, wagner_moments, wagner_torque, shear]
             self.same(ball.replace("SPIN", "3"), universal.replace("SPIN", "3"), 1e-7)
 
     def test_two_floors(self):
-        """Two floors, one above the other, that rotate at the start must move as two bodies."""
         text = COLUMNS.replace("MORE", "").replace("MOTIONS\n", "").replace("DAMPS", "").replace("HOW", "radau, step: 0.002").replace("UNTIL", "0.1")
         text = text.replace("  M: {at: [0.4, 0.2, 1]", """  D: {at: [0, 0, 2]HIGH}
   E: {at: [0.9, 0, 2]HIGH}

@@ -146,8 +146,6 @@ FORCE_FAULTS = {
         "of the undeformed element is", "define it as zero in that state"),
 }
 
-# Errors that authors of elements typically make. Strains, stresses and stiffness remain consistent, so only the results
-# of structures reveal them.
 CLASSIC = {
     "swapped bending": (
         ("c->young * c->Iy, c->young * c->Iz}", "c->young * c->Iz, c->young * c->Iy}"),
@@ -172,7 +170,6 @@ CLASSIC = {
         "stretch: the result is exact with one element, but", "a power of the length"),
 }
 
-# Declares order 4, which the element does not have, for the given analyses.
 FOURTH = """static element_order fourth(element_analysis a, const double options[])
 {
     (void)a, (void)options;
@@ -184,7 +181,6 @@ const element_type beamwork_element"""
 class Tested(ProgramTest):
 
     def compiled(self, name, *changes):
-        """Returns the path of a shared object of an example in which texts have been replaced."""
         text = (EXAMPLES / name).read_text(encoding="utf-8")
         text = text.replace("const element_type beamwork_element", FOURTH)
         for before, after in changes:
@@ -219,7 +215,7 @@ class Planted(Tested):
 
     def test_each_is_told(self):
         self.assertGreaterEqual(len(FAULTS), 20)
-        with_sanitizers = "fsanitize" in run("--version").stdout  # sanitizers end the process themselves
+        with_sanitizers = "fsanitize" in run("--version").stdout
         self.told("timoshenko.c", {name: fault for name, fault in FAULTS.items()
                                    if not (with_sanitizers and name == "beyond data")})
 
@@ -235,8 +231,6 @@ class Planted(Tested):
 
 
     def test_linear(self):
-        """A formulation must be tested only for supported features. Linear strains must be accepted if the
-        formulation does not declare large rotations."""
         first = ("        out->e[i] = (p[i] + q[i]) / (2 * c) + k * along * psi[i];\n",
                  "        out->e[i] = p[i] + (i == 1 ? -d->length * psi[2] / 2 : i == 2 ? d->length * psi[1] / 2 : 0);\n")
         small = ("FEATURE_GEOMETRIC | FEATURE_LARGE | ", "")
@@ -292,7 +286,6 @@ class Measured(Tested):
                       run("element-test", "--element", made).stdout)
 
     def test_shear_locking(self):
-        """Shear that is integrated with too many points must be reported as locking."""
         found = self.measured(("c->young * c->Iz / l3}",
                                "c->young * c->Iz / l3 + c->shear_modulus * c->A / (12 * l)}"),
                               code=1)
@@ -307,7 +300,6 @@ class Measured(Tested):
         self.assertLess(abs(found["constant shear along z, short beam"]["error"][0]), 1e-9)
 
     def test_one_element(self):
-        """Without the correction for uniform curvature, one element is too stiff in bending, which must be reported."""
         found = self.measured((" + l * l * l / (12 * c->young * c->Iz)",
                                " + 1e-3 * l * l * l / (12 * c->young * c->Iz)"))
         self.assertAlmostEqual(found["tip force along y"]["error"][0], -0.25, delta=1e-3)

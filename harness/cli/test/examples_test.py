@@ -32,8 +32,6 @@ quantities:
 
 
 class Judged:
-    """For each example: its limits must be correct, and it must have at most the number of lines in the README."""
-
     cases, ending, most = (), "c", 200
 
     @classmethod
@@ -68,12 +66,10 @@ class Judged:
         return getattr(self, "loaded", self.example)
 
     def values(self, made, name, *arguments):
-        """Returns the values that `solve` computes with this element."""
         record = self.record("solve", *arguments, "--element", made, "-f", name)
         return [q["value"] for q in record["quantities"] if q["value"] is not None]
 
     def same_values(self, other, name, case):
-        """The values must agree with those of another element, which shares no code with the example."""
         own, theirs = (self.values(*of, case, "-n", "4")
                        for of in ((self.object, self.name()), (other, name)))
         self.assertGreater(len(own), 2)
@@ -97,8 +93,6 @@ class Corotational(Judged, PluginTest):
     cases = (*STATICS_AND_FREQUENCIES, "weighted_column", "lateral_buckling")
 
     def test_converges_as_the_others(self):
-        """With an unsymmetric tangent, or a chord with little axial strain, the number of iterations must exceed that
-        of another element by at most one."""
         for axial in ("1e4", "1e12"):
             iterations = {
                 name: self.record("solve", "elastica", "--element", self.object, "-f", name, "-n",
@@ -120,7 +114,6 @@ class Legendre(Judged, PluginTest):
     cases = Timoshenko.cases
 
     def test_converges_exponentially(self):
-        """Each additional node must reduce the error of one element, as published for BeamDyn."""
         errors = []
         for order in range(2, 7):
             (tip, *_) = self.values(self.object, f"legendre:order={order}", "elastica", "-n", "1", "-k", "w_over_L")
@@ -146,8 +139,6 @@ class Cubic(Judged, PluginTest):
 
 @unittest.skipUnless(shutil.which("gfortran"), "needs gfortran")
 class Uel(Judged, PluginTest):
-    """A user element in Fortran for the same beam as corotational.c."""
-
     example = "uel"
     cases = ("elastica", "sprung_beam", "lateral_buckling", "loaded_cantilever",
              "rotating_cantilever", "snap_through", "tapered_cantilever", "tip_body",
@@ -169,8 +160,6 @@ class Uel(Judged, PluginTest):
 
 @unittest.skipUnless(shutil.which("g++"), "needs g++")
 class Frame(Judged, PluginTest):
-    """An element in C++ with exact derivatives for the same beam as corotational.c."""
-
     example, ending, most = "frame", "cpp", 240
     cases = Corotational.cases
 
@@ -204,9 +193,6 @@ class Frame(Judged, PluginTest):
 
 @unittest.skipUnless(shutil.which("g++"), "needs g++")
 class OpenSeesLike(Judged, PluginTest):
-    """Elements with the functions of OpenSees and of Kratos, run through an adapter. Their committed state is a
-    history."""
-
     example, ending, most = "opensees_like", "cpp", 360
     cases = ("tapered_cantilever", "deep_beam", "tip_body", "sprung_beam", "elastica", "snap_through", "roll_up",
              "release")
@@ -235,14 +221,11 @@ class OpenSeesLike(Judged, PluginTest):
             self.same_values(made, self.example, case)
 
     def test_state_is_committed(self):
-        """The axes of the beam are updated in each step. The number of steps must not change the result."""
         one, many = (self.bent(steps) for steps in (2, 9))
         for few, more in zip(one, many, strict=True):
             self.assertAlmostEqual(few / more, 1, delta=1e-9)
 
     def bent(self, steps):
-        """Returns the displacements of a cantilever with eight elements that a moment about an inclined axis bends by 5
-        rad."""
         text = SHORT.replace("force: [0, 100, 0]", "moment: [0, 2e6, 1.5e6]")
         text = text.replace("linear: {}", f"static: {{stations: [1], steps: {steps}}}")
         path = self.folder / "bent.yaml"
@@ -250,14 +233,11 @@ class OpenSeesLike(Judged, PluginTest):
         return self.values(self.object, self.example, "--scene", path, "-n", "8")
 
     def test_closed_form(self):
-        """One element must give the deflection of a Timoshenko cantilever: F L^3/(3 E I) + F L/(G A k)."""
         self.short_cantilever()
 
 
 @unittest.skipUnless(shutil.which("gfortran"), "needs gfortran")
 class Fortran(Judged, PluginTest):
-    """An element in Fortran for the same beam as timoshenko.c."""
-
     example, ending, most = "timoshenko", "f90", 250
     loaded, cases = "timoshenko_f90", Timoshenko.cases
 
@@ -309,7 +289,6 @@ class Planted(PluginTest):
                     "if its nodes are exchanged")
 
     def test_axes_exchanged(self):
-        """An element with exchanged axes is consistent but models another beam, which verify must detect."""
         made = self.altered("ancf.c", ("ky = dot(section_y", "ky = dot(section_z"),
                             ("kz = dot(section_z", "kz = dot(section_y"))
         record = self.folder / "v.json"

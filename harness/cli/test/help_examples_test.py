@@ -24,11 +24,11 @@ w_over_L, 1, 8, 48, 0.1, , 0.3017, 1e-4
 SMALL = " -k '=elastica and =default and =beamw'"
 # Replacements in examples that take long: part of the command, and its replacement.
 REDUCED = {
-    "verify --shard 1/4 --into parts": ("parts", "parts" + SMALL),  # a quarter of all verdicts takes 20 s
-    "verify -o build/results.h5": ("results.h5", "results.h5" + SMALL),  # all verdicts take a minute
-    "--design sobol --points 200": ("200", "4"),  # every formulation at 200 points takes 20 s
-    "--vary length=2..12/10 -k buckling_load --compute-references": ("2..12/10", "2..12/1"),  # a program takes a second for each value
-    "--error 1%,0.1%": ("1%,0.1%", "1%"),  # each level is measured for three seconds
+    "verify --shard 1/4 --into parts": ("parts", "parts" + SMALL),
+    "verify -o build/results.h5": ("results.h5", "results.h5" + SMALL),
+    "--design sobol --points 200": ("200", "4"),
+    "--vary length=2..12/10 -k buckling_load --compute-references": ("2..12/10", "2..12/1"),
+    "--error 1%,0.1%": ("1%,0.1%", "1%"),
 }
 
 
@@ -51,8 +51,6 @@ def reduced(command):
 
 
 class Examples(ProgramTest):
-    """The examples run on small versions of the files that they name."""
-
     @classmethod
     def setUpClass(cls):
         folder = cls.class_folder()

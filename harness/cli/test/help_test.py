@@ -108,7 +108,6 @@ class Explain(ProgramTest):
         self.refused(4, "missing.h5", "explain", "pass", "--truths", "missing.h5")
 
 
-# argp of the C library does not free one byte at exit
 MANUAL_ENV = environment(ASAN_OPTIONS="detect_leaks=0")
 FILES = ("beamwork.1", "beamwork-scene.5", "beamwork-results.5")
 # option in the help or in a manual page: letter, name, argument, description
@@ -129,7 +128,6 @@ def plain(page):
 
 
 def hand_page(name):
-    """Returns the manual page that page.sh writes, with a fixed version and date."""
     return run(name, "0.1.0", "2026-11-21",
                program=ROOT / "harness" / "library" / "packaging" / "page.sh").stdout
 
@@ -219,7 +217,6 @@ BENDING = "c->young * c->I"
 
 
 def commands(text):
-    """Returns the commands that begin with the name of the program; continuation lines are joined."""
     return re.findall(r"(?:^ *|: )(beamwork (?!\w+: )[^;\n]+)", re.sub(r" \\\n *", " ", text), re.MULTILINE)
 
 

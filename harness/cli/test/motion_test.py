@@ -40,8 +40,6 @@ class OwnMotion(PluginTest):
                            name, "-n", 4, *element)
 
     def compare(self, name, element, integrators=("alpha", "conserving", "radau")):
-        """Motions must agree with those of collocation with the same number of elements. The integrator conserving must
-        conserve energy."""
         for integrator in integrators:
             ours = self.flight(integrator, "collocation")
             own = self.flight(integrator, name, "--element", element)
@@ -95,7 +93,6 @@ quantities:
 omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 """
 
-# A corner of two leaf springs that is set in motion in various ways.
 CORNER = """beamwork: 1
 sections:
   s: {{rectangle: {{width: {width}, thickness: {t}}}, young: 70e9, shear_modulus: 27e9, density: 2700}}
@@ -131,7 +128,6 @@ quantities:
   u: {{displacement: {{analysis: mo, node: b, component: uy, take: curve}}}}
 """
 
-# A hub with prescribed rotations about three nested axes.
 ANGLES = """beamwork: 1
 sections:
   tube: {tube: {diameter: 20e-3, thickness: 1e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}
@@ -155,8 +151,6 @@ quantities:
 
 
 def corner(seed, how):
-    """Returns a random scene of the corner, with its size, mass, excitation, amplitude (1e-7 to 1e-2 of the size) and
-    duration."""
     chance = random.Random(seed)
     L = 10**chance.uniform(-1.3, 0.5)
     t = L/chance.choice([20, 50, 100])
@@ -184,7 +178,6 @@ def corner(seed, how):
 class MotionError(ProgramTest):
 
     def curves(self, text, *options):
-        """Returns the curves by quantity, and the values of the other quantities."""
         path = self.folder / "scene.yaml"
         path.write_text(text, encoding="utf-8")
         record = self.record("solve", "--scene", path, "-f", "geometrically_exact", *options)
@@ -215,8 +208,6 @@ class MotionError(ProgramTest):
                         self.assertLess(abs(one - other), 1e-3*largest)
 
     def test_at_rest(self):
-        """A structure bent by a constant load must remain at rest with few steps of any integrator. The residual of the
-        equilibrium must not cause a motion."""
         for how in ("", "integrator: alpha, ", "integrator: conserving, "):
             for force in (0, 1, 1e-9):
                 text = REST.format(how=how, force=force)
@@ -226,8 +217,6 @@ class MotionError(ProgramTest):
                     self.assertLess(self.steps, 40)
 
     def test_conserving_by_driven_angles(self):
-        """If angles are prescribed, conserving steps must have order 2, and the work of the prescribed motions must
-        equal the change of energy."""
         right, _ = self.curves(ANGLES.replace("HOW", "integrator: radau, tolerance: 1e-7"), "-n", 2)
         errors = []
         for step in (4e-3, 2e-3):
@@ -262,8 +251,6 @@ class MassTest(SceneCase):
         return [(n, tuple(w for one in ASKED.get(n, ()) for w in ("--set", one))) for n in having]
 
     def lumped_differs(self, case, point):
-        """With mass=lumped, a value must differ from that of the usual mass, and only this run must be marked as
-        lumped. Returns the values of both runs."""
         usual, lumped = (self.record("solve", case, *WHERE, *point, *mass) for mass in ((), LUMPED))
         self.assertEqual(usual["parameters"]["mass"], "usual")
         self.assertEqual(lumped["parameters"]["mass"], "lumped")
@@ -286,8 +273,6 @@ class MassTest(SceneCase):
                 self.assertIn("\nmass: lumped\n", self.answered("scene", case, *point, *LUMPED).stdout)
 
     def test_reference_values_hold(self):
-        """Reference values must also apply with mass=lumped: frequencies must converge to them, and `truth` must
-        print the same values."""
         found = self.record("solve", "deep_beam", "-f", "collocation", "-n", 64, *LUMPED)
         errors = [q["error"] for q in found["quantities"] if q["quantity"].startswith("frequency")]
         self.assertTrue(errors and all(e is not None and 1e-6 < abs(e) < 1e-3 for e in errors), errors)

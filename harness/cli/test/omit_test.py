@@ -1,5 +1,4 @@
-"""The parameter `omit` of built-in cases. By default, a case omits the physics that its source omits. With omit=none,
-the case has all physics, and the stored values do not apply."""
+"""The parameter `omit` of built-in cases."""
 import csv
 import io
 import json
@@ -19,7 +18,6 @@ class OmitTest(SceneCase):
         return [c["case"] for c in self.record("list")["cases"]]
 
     def test_every_case_has_all_physics(self):
-        """With omit=none, every case must be solved, omit nothing, and have no reference value."""
         changed = 0
         for case in self.cases():
             solved = self.record("solve", case, *WHOLE)
@@ -115,8 +113,6 @@ quantities:
             more="omit: [trapeze]\n")
 
     def test_numbers_that_are_not_given(self):
-        """Constants that a section does not define are zero. The program must report them unless they have no effect,
-        are omitted, or follow from other constants."""
         constants = "constants: {A: 1e-3, Iy: 2e-6, Iz: 1e-6, It: 1e-8%s}, young: 2e11, shear_modulus: 8e10"
         full = ", F: [1200, 0, 0, 0, 1200, 0, 0, 0, 0], Iw: 1e-10"
         diagonal = "stiffness: [2e8, 1e8, 1e8, 1e3, 4e5, 2e5], mass: [8, 8, 8, 1e-3, 1e-3, 1e-3]"
@@ -141,9 +137,6 @@ quantities:
                 self.assertEqual(found, [told] if told else [], (section, analysis, more, verb))
 
     def test_what_is_not_modelled(self):
-        """A Z section with restrained warping twists more in one direction than in the other. The program must report
-        that this is neglected. For a channel, an unstressed Z, or a Z without warping or the cubic torque, it must
-        not."""
         for flange, analysis, more, told in (
             (0.07, "static: {stations: [1]}", "", True), (-0.07, "static: {stations: [1]}", "", False),
             (0.07, "buckling: {}", "", True), (0.07, "linear: {}", "", False),
@@ -210,7 +203,6 @@ quantities:
         self.assertIn(line, files[3].read_text())
 
     def test_zero_that_is_given(self):
-        """A constant given as zero must count as known, even after the scene has been written and read."""
         every = ", ".join("0" for _ in range(9))
         for more, told in (("", "shear, warping, wagner_torque"), (", Iw: 0", "shear, wagner_torque"),
                            (", wagner_torque: 0", "shear, warping"), (f", F: [{every}]", "warping, wagner_torque"),
@@ -225,8 +217,6 @@ quantities:
                 self.assertEqual([set(f.split(", ")) for f in found], [set(told.split(", "))] if told else [], more)
 
     def test_torque_of_its_own(self):
-        """Scenes of built-in sheets must contain the constant of the torque that is cubic in the twist. A constant
-        given as zero must count as known."""
         self.assertRegex(self.answered("scene", "sheet_wagner").stdout, "given: {Iw: [^}]*, wagner_torque: ")
         text = self.loaded_bar("").replace("omit: [trapeze]\n", "")
         for more, told in ((", given: {wagner_torque: 0}", "shear, warping"), (", given: {Iw: 0}", "shear, wagner_torque"),
@@ -261,10 +251,7 @@ quantities:
 
 
 class ShearOfWarpingTest(SceneCase):
-    """Shear deformation due to warping lowers the torsional load of a short column by 18 %. Sheet elements exclude it."""
-
     def test_choice(self):
-        """`solve` must choose a formulation that models this deformation, and `converge` must mark the others."""
         path = self.scene(COLUMN)
         c = json.loads(self.answered("scene", "--scene", path, "--format", "json").stdout)["sections"][0]
         warping = 1/(1/(math.pi**2*c["E"]*c["Iw"]) + c["F"][2][2]/c["G"])

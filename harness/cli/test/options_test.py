@@ -15,9 +15,7 @@ from harness.tools.kit.program import ProgramTest, ROOT, TRUTHS, environment, ru
 from reference.pack import seal
 
 
-# After contradictory or empty arguments, or with too few resources, the program must print one line and end with the
-# documented exit status.
-LISTS = ("formulation", "element", "elements", "set")  # options that may be repeated
+LISTS = ("formulation", "element", "elements", "set")
 # argp of the C library does not free one byte at exit
 HELP = environment(ASAN_OPTIONS="detect_leaks=0")
 
@@ -74,8 +72,8 @@ class Words(ProgramTest):
 
 class Tables(ProgramTest):
     CLI = ROOT / "harness" / "cli"
-    ANSWERS = {"bench": ("bench", "bench_against", "compared_run")}  # source files that use the options; for other verbs, the file of the verb
-    ELSEWHERE = {("scene", "format")}  # used for errors, by case_input
+    ANSWERS = {"bench": ("bench", "bench_against", "compared_run")}
+    ELSEWHERE = {("scene", "format")}
 
     def shown(self, verb):
         return re.findall(r"^  (?:-(\w), |    )--([a-z-]+)", run(verb, "-h", env=HELP).stdout,
@@ -116,11 +114,10 @@ class Tables(ProgramTest):
                 self.assertNotRegex(run(verb, "-h", env=HELP).stdout, rf"--{was}\b(?!-)")
                 self.assertNotRegex(run(verb, "--usage", env=HELP).stdout, rf"--{was}\b(?!-)")
         self.answered("solve", "warping_torsion", "-fbeamw", "--keep-all", "-n2")
-        self.refused(2, "is an abbreviation of several options", "sweep", "elastica", "--de")  # design, derive
+        self.refused(2, "is an abbreviation of several options", "sweep", "elastica", "--de")
         self.refused(2, "solve has no --beside", "solve", "elastica", "--beside", "x.h5")
 
     def test_each_is_used(self):
-        """Each verb must use each of its options. The verb merge passes them on."""
         everything = "".join(path.read_text(encoding="utf-8") for path in self.CLI.glob("*.c"))
         for verb in EVERY_VERB:
             name = verb.replace("-", "_")
@@ -131,7 +128,7 @@ class Tables(ProgramTest):
             self.assertTrue(members or verb == "merge", verb)
             for member in {own or shared for own, shared in members if verb != "merge"}:
                 head, _, tail = member.partition(".")
-                if tail and f"&r->{head}" in answers:  # a group of options that another function reads
+                if tail and f"&r->{head}" in answers:
                     self.assertRegex(everything, rf"->{tail}\b", (verb, member))
                 elif (verb, member) not in self.ELSEWHERE:
                     self.assertRegex(answers, rf"->{re.escape(member)}\b", (verb, member))
@@ -145,11 +142,8 @@ class Tables(ProgramTest):
 
 
 class Machine(ProgramTest):
-    """Tests with a disk, a file size limit or a stack that is too small."""
-
     @unittest.skipUnless(os.path.exists("/dev/full"), "needs /dev/full")
     def test_full_disk(self):
-        """For every output, a full disk must be reported as an error."""
         shown = [("--help",), ("help",), ("--version",), (), ("list",), ("list", "cases"),
                  ("list", "formulations"), ("list", "elastica"),
                  ("truth", "elastica"), *((verb, *work) for verb, work in WORK.items()),
@@ -164,7 +158,6 @@ class Machine(ProgramTest):
                              arguments)
 
     def test_small_files(self):
-        """A file size limit (ulimit -f) must be reported, with and without a parent process that ignores the signal."""
         def limit():
             signal.signal(signal.SIGXFSZ, signal.SIG_DFL)
             resource.setrlimit(resource.RLIMIT_FSIZE, (1000, 1000))
@@ -179,8 +172,6 @@ class Machine(ProgramTest):
         self.assertEqual(os.listdir(self.folder), ["list"])
 
     def with_stack(self, size, hard, path, **more):
-        """Runs verify with this stack size [kB] as soft or hard limit, and with only these environment variables.
-        Only a hard limit must be reported."""
         def limit():
             resource.setrlimit(resource.RLIMIT_STACK,
                                (size * 1024, size * 1024 if hard else 2 ** 23))
@@ -200,16 +191,12 @@ class Machine(ProgramTest):
                 self.with_stack(size, hard, os.environ["PATH"], BEAMWORK_TRUTHS=TRUTHS)
 
     def test_least_stack(self):
-        """With the smallest stack that the loader supports, the message must appear for any address layout. If the
-        message were written through stdio, its buffer on the stack would cause a crash in three of four runs."""
         self.needs_no_sanitizers()
         for size in 8 * (16, 17, 18):
             self.with_stack(size, True, "/usr/bin:/bin")
 
 
 class OtherPythons(ProgramTest):
-    """Reference values must be computed even in a virtual environment, or with another Python."""
-
     def derived(self, **changes):
         done = self.answered("truth", "elastica", "--set", "load=2.5", env=environment(**changes))
         self.assertRegex(done.stdout, r"w_over_L +0\.\d+")
@@ -327,8 +314,6 @@ class Refusals(ProgramTest):
                      silent=False)
 
     def test_misspelt_selection(self):
-        """A word that matches nothing must be rejected, with or without brackets, because otherwise cells would be
-        omitted without a message."""
         for verb in ("verify", "stress"):
             self.refused(2, "did you mean 'elastica'?", verb, "-k", "elastca")
             self.refused(2, "'sheet_thrid'", verb, "-k", "(elastica or sheet_thrid)")
@@ -376,8 +361,6 @@ class Answers(ProgramTest):
                      silent=False, env=environment(BEAMWORK_REFERENCE="/nowhere"))
 
     def test_truth_has_the_digits_of_its_uncertainty(self):
-        """The value must not have digits that are rounding errors. For a thickness without a stored value, there must
-        be a derived value, or a remedy if no program can compute it."""
         text = self.answered("truth", "spherical_joint").stdout
         self.assertNotRegex(text, r"\d\.\d*(9{6}|0{6}\d)")
         self.assertRegex(text, r"support_stiffness_max +\S+ \+- .* exact +same, haringx\n")

@@ -20,10 +20,7 @@ from harness.tools.kit.program import (PROGRAM, ProgramTest, ROOT, TRUTHS, envir
 from reference.pack import seal
 
 
-# Destinations of output: links, pipes and devices. An input or another output must never be overwritten. The
-# destinations must be checked before any work.
 def shape(text):
-    """Returns a text without its numbers, because times differ between runs."""
     return re.sub(r"[0-9][0-9.e+-]*", "#", text)
 
 
@@ -115,7 +112,6 @@ class Places(Folder):
                 fifo.unlink()
 
     def test_standard_output(self):
-        """/dev/stdout may be a pipe, or a file whose existing contents must remain."""
         work = ("converge", *WORK["converge"], "--format", "csv")
         piped = run(*work, "-o", "/dev/stdout").stdout
         plain = run(*work).stdout
@@ -196,7 +192,6 @@ class Twice(Folder):
         self.assertEqual(truths.read_bytes(), before)
 
     def test_program(self):
-        """Uses a copy of the program, so that a failing test cannot damage the build."""
         program = self.folder / "beamwork"
         shutil.copy(PROGRAM, program)
         before = program.read_bytes()
@@ -239,7 +234,7 @@ def on_terminal(*arguments, **changes):
         try:
             while more := os.read(parent, 65536):
                 written += more
-        except OSError:  # the other end of the terminal is closed
+        except OSError:
             pass
     os.close(parent)
     return written.decode(), process.returncode
@@ -414,7 +409,6 @@ class Screen(ProgramTest):
                       ("stress", "-k", "decay_free"), ("stress", "-k", "twist_wagner")):
             text = self.answered(*words).stdout
             self.assertGreater(len(text.splitlines()), 3)
-            # a row of a value is not wrapped; notes may follow the error
             self.columns(re.sub(r"(?m)( % against \w+), .*$", r"\1", text))
 
     def test_errors_in_percent(self):

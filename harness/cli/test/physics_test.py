@@ -42,7 +42,6 @@ members:
 
 
 def walls(points, lines, thickness):
-    """Returns points and walls in the syntax of a scene, with letters as names."""
     names = dict(zip("abcdefgh", points))
     return (f"points: {{{', '.join(f'{n}: [{y}, {z}]' for n, (y, z) in names.items())}}}, walls: ["
             + ", ".join(f"{{from: {one}, to: {two}, thickness: {thickness}}}"
@@ -74,8 +73,6 @@ class PhysicsTest(SceneCase):
         self.assertLess(abs(value / exact - 1), part, (value, exact))
 
     def test_cruciform_twists(self):
-        """A column with four legs of 100 x 4 mm must twist at the load G It A/Ip, which is 1/27 of the flexural
-        buckling load."""
         section = "constants: {A: 1.6e-3, Iy: 8e-6/3, Iz: 8e-6/3, It: 2.56e-8/3}"
         found = self.column(section, 1.0, material="young: 208e9, shear_modulus: 80e9")
         self.near(found["up"], 204800, 1e-9)
@@ -85,8 +82,6 @@ class PhysicsTest(SceneCase):
                   204800, 1e-6)
 
     def test_channel_as_the_case(self):
-        """The values must be those of the built-in column with this section or, without the physics that Timoshenko and
-        Gere neglect, their values."""
         section = "channel: {depth: 98e-3, flange: 49e-3, flange_thickness: 2e-3, web_thickness: 2e-3}"
         sizes = ("length=2", "height=0.098", "width=0.049", "flange_thickness=2e-3",
                  "web_thickness=2e-3", "young=210e9", "shear_modulus=81e9", "density=7850")
@@ -102,7 +97,6 @@ class PhysicsTest(SceneCase):
         self.near(self.column(section, more="omit: [shear]\n")["up"], 43535, 1e-3)
 
     def test_kinds(self):
-        """The buckling mode must be of the kind that follows from the symmetry of the section."""
         for section, kind in (("rectangle: {width: 0.02, thickness: 0.03}", "flexural"),
                               ("tube: {diameter: 0.04, thickness: 2e-3}", "flexural, double"),
                               ("constants: {A: 1.6e-3, Iy: 3e-6, Iz: 4e-6, It: 8e-9, Iw: 1e-12}", "torsional"),
@@ -133,7 +127,6 @@ class PhysicsTest(SceneCase):
             self.near(self.column(tee, length)["up"], exact, 1e-2)
 
     def test_unequal_flanges_under_a_moment(self):
-        """Because of int z (y^2 + z^2) dA, the critical moments of both signs must differ."""
         text = walls([(-0.1, -0.15), (0, -0.15), (0.1, -0.15), (-0.05, 0.15), (0, 0.15),
                       (0.05, 0.15)], ("ab", "bc", "be", "de", "ef"), 0.012).replace(
                           "{from: b, to: e, thickness: 0.012}", "{from: b, to: e, thickness: 0.008}")
@@ -163,8 +156,7 @@ class PhysicsTest(SceneCase):
 
     def test_twisted_walls(self):
         """Walls that are free to shorten, bend and warp must have M = G It w' + 4 E c w'^3 with 8 c = int q^2 dA, where
-        q is r^2 without its components along 1, y and z. The sections have eccentric shear centres, branches and
-        unequal flanges."""
+        q is r^2 without its components along 1, y and z."""
         import numpy as np
         t, rate = 1e-3, 0.1
         for points, lines in (
@@ -197,7 +189,6 @@ class PhysicsTest(SceneCase):
             self.assertGreater(plain / rate, 1.02, points)
 
     def test_torsion_under_tension(self):
-        """In a small twist and in the torsional frequency, tension must add N Ip/A to G It."""
         b, t, length, torque = 60e-3, 2e-3, 0.5, 1e-4
         A, Ip = b * t, b * t * (b * b + t * t) / 12
         It = b * t ** 3 / 3 * (1 - 192 / math.pi ** 5 * t / b * math.tanh(math.pi * b / 2 / t) *
@@ -216,9 +207,6 @@ class PhysicsTest(SceneCase):
             self.near(swings["wanted"], math.sqrt(stiff / (RHO * Ip)) / (4 * length), 3e-3)
 
     def test_strip_that_rotates(self):
-        """A strip whose width is in the plane of rotation has the torque (G It + N Ip/A) w' with
-        N = rho A W^2 (L^2 - x^2)/2, and, per length, the propeller moment W^2 rho (I1 - I2) w. w: twist angle, W: angular
-        velocity, x: distance from the hub. The frequency must be that of a series of w in odd powers of x."""
         b, t, length, speed = 40e-3, 1e-3, 0.4, 300.0
         I1, I2, terms = t * b ** 3 / 12, b * t ** 3 / 12, 5
         Ip, It = I1 + I2, b * t ** 3 / 3 * (1 - 0.63025 * t / b)
@@ -239,8 +227,6 @@ class PhysicsTest(SceneCase):
         self.near(self.solved(text, "-n", 32)["f"], exact, 3e-3)
 
     def test_rotary_inertia(self):
-        """The third bending mode of Timoshenko's pinned bar must have its known frequency, with and without rotary
-        inertia."""
         text = BAR.format(width=50e-3, thickness=30e-3, length=1, material=MATERIAL,
                           rest="analyses:\n  v: {modal: {wanted: 8}}\nquantities:\n"
                           "  f: {frequency: {analysis: v, which: 2, family: bending_y}, unit: Hz}")

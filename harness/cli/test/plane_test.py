@@ -16,7 +16,6 @@ from harness.tools.kit.program import ProgramTest, ROOT
 EXAMPLES = ROOT / "cases" / "examples"
 E, G, RHO = 210e9, 81e9, 7850
 LENGTH, HEIGHT, THICK = 1, 0.1, 0.002
-# the strip is high in its plane and thin perpendicular to it
 STRIP = """beamwork: 1
 name: strip
 sections: {s: {rectangle: {width: 0.002, thickness: 0.1}, young: 210e9, shear_modulus: 81e9,
@@ -60,7 +59,6 @@ quantities:
 
 
 def turned(text, plane):
-    """Returns the strip in another plane, whose two axes replace x and y."""
     to = {"xy": (0, 1), "xz": (0, 2), "yz": (1, 2)}[plane]
     for old in ("[1, 0, 0]", "[0, 1, 0]", "[-1, 0, 0]"):
         x, y, _ = (int(v) for v in old[1:-1].split(","))
@@ -80,7 +78,6 @@ class Plane(ProgramTest):
         return record, {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_closed_forms(self):
-        """A strip that bends only in the plane must have Euler's load and the frequencies of a clamped beam."""
         area, stiff = HEIGHT * THICK, E * THICK * HEIGHT**3 / 12
         soft = E * HEIGHT * THICK**3 / 12
         _, space = self.solved(STRIP)
@@ -95,14 +92,13 @@ class Plane(ProgramTest):
                 self.assertLess(abs(found[name] / exact - 1), 0.02, (plane, name))
 
     def test_the_same_as_in_space(self):
-        """The states of this scene are stable in space, so the plane scene must give the same values."""
         text = self.answered("scene", "elastica").stdout
         whole, space = self.solved(text)
         half, plane = self.solved(text + "plane: xy\n")
         self.assertEqual((whole["cell"]["free"], half["cell"]["free"]), (96, 48))
         for name, value in space.items():
             self.assertLess(abs(plane[name] / value - 1), 1e-9, name)
-        for n in (1, 3, 64):  # in space, members with many elements are condensed
+        for n in (1, 3, 64):
             for formulation in ("beamw", "collocation"):
                 _, space = self.solved(text, formulation=formulation, n=n)
                 _, plane = self.solved(text + "plane: xy\n", formulation=formulation, n=n)
@@ -216,9 +212,6 @@ class Plane(ProgramTest):
         self.refused(2, "confined to a plane", "export", "--scene", path, "--to", "calculix")
 
 
-# A formulation that does not support all physics of a scene must be evaluated as usual if this has no effect on the
-# requested quantities. Otherwise it is another model, which is shown but has no effect on the exit status, rankings or
-# agreements.
 LEAF = """beamwork: 1
 sections: {s: {rectangle: {width: 0.1, thickness: %s}, young: 210e9, shear_modulus: 81e9}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [0.2, 0, 0]}}
@@ -249,7 +242,6 @@ class OtherModel(ProgramTest):
         return {s["formulation"]: s for s in record["series"]}, record
 
     def test_a_thin_leaf(self):
-        """Shear has no effect on a thin leaf, so formulations with and without shear must be the same model."""
         for load in ("0.1", "0"):
             leaf = self.scene("0.0005", load, "1e-4")
             one = self.series(*leaf)[0]["beamw_vlasov"]
@@ -262,13 +254,10 @@ class OtherModel(ProgramTest):
             self.assertEqual(text.count("without shear; the omission changes no value"), 1)
 
     def test_no_load_at_all(self):
-        """Without loads, every value is zero, so a formulation with missing physics must count as the same model."""
         one = self.series(*self.scene("0.05", "0", "0"))[0]["beamw_vlasov"]
         self.assertEqual((one["other_model"], one["model_change"]), (False, 0))
 
     def test_a_deep_beam(self):
-        """Shear contributes a tenth of the deflection. A formulation without shear must be shown, but excluded from
-        rankings and agreements."""
         deep = self.scene("0.1", "1", "0")
         series, record = self.series(*deep)
         one = series["beamw_vlasov"]
@@ -379,9 +368,6 @@ def without(path, beginning):
 
 
 class NotAccepted(ProgramTest):
-    """Runs with reference values from which the known deviations of a formulation were removed. One file lists the
-    formulation as accepted, the other as new."""
-
     @classmethod
     def setUpClass(cls):
         folder = cls.class_folder()

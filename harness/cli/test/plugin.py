@@ -9,7 +9,6 @@ WARNINGS = ("-Wall", "-Wextra", "-Werror")
 
 
 def compile_shared(source, made, *options):
-    """Compiles this file to a shared object with only the public headers."""
     subprocess.run([os.environ.get("CC", "cc"), "-O1", *options, "-shared", "-fPIC", "-I", ROOT,
                     source, "-lm", "-o", made],
                    check=True)

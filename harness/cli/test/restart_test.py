@@ -6,7 +6,6 @@ from cases.format.test.scene_case import SceneCase
 from harness.tools.kit.program import TRUTHS
 
 
-# An arm that is deflected by its own weight. A driver rotates it quickly, and a load is suddenly applied at 1 s.
 SWING = """\
 beamwork: 1
 parameters:
@@ -49,7 +48,6 @@ KINDS = {"v": "rate: {analysis: swing, node: tip, component: uz",
 
 
 def windows(when, **more):
-    """Returns the scene with every statistic of several quantities, and with more quantities of displacement ux."""
     lines = [f"  {kind}_{take}: {{{words}, take: {take}}}, {when}}}" for kind, words in KINDS.items() for take in TAKES]
     lines += [f"  {name}: {{displacement: {{analysis: swing, node: tip, component: ux, {words}}}}}"
               for name, words in more.items()]
@@ -71,7 +69,6 @@ class RestartTest(SceneCase):
         return {name: row["value"] for name, row in self.rows(path, *options).items()}
 
     def in_two(self, stop=1, **changes):
-        """Returns the quantities of a single run, and those of two runs, of which the second continues the first."""
         path, sets = self.scene(SWING), [f"--set={k}={v}" for k, v in changes.items()]
         ends = self.folder / "ends.h5"
         one = self.values(path, *MESH, *sets)
@@ -88,8 +85,6 @@ class RestartTest(SceneCase):
                 self.assertGreater(abs(float(one["z"])), 1e-3)
 
     def test_to_round_off(self):
-        """If the second run chooses new pivots, or the end of the first run shortens a step, the results must still
-        agree to within rounding or the tolerance of the steps."""
         for changes, most in (({"how": "radau"}, 1e-9), ({"how": "radau", "damp": 1e-3}, 1e-9),
                               ({"how": "radau", "tol": 1e-8}, 1e-4), ({"how": "alpha", "step": 0.01}, 1e-9)):
             with self.subTest(**changes):
@@ -104,8 +99,6 @@ class RestartTest(SceneCase):
         self.assertEqual(self.values(path, "--restart", ends[1]), self.values(path, *MESH))
 
     def test_windows(self):
-        """A run must have no values that depend on times before its start. All other values must be those of a single
-        run."""
         path, ends = self.scene(windows("when: {from: from}")), self.folder / "ends.h5"
         self.values(path, *MESH, "--set", "end=1", "--save-state", ends)
         for begin in (0, 0.5, 1, 1.25):
@@ -139,8 +132,6 @@ class RestartTest(SceneCase):
                       self.answered("solve", "--scene", path, "--restart", ends).stdout)
 
     def test_a_window_before_a_second_motion(self):
-        """A motion that continues another motion of the scene begins where the other ends. A statistic over earlier
-        times must be rejected."""
         text = SWING.replace("quantities:", "  later: {motion: {stations: [end+1], integrator: how, step: step, "
                              "tolerance: tol, about: swing}}\nquantities:\n  mean: {rate: {analysis: later, "
                              "node: tip, component: ux, take: mean}, when: {from: end}}")

@@ -45,7 +45,6 @@ class Scarce(ProgramTest):
                        check=True)
 
     def attempt(self, words, **scarce):
-        """Returns the status, the output, the errors and the files of a run in an empty folder."""
         for path in self.folder.iterdir():
             if path.is_dir():
                 shutil.rmtree(path)
@@ -75,7 +74,7 @@ class Scarce(ProgramTest):
                 with self.subTest(verb=verb, call=k):
                     code, out, errors, files = self.attempt(words, SCARCE_AT=str(k))
                     self.assertFalse([name for name in files if ".part-" in name], files)
-                    if code == right[0]:  # if there is no memory for line breaks, lines are long
+                    if code == right[0]:
                         self.assertEqual(("".join(out.split()), files), ("".join(right[1].split()), right[3]))
                         continue
                     last = errors.strip().splitlines()[-1]
@@ -83,8 +82,6 @@ class Scarce(ProgramTest):
                     self.assertTrue(code in (2, 4, 5) or last.startswith(CRASHED), (code, errors))
 
     def test_results_of_workers(self):
-        """If the parent has no memory for the results of a worker, it must end without waiting for this worker,
-        which is still running."""
         code, _, errors, files = self.attempt(WORK["verify"], SCARCE_AT="1", SCARCE_ONLY="fmemopen")
         self.assertEqual((code, errors, files), (4, "beamwork: out of memory for results\n", ["tiny.yaml"]))
 

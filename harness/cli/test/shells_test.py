@@ -15,7 +15,6 @@ from harness.tools.kit.program import PROGRAM, ProgramTest, ROOT, TRUTHS, enviro
 HERE = ROOT / "harness" / "cli"
 PACKAGE = pathlib.Path("/usr/share/bash-completion/bash_completion")
 PATIENCE = 60  # [s] longest time to wait for the answer of a shell
-# text typed before the tab, and the resulting arguments
 LINES = {
     "so": ["solve"],
     "solve elas": ["solve", "elastica"],
@@ -35,7 +34,6 @@ LINES = {
     "explain bimom": ["explain", "bimoment"],
     "explain Poiss": ["explain", "Poisson's"],
 }
-# The command prints its arguments in a form that does not occur in other output of the shell.
 SHOW = ("beamwork() { if [ \"$1\" = help ]; then command beamwork \"$@\"; else "
         "printf '<<'; printf '%s|' \"$@\"; printf '>>\\n'; fi; }")
 
@@ -78,7 +76,6 @@ class Shell(unittest.TestCase):
                     self.folder / "a_folder" / "leaf.yaml")
 
     def check(self, prepare, *command):
-        """Types each line with a tab, sends it, and checks the arguments that the command receives."""
         shell = Terminal(self.folder, *command)
         self.addCleanup(shell.close)
         shell.say("\n".join((*prepare, SHOW, "printf '%s%s\\n' rea dy")) + "\n")
@@ -86,7 +83,6 @@ class Shell(unittest.TestCase):
         for typed, wanted in LINES.items():
             closing = '"' if typed.count('"') == 1 else ""
             shell.say(f"beamwork {typed}\t")
-            # bash closes the quotation, so a second pair is an empty piece of the same word
             shell.say(f'{closing}{closing}\n' if closing else "\n")
             text = shell.answer(">>")
             shown = text.partition("<<")[2].partition("|>>")[0].split("|")
@@ -111,7 +107,6 @@ class Shell(unittest.TestCase):
                     "unsetopt prompt_cr prompt_sp"), "zsh", "-f", "-i")
 
 
-# argp of the C library does not free one byte at exit
 ENV = environment(ASAN_OPTIONS="detect_leaks=0")
 LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 
@@ -119,7 +114,6 @@ LEAF = ROOT / "cases" / "examples" / "leaf_spring_guide.yaml"
 class Completion(ProgramTest):
 
     def lines(self, *words):
-        """Returns the completions of the line 'beamwork WORD...' with the cursor at the end of the last word."""
         return self.answered("help", "--complete", *words, env=ENV).stdout.splitlines()
 
     def offered(self, *words):

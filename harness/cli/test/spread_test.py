@@ -38,7 +38,6 @@ def without_times(text):
 class SpreadTest(ProgramTest):
 
     def hash_of(self, file):
-        """Returns the hash and the number of values of a stored run."""
         return self.answered("compare", "--hash", file).stdout.split()[:2]
 
     def shard(self, which, *arguments, into="parts", code=0, **options):
@@ -66,12 +65,10 @@ class Verify(SpreadTest):
         shutil.copytree(self.home / "parts", self.folder / "parts")
 
     def merged(self, *options, folders=("parts",), code=0):
-        """Merges the folders into merged.h5 and returns the finished process."""
         return self.answered("merge", *(self.folder / name for name in folders), "-o",
                              self.folder / "merged.h5", *options, code=code)
 
     def is_as_alone(self, *options, folders=("parts",)):
-        """The merged output must be that of a single run."""
         done = self.merged(*options, folders=folders)
         self.assertEqual(self.hash_of(self.folder / "merged.h5"),
                          self.hash_of(self.home / "alone.h5"))
@@ -179,8 +176,6 @@ class Verify(SpreadTest):
 class Killed(SpreadTest):
 
     def test_killed(self):
-        """Kills the process or its process group twenty times. After the remaining cells have been computed, the hash
-        must be that of a single run."""
         alone = self.folder / "alone.h5"
         self.answered("verify", "-k", CASES, "-o", alone)
         parts = self.folder / "parts"

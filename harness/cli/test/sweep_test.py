@@ -22,7 +22,6 @@ COLUMN = ("shear_column", "--vary", "length=0.5..2/3", "--vary", "side=0.01..0.0
 
 
 def sealed(path):
-    """Returns True if the last line gives the length of the rest of the file."""
     data = path.read_bytes()
     word, size, _ = data[-40:].split()
     return word == b"beamwork-seal" and int(size, 16) == len(data) - 40
@@ -157,8 +156,6 @@ class References(ProgramTest):
         self.assertIn("the limit of the same meshes", screen)
 
     def test_limits_that_disagree_are_no_reference(self):
-        """Two formulations, one of which has no shear along one axis, have different limits. These must not be used as
-        a reference value."""
         kind, _, error, screen = self.kinds(
             "--scene", LEAF, "--vary", "thickness=0.8e-3,1e-3", "-f", "sheet_second", "-f",
             "sheet_third", "-n", "8,16,32,64,128", "-k", "k_pushed", "--error", "0.1%")

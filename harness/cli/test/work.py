@@ -1,4 +1,4 @@
-"""the verbs, and a small task for each"""
+"""Small commands for each verb, and its options for output files."""
 VERBS = ("list", "solve", "converge", "bench", "stress", "verify", "truth", "compare")
 EVERY_VERB = ("list", "explain", "solve", "plot", "converge", "sweep", "truth", "scene", "verify",
               "bench", "stress", "motion", "element-test", "merge", "compare", "export", "import", "schema")

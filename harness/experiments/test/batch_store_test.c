@@ -1,5 +1,4 @@
-/* Folders with invalid files. Each invalid file must be reported in one line, and must not be
- * used. */
+/* Folders with invalid files. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -46,7 +45,6 @@ static long size_of(const char *path)
     return stat(path, &there) == 0 ? (long)there.st_size : -1;
 }
 
-/* The damaged batch must count as missing, be reported once, and be computed again. */
 static void is_done_again(filled *of, const char *what)
 {
     batch_store s;
@@ -91,7 +89,6 @@ static void damaged(void)
     folder_remove(&of.of);
 }
 
-/* A merge and a restart must both reject the folder with a message that contains these words. */
 static void is_refused(filled *of, const char *words)
 {
     batch_store s;
@@ -180,8 +177,6 @@ static void nowhere(void)
     folder_remove(&of);
 }
 
-/* Batches from another processor or BLAS library must be reported. Batches from another host with
- * the same processor and BLAS library must not be reported. */
 static void machines(void)
 {
     filled of;
@@ -234,7 +229,6 @@ static void batch_store_tests(void)
     nowhere();
 }
 
-/* The digests must be those of the examples in FIPS 180-4. */
 static void known_digests(void)
 {
     static const struct {
@@ -311,15 +305,13 @@ static void assigned(void)
     gsl_test(most > 1.01 * least, "shards end together: %g to %g", least, most);
 }
 
-/* The batch with the highest remaining cost must be assigned to the shard with the lowest cost; if
- * costs are equal, to the first of these shards. */
 static void assigned_by_the_rule(void)
 {
     enum { BATCHES = 300, MOST = 40 };
     double cost[BATCHES];
     int shard[BATCHES], order[BATCHES];
     for (int i = 0; i < BATCHES; i++)
-        cost[i] = 1 + i * 7 % 4; /* many costs are equal */
+        cost[i] = 1 + i * 7 % 4;
     batches_order(BATCHES, cost, order);
     for (int shards = 1; shards <= MOST; shards++) {
         double sum[MOST] = {0};

@@ -1,5 +1,4 @@
-/* A comparison of times must give a result only if the scatter allows it. The counted work must be
- * the same in every repetition. */
+/* A comparison of times must give a result only if the scatter allows it. */
 #include <gsl/gsl_randist.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -14,8 +13,6 @@
 
 enum { PAIRS = 101, TRIALS = 300 };
 
-/* Returns a random time [s] for a lap of 1.7 ms, with the scatter of a shared machine: mostly
- * small, sometimes large. */
 static double noisy(const gsl_rng *random, double drift)
 {
     const double tail =
@@ -142,7 +139,7 @@ static void test_counts(void)
                      "the same work is counted again");
         cell_result_free(&cell);
     }
-    request.solve.steps_between = 20; /* artificial additional work */
+    request.solve.steps_between = 20;
     cell_result more;
     gsl_test(cell_run(&request, &more, &f) != STATUS_OK, "run with more steps %s", f.text);
     gsl_test(more.counters.strain_evaluations <= first.strain_evaluations,
@@ -329,8 +326,6 @@ static void one_outcome(outcome_kind kind, double x, expectation *out)
                              .count = &out->count};
 }
 
-/* A known deviation that no outcome shows must fail a complete run, but not a run of a
- * selection. */
 static void unobserved(void)
 {
     for (int whole = 0; whole < 2; whole++) {
@@ -343,7 +338,6 @@ static void unobserved(void)
     }
 }
 
-/* The outcome of a cell must be the worse of two outcomes, in either order. */
 static void cells(void)
 {
     for (int good = 0; good < OUTCOME_KINDS; good++)
@@ -374,7 +368,6 @@ static void cells(void)
             }
 }
 
-/* A known deviation must apply to a range of x that includes both ends to within rounding. */
 static void ranges(void)
 {
     static const struct {
@@ -405,10 +398,6 @@ static void expect_tests(void)
     kinds();
     unobserved();
 }
-
-/* An inaccurate value must count as under-resolved if the error decreases with more elements, and
- * otherwise as wrong. The neighbouring meshes are artificial: finer or coarser, with and without
- * values. */
 
 enum { MESHES = 1 + OUTCOME_NEIGHBOURS };
 static const double exact = 7;

@@ -38,7 +38,6 @@ static void grid(void)
     axis_free(&a[1]);
 }
 
-/* The first five points must be those printed in the GSL manual. */
 static void sobol(void)
 {
     static const double right[] = {0.5, 0.5, 0.75, 0.25, 0.25, 0.75, 0.375, 0.375, 0.875, 0.875};
@@ -77,7 +76,6 @@ static void halton(void)
     design_free(&d);
 }
 
-/* The points must not depend on where a request starts. */
 static void anywhere(design_kind kind)
 {
     enum { POINTS = 2 * DESIGN_STRIDE + 100 };
@@ -200,8 +198,6 @@ static void order_of_each(void)
     gsl_test_rel(run[2].order, 1, 1e-14, "against the run before");
 }
 
-/* Errors and costs are powers of the step size. Between two runs, the cost at an error level must
- * be interpolated with this power. */
 static void cost_of_a_level(void)
 {
     integrators p;

@@ -47,7 +47,6 @@ class Experiments(ProgramTest):
 
     @classmethod
     def setUpClass(cls):
-        """Runs all experiments at once; all write to a file that does not exist yet."""
         cls.stored = cls.class_folder() / "results.h5"
         jobs = [subprocess.Popen([PROGRAM, *words, "-o", cls.stored], stdout=subprocess.DEVNULL,
                                  stderr=subprocess.PIPE, text=True)

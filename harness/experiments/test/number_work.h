@@ -19,7 +19,7 @@ typedef struct numbers {
     int crashes; /* number of the batch whose process ends early, or -1 */
     int fails;   /* number of the batch whose computation fails, or -1 */
     int wait;    /* [us] duration of a batch */
-    double busy; /* [s] processor time of a batch */
+    double busy;
     double sign; /* sign of the numbers; -1 gives other results */
     int taken, next;
     double sum;

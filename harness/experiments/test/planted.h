@@ -7,7 +7,7 @@
 
 #include "harness/experiments/experiments.h"
 
-static const element_type *base; /* the formulation into which the fault is injected */
+static const element_type *base;
 
 /* Checks a type with a fault, which the family of checks `family` must detect. The message must
  * contain `first` and `second`. */
@@ -41,7 +41,7 @@ static inline element_type changed(const char *name)
     gsl_test(formulation_parse(name, &chosen, NULL) != STATUS_OK, "%s", name);
     base = chosen.type;
     element_type out = *base;
-    out.options[0] = NULL; /* only with the default options */
+    out.options[0] = NULL;
     return out;
 }
 

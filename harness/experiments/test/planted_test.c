@@ -60,8 +60,6 @@ static status half_energy(const element_data *d, const double e[], const double 
     return outcome;
 }
 
-/* Copies the nodes, and replaces a position (turn 0) or a rotation (turn 1) that is NaN by a value
- * at rest. The element then ignores an invalid input. */
 static void insensitive(const node_state x[], int node, int turn, node_state out[2])
 {
     memcpy(out, x, 2 * sizeof *out);
@@ -111,8 +109,6 @@ static status soft_about_z(const element_data *d, const double e[], const double
     return outcome;
 }
 
-/* A formulation that is not declared exact is made too soft. The message must give the
- * error. */
 static void not_exact(void)
 {
     static check_results c;
@@ -331,8 +327,6 @@ INERTIA(half_potential, if (out->potential != NULL) *out->potential /= 2)
 INERTIA(wrong_force, if (out->force != NULL) out->force[8] *= -1)
 INERTIA(wrong_softening, if (out->N != NULL) out->N[14 * 2 + 2] *= 1.01)
 INERTIA(unsymmetric_softening, if (out->N != NULL) out->N[14 * 1 + 2] *= 1.01)
-/* the fault is larger for rotations than for translations; the test element has a length of 0.2385
- * m */
 INERTIA(
     unsymmetric_turns, if (out->N != NULL) {
         out->N[14 * 5 + 4] += 0.03 * 0.2385 * 0.2385 * out->N[0];

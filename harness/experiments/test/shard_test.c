@@ -32,8 +32,6 @@ static void one_folder(void)
     folder_remove(&of);
 }
 
-/* Merges two folders of the same work with different numbers of shards. A batch that is in both
- * folders must be used once. */
 static void two_folders(void)
 {
     const test_folder a = folder_make(), b = folder_make();
@@ -62,7 +60,6 @@ static void two_folders(void)
     folder_remove(&other);
 }
 
-/* If the process of a batch ends early, only this batch may be lost. A restart must compute it. */
 static void lost(void)
 {
     const test_folder of = folder_make();
@@ -82,7 +79,6 @@ static void lost(void)
     folder_remove(&of);
 }
 
-/* A failed batch, or a full disk, must end the run with a message. Existing batches must remain. */
 static void failures(void)
 {
     const test_folder of = folder_make();
@@ -114,8 +110,6 @@ static void failures(void)
     folder_remove(&of);
 }
 
-/* After twenty runs were killed at random times, the next run must complete the work with the same
- * result. */
 static void killed(void)
 {
     const test_folder of = folder_make();
@@ -145,7 +139,6 @@ static void killed(void)
     folder_remove(&of);
 }
 
-/* After a request to stop, completed batches must remain. No incomplete file may remain. */
 static void interrupted(void)
 {
     const test_folder of = folder_make();

@@ -102,7 +102,6 @@ class Stress(ProgramTest):
         self.assertEqual(done.returncode, 1, done.stdout)
 
     def test_motions(self):
-        """The step sizes of these motions are prescribed. A rotation that is too large for one step must be reported."""
         done = run("-k", "(turn_alpha or long_steps_radau) and collocation", "--format", "json")
         self.assertEqual(done.returncode, 0, done.stdout)
         record = json.loads(done.stdout)
@@ -139,10 +138,8 @@ class Stress(ProgramTest):
             self.refused(code, "", "stress", *arguments, silent=False)
 
 
-# In extreme motions, an integrator must give a value with its error, or fail with a reason.
 STEEL = 200e9, 7800.0
 
-# The sheet is a thousand times as long as it is thick. It is released from a deflected position.
 SHEET = """beamwork: 1
 sections:
   sheet: {rectangle: {width: 0.05, thickness: 1e-4}, young: 200e9, shear_modulus: 77e9,
@@ -184,7 +181,6 @@ omit: [shear, trapeze, wagner_moments, wagner_torqueOMIT]
 class Extremes(ProgramTest):
 
     def runs(self, scene, formulation, step, *options, **words):
-        """Returns {integrator: run}."""
         for word, value in words.items():
             scene = scene.replace(word, value if isinstance(value, str) else f"{value:.17g}")
         path = self.folder / "extreme.yaml"
@@ -196,7 +192,6 @@ class Extremes(ProgramTest):
         return {r["integrator"]: r for r in json.loads(done.stdout)["runs"]}
 
     def is_named(self, run):
-        """A failed motion must report the reason and the time at which it stopped."""
         self.assertEqual(run["status"], "not_converged")
         self.assertIn(" s: ", run["reason"] + " s: ")
         self.assertIsNotNone(run["stopped"])
@@ -227,7 +222,6 @@ class Extremes(ProgramTest):
             self.assertLess(found[integrator]["error"], most, integrator)
 
     def test_nearly_massless_nodes(self):
-        """With and without rotary inertia, the result must be a correct value or a failure with a reason."""
         for omit in ("", ", rotary_inertia"):
             found = self.runs(BODY, "collocation", 0.01, "--conservation-only", TIME=1, DENSITY=1e-6,
                               MASS=1, INERTIA=0.1, OMIT=omit)

@@ -35,15 +35,13 @@ static void make(parameter_ranges *r)
 
 /* errors of both quantities at each point, with 4 and 8 elements */
 static const double errors[POINTS][MESHES][2] = {
-    {{0.001, 0.002},
-     {0.0001, 0.0002}}, /* both quantities are within the tolerance with 4 and more elements */
-    {{0.02, 0.002},
-     {0.003, 0.0002}}, /* the first quantity is within the tolerance only with 8 elements */
-    {{0.001, 0.002}, {0.05, 0.0002}}, /* the first quantity is never within the tolerance, because
-                                         the error is large on the finer mesh */
-    {{NAN, NAN}, {NAN, NAN}},         /* no solution */
-    {{NAN, 0.004}, {NAN, -0.0004}},   /* the first quantity has no reference value */
-    {{NAN, NAN}, {NAN, NAN}},         /* no scene */
+    {{0.001, 0.002}, {0.0001, 0.0002}}, /* both quantities are within the tolerance with 4 and more
+                                           elements */
+    {{0.02, 0.002}, {0.003, 0.0002}},   /* the first quantity is within the tolerance only with 8
+                                           elements */
+    {{0.001, 0.002}, {0.05, 0.0002}},   {{NAN, NAN}, {NAN, NAN}}, /* no solution */
+    {{NAN, 0.004}, {NAN, -0.0004}}, /* the first quantity has no reference value */
+    {{NAN, NAN}, {NAN, NAN}},       /* no scene */
 };
 static const int least[POINTS][2] = {{4, 4}, {8, 4}, {0, 4}, {0, 0}, {0, 4}, {0, 0}};
 
@@ -111,8 +109,6 @@ static void map_is(const tally *t)
     gsl_test_rel(tally_edge(t, 1, 1), 20, 0, "second line");
 }
 
-/* Points without a solution must come first. The other points must follow in decreasing order of
- * the error on the finest mesh. */
 static void worst_are(const tally *t)
 {
     gsl_test_int(t->worsts[0], 3, "worst points");
@@ -127,7 +123,6 @@ static void worst_are(const tally *t)
     gsl_test_rel(t->uncertainty[1], 4e-4, 1e-15, "the largest doubt");
 }
 
-/* The summary must be the same whether the points are added in one call or in several. */
 static void same_in_pieces(const parameter_ranges *r, const rows *whole, const tally *right)
 {
     tally t;
@@ -202,8 +197,6 @@ static void values_are(const char *text, axis_kind kind, int count, const double
     axis_free(&a);
 }
 
-/* The first and last values of an axis must be exactly the given numbers, without rounding
- * errors. */
 static void ends_are_exact(void)
 {
     sweep_axis a = read_good("width=0.2..0.9/7"), b = read_good("width=0.2..0.9/7:log");
@@ -298,8 +291,6 @@ enum { PLACES = 8 };
 static const parameter_type map_table[] = {{"a", "m", 1, -100, 100, NULL, ""}, {0}};
 static const case_type map_box = {.name = "box", .parameters = {map_table}};
 
-/* Fields, and their marks if some (mixed) or all (alike) of the references in the sweep are
- * reference values. */
 static const struct {
     tally_place place;
     const char *mixed, *alike;

@@ -1,5 +1,4 @@
-/* Derivatives by finite differences must agree with those that the formulations compute. For each
- * formulation, J, H, the forces or the tangents are removed and replaced by finite differences. */
+/* Derivatives by finite differences must agree with those that the formulations compute. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -53,7 +52,6 @@ static status assemble(const adapters_subject *s, const node_state x[], double *
     return STATUS_OK;
 }
 
-/* The formulation that computes the forces of the formulation under test. */
 static adapters_subject source;
 
 static status force_of_source(const element_data *d, const node_state x[], force_output *out)
@@ -156,8 +154,6 @@ static double prestressed(const adapters_subject *s, const double v[], double K[
     return F[n - NODE_COORDINATES];
 }
 
-/* Compares the effect of an axial force on the torsional stiffness [N m]. It depends only on how
- * the formulation describes the stretching of fibres. */
 static void twists_as(const adapters_subject *whole, const adapters_subject *part, const char *what,
                       double bound)
 {
@@ -204,7 +200,6 @@ static void loaded(const adapters_subject *s, double out[M + ELEMENT_ALONG_COORD
     memcpy(out + M, load.ends, sizeof load.ends);
 }
 
-/* Functions other than strain and stress must receive the data of the original type. */
 static void passes_on(const element_type *given, const section *c)
 {
     const double sigma[M] = {2.385};
@@ -306,17 +301,13 @@ static void adapters_tests(void)
                  "%s: nothing is left out, nothing is made", given->name);
         passes_on(given, &c);
         if (element_inner(given, options) > 0)
-            continue; /* elements with inner unknowns must solve their own equations, so nothing can
-                         be removed */
+            continue;
         without(given, &c, LEAVES_H, "without second derivatives");
         without(given, &c, LEAVES_J, "without derivatives");
         forces_only(given, &c);
     }
     refusals(registry_formulations[0]);
 }
-
-/* For types that evaluate many elements in one call, finite differences must be bit-for-bit equal
- * to those with one element per call, even for states that fail. */
 
 enum { ELEMENTS = 5, GATHER_M = ELEMENT_MAX_STRAINS, GATHER_N = ELEMENT_MAX_COORDINATES };
 
@@ -340,8 +331,6 @@ static void strain_many(int count, const element_data *const data[], const node_
                               &out[i]);
 }
 
-/* Computes an energy of the strains and its derivatives. Fails if the first node has warping of one
- * sign. */
 static status force(const element_data *d, const node_state x[], force_output *out)
 {
     double e[GATHER_M] = {0}, J[GATHER_M * GATHER_N], C[GATHER_M * GATHER_M] = {0},

@@ -37,7 +37,6 @@ quantities:
   rx: {displacement: {analysis: second, node: b, component: rx}}
   my: {reaction: {analysis: second, node: a, component: ry}}
 """
-# the 45-degree bend with 8 straight elements, which have the shear stiffness and the torsion of the paper
 BEND = ("beamwork: 1\nsections: {s: {rectangle: {width: 1, thickness: 1}, young: 1e7, shear_modulus: 5e6, shear_factor: 1,"
         " given: {Iw: 0, It: 1/6}}}\nnodes:\n  n_0: {at: [0, 0, 0], hold: all}\n"
         "  n_$i: {for: {i: 1..8}, at: [100*sin(i*pi/32), 100*(1 - cos(i*pi/32)), 0]}\nmembers:\n" +
@@ -79,8 +78,6 @@ class ForceHistory(ProgramTest):
             self.assertAlmostEqual(found[key], value, delta=close * max(abs(value), 1e-6), msg=key)
 
     def test_statics(self):
-        """Statics, continuation, and modes and compliances about a path must give the results of the same element
-        defined by its strains."""
         wanted = self.numbers(STATIC, self.strains, "incremental")
         for words in ((), ("--threads", 2)):
             self.alike(self.numbers(STATIC, self.forces, "incremental_force", *words), wanted, 1e-6)
@@ -88,7 +85,6 @@ class ForceHistory(ProgramTest):
         self.alike(dense, {key: wanted[key] for key in dense}, 1e-5)
 
     def test_motions(self):
-        """Motions that continue motions must give the same results for both elements, which have the same mass."""
         for integrator, step in (("alpha", 1e-3), ("radau", 2e-3), ("explicit", 1e-6)):
             text = MOTION.replace("INTEGRATOR", integrator).replace("STEP", str(step))
             if integrator == "explicit":
@@ -118,7 +114,6 @@ serve(prepare, force=force, begin=of.begin, commit=of.commit, name="mine", famil
         self.alike(found, self.numbers(PATH, self.strains, "incremental", n=2), 1e-6)
 
     def test_refused(self):
-        """Analyses without a defined result must be rejected with a remedy."""
         damped = MOTION.replace("y: [0, 1, 0]", "y: [0, 1, 0], damping: 1e-4")
         buckling = BAR + LOADS % (-1, 0, 0, 0) + ("analyses: {run: {buckling: {}}}\n"
                                                  "quantities: {f: {critical_factor: {analysis: run, which: 0}}}\n")
@@ -131,7 +126,6 @@ serve(prepare, force=force, begin=of.begin, commit=of.commit, name="mine", famil
             self.assertIn("history", done.stdout + done.stderr)
 
     def test_unsymmetric(self):
-        """The stiffness of undeformed elements must be symmetric in linear analyses."""
         text = (TESTS / "incremental_force.c").read_text(encoding="utf-8")
         source = self.folder / "unsymmetric.c"
         source.write_text(text.replace("    return outcome;\n}\n\nconst", "    if (out->F != NULL)\n"
@@ -148,7 +142,6 @@ serve(prepare, force=force, begin=of.begin, commit=of.commit, name="mine", famil
             self.assertEqual("is not symmetric" in " ".join((done.stdout + done.stderr).split()), code == 2)
 
     def test_energy(self):
-        """If there is no energy, none may be printed."""
         scene = self.folder / "scene.yaml"
         scene.write_text(MOTION.replace("INTEGRATOR", "alpha").replace("STEP", "1e-3"), encoding="utf-8")
         done = self.answered("solve", scene, "--element", self.forces, "-f", "incremental_force", "-n", 2)
@@ -157,7 +150,6 @@ serve(prepare, force=force, begin=of.begin, commit=of.commit, name="mine", famil
         self.assertNotIn("nan", done.stdout.lower())
 
     def test_energy_quantities(self):
-        """A quantity without a defined value must not remove the values of others."""
         scene = self.folder / "scene.yaml"
         scene.write_text(MOTION.replace("INTEGRATOR", "alpha").replace("STEP", "1e-3") + "".join(
             f"  e_{of}: {{energy: {{analysis: second, of: {of}, take: max}}}}\n"
@@ -172,7 +164,7 @@ serve(prepare, force=force, begin=of.begin, commit=of.commit, name="mine", famil
     def test_published(self):
         """The tip positions must be those of Simo and Vu-Quoc (1986) at the forces 300, 450 and 600, for 8 linear
         elements and three load steps, of which the first requires 13 iterations. Only one of the nine numbers may
-        differ: 15.80 instead of 15.79. The paper updates rotations in each iteration, the example in each step."""
+        differ: 15.80 instead of 15.79."""
         record = self.solved(BEND, self.simo, "simo_vu_quoc", n=1)
         at = [100 * math.sin(math.pi / 4), 100 * (1 - math.cos(math.pi / 4)), 0]
         found = [[x + u for u in curve["curve_value"]] for curve, x in zip(record["curves"], at)]
@@ -193,8 +185,6 @@ serve(prepare, force=force, begin=of.begin, commit=of.commit, name="mine", famil
         return out
 
     def test_rivals(self):
-        """The element test must find that forces of simo_vu_quoc depend on the path and on rigid rotations, and that
-        strains of rotation_vector depend only on rigid rotations."""
         simo, vectors = self.points(self.simo), self.points(self.vectors)
         self.assertGreater(simo["forces, turns superposed"][0], 1e-4)
         self.assertGreater(simo["forces after closed cycles"][0], 1e-2)

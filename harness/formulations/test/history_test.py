@@ -19,7 +19,6 @@ BESIDE = BAR.replace(", b: {", ", c: {at: [0, 1, 0], hold: all}, d: {at: [1, 1, 
     "members: {", "members: {cd: {from: c, to: d, section: s, y: [0, 1, 0]}, ") % ", drive: {rx: turn}"
 TORQUE = "torque: {reaction: {analysis: run, node: b, component: rx, take: curve}, unit: N m}"
 TURN = "turn: {displacement: {analysis: run, node: b, component: rx, take: curve}, unit: rad}"
-# midpoint.c in Octave and Fortran, as changes of timoshenko.m and timoshenko.f90
 OCTAVE = (("function e = strain(kind, r, u, R, a)", "function e = linear(kind, r, u, R, a)"),
           ("function A = turned_back(R)", """function e = strain(kind, r, u, R, a, h)
 e = linear(kind, r, u, R, a);
@@ -68,8 +67,6 @@ RIGIDITY = 292.712582272 / 0.8  # torsional rigidity of timoshenko.c [N m^2]
 
 
 class Path:
-    """The bar of midpoint.c with n elements, after the accepted twists [rad]."""
-
     def __init__(self, n=1):
         self.n, self.twist, self.strain = n, 0, 0
 
@@ -123,8 +120,6 @@ class History(ProgramTest):
         self.assertEqual(compared, len([at for at in torque if at > 0]))
 
     def test_rejected_steps(self):
-        """Rejected steps must not change the history. The history at a station is that of the step that led to the
-        station."""
         text = BESIDE + ("motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.8]}}\n"
                          "loads: {pull: {force: [-30000, 20000, 8000], on: d}}\n"
                          "analyses: {run: {static: {stations: 0..1/2}}}\n"
@@ -136,8 +131,6 @@ class History(ProgramTest):
             self.follows(curves["torque"], [s["path"] for s in record["steps"]], lambda at: 0.8 * at, n)
 
     def test_loads_and_stiffness(self):
-        """The tangent of an accepted state must be that of the step that led to the state. A continuation must also
-        commit its steps."""
         static = FREE + ("loads: {pull: {moment: [1000, 0, 0], on: b}}\n"
                          "analyses: {run: {static: {stations: 0..1/4}}, at: {compliance: {node: b, about: run}}}\n"
                          f"quantities: {{{TURN}, stiffness: "
@@ -157,7 +150,6 @@ class History(ProgramTest):
             path.accept(twist)
 
     def test_modes(self):
-        """The stiffness of modes about a path must be that of the step that led to the state."""
         text = FREE + ("loads: {pull: {moment: [200, 0, 0], on: b}}\n"
                        "analyses: {half: {static: {stations: [0.5]}}, run: {static: {stations: 0..1/2}},\n"
                        "  near: {modal: {about: half}}, far: {modal: {about: run}}}\n"
@@ -172,7 +164,6 @@ class History(ProgramTest):
         self.assertAlmostEqual((g / f)**2 / (path.stiffness(path.under(200)) / near), 1, delta=2e-5)
 
     def test_many(self):
-        """Elements must have the same histories if they are evaluated together, in lanes or all in one call."""
         text = DRIVEN + ("motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.8]}}\n"
                          "analyses: {run: {static: {stations: 0..1/4}}}\n"
                          f"quantities: {{{TORQUE}}}\n")
@@ -206,7 +197,6 @@ const element_type beamwork_element""").replace(".stress = stress,", f""".stress
         self.follows(wanted["torque"], [0.25, 0.5, 0.75, 1], lambda at: 0.8 * at, 7)
 
     def test_meshes(self):
-        """Meshes that are solved in one run, in one process or two, must not share histories."""
         text = DRIVEN + ("motions: {turn: {unit: rad, path: [0, 1], value: [0, 0.8]}}\n"
                          "analyses: {run: {static: {stations: [0.5, 1]}}}\n"
                          f"quantities: {{{TORQUE.replace(', take: curve', '')}}}\n")
@@ -221,7 +211,6 @@ const element_type beamwork_element""").replace(".stress = stress,", f""".stress
                 self.assertAlmostEqual(value / path.torque(0.8), 1, delta=2e-6)
 
     def test_motions(self):
-        """Motions must commit their steps, even if a motion continues another motion or begins from a static state."""
         text = DRIVEN + ("motions: {turn: {unit: rad, time: 0.8*t^2}}\n"
                          "analyses:\n"
                          "  run: {motion: {stations: 0..1/4, integrator: INTEGRATOR, step: 0.25}}\n"
@@ -234,7 +223,6 @@ const element_type beamwork_element""").replace(".stress = stress,", f""".stress
             self.follows(curves["torque"], steps, twist_of, close=1e-5)
             for time in (0.75, 1):
                 self.assertAlmostEqual(curves["then"][time] / curves["torque"][time], 1, delta=1e-5)
-        # the history of stations within a step must not affect the following steps
         curves, _ = self.solved(text.replace("INTEGRATOR", "radau").replace("0..1/4", "0..1/12"))
         path = Path()
         for k in range(1, 13):
@@ -261,7 +249,6 @@ const element_type beamwork_element""").replace(".stress = stress,", f""".stress
                     self.assertAlmostEqual(found[0][name], value, delta=1e-7 * abs(value), msg=(case, name))
 
     def test_process(self):
-        """The example in Python must give the results of the example in C, also in a motion."""
         scene = self.scene(FREE.replace("hold: [uy, uz, ry, rz]", "") + (
             "loads: {pull: {force: [-20, 30, 60], on: b}, turn: {moment: [30, 0, 0], on: b}}\n"
             "analyses: {run: {static: {stations: 0..1/3}}, go: {motion: {stations: [0.05], integrator: alpha, "
@@ -312,8 +299,6 @@ const element_type beamwork_element""").replace(".stress = stress,", f""".stress
         return " ".join(broken(record)), points
 
     def test_element_test(self):
-        """Undeclared properties of an element, and histories that are not continued, must be reported as violations.
-        The error of the midpoint rule must be the same in every cycle."""
         none, points = self.faults()
         self.assertEqual(none, "")
         one, ten, hundred = points["strains after closed cycles"]
@@ -344,7 +329,6 @@ const element_type beamwork_element""").replace(".stress = stress,", f""".stress
         self.assertEqual(broken(json.loads(done.stdout)), [])
 
     def test_refused(self):
-        """Analyses that require strains that depend only on the state must be rejected with a remedy."""
         conserving = DRIVEN + ("motions: {turn: {unit: rad, time: t^2}}\n"
                                "analyses: {run: {motion: {stations: [1], integrator: conserving, step: 0.1}}}\n"
                                f"quantities: {{{TORQUE}}}\n")

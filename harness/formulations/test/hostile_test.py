@@ -8,8 +8,6 @@ from harness.tools.kit.program import ROOT, run
 
 
 class Refused(Speaker):
-    """Errors before the name of the formulation is known must lead to exit status 2."""
-
     def test_no_such_command(self):
         self.refuse("exec:/no/such/command at all", "/no/such/command", "No such file")
         self.refuse(f"exec:{ROOT / 'README.md'}", "README.md", "Permission denied")
@@ -50,7 +48,6 @@ class Refused(Speaker):
             self.refuse(self.speaker(first=line), word)
 
     def test_list(self):
-        """'list' must reject the same formulations as 'solve'."""
         for line, word in (("said.update(nodes=3, places=[0, 1, 1])", "increase from 0"),
                            ("del said['offers']", "a list of the supported physics")):
             self.refused(2, word, "list", "speaker", "--element", self.speaker(first=line))
@@ -73,8 +70,6 @@ class Refused(Speaker):
 
 
 class Evaluated(Speaker):
-    """Errors during a solution must lead to exit status 1, and to a reason in each run."""
-
     def one_line(self, words, at, what=2):
         element = self.speaker(at=f"if what == {what}:\n" + textwrap.indent(at, "    "))
         done = run("solve", "elastica", "-f", "speaker", "-n", "2", "--element", element,

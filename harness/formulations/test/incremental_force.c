@@ -4,7 +4,6 @@
 #include "elements/examples/incremental.c"
 #undef beamwork_element
 
-/* Computes the strains after a step of coordinate c. */
 static void strains_near(const element_data *d, const node_state x[], const double *values, int c,
                          double step, double e[STRAINS])
 {

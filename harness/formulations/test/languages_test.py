@@ -10,9 +10,7 @@ from harness.tools.kit.program import ROOT, ProgramTest
 
 STRICT = ("-Wall", "-Wextra", "-Wpedantic", "-Wshadow", "-Wconversion", "-Werror")
 MODULE = ROOT / "elements" / "examples" / "timoshenko.f90"
-# Code that an author may write before or after including the headers.
 STANDARD = "#include <cmath>\n#include <complex>\n#include <string>\n#include <vector>\n"
-# A formulation that is never called, whose `beamwork_element` is visible and has C linkage.
 EXPORTED = """#include "elements/element.h"
 static int of(void)
 {
@@ -29,8 +27,6 @@ def public_headers():
 
 
 class Headers(ProgramTest):
-    """Each header must compile alone, even if it is included twice."""
-
     def compiles(self, compiler, standard, ending):
         if shutil.which(compiler) is None:
             self.skipTest(f"needs {compiler}")
@@ -40,7 +36,6 @@ class Headers(ProgramTest):
             self.compile(compiler, standard, ending, f'#include "{header}"\n' * 2)
 
     def compiles_beside(self, compiler):
-        """Includes the header before and after the standard headers that authors use."""
         line = '#include "elements/element.h"\n'
         self.compile(compiler, "-std=c++20", "cpp", line + STANDARD)
         self.compile(compiler, "-std=c++17", "cpp", STANDARD + "using namespace std;\n" + line)
@@ -67,8 +62,6 @@ class Headers(ProgramTest):
         self.compiles_beside("clang++-19")
 
     def test_exports(self):
-        """In C++, constants have internal linkage, but the symbol must have C linkage and be visible even if symbols
-        are hidden by default."""
         for compiler in ("g++", "clang++-19"):
             if shutil.which(compiler) is None:
                 self.skipTest(f"needs {compiler}")
@@ -82,8 +75,6 @@ class Headers(ProgramTest):
 
 @unittest.skipIf(shutil.which("gfortran") is None, "needs gfortran")
 class Fortran(ProgramTest):
-    """The module of the example must have the constants and the structure layout of the header."""
-
     @classmethod
     def setUpClass(cls):
         text = MODULE.read_text(encoding="utf-8")
@@ -147,7 +138,6 @@ class Fortran(ProgramTest):
 class Rust(ProgramTest):
 
     def test_example(self):
-        """The beam in Rust must satisfy the interface and have the displacements of the same beam in C."""
         made = self.folder / "timoshenko_rs.so"
         done = subprocess.run(["rustc", "-O", "--crate-type", "cdylib", MODULE.with_suffix(".rs"), "-o", made], cwd=self.folder,
                               env={k: v for k, v in os.environ.items() if "MAKE" not in k and k != "MFLAGS"},

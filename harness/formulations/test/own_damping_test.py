@@ -29,7 +29,6 @@ SHAKEN = CANTILEVER + """analyses: {shake: {harmonic: {frequencies: [%r]}}, push
 loads: {tip: {force: [0, 1, 0], on: b}}
 quantities: {w: {response: {analysis: shake, node: b, component: uy, force: b, along: uy, at: %r}}}
 """
-# A rod with a mass at its end: one degree of freedom in elongation.
 PULLED = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 1e6, shear_modulus: 4e5}}
 nodes: {a: {at: [0, 0, 0], hold: all}, b: {at: [0.5, 0, 0], hold: [uy, uz, rx, ry, rz], mass: 2}}
@@ -42,7 +41,6 @@ quantities:
   N: {internal: {analysis: go, member: ab, end: to, resultant: N}}
   lost: {energy: {analysis: go, of: dissipated}}
 """
-# A frame with large rotations.
 SWING = """beamwork: 1
 sections: {s: {rectangle: {width: 0.03, thickness: 0.004}, young: 2e9, shear_modulus: 8e8, density: 3000}}
 nodes: {a: {at: [0, 0, 0], hold: [ux, uy, uz]}, b: {at: [0.6, 0, 0.1]}, c: {at: [0.6, 0.5, 0], mass: 0.1}}
@@ -97,8 +95,6 @@ class OwnDamping(Speaker):
                 self.assertLessEqual(abs(found[f"d{i}"] / expected - 1), 1e-5 if i == 0 else 2e-4)
 
     def test_resonance(self):
-        """At the first frequency, the compliance must be about 1/(eta omega) times the share of the first mode in the
-        static compliance."""
         f = self.solved(MODES % "", n=8)["f0"]
         w, first = 2 * math.pi * f, 0.97068  # share of the first mode in the static compliance, 12/1.8751^4
         found = self.solved(SHAKEN % ("", f, f), n=8)["w"]
@@ -119,12 +115,10 @@ class OwnDamping(Speaker):
                 found = self.solved(PULLED % integrator, element, f"{chosen}:eta={20 * ETA}")
                 for name, value, size in (("u", u, v0 / wd), ("v", v, v0), ("N", k * u + 20 * ETA * k * v, k * v0 / wd),
                                           ("lost", lost, lost)):
-                    rate = 1e-5 if name == "N" else 0  # the strain rate at the end of a step is of lower order
+                    rate = 1e-5 if name == "N" else 0
                     self.assertLessEqual(abs(found[name] - value), max(close, rate) * size, (integrator, name))
 
     def test_same_as_damping_of_members(self):
-        """With the same eta, damping by the formulation must equal damping by the key `damping` of members, also if
-        each contributes half of eta."""
         def swung(how, own, given):
             more = f", damping: {given}"
             return self.solved(SWING % (more, more, f"integrator: {how}"), self.in_c(), f"own_damping:eta={own}")
@@ -173,14 +167,12 @@ class OwnDamping(Speaker):
         static = PULLED.replace("analyses: {", "loads: {f: {force: [1, 0, 0], on: b}}\nanalyses: {still: {static: {stations: "
                                 "[1]}}, ") + "  s: {displacement: {analysis: still, node: b, component: ux}}\n"
         out = self.answered(*solve(static % "explicit", self.in_c(), "own_damping"), code=2).stdout
-        self.assertEqual(out, "")  # no analysis runs
+        self.assertEqual(out, "")
         self.refused(2, "damping returned (3), strains=6 wants (6, 6)",
                      *solve(PULLED % "radau", self.python("return prepare(kind) * eta", "return eta[:3]"),
                             "own_damping_py"), env=WITH_MODULES)
 
     def test_slender(self):
-        """A negative entry must be rejected even if it is small relative to the others. For NaN, the message must say
-        that an entry is NaN."""
         slender = CANTILEVER.replace("width: 0.02, thickness: 0.01", "width: 0.01, thickness: 1e-5") % ""
         slender += """analyses: {damped: {modal: {damped: yes}}}
 quantities: {d: {damping_ratio: {analysis: damped, which: 0, of: decay}}}
@@ -196,7 +188,6 @@ quantities: {d: {damping_ratio: {analysis: damped, which: 0, of: decay}}}
             self.assertIn(shown, self.contract(wrong, "own_damping_py", code=1)[1])
 
     def test_only_damping(self):
-        """If a function computes the stresses, the process sends V without C. The results must be the same."""
         given = self.solved(PULLED % "radau", None, f"own_damping_py:eta={20 * ETA}")
         own = self.python("serve(prepare, strain, damping=damping", """
 
@@ -210,7 +201,6 @@ quantities: {d: {damping_ratio: {analysis: damped, which: 0, of: decay}}}
             self.assertLessEqual(abs(found[name] - value), 1e-9 * abs(value), name)
 
     def test_arrays(self):
-        """A damping matrix in place of a function must be rejected in one line."""
         self.python("damping=damping", "damping=np.eye(6)")
         told = subprocess.run([sys.executable, self.folder / "mine.py"], env=WITH_MODULES, stdin=subprocess.DEVNULL,
                               capture_output=True, encoding="utf-8", check=False).stderr

@@ -27,7 +27,6 @@ quantities:
   M: {reaction: {analysis: run, node: a, component: rz}}
   inside: {internal: {analysis: run, member: ab, where: 0.5, resultant: Mz}}
 """
-# Large displacements under eccentric and following loads.
 BENT = MEMBER + """loads:
   q: {distributed: [0.2, 0.9, 0.5], on: ab, at: [0, 0.01, 0.02]}
   p: {distributed: [0.1, -0.8, 1], on: ab, follower: yes}
@@ -42,7 +41,6 @@ WEIGHT = MEMBER.replace("hold: all}, b", "hold: all}, b") + """loads: {w: {distr
 analyses: {run: {buckling: {}}}
 quantities: {factor: {critical_factor: {analysis: run}}}
 """
-# own_loads.py in Octave, as changes of timoshenko.m
 OCTAVE = (("function A = turned_back(R)", """function [place, axes] = between(kind, at, r, u, R, a)
 s = reshape(at, 1, 1, []);
 q = s .^ 2 .* (3 - 2 * s);
@@ -82,8 +80,6 @@ class OwnLoads(Speaker):
         return record, {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_exact(self):
-        """One element must have the displacements of the differential equation under loads for which a cubic is
-        exact."""
         q, a, l = 0.7, 0.4 * LENGTH, LENGTH
         for load, u, t, force, moment in (
                 (f"q: {{distributed: [0, {q}, 0], on: ab}}", q * l**4 / 8, q * l**3 / 6, q * l, q * l * l / 2),
@@ -107,8 +103,6 @@ class OwnLoads(Speaker):
             self.assertLessEqual(abs(found[name] / value - 1), 1e-9, name)
 
     def test_large_displacements(self):
-        """The limit for many elements must be that of the common displacement field, and reactions must balance the
-        dead load. The tangent is exact, so at most two additional iterations may be needed."""
         (here, own), (there, common) = (self.solved(BENT, 8, name) for name in ("own_loads", "timoshenko"))
         self.assertGreater(abs(own["y"]), 0.08)
         for name in "xy":
@@ -126,7 +120,6 @@ class OwnLoads(Speaker):
 
     @unittest.skipUnless(shutil.which("octave-cli"), "needs octave-cli")
     def test_octave(self):
-        """The element in Octave must have the displacements of that in Python, and satisfy the interface."""
         text = (EXAMPLES / "timoshenko.m").read_text(encoding="utf-8")
         for before, after in OCTAVE:
             self.assertIn(before, text)

@@ -1,5 +1,5 @@
 /* The beam of timoshenko.c with the mass of own_mass.py, in C. Velocities are linear along the
- * element, and half of the rotary inertia is at each node. Rotating frames are not supported. */
+ * element, and half of the rotary inertia is at each node. */
 #define beamwork_element timoshenko
 #include "elements/examples/timoshenko.c"
 #undef beamwork_element

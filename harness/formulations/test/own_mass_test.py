@@ -90,7 +90,6 @@ class OwnMass(Speaker):
         self.assertEqual(beam, self.solved(self.python(), "own_mass_py", "deep_beam", 4)[1])
 
     def test_rotating_frame(self):
-        """If `inertia` refuses rotating frames, the message must name the formulation and the remedy, lumped mass."""
         path = self.folder / "spin.yaml"
         made = self.folder / "own_mass.so"
         compile_shared(ROOT / "harness/formulations/test/own_mass.c", made)

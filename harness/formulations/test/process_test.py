@@ -47,8 +47,6 @@ serve(prepare, force=force, gives="energy", name="chord", family="example", sour
 
 
 class Energy(ProgramTest):
-    """A formulation with options that computes only an energy."""
-
     def solve(self, *words, formulation="chord", code=0):
         path = self.folder / "chord.py"
         path.write_text(ENERGY, encoding="utf-8")
@@ -61,7 +59,7 @@ class Energy(ProgramTest):
         return {q["quantity"]: q["value"] for q in told["quantities"]}["w_over_L"]
 
     def test_solves(self):
-        self.assertAlmostEqual(self.value("chord"), 0.30172, delta=1e-3)  # 0.2 % from the reference value
+        self.assertAlmostEqual(self.value("chord"), 0.30172, delta=1e-3)
 
     def test_options(self):
         self.assertLess(self.value("chord:times=2"), 0.6 * self.value("chord"))
@@ -97,7 +95,6 @@ class Example(BesideC):
             self.assertIn("timoshenko_py", out)
 
 
-# The Python module must report each error of an author in one sentence.
 class InPython(ProgramTest):
 
     def example(self, before, after):
@@ -234,7 +231,6 @@ class InPython(ProgramTest):
 
 EXAMPLE = OCTAVE_EXAMPLES / "timoshenko.m"
 NAME = "timoshenko_m"
-# four of the ten cases for Python, because all ten would take 28 s of processor time instead of 4 s
 OCTAVE_CASES = ("tapered_cantilever", "deep_beam", "sprung_beam", "bend_45")
 HERE = "addpath(fileparts(mfilename('fullpath')));"
 
@@ -296,8 +292,6 @@ OPTIONS = """'options', {
 
 
 class Module(OctaveTest):
-    """Optional functions of an element, for the same beam."""
-
     def values(self, case, element):
         record = self.record("solve", case, "-f", NAME, "-n", "2", "--element", element)
         return {q["quantity"]: q["value"] for q in record["quantities"]}
@@ -317,7 +311,7 @@ class Module(OctaveTest):
     def test_stresses(self):
         element = self.altered(*KEPT, ("@strain,", "@strain, 'stress', @stress,"))
         self.same(element, 1e-10)
-        self.same(element, 1e-10, "tapered_cantilever")  # with several kinds of elements
+        self.same(element, 1e-10, "tapered_cantilever")
 
     def test_energy(self):
         self.same(self.altered(*KEPT, ("'strain', @strain, 'strains', 6,",
@@ -392,9 +386,6 @@ CONTRACT_EXAMPLES = ROOT / "elements" / "examples"
 
 
 class ManyAtOnce(ProgramTest):
-    """Code that uses the value of the first element for all elements of a call must be reported. The correct code must
-    not be reported."""
-
     def test_one_value_for_all(self):
         text = (CONTRACT_EXAMPLES / "timoshenko.py").read_text(encoding="utf-8")
         result = "    return np.hstack([e - [kind.length, 0, 0], kind.length * psi])"

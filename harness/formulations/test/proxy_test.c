@@ -1,6 +1,5 @@
 /* A formulation of this program is evaluated in another process, and must give bit for bit the same
- * results as in the process of the solver. The other process is this program, with the name of the
- * formulation as its first argument. */
+ * results as in the process of the solver. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -43,7 +42,7 @@ static void learn(void)
 {
     int64_t head[3];
     double first[7], numbers[111], *at = numbers;
-    section *c = calloc(1, sizeof *c); /* the kind stores this section */
+    section *c = calloc(1, sizeof *c);
     get(head, sizeof *head, 3);
     get(first, sizeof *first, 7);
     get(numbers, sizeof *numbers, 111);

@@ -222,8 +222,6 @@ quantities: {f1: {frequency: {analysis: run}}, f2: {frequency: {analysis: run, w
                 self.assertAlmostEqual(here[name] / value, 1, delta=2e-3, msg=(scheme, name))
 
     def test_further_analyses(self):
-        """In load cases and continuations, and in modes, responses and rotating frames about a path, ancf_slopes must
-        agree with timoshenko."""
         timoshenko = compile_shared(EXAMPLES / "timoshenko.c", self.folder / "timoshenko.so")
         for scene, count in ((CASES, 3), (PATH, 6)):
             here = self.solved(self.ancf(), scene, 16, "ancf_slopes")[1]
@@ -233,7 +231,6 @@ quantities: {f1: {frequency: {analysis: run}}, f2: {frequency: {analysis: run, w
                 self.assertAlmostEqual(here[name] / value, 1, delta=2e-3, msg=name)
 
     def test_restart(self):
-        """A motion that continues another run must end in the same state."""
         state = str(self.folder / "state.h5")
         for scheme in ("alpha", "radau"):
             whole = FRAME[:FRAME.index("analyses:")] + "analyses: {swing: " + FRAME.split("swing: ")[1].split("\n")[0].replace(
@@ -244,7 +241,6 @@ quantities: {f1: {frequency: {analysis: run}}, f2: {frequency: {analysis: run, w
             self.assertAlmostEqual(found / expected, 1, delta=1e-11, msg=scheme)
 
     def test_reduced(self):
-        """Reduced models must have the natural frequencies of the model with the additional unknowns."""
         path = self.folder / "scene.yaml"
         path.write_text(CONSTANT + """analyses: {modes: {modal: {}}}
 quantities: {f: {frequency: {analysis: modes, which: 2}}}

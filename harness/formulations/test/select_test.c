@@ -1,5 +1,5 @@
 /* Random selections must have the value of an independent evaluation, with and without redundant
- * brackets. Unknown words must be reported. */
+ * brackets. */
 #include "harness/formulations/formulations.h"
 
 #include <gsl/gsl_test.h>
@@ -12,8 +12,6 @@ enum { LONGEST = 4000, EXPRESSIONS = 4000 };
 static const char *const words[] = {"hexapod", "c_column/default", "beamw", "and_or"};
 static const char text[] = "c_column/default/beamw/buckling_load";
 
-/* An expression with the necessary brackets, the same expression with additional brackets, and
- * its value. */
 typedef struct sample {
     char bare[LONGEST], bracketed[LONGEST];
     int value;
@@ -109,7 +107,6 @@ static void expressions(void)
         gsl_test_int(select_matches(malformed[i], text), -1, "malformed: %s", malformed[i]);
 }
 
-/* Evaluates `piece`, repeated `count` times, followed by `end`. */
 static int repeated(const char *piece, int count, const char *end)
 {
     static char long_one[LONGEST];

@@ -53,7 +53,6 @@ class Speaker(ProgramTest):
         return f"exec:'{sys.executable}' '{path}'"
 
     def nothing_left(self):
-        """Requires that every process that was started has ended within a few seconds."""
         pids = [int(line) for line in (self.folder / "pids").read_text("utf-8").split()]
         self.assertTrue(pids)
         end = time.monotonic() + 20

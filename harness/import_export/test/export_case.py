@@ -13,7 +13,6 @@ from cases.format.test.scene_case import EXAMPLES, SceneCase
 CCX = shutil.which("ccx")
 needs_ccx = unittest.skipUnless(CCX, "ccx (Debian: calculix-ccx) is not installed")
 
-# A cantilever with a Poisson's ratio of zero. Except for its shear theory, the beam is then exact.
 LENGTH, WIDTH, HEIGHT, YOUNG = 0.1, 10e-3, 2e-3, 200e9
 INERTIA = WIDTH * HEIGHT**3 / 12
 CANTILEVER = """\

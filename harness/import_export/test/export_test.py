@@ -18,8 +18,6 @@ from harness.tools.kit.program import ROOT, run
 class Decks(ExportTest):
 
     def test_bricks_fill_the_member(self):
-        """The elements must be right-handed, fill the volume of the member and lie between its ends. All nodes must be
-        used, except those of rigid bodies."""
         nodes, elements = mesh_of(self.deck(self.scene(cantilever(1.0)), "-n", "6"))
         self.assertEqual(elements.shape, (6 * 8 * 1, 20))
         corners = np.array([[nodes[n] for n in e[:8]] for e in elements])
@@ -43,8 +41,6 @@ class Decks(ExportTest):
                                            atol=1e-12)
 
     def test_walls(self):
-        """Adjacent bricks must share their faces, and no space may be filled twice. The area must be that of the
-        walls, except where a wall ends inside another wall. The deck must state the difference."""
         faces = [(0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 5, 4), (1, 2, 6, 5), (2, 3, 7, 6), (3, 0, 4, 7)]
         for section, (area, twice) in WALLS.items():
             deck = self.deck(self.scene(cantilever(1.0).replace(RECTANGLE, section)), "-n", "3")
@@ -89,8 +85,6 @@ class Decks(ExportTest):
         self.assertIn("leaf_spring_guide.yaml; thickness=0.0004\n", deck)
 
     def test_one_turn(self):
-        """If the sequence of rotations of a node has one angle about z, the deck must prescribe the rotation about z
-        and fix the rotations about x and y."""
         deck = self.deck(self.scene(hinge()), "-n", "2").read_text(encoding="utf-8")
         moment = re.search(r"^\*\*Q moment\|N m\|forces\|4\|(\d+)\|3\|", deck, re.M)
         states = [step for step in deck.split("*STEP") if step.startswith(",NLGEOM")]
@@ -146,10 +140,7 @@ class Decks(ExportTest):
 
 
 class Answers(ExportTest):
-    """Tests the evaluation of CalculiX output without running CalculiX."""
-
     def printed(self, *vectors):
-        """Writes a deck and its .dat file, in which each step prints the next pair (displacement, force) of `vectors`."""
         deck = self.deck(self.scene(cantilever(1.0, PATH)), "-n", "1")
         answers = [line[4:].split("|") for line in deck.read_text(encoding="utf-8").splitlines()
                    if line.startswith("**Q ")]
@@ -215,7 +206,6 @@ class Answers(ExportTest):
         self.assertIn("4 values, 1 mesh; another model: solid", told)
 
 
-# Results of CalculiX, if it is installed, compared with those of beams and plates.
 @needs_ccx
 class Solved(ExportTest):
 
@@ -239,8 +229,8 @@ class Solved(ExportTest):
         self.assertAlmostEqual(found["held"] / -force, 1, delta=1e-5)
 
     def test_arc(self):
-        """For a bar bent by an end rotation a, the deflection must be (1 - cos a) L/a, and the shortening (1 - sin
-        a/a) L. The bar is oblique, and its rotation axis is not a coordinate axis."""
+        """For a bar bent by an end rotation a, the deflection must be (1 - cos a) L/a, and the shortening (1 - sin a/a)
+        L."""
         angle, c, s = 1.2, 0.8, 0.6
         text = cantilever(0.0, PATH).replace(
             "tip:  {at: [0.02, 0.1, 0]", "tip:  {at: [0.02, 0.08, 0.06], rotation: {vector: [none, "
@@ -271,8 +261,6 @@ class Solved(ExportTest):
             self.assertAlmostEqual(found[name] / value, 1, delta=2e-3, msg=name)
 
     def test_channel(self):
-        """For a channel of 2 m with rigid ends, the compliances of the solid, including the twist due to a force on the
-        centroid, must differ from those of the beam by PERCENT."""
         head = cantilever(1.0).replace(RECTANGLE, CHANNEL).replace("at: [0.02, 0.1, 0]", TIP)
         text = head[:head.index("loads:")] + (
             "analyses:\n  run: {compliance: {node: tip}}\nquantities:\n" + "".join(
@@ -288,8 +276,6 @@ class Solved(ExportTest):
             self.assertAlmostEqual(more[name], percent, delta=0.1, msg=name)
 
     def test_wagner_moments(self):
-        """A channel of 4 m loaded at its centroid twists and moves transversely to its load. The solid must move 12
-        % more than beams without int y (y^2 + z^2) dA, and 0.6 % less than beams with this term."""
         text = cantilever(0.0, "{static: {stations: [1]}}").replace(RECTANGLE, CHANNEL).replace(
             "force: [0.0, 0, 0]", "force: [0, 0, -3e3]").replace("[0.02, 0.1, 0]", "[0.02, 4, 0]")
         text = text.replace("shear_modulus: 100e9", "shear_modulus: 80e9")
@@ -304,8 +290,6 @@ class Solved(ExportTest):
             self.assertLess(solid / beam, most)
 
     def test_leaf_spring_guide(self):
-        """Plates resist anticlastic bending, so the solid must be stiffer than beams by percentages that do not
-        vanish on finer meshes."""
         scene = EXAMPLES / "leaf_spring_guide.yaml"
         solid = self.solved(scene, "-n", "20")
         told = self.record("solve", "--scene", scene, "-f", "collocation", "-n", "4")

@@ -1,5 +1,4 @@
-"""import: names, units, parameters and axes are converted, all errors are reported in one run, and verify compares the
-imported values."""
+"""Tests import: conversion of names, units, parameters and axes; reports of errors; and verify with imported values."""
 import json
 import pathlib
 import unittest
@@ -115,15 +114,12 @@ class Import(ProgramTest):
         self.assertIn("given again", self.read(HEAD + COLUMNS + ROWS + ROWS, 2).stderr)
 
     def test_axes(self):
-        """If the x axis of the other program is the -y axis of beamwork, C_ux_Fx of that program must become C_uy_Fy
-        of beamwork. An entry must change its sign if only one of its indices refers to this axis."""
         self.read(HEAD + "# axes: x=-y y=x z=z\n" + COLUMNS +
                   "C_ux_Fx, m/N, 2,,,, 3,\nC_ux_Fy, m/N, 2,,,, 4,\n")
         found = {row["quantity"]: (row["value"], row["factor"]) for row in self.stored()}
         self.assertEqual(found, {b"C_uy_Fy": (3, 1), b"C_uy_Fx": (-4, -1)})
 
     def test_mirrored_axes(self):
-        """A reflection must reverse one axis and the signs of rotations about the other axes."""
         self.read(HEAD + "# axes: x=x y=-y z=z\n# convention: spatial\n" + COLUMNS +
                   "C_ux_Mz, 1/N, 2,,,, 3,\nC_uy_Mz, 1/N, 2,,,, 4,\nC_thz_Mz, rad/(N m), 2,,,, 5,\n")
         self.assertEqual({row["quantity"]: row["value"]
@@ -187,8 +183,6 @@ class Import(ProgramTest):
                    self.folder / name, *options)
 
     def test_what_is_missing_is_gone(self):
-        """Missing imported results must be reported as gone: a series after a change of the program's name or without the
-        import, and a mesh of a series."""
         values = ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))
         text = "# beamwork-import: 1\n# program: {}\n# version: {}\n# case: elastica\nquantity, unit, elements, value\n"
         rows = [f"w_over_L, 1, {n}, {value}\n" for n, value in values]
@@ -208,7 +202,6 @@ class Import(ProgramTest):
                 self.assertEqual(done.returncode, code, (name, done.stdout))
                 self.assertIn(words, done.stdout)
                 self.assertEqual(done.stdout.count("gone     "), code, done.stdout)
-        # an additional mesh does not hide larger errors on the other meshes
         worse = [f"w_over_L, 1, {n}, {0.30172077577 + 1.1 * (value - 0.30172077577)}\n" for n, value in values]
         done = self.beside(text.format("mine", "4.2") + "".join(worse) + "w_over_L, 1, 64, 0.3017225\n", "new.h5",
                            "--imported-must-pass", "--not-worse-than", table)
@@ -227,8 +220,6 @@ class Import(ProgramTest):
                      "collocation", "--imported", self.folder / "theirs.h5", "--imported-must-pass")
 
     def test_quantities_on_their_own_meshes(self):
-        """A quantity may be given on fewer meshes than another. It must be evaluated on its own meshes, and its limit
-        on the finest of these."""
         self.read("# beamwork-import: 1\n# program: mine\n# case: elastica\nquantity, unit, elements, value\n" +
                   "".join(f"w_over_L, 1, {n}, {v}\n" for n, v in ((4, 0.30216), (8, 0.30183), (16, 0.301748), (32, 0.3017276))) +
                   "".join(f"theta, rad, {n}, {0.46135195119 + 0.04 / n**2}\n" for n in (2, 4, 8, 16)))
@@ -247,8 +238,6 @@ class Import(ProgramTest):
         self.assertIn("finest mesh, n = 8: 0.4615", " ".join(done.stdout.split()))
 
     def test_several_beside(self):
-        """Several imported files must be compared in one run. A file that is given twice, or a program that occurs
-        twice at a point, must be rejected."""
         self.read(
             HEAD.replace("MBDyn 1.7.3, 3-node", "rival") + COLUMNS + ROWS +
             "# case: elastica\nw_over_L, 1, 2,,,, 1,\n")
@@ -333,8 +322,7 @@ class Import(ProgramTest):
                              code=status)
 
     def test_files_of_mbdyn(self):
-        """Reads files that MBDyn 1.7.3 wrote for data/mbdyn_sheet.mbd. The model has four 3-node beams; the largest
-        error, that of u_x, is 0.06 %."""
+        """Reads files that MBDyn 1.7.3 wrote for data/mbdyn_sheet.mbd."""
         self.mapped(MAPS / "mbdyn.yaml", DATA / "mbdyn_sheet.mov", DATA / "mbdyn_sheet.jnt")
         found = {row["quantity"].decode(): row["value"] for row in self.stored()}
         for name, value in (("u_x", 9.864219e-2 - 0.1), ("F_y", 3492.813), ("M_z", -172.2694)):

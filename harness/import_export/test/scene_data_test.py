@@ -1,4 +1,4 @@
-"""Scenes as data: `scene --format json`."""
+"""Tests scenes as data, from `scene --format json`."""
 import json
 import math
 import unittest
@@ -48,7 +48,7 @@ class SceneData(ProgramTest):
         axes = np.array(angle["axes"])
         np.testing.assert_allclose(axes.T @ axes, np.eye(3), atol=1e-14)
         np.testing.assert_allclose(axes[:, 0], [1, 0, 0], atol=1e-14)
-        self.assertGreater(abs(axes[2, 1]), 0.1)  # the principal axes are oblique
+        self.assertGreater(abs(axes[2, 1]), 0.1)
         self.assertAlmostEqual(arc["length"], TURN, places=12)
         np.testing.assert_allclose(np.array(arc["axes"])[:, 0], [0, 1, 0], atol=1e-12)
         np.testing.assert_allclose(arc["curvature"], [0, 0, 1])

@@ -9,7 +9,6 @@ from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, read_json, run
 
 LIBRARY = pathlib.Path(PROGRAM).parent / "libbeamwork.so.0"
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
-# the whole motion of the machine with twelve joints takes too long for a test
 PART = {"hexapod_motion": "time=0.05"}
 CLOCKS = re.compile(r'"(seconds_\w+|clock)": ("[^"]*"|[^,\n]+)')
 
@@ -26,7 +25,6 @@ class Library:
         return out
 
     def made(self, name, *arguments):
-        """Returns the object that the call creates, even if the solution did not converge."""
         out, why = ctypes.c_void_p(), ctypes.c_void_p()
         status = getattr(self.calls, name)(*arguments, ctypes.byref(out), ctypes.byref(why))
         line = self.text(why) if why.value is not None else ""
@@ -70,8 +68,6 @@ class Documents(ProgramTest):
         self.assertEqual(CLOCKS.sub("", ours), CLOCKS.sub("", theirs), arguments)
 
     def check(self, name, *words):
-        """Compares documents of the default choice, and of a solution with two elements and the last formulation that
-        supports the scene."""
         scene = self.library.scene(name)
         listed = self.library.text(self.library.made("bw_scene_json", scene))
         self.same(listed, "list", *words)

@@ -1,5 +1,5 @@
 /* Settings of the host must not change the results, not even one bit, and must be restored
- * afterwards. Threads use their own handles. */
+ * afterwards. */
 #include <fenv.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_sf_gamma.h>
@@ -152,8 +152,6 @@ static void mute(void)
     close(error);
 }
 
-/* These cases use all numerical libraries, with enough elements for iterative eigenvalue solvers.
- * Every thread runs them in a different order. */
 static const char *const several[] = {"c_column", "c_column", "lateral_buckling", "tip_body"};
 enum { SEVERAL = sizeof several / sizeof several[0], MANY = 150 };
 static char *alone[SEVERAL];
@@ -192,8 +190,6 @@ enum { BESIDE = 0 };
 enum { BESIDE = 1 };
 #endif
 
-/* All threads solve the same cases. Processes are started at the same time or, with the address
- * sanitizer, afterwards. */
 static void threads(void)
 {
     pthread_t thread[THREADS], other;

@@ -1,5 +1,4 @@
-/* Every failing call must return a status and a message of one line. Handles keep each other
- * alive. */
+/* Every failing call must return a status and a message of one line. */
 #include <math.h>
 #include <stdlib.h>
 
@@ -42,7 +41,6 @@ static void mistakes(void)
     FAILS(bw_scene_read(text, sizeof text - 1, NULL, &s, &why), BW_REFUSED,
           "the scene has no key 'nodess'; did you mean 'nodes'?");
     FAILS(bw_scene_read("", 0, "empty.yaml", &s, &why), BW_REFUSED, "empty.yaml");
-    /* invalid UTF-8 in a name is replaced in the message */
     FAILS(bw_scene_open("/\xff\n", &s, &why), BW_FAULT, "/?? cannot be read");
 }
 
@@ -135,7 +133,6 @@ static void nothing(void)
              "and no curves, steps and shapes");
 }
 
-/* A result keeps the objects on which it depends. Missing data must be reported. */
 static void results(void)
 {
     char *why = NULL, *before = NULL, *after = NULL;

@@ -70,7 +70,6 @@ int main(void)
         const element_type *type = registry_formulations[i];
         measure(type, NULL, type->name, &s);
         for (int k = 0; k < parameter_count(type->options); k++) {
-            /* the first option of these types changes the size of the element */
             const int shapes = type->inner != NULL || type->nodes != NULL;
             for (int v = 0;
                  shapes && k == 0 && v < parameter_choices(parameter_at(type->options, k)); v++) {

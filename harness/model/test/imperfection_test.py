@@ -58,7 +58,6 @@ class ImperfectionTest(SceneCase):
                                            msg=(formulation, half_waves, resultant))
 
     def test_chords_converge(self):
-        """Formulations without initial curvature replace the shape by chords, and must converge with order 2."""
         exact = 0.5 * CRITICAL * 1e-5 / 0.5
         for formulation in ("beamw", "beamw_consistent", "beamw_first", "beamw_vlasov"):
             error = [abs(abs(self.solve(column("[1e-5, 0]") + pushed(0.5), formulation, n)["moment"])
@@ -81,8 +80,6 @@ class ImperfectionTest(SceneCase):
                 self.assertLess(abs(value), 1e-3 * (1e-6 if name == "ux" else 1), (formulation, name))
 
     def test_either_order_of_ends(self):
-        """If the ends of a member are exchanged, its y axis and the component of the bow are reversed, so the bow must
-        not change. With an even number of half-waves, the bow begins on the other side."""
         for half_waves in (1, 2):
             sign = 1 if half_waves == 1 else -1
             for formulation in ("collocation", "beamw", "sheet_third"):
@@ -113,8 +110,6 @@ class ImperfectionTest(SceneCase):
             self.assertAlmostEqual(got / exact, 1, delta=2e-3, msg=formulation)
 
     def test_mode(self):
-        """As imperfections, the first buckling mode, single or double, and the first mode of a modal analysis must
-        equal a sinusoidal bow. The critical load remains that of the perfect column."""
         bow, exact = 1e-5, 0.5 * CRITICAL * 1e-5 / 0.5
         for inertia, direction, of in ((f"Iy: {100 * I}, Iz: {I}", "", "{buckling: {}}"),
                                        (f"Iy: {I}, Iz: {I}", ", direction: [0, 1, 0]", "{buckling: {}}"),
@@ -133,8 +128,6 @@ class ImperfectionTest(SceneCase):
                     self.assertAlmostEqual(got["critical"], 2, delta=1e-5, msg=formulation)
 
     def test_mode_of_a_twisted_beam(self):
-        """The initial shape must include the twist of a mode. Every formulation must converge with order 2
-        (cases/examples/crooked_beam.yaml)."""
         path = ROOT / "cases/examples/crooked_beam.yaml"
         for formulation in FORMULATIONS:
             error = [values(self.record("solve", "--scene", path, "-f", formulation, "-n", n))["moved"] / 1e-4 - 1
@@ -175,7 +168,6 @@ omit: [shear]
 """
 
     def test_mode_of_a_frame(self):
-        """Rigid arms given by offsets and by attached nodes, with a hinge, must lead to the same shape."""
         offsets = self.FRAME.replace("NODE", "").replace("MORE", "").replace(
             "to: LEFT,", "to: knee, offset: {to: [0, -0.2, 0]},").replace(
                 "from: RIGHT,", "from: top, offset: {from: [0.1, -0.1, 0]},")
@@ -215,8 +207,6 @@ omit: [shear]
             self.refused(2, words, "solve", "--scene", self.scene(filed), "-n", 1)
 
     def test_shifted_lengths(self):
-        """Strains must refer to the shifted length. A member with the length 1 m in the scene is 0.98 m long after the
-        shift, and its unstressed length is 0.979 m."""
         def bar(at, length, shift):
             return f"""beamwork: 1
 sections: {{bar: {{rectangle: {{width: 20e-3, thickness: 10e-3}}, young: 200e9, shear_modulus: 77e9}}}}
@@ -265,8 +255,6 @@ quantities: {{N: {{internal: {{analysis: li, member: m, end: from, resultant: N}
         self.assertIn("meshes: [6, 12, 24, 48]", written)
 
     def test_on_a_foundation(self):
-        """The springs of a foundation must represent the lengths of the straight elements, for any direction of the bow. A
-        zero bow must change nothing, and round-off in the element lengths must not matter."""
         def founded(bow, tip=(LENGTH, 0, 0), y=(0, 1, 0)):
             return f"""beamwork: 1
 sections:

@@ -1,6 +1,4 @@
-/* Initial elongation and shear strains g (N Eq. 52). A free member must have these strains without
- * stress. A member that is fixed at both ends must have the reaction -EA g, or that of a clamped
- * beam whose end is displaced by -L g. */
+/* Initial elongation and shear strains g (N Eq. 52). */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdlib.h>
@@ -76,8 +74,6 @@ static void elongation(const char *name)
     gsl_test_rel(F[0], -EA * 1e-3, 1e-12, "%s: held at both ends it pushes with EA g", name);
 }
 
-/* The cross-sections slide relative to each other without rotating, so the axis is no longer normal
- * to them. */
 static void shear(const char *name, int direction)
 {
     double g[3] = {0}, u[6] = {0}, F[6] = {0};
@@ -111,7 +107,6 @@ static void not_offered(void)
     scene_free(&s);
 }
 
-/* The energy of an element must be zero in its stress-free state, for any arc. */
 static void no_energy_at_rest(const char *name)
 {
     static const double none[ELEMENT_MAX_STRAINS] = {0};
@@ -150,8 +145,6 @@ static void initial_tests(void)
     }
     not_offered();
 }
-
-/* Tests centre lines for pictures: a twisted shaft, and a beam bent to an arc. */
 
 enum { POINTS = 13, MOST = 60 };
 
@@ -223,12 +216,8 @@ static void centreline_tests(void)
     }
 }
 
-/* Tests the division of members into pieces between loads, and the element at a position. */
-
 enum { WHOLE, LOADED, OWN };
 
-/* Builds three members in a row. No load starts, ends or acts within the first, but loads do so in
- * the others. The third has a given number of elements. */
 static void row(scene *s)
 {
     const double y[3] = {0, 1, 0};
@@ -316,13 +305,10 @@ static void division_tests(void)
     scene_free(&s);
 }
 
-/* Tests the matrix of rigid motions about the origin for a node in a given position. */
-
 static void supports_tests(void)
 {
     enum { N = 6 };
     const double at[3] = {0.3, -0.7, 1.1}, length = 2;
-    /* in the columns t and w: u = t + w x at / length, and the rotation w / length */
     const double expected[N][N] = {{1, 0, 0, 0, at[2] / length, -at[1] / length},
                                    {0, 1, 0, -at[2] / length, 0, at[0] / length},
                                    {0, 0, 1, at[1] / length, -at[0] / length, 0},

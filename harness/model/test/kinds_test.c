@@ -78,7 +78,6 @@ static int solve(const element_type *type, int count, const kinds_link links[], 
     return outcome == STATUS_OK;
 }
 
-/* Equal members must have one kind of element. Each property that differs must add a kind. */
 static void counts(const element_type *type)
 {
     static const struct {
@@ -104,7 +103,6 @@ static void counts(const element_type *type)
     }
 }
 
-/* Arcs of equal length that are curved to opposite sides must be of different kinds. */
 static void arcs(const element_type *type)
 {
     const kinds_link links[] = {{0, 1, 0, 0.1}, {0, 1, 0, -0.1}};
@@ -114,8 +112,6 @@ static void arcs(const element_type *type)
         gsl_test_int(kinds, 2, "%s: arcs to either side", type->name);
 }
 
-/* Without loads and initial strains there must be no stress. An element that used the length of
- * another would be stressed. */
 static void lengths(const element_type *type)
 {
     static const double apart[] = {1e-3, 1e-6, 1e-9, 1e-11};
@@ -150,8 +146,6 @@ static void strains(const element_type *type)
     }
 }
 
-/* Members whose areas differ by 2e-6 are of different kinds. They must share a force in proportion
- * to their stiffness. */
 static void sections(const element_type *type)
 {
     const double A0 = side[0] * side[0], A1 = side[1] * side[1], force = 1e-6 * young * A0;
@@ -182,11 +176,7 @@ static void kinds_tests(void)
     gsl_test(offered < 3, "%d formulations with initial strains", offered);
 }
 
-/* The metric of arc length is the mean of (displacement/size)^2 + angle^2 over the moving bodies,
- * for any motion. A small step and the difference between the states before and after it must have
- * the same length. */
-
-enum { ELEMENTS = 3, BODIES = 6 }; /* one of the seven vertices is held */
+enum { ELEMENTS = 3, BODIES = 6 };
 
 static void one_motion(const model *m, int vertex, int component, double size)
 {
@@ -240,10 +230,6 @@ static void metric_tests(void)
     model_free(m);
     scene_free(&s);
 }
-
-/* Members whose section changes along their length. The tests check the number of kinds of
- * elements, their sections, and properties that a section between the ends has but the sections at
- * the ends do not. */
 
 enum { PROFILE_ELEMENTS = 5 };
 
@@ -360,14 +346,8 @@ static void profile_tests(void)
     between();
 }
 
-/* If the section of a structure is described in axes rotated by any angle about the beam, every
- * formulation must give the same results. The test detects an error in a term that belongs to one
- * axis, such as a Wagner moment, a coordinate of the shear centre or an entry of D. */
-
 enum { ANGLE = CASE_MAX_PARAMETERS - 1, ORIGINAL = CASE_MAX_PARAMETERS - 2 };
 
-/* Rotates the axes of sections, y = y' cos - z' sin: the local y axis of every member along x
- * rotates by the angle, and the points of the sections rotate by its negative. */
 static status turned(const double value[], scene *s, fault *f)
 {
     const double c = cos(value[ANGLE]), d = sin(value[ANGLE]);
@@ -410,7 +390,6 @@ static int compare(int original, const element_type *element)
     const int runs = turned_solve(original, 0, element, &before) == STATUS_OK;
     gsl_test(!runs && ask_offered(&before.scene, element), "%s, %s: solved where it is offered %s",
              before.scene.name, element->name, before.solve.reason);
-    /* without shear along y, a formulation is a different model if y is a different axis */
     const int lacks = (element->lacks & LACKS_SHEAR_Y) && !ask_offered(&before.scene, element);
     const size_t angles = runs && !lacks ? sizeof angle / sizeof angle[0] : 0;
     for (size_t k = 0; k < angles; k++) {

@@ -83,8 +83,6 @@ static void dimensions(void)
     }
 }
 
-/* Two rotations span the plane of x and y up to round-off. The result must be exactly the rotations
- * about x and y. */
 static void whole_components(void)
 {
     const double c = cos(0.35), s = sin(0.35),
@@ -97,8 +95,6 @@ static void whole_components(void)
         gsl_test(v.span[i] != (double)(i == 6 || i == 9), "unit vectors: %g at %d", v.span[i], i);
 }
 
-/* Columns with one nonzero component are treated separately. They must give the same motions as
- * columns with a tiny second component. One column is repeated, and one is zero. */
 static void components_alone(void)
 {
     const double alone[24] = {0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0, 0,
@@ -124,8 +120,6 @@ static void nothing(void)
     gsl_test(v.count != 0, "no coordinates: %d dimensions", v.count);
 }
 
-/* Free rotations transmit no moment. The moment must be reduced to its part perpendicular to the
- * free rotations, which is exactly zero if there are free rotations in all directions. */
 static void prescribed_moment(void)
 {
     uint64_t state = 3;
@@ -158,9 +152,6 @@ static void movable_tests(void)
     prescribed_moment();
 }
 
-/* Masses at the nodes of straight elements: their moments, and the moments of inertia of sections
- * given by matrices. */
-
 enum { MOST = TEST_ELEMENT_COORDINATES };
 
 static void at_nodes(const test_element *s, const node_state x[], double M[])
@@ -177,9 +168,6 @@ static void make(const char *name, const test_element_request *what, test_elemen
     gsl_test(test_element_make(what, out, &f) != STATUS_OK, "%s: prepared %s", name, f.text);
 }
 
-/* Lumped masses at nodes must follow the rule for loads: the trapezoidal rule with two nodes,
- * Simpson's rule with three nodes. The second moment of mass about an end is exact only with three
- * nodes. The twist must have the polar inertia of the section. */
 static void lumped_moments(const char *name)
 {
     formulation chosen;
@@ -208,8 +196,6 @@ static void lumped_moments(const char *name)
     test_element_free(&s);
 }
 
-/* For each node of a two-node element, the mass matrix must be that of the section, which is given
- * per length, times half the length of the element. */
 static void slice(const char *name)
 {
     formulation chosen;
@@ -241,10 +227,6 @@ static void inertia_moments_tests(void)
     slice("geometrically_exact:nodes=2");
     slice("collocation");
 }
-
-/* Tests springs. Derivatives are compared with finite differences for any relative rotation of the
- * ends. If both ends move as one rigid body, there must be no deformation. Other deformations are
- * known. */
 
 static void two_ends(const element_data *data, const node_state x[], strain_output *out)
 {

@@ -1,5 +1,4 @@
-/* Tests the features that a scene needs. Each kind of shear coupling needs support for unsymmetric
- * sections, and frequencies under load need the geometric stiffness. */
+/* Tests the features that a scene needs. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>

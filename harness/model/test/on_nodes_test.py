@@ -144,8 +144,6 @@ class OnNodes(ProgramTest):
                 self.assertAlmostEqual(json.loads(done.stdout)["quantities"][0]["value"] / right, 1, delta=1e-11)
 
     def test_resultants_beside_masses_at_nodes(self):
-        """Resultants must be exact with any number of elements: the axial force m w^2 (L^2 - x^2)/2 in a rod of mass m
-        per length that rotates steadily, and those of a cantilever at the start of a conserving motion."""
         for elements in (1, 2, 3, 4, 6, 9):
             for scene, right in ((TURNING, {"N": 7800*1e-4*100*(1 - 0.09)/2}),
                                  (WEIGHED, {"M": -7800*1e-4*0.01*0.49/2, "V": -7800*1e-4*0.01*0.7})):
@@ -157,7 +155,6 @@ class OnNodes(ProgramTest):
                     self.assertAlmostEqual(q["value"] / right[q["quantity"]], 1, delta=1e-5, msg=(elements, q))
 
     def test_changing_members_keep_their_mass(self):
-        """In a tapered member, each element has a different mass, half of which must be at each of its nodes."""
         for elements in (2, 3, 6):
             path = self.folder / "rod.yaml"
             path.write_text(ROD.replace("section: s", "section: [s, t]").replace("\nnodes:", WIDER).replace(

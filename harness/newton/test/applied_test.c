@@ -32,8 +32,6 @@ static void to_fixed(const double v[3], double out[3])
         out[i] = along[i] * v[0] + across[i] * v[1] + (i == 2 ? v[2] : 0);
 }
 
-/* Computes the total force of the loads on an undeformed member of length 2, and their moment about
- * its middle. */
 static void sums_of(const scene_load *load, const char *name, double force[3], double moment[3])
 {
     const double end = 1;
@@ -198,9 +196,6 @@ static void applied_tests(void)
         offset_is_an_arm(registry_formulations[i]);
 }
 
-/* Elements evaluated in lanes must give the results of elements evaluated one at a time. The
- * members have two sections in turn. If an evaluation fails, the message must name the element. */
-
 enum { ELEMENTS = 7, MEMBERS = 3, QUANTITIES = 6 };
 
 static void set_up(scene *s)
@@ -258,12 +253,10 @@ static void same_answers(const element_type *type)
 }
 
 static const element_type *inner;
-static int requested; /* calls for several elements; zero without AVX2, when elements are evaluated
-                         one at a time */
+static int requested;
 static const double failing =
     0.4 + 0.2 * 3 / ELEMENTS; /* start of the fourth element of the last member [m] */
 
-/* Evaluation that fails for the element at a certain position. */
 static void fail(int count, const node_state x[], int nodes, status outcome[])
 {
     for (int k = 0; k < count; k++)
@@ -332,8 +325,6 @@ static void chunk_tests(void)
     gsl_test(found == 0, "a formulation with equations in lanes");
 }
 
-/* A beam starts from a rigid arm of a fixed body. The reactions of the body balance the tip
- * force. */
 static void foot_of_an_arm(const element_type *type)
 {
     const double y[3] = {0, 1, 0}, end = 1, P[3] = {0.01, -0.02, 0.03};

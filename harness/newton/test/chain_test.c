@@ -1,5 +1,4 @@
-/* Links and chains must agree with dense matrices of all coordinates. A long chain must agree with
- * the beam that it represents. */
+/* Links and chains must agree with dense matrices of all coordinates. */
 #include <gsl/gsl_test.h>
 #include <lapacke.h>
 #include <math.h>
@@ -129,9 +128,7 @@ static void solutions(const chain_row *of, double K[], chain *s, uint64_t *seed)
     chain_expand(s, b + c, ends, b + c);
     memcpy(b, ends, (size_t)c * sizeof *b);
     const double error = largest(n, b, x) / largest(n, x, NULL),
-                 most = of->H[0][0] == 0
-                            ? 1e-10
-                            : 1e-4; /* if H is not zero, the matrix may be almost singular */
+                 most = of->H[0][0] == 0 ? 1e-10 : 1e-4;
     gsl_test(!(error < most), "%d nodes, %d coordinates: solution by way of the ends, off by %.1e",
              of->nodes, c, error);
 }
@@ -165,8 +162,6 @@ static void random_rows(void)
     gsl_test(negative < 20, "%d negative eigenvalues were there to be counted", negative);
 }
 
-/* A link of a clamped beam with length 1 and stiffnesses 1. The strains of the link are the motion
- * of the second joint relative to the first. */
 static void uniform_link(double l, double J[], double C[], double H[], double r[])
 {
     const int n = 2 * NODE_COORDINATES;
@@ -186,8 +181,6 @@ static void uniform_link(double l, double J[], double C[], double H[], double r[
     C[2 * 6 + 4] = C[4 * 6 + 2] = 6 / (l * l);
 }
 
-/* The stiffness coefficients of a long chain are 12, 6, 4 and 2, although the stiffnesses of its
- * links are 1e15 times larger. */
 static void long_chain(void)
 {
     enum { MANY = 100000 };
@@ -222,12 +215,8 @@ static void chain_tests(void)
     long_chain();
 }
 
-/* The extrapolation of a state is exact for polynomial paths up to the degree that the number of
- * stored states permits. It must not be used for too long steps. */
-
 enum { MOST_DEGREE = MODEL_EXTRAPOLATED };
 
-/* Fills a state on a polynomial path. Every vertex rotates about a different axis. */
 static void extrapolate_fill(const model *m, int degree, double path, model_state *s)
 {
     uint64_t seed = 42;
@@ -250,7 +239,6 @@ static void extrapolate_fill(const model *m, int degree, double path, model_stat
     }
 }
 
-/* Returns the largest difference of the strains, stresses, displacements and rotations. */
 static double apart(const model *m, const model_state *a, const model_state *b)
 {
     double worst = 0;
@@ -313,7 +301,6 @@ static void smooth_paths(const model *m)
         }
 }
 
-/* Steps up to 1.5 times the last step are extrapolated. */
 static void long_steps(const model *m)
 {
     static const double path[] = {0.1, 0.2, 0.3, 0.4, 0.5};
@@ -323,7 +310,6 @@ static void long_steps(const model *m)
     gsl_test(!(beyond > 1e-3), "a much longer one starts where the last ended (%.1e)", beyond);
 }
 
-/* From two states after a slope discontinuity, the extrapolation is linear. */
 static void slope_jumps(const model *m)
 {
     static const double path[] = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7};

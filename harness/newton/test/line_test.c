@@ -62,7 +62,6 @@ static void line(const element_data *data, const node_state x[], int count, line
         section_at(x, &out[i]);
 }
 
-/* Forces of a load on an element, and their stiffness. */
 typedef struct loaded {
     scene s;
     element_type type;

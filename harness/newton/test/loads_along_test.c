@@ -49,8 +49,6 @@ static void forces_along(int what, const char *name, double path, int follows, i
     scene_free(&s);
 }
 
-/* Nodal forces have the resultant and the first moment of the load along the member. The second
- * moment is that of the trapezoidal rule; with three nodes, it is exact (Simpson's rule). */
 static void along_a_member(const char *name, int nodes)
 {
     double F[MOST], sum[3] = {0};
@@ -66,8 +64,6 @@ static void along_a_member(const char *name, int nodes)
     gsl_test_rel(sum[2], nodes == 2 ? 3 * 4 : 3 * 8 / 3.0, 1e-14, "%s: its second moment", name);
 }
 
-/* Centrifugal forces are proportional to the square of the angular velocity. If `follows` is 1, the
- * angular velocity is proportional to the path parameter. */
 static void turning_faster(void)
 {
     static const char name[] = "geometrically_exact:nodes=2";

@@ -60,8 +60,6 @@ static void follow_stations(scene_load *load, const double path[3], const double
     memcpy(load->factor, value, 3 * sizeof *value);
 }
 
-/* The load factor is 0, 2, 1 at path 0, 1, 3. Its rate at a station is that of the next interval;
- * outside the stations it is zero. */
 static void rates(void)
 {
     static const double path[] = {0, 1, 3}, value[] = {0, 2, 1};
@@ -162,7 +160,6 @@ static void loads_tests(void)
     reference();
 }
 
-/* A dead force has a potential, so its part of K is minus the second derivative of its work. */
 static void stiffness(int body)
 {
     turned_body s;
@@ -197,9 +194,8 @@ static void stiffness(int body)
     turned_body_release(&s);
 }
 
-/* If coordinates are angles, the load's part of K is minus the derivative of the generalised load.
- * This also applies to moments and follower loads, which have no potential. at[3]: offset from the
- * node [m]. */
+/* If coordinates are angles, the load's part of K is minus the derivative of the generalised
+ * load. */
 static void stiffness_of_angles(int body, scene_load_kind kind, int follower, const double at[3])
 {
     turned_body s;

@@ -161,8 +161,7 @@ static void residual_at(release_subject *t, int k, double h, double out[])
     model_linearisation lin = {.path = 1, .residual = out};
     kinematics_state_copy(t->m, t->s, t->moved);
     dx[k] = h;
-    linearise_state(&t->eq, &t->run.memory, t->moved, &lin,
-                    &f); /* prepares the memory of advance_state */
+    linearise_state(&t->eq, &t->run.memory, t->moved, &lin, &f);
     advance_state(&t->eq, &t->run.memory, t->moved, dx, 1, NULL);
     linearise_make_compatible(&t->eq, t->moved, &f);
     linearise_state(&t->eq, &t->run.memory, t->moved, &lin, &f);
@@ -228,10 +227,6 @@ static void release_tests(void)
                 check(formulation_name[i], place, sets[k]);
 }
 
-/* The size of a correction includes translations relative to the size of the scene, rotations in
- * rad, and warping amplitudes times that size. For a missing support, the reported rigid motion is
- * one that the supports allow. */
-
 static const double length = 2;
 
 static int warping_member(const element_type *type, int first, int last, scene *s, model **m)
@@ -286,7 +281,6 @@ static void corrections(const element_type *type)
             const double size = size_of(m, k, step) / step;
             const int translation = fabs(size * length - 1) < 1e-9, turn = fabs(size - 1) < 1e-9,
                       warp = fabs(size - length) < 1e-9;
-            /* inner unknowns of an element also contribute to the size */
             gsl_test(type->inner != NULL ? !(size > 0.4 / length) : translation + turn + warp != 1,
                      "%s: coordinate %d counts as %g", type->name, k, size);
             gsl_test(!isnan(size_of(m, k, NAN)), "%s: coordinate %d may be no number", type->name,
@@ -304,7 +298,6 @@ static void corrections(const element_type *type)
     scene_free(&s);
 }
 
-/* The translations of the far end are fixed, so the free motion is a rotation about that end. */
 static void loose_about_the_far_end(const element_type *type)
 {
     scene s;
@@ -331,9 +324,6 @@ static void advance_tests(void)
         corrections(registry_formulations[i]);
     loose_about_the_far_end(registry_formulations[0]);
 }
-
-/* Condensed members give the same results as the assembled tangent. They also give results with so
- * many elements that the assembled tangent is inaccurate. */
 
 static const char *const formulations[] = {"beamw", "sheet_third", "geometrically_exact",
                                            "collocation"};
@@ -447,8 +437,6 @@ static void released(void)
     gsl_test(compared < 12, "%d values with released ends were compared", compared);
 }
 
-/* With 4000 elements, the condition number of the assembled tangent is 1e16. With condensed
- * members, Newton's method converges as with few elements. */
 static void many(const case_type *type)
 {
     cell_result few, more;
@@ -477,9 +465,6 @@ static void condensation_tests(void)
         }
     gsl_test(!found, "c_cantilever is there");
 }
-
-/* An outcome contains all eigenvalues that were found, and the reason if some are missing. Its
- * results cannot be read as those of another kind of analysis. */
 
 static void handed_over(status outcome, int rounding, const char *reason, const char *said)
 {
@@ -540,7 +525,7 @@ static void by_kind(void)
     static const struct {
         const char *name;
         void (*read)(const void *);
-        unsigned kinds; /* kinds of analyses that produce these results, as bits */
+        unsigned kinds;
     } row[] = {
         {"displacements", read_displacements, 1 << SCENE_LINEAR},
         {"spectrum", read_spectrum, 1 << SCENE_BUCKLING | 1 << SCENE_MODAL},

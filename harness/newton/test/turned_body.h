@@ -22,7 +22,6 @@ enum { FREE_TURNS, THREE_ANGLES, TWO_ANGLES, FORK, BODIES };
 static const char *const turned_body_name[] = {"free turns", "three angles", "two angles",
                                                "a fork"};
 
-/* Builds a beam from a clamp to a body, with a load at an offset from the node of the body. */
 static inline void beam_and_body(int body, scene_load_kind kind, scene *s)
 {
     const double x[3] = {1, 0, 0}, z[3] = {0, 0, 1}, end = 1;

@@ -29,8 +29,7 @@ static void beam_init(beam *b, int elements)
     matrices_add_elements(&b->G, elements, 2, 0, g);
     matrices_add_elements(&b->M, elements, 2, 0, m);
     sparse *const all[] = {&b->K, &b->G, &b->M};
-    for (int i = 0; i < 3;
-         i++) { /* the two held deflections become unknowns that are uncoupled from all others */
+    for (int i = 0; i < 3; i++) {
         const int held[2] = {0, 2 * elements};
         for (int e = 0; e < 2; e++)
             for (int j = 0; j < all[i]->n; j++)
@@ -92,8 +91,6 @@ static double expected_value(const beam *b, int k, int vibration)
     return k * PI * k * PI * (1 + pow(k * PI * b->h, 4) / (vibration ? 1440 : 720));
 }
 
-/* Checks the values and the errors estimated by the solver, which must include the actual errors
- * and round-off of order n^2 in x^T A x. */
 static void compare(const beam *b, const eigen_side *found, int vibration, double allowed)
 {
     const double rounding = 1e-15 + 1e-17 * b->elements * b->elements;
@@ -135,10 +132,9 @@ static void test_beam(int elements, double allowed)
     beam_free(&b);
 }
 
-/* A problem whose matrix has lost digits that its elements have kept. */
 typedef struct corrupted {
     const sparse *K;
-    double rounding; /* relative rounding error of x^T K x */
+    double rounding;
 } corrupted;
 
 static double corrupted_energy(void *context, const double x[])
@@ -156,9 +152,6 @@ static void corrupted_product(void *context, const double x[], double y[])
     sparse_mul(((const corrupted *)context)->K, x, y);
 }
 
-/* The accurate matrix is known only through its elements, and digits were lost in the assembled K.
- * The results must be those of the elements, and the reported errors must include the actual
- * errors. */
 static void test_corrupted(double part)
 {
     enum { ELEMENTS = 60, WANTED = 5 };
@@ -174,8 +167,7 @@ static void test_corrupted(double part)
     memcpy(good.value, b.K.value, (size_t)b.K.column[b.K.n] * sizeof *good.value);
     for (int j = 0; j < b.K.n; j++)
         for (int k = b.K.column[j]; k < b.K.column[j + 1]; k++)
-            if (b.K.row[k] == j && j % 2 == 1) /* each rotation is attached to a spring, whose
-                                                  stiffness increases along the column */
+            if (b.K.row[k] == j && j % 2 == 1)
                 b.K.value[k] += part * 20 * b.h * (1 + 3.0 * j / b.K.n);
     corrupted context = {&good, 1e-4};
     p.K_energy = corrupted_energy;
@@ -217,8 +209,6 @@ static void eigen_beam_tests(void)
     test_beam(2000, 3e-9);
 }
 
-/* If the iteration has found one copy of a repeated eigenvalue, the inertia shows that copies are
- * missing. They must be found in the space orthogonal to the first copy. */
 static void test_missed_copies(void)
 {
     enum { COPIES = 3, MASSES = 40, N = COPIES * MASSES };
@@ -301,8 +291,6 @@ static double broken_energy(void *context, const double x[])
     return size > b->least && size < b->most ? NAN : energy;
 }
 
-/* Eigenvalues have both signs. Those of one sign are lost as soon as they are found. Those of the
- * other sign must be found as if only they had been requested, and the loss must be reported. */
 static void test_sides_apart(void)
 {
     enum { N = 800, WANTED = 4 };
@@ -339,8 +327,6 @@ static void test_sides_apart(void)
     strings_free(&s);
 }
 
-/* One eigenvalue of one sign is lost. The preceding values must be returned, and none after it,
- * because there would be a gap. */
 static void test_side_in_part(int lost)
 {
     enum { N = 800, WANTED = 4 };
@@ -375,8 +361,6 @@ static double much(void *context, const double x[])
     return *(const double *)context;
 }
 
-/* The caller's estimate of round-off must determine whether a value is significant, and how many of
- * its digits. */
 static void test_rounding(int masses)
 {
     enum { WANTED = 3 };
@@ -410,9 +394,6 @@ static void eigen_lost_tests(void)
     test_rounding(120);
 }
 
-/* Compares eigenpairs with closed forms and with LAPACK: both signs, repeated and almost equal
- * values, singular and indefinite matrices. */
-
 static void test_strings(int copies, int masses, double spread, int wanted, int iterate,
                          double allowed)
 {
@@ -443,7 +424,6 @@ static void test_strings(int copies, int masses, double spread, int wanted, int 
     strings_free(&s);
 }
 
-/* Compares the first eigenvalues of both signs with those of LAPACK, if all were found. */
 static void compare_sides(const eigen_result *sparse_way, const eigen_result *dense_way, int wanted,
                           double tolerance, const char *what)
 {
@@ -495,8 +475,6 @@ static void test_both_signs(void)
     matrices_free(&A);
 }
 
-/* Two strings are coupled only by A. A multiplies the displacements of one string by the slopes of
- * the other, so every value must be double and occur with both signs. */
 static void test_coupled_strings(int masses)
 {
     enum { WANTED = 3 };
@@ -522,7 +500,6 @@ static void test_coupled_strings(int masses)
     strings_free(&s);
 }
 
-/* If A has rank 3 (two positive values, one negative), no further values may be found. */
 static void test_rank(int iterate)
 {
     enum { MASSES = 150 };

@@ -56,7 +56,6 @@ static void definite(void)
         }
 }
 
-/* Two uncoupled copies of a problem must have every frequency twice. */
 static void equal_frequencies(void)
 {
     static const int size[] = {5, 50};
@@ -117,8 +116,6 @@ static void indefinite(void)
     free(p.K);
 }
 
-/* For K = -diag(1, 4), gyroscopic forces must stabilise the motion if g >= sqrt(1) + sqrt(4). Real
- * parts due to round-off must not be reported as growth. */
 static void held_from(void)
 {
     static const double g[] = {2.999, 3.001};
@@ -140,8 +137,6 @@ static void held_from(void)
     }
 }
 
-/* The problem has heavy, light and massless coordinates and an indefinite K. The requested modes
- * must be found among those with mass, and massless coordinates must give no modes. */
 static void light_and_massless(void)
 {
     for (int decade = 0; decade <= 16; decade += 2)
@@ -176,8 +171,6 @@ static void light_and_massless(void)
         }
 }
 
-/* The matrix has lost digits that the product K x retains. The frequencies must be those of the
- * product. */
 static void corrupted_matrix(void)
 {
     static const double noise[] = {1e-8, 1e-5, 1e-3};
@@ -235,9 +228,6 @@ static double large_rounding(void *context, const double x[])
     return part_of_rounding * sum;
 }
 
-/* The error of every frequency must include the effect of round-off in K. Without gyroscopic terms,
- * the stated error must be between 0.5 and 10 times the change of the frequency that this round-off
- * causes. */
 static void rounding_is_reported(void)
 {
     static const double strength[] = {0, 2};
@@ -285,9 +275,6 @@ static void gyroscopic_tests(void)
     indefinite();
 }
 
-/* Compares the number of frequencies below a given frequency with LAPACK. The given frequencies are
- * between all neighbours, below the first and above the last. Missing frequencies must be found or
- * reported. */
 static void compare_counts(const problem *p, const char *name)
 {
     double *frequency = calloc(2 * (size_t)p->n, sizeof *frequency), growth;
@@ -344,10 +331,6 @@ static void oscillators_and_top(int masses, int behind, double slow, problem *p)
     p->G[(masses + 1) * p->n + masses] = g;
 }
 
-/* Solves for `masses` uncoupled oscillators at 1, 2, 3 ... rad/s, and a top. Without gyroscopic
- * terms, the top is by far the stiffest part. With them, its precession is 0.5 rad/s above
- * oscillator number `behind`. Neither a start without these terms nor any residual reveals the
- * precession. */
 static void hidden_precession(int masses, int behind, int wanted_outcome)
 {
     const double slow = behind + 0.5;
@@ -373,9 +356,6 @@ static void hidden_precession(int masses, int behind, int wanted_outcome)
     free(p.K);
 }
 
-/* Solves for `masses` oscillators at 1, 2, 3 ... rad/s, one that diverges at the rate 1.5/s, one
- * that diverges at the rate `fast`, and the top of hidden_precession. Its slow precession is missed
- * unless the frequencies are counted. */
 static void unstable_oscillators(int masses, double fast, int wanted_outcome, int unproven)
 {
     const double slow = 2.5;

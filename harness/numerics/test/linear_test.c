@@ -28,8 +28,7 @@ static void fill_random(int n, kind what, uint64_t *seed, double A[])
             const double value = random_number(seed);
             if (what == UNSYMMETRIC) {
                 A[i * n + j] += value;
-            } else if (i != j) { /* makes a Laplacian, which is positive definite because the
-                                    diagonal is increased */
+            } else if (i != j) {
                 A[i * n + j] -= fabs(value);
                 A[j * n + i] -= fabs(value);
                 A[i * n + i] += fabs(value);
@@ -108,7 +107,7 @@ static int determinant_sign(int n, const double A[])
 }
 
 /* Solves for several right-hand sides together and one at a time. Returns the number of solutions
- * that differ in any bit. Numbers stored between the right-hand sides must not change. */
+ * that differ in any bit. */
 static int apart_together(matrix_factor *fa, uint64_t *seed)
 {
     enum { SIDES = 7, STRIDE = MOST + 2 };
@@ -136,8 +135,7 @@ static void random_matrices(kind what, const char *name, double allowed)
         sparse s = matrices_from_dense(n, what != UNSYMMETRIC, A);
         matrix_factor *fa;
         failures += factor_alloc(&s, &fa, NULL) != STATUS_OK;
-        for (int turn = 0; turn < 2;
-             turn++) { /* the second round has different values in the same pattern */
+        for (int turn = 0; turn < 2; turn++) {
             for (int k = 0; k < s.column[n]; k++)
                 s.value[k] *= turn == 0 ? 1 : -0.3;
             for (int i = 0; i < n * n; i++)
@@ -177,9 +175,6 @@ static void random_matrices(kind what, const char *name, double allowed)
     gsl_test(!(worst < allowed), "%s: as LAPACK within %.1f eps times the condition", name, worst);
 }
 
-/* The upper triangle and the full symmetric matrix must have the same condition number. For a chain
- * of n springs held at one end, the result must be the exact condition number in the 1-norm, with
- * rows and columns scaled to a unit diagonal. */
 static void condition_of_a_triangle(void)
 {
     enum { N = 6 };
@@ -256,9 +251,6 @@ static void linear_tests(void)
     nothing_to_solve();
 }
 
-/* Matrices that are singular to working precision must be reported as singular, including those of
- * beams without supports. Matrices with tiny or huge entries must not. */
-
 static status outcome_of(const sparse *s, fault *f)
 {
     matrix_factor *fa;
@@ -304,8 +296,6 @@ static void small_singular_matrices(void)
     matrices_free(&s);
 }
 
-/* Factors the matrix of a beam of n elements. Springs support the first `held` unknowns of its
- * first node. */
 static status beam_outcome(int n, int held, int unsymmetric)
 {
     double k[16], g[16], m[16];
@@ -344,9 +334,6 @@ static void singular_matrix_tests(void)
     beams_that_are_not_held();
 }
 
-/* Threads that share a loop must process every index once, for any number of threads. Sleeping
- * threads must be woken in each of thousands of rounds. */
-
 enum { TEST_POOL_MOST = 1000 };
 
 static void add_one(void *context, int first, int end)
@@ -384,8 +371,6 @@ static void count_parts(void *context, int first, int end)
     ((int *)context)[first] = 1;
 }
 
-/* If more threads are requested than THREAD_POOL_MOST, only THREAD_POOL_MOST must be used, with one
- * part for each. */
 static void no_more_than_there_is_room_for(int threads)
 {
     int begins[TEST_POOL_MOST] = {0}, parts = 0;
@@ -420,8 +405,6 @@ static int read_piece(void *context, int piece, int slot)
     return piece != log->last;
 }
 
-/* Pieces must be taken in order, each once, with their contents intact, and none after the last
- * requested piece. */
 static void relays(int threads)
 {
     thread_pool *t = NULL;
@@ -460,9 +443,6 @@ static void thread_pool_tests(void)
     thread_pool_free(unused);
     thread_pool_free(NULL);
 }
-
-/* Rows computed in groups, and joint solutions for several right-hand sides, must agree bitwise
- * with LDL of SuiteSparse, with and without AVX2. */
 
 enum {
     TRIANGULAR_MOST = 90,
@@ -528,8 +508,7 @@ static void hold(triangular_problem *p, const triangular_groups *g, const int L_
     const triangular_factors t = {p->n,  p->path, p->begin,   L_row,
                                   value, D,       g->columns, g->of_columns};
     const size_t entries = (size_t)p->begin[p->n];
-    for (int again = 0; again < 2;
-         again++) /* the second call uses the workspace of the first, which must be unchanged */
+    for (int again = 0; again < 2; again++)
         gsl_test(!factor(&rows, p->value), "%s: no pivot is zero", name);
     gsl_test(memcmp(value, p->L_value, entries * sizeof *value) != 0, "%s: L of %d", name, p->n);
     gsl_test(memcmp(D, p->D, (size_t)p->n * sizeof *D) != 0, "%s: D of %d", name, p->n);
@@ -549,7 +528,6 @@ static void hold(triangular_problem *p, const triangular_groups *g, const int L_
     }
 }
 
-/* Every row must be in a group and every column in a run. The rows of a block must form a group. */
 static void whole(const triangular_problem *p, const triangular_groups *g, int size)
 {
     int columns = 0, largest = 0;

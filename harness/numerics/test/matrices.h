@@ -80,8 +80,6 @@ static inline sparse matrices_both_triangles(const sparse *a)
         s.column[j + 1] += s.column[j];
         next[j] = s.column[j];
     }
-    /* rows ascend, so the upper part of column j is complete before a later column adds to its
-     * lower part */
     for (int j = 0; j < n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
             const int i = a->row[k];

@@ -1,5 +1,4 @@
-"""Tests of beamwork compare. The exit status is that of diff, changes are called better or worse, and the whole file is
-checked."""
+"""Tests of beamwork compare."""
 import unittest
 
 from harness.records.test.stored import altered, replace, table_of, verify
@@ -36,7 +35,6 @@ class Compare(ProgramTest):
         return run("compare", *options, old or self.old, altered(self.old, self.new, change))
 
     def check(self, code, words, change, *options):
-        """Compares with the complete previous run and with its short table, in which the lines with sums have no mesh."""
         for old, mesh in ((self.old, " n=4"), (self.table, "")):
             done = self.compared(change, *options, old=old)
             self.assertEqual(done.returncode, code, done)
@@ -162,9 +160,6 @@ class Compare(ProgramTest):
         self.assertRegex(done.stdout, r"(?m)^new      warping_torsion/default/beamw n=4: other$")
 
     def test_near_zero(self):
-        """A changed value without a reference value must be reported if the change exceeds the floor. The floor is
-        relative to the size of the value or, if the value may be zero, to near_zero."""
-
         def without_truth(near_zero):
 
             def change(rows):

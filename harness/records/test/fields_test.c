@@ -1,5 +1,4 @@
-/* Every column must contain the data that its name states. The fields of an artificial sweep with
- * distinct numbers are read one by one. */
+/* Every column must contain the data that its name states. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -174,7 +173,6 @@ static void paths(const gathering *g)
     gather_free(&list);
 }
 
-/* The points of the curves of several meshes must follow one another. */
 static void curves(const gathering *g)
 {
     subjects list = {0};
@@ -200,8 +198,6 @@ static void errors(const gathering *g)
     gather_free(&list);
 }
 
-/* The times of every round must be stored, for the cell and for the same cell with all coordinates
- * kept. If nothing was timed, none must be stored. */
 static void timings(void)
 {
     cell_timing t = {.as_is = {.setup = 1, .solve = 2, .rounds = ROUNDS_COUNT},
@@ -279,9 +275,6 @@ static void fields_tests(void)
     declarations();
     scene_free(&b.p.scene);
 }
-
-/* Tests the line below a convergence table: order, ties, excluded formulations, and formulations
- * with general cost coefficients. */
 
 enum { LINE_MESHES = 5, SERIES = 4 };
 static const parameter_type parameter[] = {{.name = NULL}};
@@ -393,7 +386,6 @@ static void line_expect(const reach_line_bench *b, double level, const char *rig
     gsl_test(strcmp(line, right) != 0, "'%s', not '%s'", line, right);
 }
 
-/* Quantities without a reference value must be listed together, and curves separately. */
 static void not_every_quantity(void)
 {
     reach_line_bench b;
@@ -422,7 +414,6 @@ static void not_every_quantity(void)
     finish(&b);
 }
 
-/* The model error of the formulations that pass must be on a separate line. */
 static void other_models(void)
 {
     reach_line_bench b;

@@ -21,7 +21,6 @@ from reference.pack import seal
 
 
 SELECTION = ("verify", "-k", "warping_torsion/default")
-# selects many cells and excludes expensive ones, so that the first cells end early
 QUICK = " and ".join(f"not {word}" for word in ("_motion", "leaf_guide", "flight", "rigid_body", "release",
                                                 "pendulum", "spin_up", "lee_frame"))
 
@@ -60,7 +59,7 @@ class Complete(Folder):
             process = subprocess.Popen([PROGRAM, *SELECTION, "-o", self.path("r.h5")],
                                        stdout=subprocess.PIPE, stderr=subprocess.DEVNULL)
             if look % 2 == 1:
-                process.stdout.read(1)   # the computation is complete; only the output file remains to be written
+                process.stdout.read(1)
             for _ in range(40 * (look // 2)):
                 if os.path.exists(self.path("r.h5")) or process.poll() is not None:
                     break
@@ -84,12 +83,7 @@ class Complete(Folder):
 
 
 class Interrupted(Folder):
-    """After a request to end (Ctrl-C, SIGTERM), the finished results must be stored in files whose names mark them as
-    partial."""
-
     def started(self, cells, *arguments):
-        """Starts a run. When its output on the terminal states that this number of cells has been run, returns the
-        process and the terminal."""
         terminal, end = pty.openpty()
         self.addCleanup(os.close, terminal)
         process = subprocess.Popen([PROGRAM, "verify", *arguments], stdout=subprocess.PIPE,
@@ -125,8 +119,6 @@ class Interrupted(Folder):
             os.remove(self.path(name))
 
     def check_content(self, summary):
-        """Checks that values agree with those of an uninterrupted run. Limits are excluded, because the noise is
-        measured last."""
         self.assertGreater(summary["unfinished_cells"], 0)
         self.assertGreater(len(summary["verdicts"]), 0)
         with h5py.File(self.path("r.partial.h5")) as file:
@@ -146,7 +138,7 @@ class Interrupted(Folder):
                 self.assertEqual(here[name], there[name])
 
     def test_asked(self):
-        self.check_partial(signal.SIGINT, group=True)    # a terminal signals the whole group, including workers
+        self.check_partial(signal.SIGINT, group=True)
         self.check_partial(signal.SIGTERM, group=False)
 
     def test_ignored(self):

@@ -1,6 +1,5 @@
 /* A JUnit file must be well-formed XML whose header contains the numbers of its tests, failures and
- * skipped tests. The verdicts are of every kind, expected or not, with any mixture of other
- * failures of a run. */
+ * skipped tests. */
 #include <fcntl.h>
 #include <gsl/gsl_test.h>
 #include <math.h>
@@ -234,7 +233,6 @@ static void mixtures(void)
     }
 }
 
-/* Tests this XML reader, which must detect errors. */
 static void reader(void)
 {
     static const char head[] = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n";
@@ -259,9 +257,6 @@ static void junit_tests(void)
     single_verdicts();
     mixtures();
 }
-
-/* Lines of CSV are read back according to RFC 4180. For any text, every field must be in the column
- * of its name. */
 
 enum { MOST_FIELDS = 8, ROOM = 256, LINES = 2 };
 
@@ -356,8 +351,6 @@ static void csv_tests(void)
     no_number();
 }
 
-/* Outlines of a section that is high at one end of a member and wide at the other end. Each corner
- * must stay in its quadrant. */
 static void rectangles(void)
 {
     const section_spec high = section_spec_rectangle(2e11, 8e10, 0.1, 0.2),
@@ -378,7 +371,6 @@ static void rectangles(void)
     }
 }
 
-/* A section given by matrices must be drawn as the rectangle with the same radii of gyration. */
 static void matrices(void)
 {
     section_spec spec;
@@ -406,8 +398,6 @@ static void outline_tests(void)
     matrices();
 }
 
-/* If an output is a symbolic link, its target must be replaced, not the link. The target is in the
- * same or another folder, behind several links, or does not exist. */
 static void links(void)
 {
     const test_folder of = folder_make();
@@ -439,7 +429,6 @@ static void links(void)
     folder_remove(&of);
 }
 
-/* An invalid target of an output must be reported in one line before anything is computed. */
 static void no_places(void)
 {
     const test_folder of = folder_make();
@@ -463,8 +452,6 @@ static void no_places(void)
     folder_remove(&of);
 }
 
-/* One file with many names: different spellings, symbolic links and hard links. All must be
- * recognised as the same file, even if it does not exist yet. */
 static void same_places(void)
 {
     const test_folder of = folder_make();

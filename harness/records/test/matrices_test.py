@@ -18,8 +18,6 @@ FORMULATIONS = ("beamw_first", "beamw", "beamw_vlasov", "beamw_consistent", "she
                 "sheet_second_consistent", "sheet_third", "sheet_third_printed",
                 "geometrically_exact", "geometrically_exact:nodes=3", "collocation")
 
-# A bar that is stocky, so that the matrices are accurate to twelve digits, and rigid in shear, so that every
-# formulation supports it.
 BAR = """beamwork: 1
 sections:
   bar: {constants: {A: 1e-4, Iy: 5e-7, Iz: 8e-7, It: 9e-7}, young: 1e9, shear_modulus: 4e8,
@@ -72,7 +70,6 @@ members:
 
 
 def scaled(K, *others):
-    """Scales all matrices by the square roots of the diagonal of K, because rows are in metres and in radians."""
     d = 1 / numpy.sqrt(numpy.diag(K))
     return [A * d[:, None] * d for A in (K, *others)]
 
@@ -105,8 +102,6 @@ def turning_frequencies(K, M, G):
 class Matrices(ProgramTest):
 
     def solve(self, scene, formulation, *more, n=2):
-        """Solves the scene with output of matrices. Returns the values by name and the folder, or None if the request
-        is rejected."""
         file, folder = self.folder / "scene.yaml", self.folder / formulation.replace(":", "_")
         file.write_text(scene, encoding="utf-8")
         work = ("solve", "--scene", file, "-f", formulation, "-n", n, "--matrices", folder, *more)
@@ -143,9 +138,6 @@ class Matrices(ProgramTest):
 class Frequencies(Matrices):
 
     def test_loaded(self):
-        """The matrices at rest, under prestress, and in a state bent by a quarter of the length must have the
-        frequencies that the program computes, also with a rigid body. At rest, frequencies include the internal
-        motions of elements."""
         checked = with_inside = 0
         for formulation in FORMULATIONS:
             folder, values = self.solved(LOADED, formulation)
@@ -185,8 +177,6 @@ class Frequencies(Matrices):
                          [("1", "tip", 40), ("2", "tip", 5)])
 
     def test_loads_on_members(self):
-        """The table must state the part of the member on which each load acts. The columns of B are the loads, so
-        the solution of K x = B 1 must be the linear solution."""
         loads = """  part: {distributed: [0, 6, 0], on: bar, from: 0.25, to: 0.75, to_value: [0, 0, 3]}
   point: {force: [1, 2, 3], on: bar, where: 0.5}
   halves: {distributed: [0, 0, 4], on: bar, lumped: yes}
@@ -269,8 +259,6 @@ ALL = responses(*(f"node: tip, component: uy, of: {of}, {by}" for of in ("displa
 
 
 class StateSpace(Matrices):
-    """The state space x' = A x + B u, y = C x + D u must agree with the harmonic analysis."""
-
     def transfer(self, folder, state, hertz, of_motions=True):
         """Returns the transfer matrix [outputs x inputs]. The inputs at the base are motions if `of_motions`, otherwise
         their accelerations."""
@@ -316,7 +304,6 @@ class StateSpace(Matrices):
         return folder, {q["quantity"]: q["value"] for q in record["quantities"]}
 
     def test_responses(self):
-        """The poles of the state space must be the damped modes."""
         bent = "  path: {static: {stations: [1]}}\n"
         checked = 0
         for formulation in FORMULATIONS:
@@ -338,8 +325,6 @@ class StateSpace(Matrices):
         self.assertGreater(checked, len(FORMULATIONS))
 
     def test_free(self):
-        """A free structure has six rigid-body modes with poles at zero. It must have no poles in the right
-        half-plane."""
         scene = BENT.replace("stiffness: [100, 200, 50, 1, 2, 3], ", "").replace("  modes: {modal: {damped: yes%s}}\n", "%.0s") % (
             2700, "mass: 0.3, inertia: [1e-4, 1e-4, 1e-4, 0, 0, 0]", "", "", "", "",
             "", responses("node: tip, component: uy, force: mid, along: uz"))
@@ -350,8 +335,6 @@ class StateSpace(Matrices):
         self.assertLess(max(poles.real), 1e-3)
 
     def test_without_mass(self):
-        """A massless coordinate with damping must have one state, and other massless coordinates must be eliminated.
-        A velocity that follows a force without delay must be rejected as an output."""
         scene = BENT.replace("  modes: {modal: {damped: yes%s}}\n", "%.0s")
         scene = scene[:scene.index("  f_$n")] + scene[scene.index("mass: lumped"):]
         holds = (0, SHAKEN, "", "", "", "", "")
@@ -396,7 +379,7 @@ class StateSpace(Matrices):
             V[inner, len(edge):len(edge) + 6] = modes[:, :-7:-1]
             V[inner, -1] = -numpy.linalg.solve(K[numpy.ix_(inner, inner)], K[inner, n])
             V[n, -1] = 1
-            if not nodes: # without nodes, the shapes are the static shapes of the two forces
+            if not nodes:
                 V = numpy.hstack((V[:, :-1], numpy.vstack((numpy.linalg.solve(K[:n, :n], B[:n, [0, 2]]), [[0, 0]])), V[:, -1:]))
             T = self.read(folder, "steady/reduced", "T")
             self.assertEqual(T.shape, V.shape)
@@ -411,7 +394,7 @@ class StateSpace(Matrices):
             exact = frequencies(K[:n, :n], M[:n, :n])[:6]
             for error, one, other in zip(errors, exact, found):
                 self.assertLess(abs(float(error["whole"]) - one) + abs(float(error["reduced"]) - other), 1e-8*one)
-                self.assertGreater(other/one, 1 - 1e-10) # Rayleigh-Ritz values are upper bounds
+                self.assertGreater(other/one, 1 - 1e-10)
             self.assertLess(max(found/exact), 1.01 if nodes else 1 + 1e-10)
             H, h = (numpy.array([self.transfer(folder, state, hertz, False) for hertz in (3, 11, 60)])
                     for state in ("steady", "steady/reduced"))
@@ -436,8 +419,6 @@ class StateSpace(Matrices):
             self.assertFalse((self.folder/"new").exists())
 
     def test_modes_without_mass(self):
-        """A structure whose only mass is an eccentric point mass must have three modes with mass, for any requested
-        quantity."""
         (self.folder/"scene.yaml").write_text("""beamwork: 1
 sections: {bar: {constants: {A: 1e-4, Iy: 5e-7, Iz: 8e-7, It: 9e-7}, young: 1e9, shear_modulus: 4e8}}
 nodes: {root: {at: [0, 0, 0], hold: all}, mid: {at: [1, 0, 0]}, tip: {at: [2, 0, 0], mass: 2, centre: [0.1, 0.2, 0.3]}}

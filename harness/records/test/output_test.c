@@ -1,5 +1,4 @@
-/* Files must appear completely or not at all. The tests include files that are replaced or written
- * directly, permissions and full disks. */
+/* Files must appear completely or not at all. */
 #include <fcntl.h>
 #include <gsl/gsl_test.h>
 #include <signal.h>
@@ -13,7 +12,6 @@
 #include "harness/records/records_impl.h"
 #include "harness/records/test/folder.h"
 
-/* Returns 1 if the complete file can be read. */
 static int readable(const char *path, int count)
 {
     hsize_t size = 0;
@@ -59,7 +57,7 @@ static void write_failures(void)
     struct rlimit kept, small;
     getrlimit(RLIMIT_FSIZE, &kept);
     small = kept;
-    small.rlim_cur = 1000; /* [bytes] too few for a compressed file, as on a full disk */
+    small.rlim_cur = 1000;
     signal(SIGXFSZ, SIG_IGN);
     setrlimit(RLIMIT_FSIZE, &small);
     write_record(path, folder, 0, "no room");
@@ -161,8 +159,6 @@ static void permissions(void)
     folder_remove(&of);
 }
 
-/* The names of temporary files must be unpredictable; otherwise, a link with such a name could
- * redirect the output. */
 static void temporary_names(void)
 {
     enum { NAMES = 50 };
@@ -188,8 +184,6 @@ static void temporary_names(void)
     folder_remove(&of);
 }
 
-/* Text may be written to pipes and devices, which must not be replaced. A file that must appear
- * completely cannot be written to them. */
 static void streams(void)
 {
     const test_folder of = folder_make();

@@ -8,8 +8,6 @@ import scipy.io
 
 from harness.tools.kit.program import ProgramTest
 
-# Loads along uz cause neither uy nor rz, so these transfer functions are zero. If the member is inclined, they are not
-# exactly zero because of round-off.
 CANTILEVER = """beamwork: 1
 sections: {s: {%(section)s, young: 70e9, shear_modulus: 26e9, density: 2700}}
 nodes:
@@ -22,7 +20,6 @@ STRAIGHT = {"mid": "0.5, 0, 0", "tip": "0.9, 0, 0", "y": "0, 1, 0"}
 INCLINED = {"mid": "0.3, 0, 0.4", "tip": "0.54, 0, 0.72", "y": "0, 1, 0"}
 SKEW = {"mid": "0.3, 0.4, 0", "tip": "0.54, 0.72, 0", "y": "-0.48, 0.36, 0.8"}
 RECTANGLE, TUBE = "rectangle: {width: 20e-3, thickness: 8e-3}", "tube: {diameter: 30e-3, thickness: 2e-3}"
-# Three equal springs, which have a triple frequency.
 SPRINGS = """beamwork: 1
 sections: {s: {rectangle: {width: 20e-3, thickness: 8e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}}
 nodes:
@@ -80,8 +77,6 @@ class Reduced(ProgramTest):
                 self.check(functions, line)
 
     def check(self, functions, line):
-        """Checks that the stated errors are those computed with numpy. Functions between different planes must be zero
-        in both models."""
         inputs, outputs = self.rows("inputs.csv"), self.rows("outputs.csv")
         H, h = (numpy.array([self.transfer(f"h/{state}", hertz) for hertz in (3, 11, 60)]) for state in ("second_order", "reduced"))
         largest, zeros = 0, 0

@@ -98,8 +98,6 @@ static void all_same(const record_type *type, const void *a, const void *b)
                      list[i]->name);
 }
 
-/* One record of each kind in a cell, with distinct values, matrices and curves, must pass unchanged
- * between processes. */
 static void pipe_carries_all(void)
 {
     double x[2] = {1, 2}, y[2] = {3, 4}, path = 5, compliance[36], stiffness[36];
@@ -167,9 +165,6 @@ static void schema_tests(void)
     pipe_carries_all();
 }
 
-/* The summary for a pull request lists differences in a table. No text in its cells may break the
- * table. */
-
 static const case_type type = {.name = "case_of_test"};
 
 static char *written(const sweep *s, const evaluation *j)
@@ -200,9 +195,6 @@ static int lines_with(const char *text, const char *part)
     return count;
 }
 
-/* At most fifty rows of a list must be written, followed by the number of the remaining rows. If
- * there are more cases than rows, the names of the cases that pass must be listed, and separately
- * the names of those without a verdict. */
 static void long_lists(void)
 {
     enum { MANY = 60, EVALUATED = 40, WORSE = 53 };

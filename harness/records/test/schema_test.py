@@ -11,8 +11,8 @@ from harness.tools.kit.program import ProgramTest
 
 KEYS = ("point", "formulation", "elements")
 JSON_ONLY = ("truths", )
-OF_THE_RUN = ("declarations",)  # below the root, not below a case
-OF_SOME = ("motion", "assumptions")  # absent if a case has none
+OF_THE_RUN = ("declarations",)
+OF_SOME = ("motion", "assumptions")
 KINDS = {"int": "i4", "long": "i8", "double": "f8", "flag": "b", "text": "S", "enum": "S"}
 
 

@@ -1,4 +1,4 @@
-"""Stored runs for tests. Runs of verify are changed in one place and then compared."""
+"""Stored runs for tests."""
 import contextlib
 import math
 import shutil

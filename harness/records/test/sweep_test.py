@@ -89,8 +89,6 @@ class Sweeps(ProgramTest):
         self.assertRegex("\n".join(lines), r"^changed  elastica/load=0.5/reference: theta .* -> .*$")
 
     def test_points(self):
-        """Points of two sweeps must be matched by their parameters. Their ranges or their order may differ, a parameter
-        may be fixed in one sweep and varied in the other, and numbers may be rounded differently."""
         one = sweep(self.folder / "one.h5", "elastica", "--vary", "load=0.1..0.4/3", "-s", "axial=1e6", *OPTIONS)
         two = sweep(self.folder / "two.h5", "elastica", "--vary", "axial=1e7,1e6", "--vary", "load=0.3,0.2,0.7", *OPTIONS)
         with group_of(one) as file:
@@ -104,7 +102,6 @@ class Sweeps(ProgramTest):
         self.refused(2, "nothing was compared", "compare", self.old, one, silent=False)
 
     def test_formulations_and_meshes(self):
-        """There must be one line for each formulation or mesh that is new or gone, for any number of points."""
         new = sweep(self.new, "elastica", "--vary", "load=0.5..2/3", "-f", "sheet_third", "-f", "collocation", "-n", "1,4,8")
         lines, _ = self.compared(1, new)
         self.assertEqual(sorted(line for line in lines if "gone" in line or "new" in line),

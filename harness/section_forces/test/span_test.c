@@ -1,7 +1,5 @@
 /* A rod is integrated from one end as an initial value problem (GSL, 1e-13). The solution gives the
- * frames and forces at both ends and the values between them. Values between the ends, computed
- * only from those at the ends, must agree with the integrated values. The rods have bending, shear,
- * warping and loads. */
+ * frames and forces at both ends and the values between them. */
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_odeiv2.h>
 #include <gsl/gsl_test.h>
@@ -32,8 +30,6 @@ static int has(const rod *b, unsigned bit)
     return (b->features & bit) != 0;
 }
 
-/* Computes the resultants in section axes, and the twist rate, from the state and the constitutive
- * law of the section. */
 static void law(const rod *b, const double y[], double N[3], double M[3], double *rate, double *Mw,
                 double *wagner)
 {
@@ -52,8 +48,7 @@ static void law(const rod *b, const double y[], double N[3], double M[3], double
         fibres += M[1] * c->wagner_z / c->Iy - M[2] * c->wagner_y / c->Iz;
     fibres += -2 * zs * M[1] + 2 * ys * M[2];
     *rate = 0;
-    for (int i = 0; i < 200; i++) { /* fixed-point iteration, which converges for the torques of the
-                                       tests and is independent of Newton's method */
+    for (int i = 0; i < 200; i++) {
         const double cubic =
             has(b, FEATURE_WAGNER_TORQUE) ? 4 * E * c->wagner_torque * *rate * *rate : 0;
         const double K = G * c->It + fibres + cubic;

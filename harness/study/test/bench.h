@@ -109,7 +109,6 @@ static inline truth *bench_add_row(evaluation_bench *b, double value)
     return &b->row[1];
 }
 
-/* Adds a second row with the limit derived for the formulation. */
 static inline truth *bench_add_prediction(evaluation_bench *b, double limit)
 {
     truth *row = bench_add_row(b, limit);

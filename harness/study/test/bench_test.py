@@ -1,5 +1,4 @@
-"""Tests of the verb bench: rows, rejected input, and comparison of two programs or formulations. `make lab
-L=bench-check` checks the times."""
+"""Tests of the verb bench: rows, rejected input, and comparison of two programs or formulations."""
 import csv
 import io
 import re
@@ -52,15 +51,11 @@ class Bench(ProgramTest):
         self.refused(2, "selects no quantity of elastica", "bench", "warping_torsion", "elastica", "-k", "warping_torsion")
 
     def test_ranks_as_converge(self):
-        """Without a reference value, bench must rank as converge does: by errors with respect to the agreement. A
-        formulation that omits physics without effect must be included."""
         text = self.answered("bench", "--scene", LEAF, "--set", "stroke=0.009", "-n", "1,2,4").stdout
         self.assertNotIn("no reference value", text)
         self.assertRegex(text, r"(?m)^  collocation +4 .* %$")
 
     def test_none_that_passes(self):
-        """Formulations that are within the error target but have another limit must be printed separately. Equal lines
-        for several quantities must be joined."""
         done = self.answered("bench", "shear_elastica", "-f", "beamw", "-f", "sheet_third", "-n",
                              "2,4,8,16")
         text = " ".join(done.stdout.split())
@@ -147,8 +142,6 @@ class Bench(ProgramTest):
         self.assertIsNone(missed["elements_b"])
 
     def test_equal_error_of_a_scene(self):
-        """By default, formulations are compared at errors that both achieve. If a formulation converges to another
-        limit, this must be printed."""
         text = self.answered("bench", "--scene", LEAF, "-f", "sheet_third", "--against",
                              "collocation", "-k", "k_pushed").stdout
         self.assertEqual(re.findall(r"(?m)^at ([\d.]+) %: ", text), ["10", "1", "0.1"])

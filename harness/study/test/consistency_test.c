@@ -1,6 +1,5 @@
-/* Tests the check of run records. In one artificial, consistent cell, each number is changed
- * separately. Other cells are computed, with every kind of analysis and of Newton's method, and
- * with elements that count their evaluations. */
+/* Tests the check of run records. Other cells are computed, with every kind of analysis and of
+ * Newton's method, and with elements that count their evaluations. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -32,8 +31,6 @@ static void add_analysis(scene_analysis_kind kind, scene *s)
         scene_add_rotation(s, 1, &end, 1, 0, (scene_rotating_frame){{0}, {0}});
 }
 
-/* Makes a record of three steps with four iterations each. In a continuation, each step starts with
- * the existing tangent. */
 static void make(scene_analysis_kind kind, consistency_bench *b)
 {
     memset(b, 0, sizeof *b);
@@ -64,8 +61,6 @@ static void expect(const consistency_bench *b, int consistent, const char *what)
     gsl_test(!consistent && why[0] == '\0', "%s: it says why", what);
 }
 
-/* A count that is too small must always be inconsistent. A count that is too large must be
- * inconsistent only if the solution does no other work. */
 static void counts(scene_analysis_kind kind)
 {
     const struct {
@@ -137,7 +132,6 @@ static void steps(void)
     scene_free(&b.s);
 }
 
-/* the original formulation, whose calls are counted */
 static const element_type *inner;
 static long strains, stresses, inertias;
 
@@ -184,8 +178,6 @@ static void counted_equations(int count, const element_data *const data[], const
     inner->equations_many(count, data, x, e, own, s, out, outcome);
 }
 
-/* The counts of a computed cell must agree with those of the elements. Strains that are evaluated
- * for reactions are not counted. */
 static void actual(const char *name, int elements, const char *formulation_name,
                    const char *parameters, newton_form newton, int reactions, int checks_flutter)
 {
@@ -255,9 +247,6 @@ static void consistency_tests(void)
     actual("hexapod", 3, "sheet_third", "steps=3", NEWTON_MIXED, 1, 0);
 }
 
-/* The times of the parts and of the whole solution must be from one clock. They must not include
- * idle time, and no part may be missing. */
-
 static const element_type *without_strain_type;
 
 static void sleep_and_strain(const element_data *data, const node_state x[], strain_output *out)
@@ -290,8 +279,6 @@ static void parts_are_the_whole(const cell_request *request, const char *what)
                  phase_name((newton_phase)k), cell.solve.phase[k], cell.solve.seconds_solve);
     }
     gsl_test(!(cell.solve.phase[PHASE_ELEMENTS] > 0), "%s: elements take time", what);
-    /* the sum of the parts must be at least a fifth of the total time; the rest is between the
-     * readings of the clock */
     gsl_test(!(sum <= cell.solve.seconds_solve && sum > 0.2 * cell.solve.seconds_solve),
              "%s: the parts, %g s, are the whole, %g s, but for the readings", what, sum,
              cell.solve.seconds_solve);

@@ -42,8 +42,6 @@ static rule made_up(char *formulations, char *cases, char *verdicts)
                   .largest_error = 1};
 }
 
-/* The chosen formulation must support all features of the scene. If it has a known deviation for
- * this case, another must be chosen. */
 static void of_case(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -74,8 +72,6 @@ static void of_case(const case_type *type)
     scene_free(&s);
 }
 
-/* The chosen mesh must be one of the scene, or the finest of these after repeated doubling. The
- * values must have converged, unless the output says that they have not. */
 static void of_meshes(const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS] = {0};
@@ -121,13 +117,11 @@ static void nothing_offers_all(void)
     const case_type *type = registry_cases[0];
     parameters_default(type, value);
     cell_scene(type, value, NULL, &s, &f);
-    scene_demand(&s,
-                 FEATURE_END); /* no formulation has this feature, and the scene cannot omit it */
+    scene_demand(&s, FEATURE_END);
     gsl_test(choose(&s, type, value, NULL, 0).outcome != STATUS_REFUSED, "refused");
     scene_free(&s);
 }
 
-/* If only one formulation is accepted, either this formulation or none must be chosen. */
 static void no_new_one(void)
 {
     const element_type *accepted = registry_formulations[0];
@@ -153,14 +147,11 @@ static void default_choice_tests(void)
     for (int i = 0; registry_cases[i] != NULL; i++)
         of_case(registry_cases[i]);
     for (int i = 0; registry_cases[i] != NULL; i++)
-        if (i % 4 == 0) /* every fourth case */
+        if (i % 4 == 0)
             of_meshes(registry_cases[i]);
     nothing_offers_all();
     no_new_one();
 }
-
-/* Results of a cell must be bit-for-bit the same after transfer between processes. Truncated data
- * must be rejected. */
 
 static void round_trips(random_source *d)
 {
@@ -213,8 +204,6 @@ static int is_empty(const cell_result *c)
            s->shapes.state == NULL && s->shapes.point == NULL && s->shapes.node == NULL;
 }
 
-/* Every truncation must be detected and must leave no data. pictured 1: the last part of the data
- * is a picture. */
 static void truncated(random_source *d, int pictured)
 {
     cell_result sent = random_cell(d), got;
@@ -252,8 +241,6 @@ static void serialise_tests(void)
         truncated(&d, i % 2);
 }
 
-/* Runs all formulations at two points of a case, on meshes of one and two elements. share 1: cells
- * with equal results are solved once. */
 static void run(const case_type *type, const char *const text[2], int share, sweep *s)
 {
     static const int mesh[] = {1, 2};

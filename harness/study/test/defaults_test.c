@@ -28,7 +28,6 @@ static const case_type *case_of(const char *name)
     return NULL;
 }
 
-/* Checks a row of the parameter with index `at` of its case. */
 static void check_row(const char *line, const case_type *type, int at, const char *name,
                       const char *number, const char *choices)
 {

@@ -37,7 +37,6 @@ static inline formulation ending_good(void)
     return chosen;
 }
 
-/* A formulation for which the preparation of an element ends the process in the given way. */
 static struct {
     element_type type;
     status (*prepare)(const element_request *, element_data *, fault *);
@@ -53,7 +52,7 @@ static inline status prepare_end(const element_request *request, element_data *d
         _exit(3);
     if (ending.end == HANGING)
         never_end(ending.output);
-    if (ending.end == STOPPED) /* the alarm has no effect on a stopped process */
+    if (ending.end == STOPPED)
         raise(SIGSTOP);
     return ending.prepare(request, data, f);
 }

@@ -35,8 +35,6 @@ static void predictions(void)
     bench_free(&b);
 }
 
-/* A formulation must be compared with the reference value for the shear theory of its equations,
- * whatever theory the scene requires. */
 static void theories(void)
 {
     evaluation_bench b;
@@ -78,8 +76,6 @@ static void publications(void)
     bench_free(&b);
 }
 
-/* If a limit was derived, the range of a rule must apply to the distance from this limit, not from
- * the reference value. */
 static void bound_by_the_derived_limit(void)
 {
     static char kind[] = "wrong limit, as predicted|undecided";
@@ -192,8 +188,6 @@ static void expectations(void)
     bench_free(&b);
 }
 
-/* A reference value at a time that the run of a motion does not evaluate must not be used, and must
- * not count as unmet. Without a motion in the case, such a reference value must count as unmet. */
 static void other_instants(void)
 {
     static const parameter_type both[] = {{"length", "m", 2, 1, 9, NULL, "some length"},
@@ -257,8 +251,6 @@ static void stored_values(void)
     bench_free(&b);
 }
 
-/* Stored values must be compared with the series of the same formulation, even if the previous
- * series has the same meshes. */
 static void of_its_own_series(void)
 {
     evaluation_bench b;
@@ -303,8 +295,6 @@ static void evaluation_truths_tests(void)
     stored_values();
     of_its_own_series();
 }
-
-/* Verdicts on artificial series: every kind of verdict, and its effect on the exit status. */
 
 static void limits(void)
 {
@@ -445,8 +435,6 @@ static void failures(void)
     bench_free(&b);
 }
 
-/* The scatter must be measured only if there is a reference value, and the last change is tiny or
- * the verdict is undecided. */
 static void uncertain_noise(void)
 {
     evaluation_bench b;
@@ -463,8 +451,6 @@ static void uncertain_noise(void)
     bench_free(&b);
 }
 
-/* Counts how many limits agree with exact reference values to within their uncertainty, with and
- * without the finest meshes. */
 static void coverages(void)
 {
     evaluation_bench b;

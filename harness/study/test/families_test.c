@@ -58,7 +58,6 @@ static void add(families_bench *b, int which, double limit, double size)
     }
 }
 
-/* Adds a formulation of each of two families, which agree on the limit 3. */
 static void make_two(families_bench *b)
 {
     make(b);
@@ -113,8 +112,6 @@ static void two_families(void)
     finish(&b);
 }
 
-/* A third family with an uncertain limit must not make the agreed limit less accurate or its
- * uncertainty larger. */
 static void known_badly(void)
 {
     families_bench b;
@@ -132,8 +129,6 @@ static void known_badly(void)
     finish(&b);
 }
 
-/* Two families with one limit and two with another must not agree. If three families have one limit
- * and two another, the limit of the three must be the agreed limit. */
 static void disagreements_of_families(void)
 {
     families_bench b;
@@ -151,8 +146,6 @@ static void disagreements_of_families(void)
     finish(&b);
 }
 
-/* If limits agree with equally many families, the one with the smallest uncertainty must be the
- * centre. A formulation whose distance from the centre exceeds its uncertainty must be reported. */
 static void known_best(void)
 {
     families_bench b;
@@ -172,8 +165,6 @@ static void known_best(void)
     finish(&b);
 }
 
-/* A formulation with an uncorrected misprint, or with a known deviation for a feature of the scene,
- * must be excluded. */
 static void known_wrong(void)
 {
     char formulations[] = "red_one", condition[] = "shear", verdicts[] = "wrong limit|undecided";
@@ -224,7 +215,6 @@ static int every(const families_bench *b, int series_index)
     return found;
 }
 
-/* every() must use the reference values or, if there are none, the agreement. */
 static void reach(void)
 {
     families_bench b;
@@ -254,8 +244,6 @@ static void families_tests(void)
     uncertain();
     reach();
 }
-
-/* Cost of counted work: the rows that apply to a formulation, and the cost of a cell. */
 
 static const cost_coefficient rows[] = {
     {"", COUNTED_one, COUNTED_one, 1},
@@ -303,7 +291,6 @@ static void which_have_coefficients(void)
     gsl_test_int(has_cost_coefficients(rows, &f), 1, "prices of its own");
 }
 
-/* The committed table must give the cost of a cell, even for a new formulation. */
 static void committed(void)
 {
     const cell_result cell = counted();
@@ -327,10 +314,6 @@ static void counted_cost_tests(void)
     which_have_coefficients();
     committed();
 }
-
-/* Formulations that reach an error must be ranked by the cost of their counted work, never by
- * measured time. Formulations with a defect come last. Formulations tie if their costs differ by
- * less than the uncertainty of the cost coefficients. */
 
 enum { SERIES = 4, REACH_MESHES = 4, QUANTITIES = 2 };
 enum { LOW_COST, HIGH_COST, OTHER, LAST };
@@ -396,16 +379,13 @@ static void by_work(void)
     expect(&b, (int[]){LOW_COST, HIGH_COST, OTHER, LAST}, 4, "by work");
     gsl_test_int(reach_ties(b.list, b.count), 1, "one is the cheapest");
     gsl_test_int(b.list[0].mesh, 0, "on the least mesh");
-    for (int i = 0; i < SERIES;
-         i++) /* the order of the measured times is opposite to that of the work */
+    for (int i = 0; i < SERIES; i++)
         for (int k = 0; k < REACH_MESHES; k++)
             b.cell[i][k].solve.seconds_solve = 1.0 / (1 + i) + k;
     ask(&b, 0, 0.01);
     expect(&b, (int[]){LOW_COST, HIGH_COST, OTHER, LAST}, 4, "whatever the clock says");
 }
 
-/* If a formulation is within 1 % on the first mesh but not on the second, it must be ranked by its
- * work on the third mesh. */
 static void by_accident(void)
 {
     reach_bench b;
@@ -464,8 +444,6 @@ static void ties(void)
     gsl_test_int(reach_ties(b.list, 0), 0, "nothing ties");
 }
 
-/* The ranking over all quantities must exclude a formulation that does not run, and a formulation
- * without a reference value of its theory for some quantity. */
 static void not_requested(void)
 {
     reach_bench b;

@@ -1,6 +1,5 @@
 /* No process may outlive the process that started it, and an interrupted run must keep its finished
- * results. The tests wait for events, so they do not depend on the speed of the machine. END and
- * WAIT only stop a test that would never end. */
+ * results. */
 #include <gsl/gsl_test.h>
 #include <poll.h>
 #include <signal.h>
@@ -19,8 +18,6 @@ typedef struct family {
     int output;
 } family;
 
-/* For the child process: exits with 0 if a run of `complete` cells, followed by endless cells, gave
- * the expected results. */
 static int run_endless(const sweep_request *request, int complete, int output)
 {
     static const int mesh[] = {1, 2, 3};
@@ -79,7 +76,6 @@ static int exit_code(pid_t process)
     return waitpid(process, &how, 0) == process && WIFEXITED(how) ? WEXITSTATUS(how) : -1;
 }
 
-/* If a process is killed, its workers must end. */
 static void orphans(void)
 {
     const sweep_request request = {.jobs = 2};
@@ -109,7 +105,6 @@ static char state_of(pid_t process)
     return state;
 }
 
-/* A worker must enforce its own time limit while its parent is stopped. */
 static void own_limit(void)
 {
     const sweep_request request = {.jobs = 1, .time_limit = 1};
@@ -130,7 +125,6 @@ static void own_limit(void)
     close(of.output);
 }
 
-/* After a request to stop, a run must keep the finished series and no others. */
 static void interrupted(int number)
 {
     const sweep_request request = {.jobs = 1, .interruptible = 1};
@@ -149,8 +143,6 @@ static int is_requested(const interrupt *i)
     return poll(&end, 1, 0) > 0;
 }
 
-/* A signal that is ignored (nohup) must not count as a request. At the end, the signal mask must be
- * restored. */
 static void requests(void)
 {
     interrupt i;
@@ -173,8 +165,7 @@ static void requests(void)
 
 int main(void)
 {
-    signal(SIGINT, SIG_DFL); /* a background job of a shell ignores SIGINT, and a signal that is
-                                ignored at the start remains ignored */
+    signal(SIGINT, SIG_DFL);
     alarm(END);
     orphans();
     own_limit();

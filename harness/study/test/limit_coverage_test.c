@@ -11,13 +11,11 @@ enum { FEWEST = 4, MOST = 7, DRAWS = 500, GRIDS = 5 };
 
 static const double value = 3;
 
-static const int grid[GRIDS][MOST] = {
-    {1, 2, 4, 8, 16, 32, 64},
-    {2, 4, 8, 16, 32, 64, 128},
-    {5, 10, 20, 40, 80, 160, 320},
-    {1, 2, 3, 4, 8, 16,
-     32}, /* the mesh of 3 elements is ignored, because it is too close to that of 4 */
-    {2, 4, 8, 16, 30, 32, 64}};
+static const int grid[GRIDS][MOST] = {{1, 2, 4, 8, 16, 32, 64},
+                                      {2, 4, 8, 16, 32, 64, 128},
+                                      {5, 10, 20, 40, 80, 160, 320},
+                                      {1, 2, 3, 4, 8, 16, 32},
+                                      {2, 4, 8, 16, 30, 32, 64}};
 
 typedef struct draw {
     double order, order_2, order_3;
@@ -192,7 +190,6 @@ static mesh_limit shown(gsl_rng *r, const coverage_family *f, int meshes)
     const draw d = draw_from(r, f, n, meshes);
     const double round_off = 1e-14,
                  first = sign(r) * between_log(r, 1e-3, 0.3) * value / f->error(&d, 0, n[0]);
-    /* limits the error if the first two terms almost cancel on the coarsest mesh */
     const double usual = fmin(first, 0.3 * value / fabs(f->error(&d, 1, n[1])));
     double v[MOST];
     for (int i = 0; i < meshes; i++)
@@ -223,8 +220,6 @@ static void coverage_of_families(void)
     gsl_rng_free(r);
 }
 
-/* The values have scatter of different sizes. The computation of the limit gets a size that may be
- * wrong by a factor of three. */
 static void coverage_under_noise(void)
 {
     static const coverage_family noisy[] = {{"n^-2", power, ONE_TERM, 2, 0.95},
@@ -255,9 +250,6 @@ static void coverage_under_noise(void)
     gsl_rng_free(r);
 }
 
-/* The verdict "low order" requires two orders below the minimum, preceded by an order below the
- * nominal order; the three orders must be monotonic (study/verdict.c). If error terms of opposite
- * signs cancel, some series with a low order are not found. */
 static void low_orders(void)
 {
     static const coverage_family low[] = {
@@ -290,8 +282,6 @@ static void limit_coverage_tests(void)
     coverage_of_families();
     coverage_under_noise();
 }
-
-/* Limits of sequences must agree with results computed by hand, including special cases. */
 
 enum { LIMIT_MOST = 7, DOUBLED = 6 };
 static const double limit_value = 3; /* the exact limit of all sequences with one error term */
@@ -373,8 +363,6 @@ static void worked(void)
     gsl_test(isfinite(slow.order), "is not believed");
 }
 
-/* Two values give no order. Order 1 is assumed, and the uncertainty must be three times the change
- * plus four times the scatter. Three values give only one order. */
 static void few_meshes(void)
 {
     const double v[] = {1, 1.5, 1.75};
@@ -421,9 +409,6 @@ static void settled(void)
     gsl_test_rel(l.order, 8, 0.02, "shows its order above it");
 }
 
-/* C_uz_My of sheet_second (sheet_cantilever, tip_warping=1) [1e-7/N]. From 64 elements on, another
- * error term contributes. Orders of 4.5 and 4.7 agree although the highest possible order is four,
- * and the limits seem to converge. The value on 1024 elements shows the limit. */
 static void orders_beyond_the_highest(void)
 {
     static const double v[] = {-7.541557376815, -7.572498677944, -7.749537235739, -7.764447957971,
@@ -459,21 +444,19 @@ static void out_of_order(void)
     is_kind(doubled(DOUBLED, v), LIMIT_CONVERGED, "alternating beyond interest");
 }
 
-/* Failed meshes and meshes too close to each other must be ignored. The meshes may be in any
- * order. */
 static void gaps(void)
 {
     const int n[] = {32, 1, 2, 4, 8, 16, 31, 3};
     double v[8];
     fill(8, n, 0.3, 2, v);
-    v[6] = 99; /* the mesh of 31 elements is too close to that of 32 */
+    v[6] = 99;
     v[1] = INFINITY;
     v[2] = NAN;
     v[7] = NAN;
     mesh_limit l = limit_of(&(limit_sequence){8, n, v, NAN, 2, 4, 0});
     gsl_test_int(l.meshes, 4, "meshes without a value or too close are left out");
     gsl_test_rel(l.limit, limit_value, 1e-9, "the others have a limit");
-    v[4] = NAN; /* 4, 16, 32 remain */
+    v[4] = NAN;
     l = limit_of(&(limit_sequence){8, n, v, NAN, 2, 4, 0});
     gsl_test_rel(l.order, 2, 1e-6, "a gap in the middle changes the ratio only");
     const int close[] = {1, 2, 3, 4};

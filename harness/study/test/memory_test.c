@@ -1,7 +1,6 @@
 /* Memory exhaustion: every allocation fails once, in a few small cells, in reading reference
- * values, and in a results file. The result must be FAULT with a message of one line or, if the
- * memory was not essential, the correct result. No memory may leak. The test is linked with --wrap,
- * which intercepts calls in the code of this program. */
+ * values, and in a results file. The test is linked with --wrap, which intercepts calls in the code
+ * of this program. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -89,8 +88,6 @@ FILE *__wrap_open_memstream(char **text, size_t *size)
  * returns a failure. */
 typedef status memory_attempt(const void *what, double *value, fault *f);
 
-/* Runs the operation once with enough memory. Then runs it again while the k-th allocation fails,
- * for k = 1, 1 + step, ... */
 static void exhaust(const char *name, memory_attempt *run, const void *what, int most)
 {
     double right = NAN;
@@ -166,8 +163,6 @@ static status read_truths(const void *what, double *value, fault *f)
     return outcome;
 }
 
-/* Reads a scene file, the scene and the reference values. *value: number of reference values plus a
- * weighted sum of the positions of nodes. */
 static status read_scene(const void *what, double *value, fault *f)
 {
     scene_file *file = NULL;
@@ -210,8 +205,7 @@ static status write_results(const void *what, double *value, fault *f)
         outcome = store_write(what, NULL, &s, &j, &e, f);
     *value = access(what, F_OK) == 0;
     if (outcome != STATUS_OK && *value != 0)
-        fault_set(f, STATUS_OK,
-                  "a file\nwas left"); /* the test must fail, because this message has two lines */
+        fault_set(f, STATUS_OK, "a file\nwas left");
     unlink(what);
     evaluation_free(&j);
     sweep_free(&s);

@@ -1,6 +1,5 @@
-"""The order of high modes differs between coarse and fine meshes (rule meshes-high-modes). On coarse meshes, a quantity
-with the number of a high mode is then another mode, so its limit is uncertain. With one more mesh, the verdict is a
-pass."""
+"""The order of high modes differs between coarse and fine meshes (rule meshes-high-modes). With one more mesh, the
+verdict is a pass."""
 import unittest
 
 from harness.tools.kit.program import ProgramTest
@@ -26,7 +25,6 @@ COARSE = (
 class Modes(ProgramTest):
 
     def series(self, case, formulation, given, meshes):
-        """Returns {quantity: record} of a series."""
         words = [word for one in given for word in ("--set", one)]
         found, = self.record("converge", case, "-f", formulation, "-j", 1, "-n",
                              ",".join(map(str, meshes)), *words)["series"]
@@ -43,8 +41,6 @@ class Modes(ProgramTest):
                 self.assertLess(abs(found["order"] - 2), 0.01)
 
     def test_modes_cross(self):
-        """Extrapolating a mode from the finer meshes to the coarsest mesh with order 2 must give the value of another
-        quantity there."""
         for case, formulation, given, quantity, other, meshes in CROSSINGS:
             with self.subTest(case=case, formulation=formulation, quantity=quantity):
                 found = self.series(case, formulation, given, meshes)

@@ -39,8 +39,6 @@ static int all_but_the_first(void *context, const sweep *s, int series_index)
     return series_index > 0;
 }
 
-/* The measured scatter must be due only to rounding, even for formulations that depend on the order
- * of nodes. */
 static void rounding(const case_type *type)
 {
     sweep s;
@@ -76,8 +74,6 @@ static int change(void *context, const sweep *s, int series_index)
     return 1;
 }
 
-/* If a value is changed, both repetitions differ from it by this change. The scatter must be twice
- * the change. */
 static void size_of_it(const case_type *type)
 {
     for (int k = 0; k < 2; k++) {
@@ -97,8 +93,6 @@ static void size_of_it(const case_type *type)
     }
 }
 
-/* Returns a value of a case and formulation for a scene that `edit` changes to an equivalent
- * one. */
 static double in_other_words(const case_type *type, const formulation *chosen, scene_edit edit,
                              int quantity)
 {
@@ -116,8 +110,6 @@ static double in_other_words(const case_type *type, const formulation *chosen, s
     return out;
 }
 
-/* The larger of the differences between a value and its two repetitions must determine the scatter,
- * whichever it is. */
 static void larger_of_two(const case_type *type)
 {
     sweep s;
@@ -158,8 +150,6 @@ static void run_values(const char *name, const char *text, int values_only, swee
     gsl_test(run_sweep(&request, s, &f) != STATUS_OK, "run %s", f.text);
 }
 
-/* If only values are requested, numbers for curves and matrices must not be computed. The other
- * values must be bit-for-bit equal. */
 static void values_only(const char *name, const char *text)
 {
     sweep whole, some;
@@ -195,9 +185,6 @@ static void noise_tests(void)
     values_only("sheet_cantilever", "");
     larger_of_two(case_find("elastica", &f));
 }
-
-/* Every cell must be exactly one of the tasks. Cells of the most expensive series come first; the
- * other cells follow in order. Within a series, the finest mesh comes first. */
 
 static const int mesh[] = {1, 2, 4};
 
@@ -293,8 +280,6 @@ static void counted(const char *name, run_cost_kind kind, double wanted)
     scene_free(&s);
 }
 
-/* The estimated number of adaptive steps must be a power of the tolerance, and smaller for Radau,
- * which makes longer steps. */
 static void adapts(void)
 {
     const double instant = 3;
@@ -317,7 +302,6 @@ static void adapts(void)
     scene_free(&s);
 }
 
-/* Every cost coefficient must be known, and at least one formulation must have its own row. */
 static void prices(void)
 {
     double all = 0;
@@ -337,7 +321,7 @@ static void run_cost_tests(void)
     counted("warping_torsion", RUN_COST_linear, 1);
     counted("tip_body", RUN_COST_modal, 1);
     counted("lee_frame", RUN_COST_continuation, 1);
-    counted("pendulum", RUN_COST_radau_step, 40 * pow(1 / 6.0, 0.3)); /* tolerance 6e-4 */
+    counted("pendulum", RUN_COST_radau_step, 40 * pow(1 / 6.0, 0.3));
     adapts();
     prices();
 }

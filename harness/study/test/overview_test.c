@@ -1,5 +1,5 @@
 /* The overview must show the worst verdict for each case and formulation, with unexpected verdicts
- * before expected ones. The sentence at the end of a run summarises the verdicts. */
+ * before expected ones. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stddef.h>
@@ -58,8 +58,6 @@ static void shows(const run *r, int row, int column, const char *ascii, const ch
     overview_free(&o);
 }
 
-/* The worst kind of verdict must be shown, whether it occurs alone or together with less severe
- * verdicts in any order. */
 static void the_worst(void)
 {
     static const verdict_kind rising[] = {VERDICT_SKIP,
@@ -85,7 +83,6 @@ static void the_worst(void)
         }
 }
 
-/* One unexpected verdict must be shown, even if ten expected verdicts are worse. */
 static void the_unexpected(void)
 {
     run r;
@@ -263,7 +260,6 @@ static const size_t failing[] = {
     offsetof(evaluation, unobserved), offsetof(evaluation, unmet),
     offsetof(evaluation, flaws),      offsetof(evaluation, breaches),
     offsetof(evaluation, regressions)};
-/* Counts of which at least one must exceed zero; otherwise nothing was evaluated. */
 static const size_t checking[] = {offsetof(evaluation, evaluated),
                                   offsetof(evaluation, agreements)};
 enum {
@@ -296,8 +292,6 @@ static void set(evaluation *j, size_t offset, int value)
     memcpy((char *)j + offset, &value, sizeof value);
 }
 
-/* Changes every count of the evaluation separately, including counts that will be added to the
- * structure. */
 static void exit_codes(void)
 {
     int walked = 0;
@@ -317,7 +311,6 @@ static void exit_codes(void)
         }
         evaluation none = {0};
         set(&none, at, 1);
-        /* breaches and regressions make the run fail even if there is no verdict */
         const int broken =
             at == offsetof(evaluation, breaches) || at == offsetof(evaluation, regressions);
         gsl_test_int(evaluation_exit(&none),
@@ -363,7 +356,6 @@ static double uniform(void)
     return rand() / (RAND_MAX + 1.0);
 }
 
-/* Makes random errors of any size and sign; some are exactly at a level, some are missing. */
 static void throw_errors(double error[MESHES])
 {
     for (int i = 0; i < MESHES; i++) {
@@ -382,7 +374,7 @@ static int by_definition(const double error[MESHES], double level)
     for (int first = 0; first < MESHES; first++) {
         int all = 1;
         for (int i = first; i < MESHES; i++)
-            all = all && fabs(error[i]) <= level; /* false for NAN */
+            all = all && fabs(error[i]) <= level;
         if (all)
             return first;
     }
@@ -400,7 +392,7 @@ static void meshes_reached(void)
         for (int i = 0; i < MESHES; i++) {
             t.b.quantity[i].value = truth_value + error[i] * fabs(truth_value);
             error[i] = verdict_error(&t.b.p.scene.quantity[0], t.b.quantity[i].value, truth_value);
-            t.timing[i].as_is.round[0] = uniform(); /* a measured time, which must have no effect */
+            t.timing[i].as_is.round[0] = uniform();
         }
         for (int k = 0; k < REACH_LEVELS; k++) {
             const int right = by_definition(error, reach_level[k]);
@@ -421,8 +413,6 @@ static void levels(void)
         gsl_test_rel(reach_level[k], pow(10, -1 - k), 1e-15, "level %d", k);
 }
 
-/* A level must not be reached without a reference value, without the formulation, or if a value is
- * missing. */
 static void unreached(void)
 {
     timed t;
@@ -453,11 +443,6 @@ static void gate_tests(void)
     unreached();
 }
 
-/* Whether a limit agrees with the derived limit is tested on both sides of the edges that the
- * uncertainties give, on both sides of the reference value, and for each source of the
- * uncertainty. */
-
-/* distance of a test value from an edge, relative to the distance of the edge */
 static const double just = 3e-3;
 
 static verdict_kind evaluated(evaluation_bench *b, double limit, double apart)
@@ -466,7 +451,6 @@ static verdict_kind evaluated(evaluation_bench *b, double limit, double apart)
     return bench_evaluate(b)->kind;
 }
 
-/* A limit must agree with the derived limit up to the distance `edge`, but not beyond. */
 static void edges(evaluation_bench *b, double edge, verdict_kind beyond, const char *what)
 {
     const double limit = bench_evaluate(b)->fit.limit;
@@ -491,9 +475,6 @@ static void with_prediction(evaluation_bench *b, double limit)
     bench_add_prediction(b, limit);
 }
 
-/* The limit is accurate, so the uncertainty of the derived limit must determine the verdict, for
- * any size and sign of the error. Without this uncertainty, even a distance of a thousandth of the
- * error is too large. */
 static void sharp_limits(void)
 {
     static const double error[] = {0.003, -0.003, 0.3, -0.03};
@@ -517,7 +498,6 @@ static void sharp_limits(void)
     }
 }
 
-/* The limit is uncertain, so three times its uncertainty must determine the verdict. */
 static void uncertain_limits(void)
 {
     evaluation_bench b;
@@ -533,8 +513,6 @@ static void uncertain_limits(void)
     bench_free(&b);
 }
 
-/* An accurate limit within the tolerance that differs from the reference value must be biased. The
- * verdict must say if this difference agrees with the derived limit. */
 static void biases(void)
 {
     static const double error[] = {2e-4, -2e-4};
@@ -558,8 +536,6 @@ static void biases(void)
     }
 }
 
-/* A limit that has not converged must not agree with the derived limit, even if both values are
- * equal. */
 static void undecided(void)
 {
     evaluation_bench b;
@@ -586,7 +562,6 @@ int main(void)
 {
     gate_tests();
     predicted_tests();
-    overview_tests(); /* last, because after a formulation is loaded, verdicts on others do not
-                         affect the exit status */
+    overview_tests();
     return gsl_test_summary();
 }

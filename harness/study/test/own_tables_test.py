@@ -65,7 +65,6 @@ class Own(ProgramTest):
 
     @staticmethod
     def explained(needed):
-        """Adds a cause and its proof to each proposed rule."""
         text = needed.read_text(encoding="utf-8")
         needed.write_text(text.replace('"to be found: why is this not a pass?",', "planted,test"),
                           encoding="utf-8")
@@ -101,17 +100,15 @@ class Findings(Own):
         self.assertIn("but known deviation", self.verified("wrong", "--deviations", small, code=1).stdout)
 
     def test_a_rule_nobody_shows(self):
-        """A rule that is not observed must be reported with its position in the file, if all cells to which it applies
-        were run."""
         rule = "old,collocation,leaf,,*,wrong limit,0.1,,once,paper"
         truths = self.write("t.csv", ROWS, self.dip(1))
         run = ("verify", "-f", "collocation", "--scene", self.scene(), "--truths", truths)
         path = self.write("f.csv", RULES, rule)
-        self.answered(*run, "--deviations", path, "-k", "dip")  # cells that were not selected may show the deviation
+        self.answered(*run, "--deviations", path, "-k", "dip")
         out = self.answered(*run, "--deviations", path, code=1).stdout
         self.assertIn(f"known deviation old ({path}:2) was not observed", " ".join(out.split()))
         for change in (("collocation", "collocation beamw"), ("leaf", "leaf elastica")):
-            other = self.write("o.csv", RULES, rule.replace(*change))  # other formulations or cases may show this deviation
+            other = self.write("o.csv", RULES, rule.replace(*change))
             self.answered(*run, "--deviations", other)
 
     def test_a_rule_nobody_shows_of_a_selected_case(self):
@@ -181,7 +178,6 @@ class Repository(Own):
         self.assertEqual(codes, [0, 0, 0, 0, 1])
 
     def called(self, words):
-        """Runs a command of the documentation with the paths of this clone, on two cases only."""
         program = [str(ROOT) if w == "beamwork" else w for w in words]
         if program[0].endswith("/beamwork"):
             program = [PROGRAM, *program[1:], "-k", "elastica or tapered_cantilever/default"]
@@ -240,8 +236,6 @@ class Truths(Own):
 FORMULATIONS = ("beamw", "beamw_vlasov", "beamw_consistent", "sheet_second", "sheet_third",
                 "geometrically_exact", "collocation")
 
-# Bending in two planes: one frequency is proportional to the thickness, the other to the width. They cross where the
-# section is square.
 CANTILEVER = """beamwork: 1
 parameters:
   width: {value: 5e-3, unit: m, min: 1e-4, max: 1, about: "across"}
@@ -267,7 +261,6 @@ omit: [shear, trapeze, wagner_moments, wagner_torque, rotary_inertia]
 PLAIN = CANTILEVER.replace("MASS", "").replace("WANTED", "4")
 COUPLED = CANTILEVER.replace("WANTED", "2").replace(
     "MASS", ", mass: 1e-3, inertia: [2e-5, 2e-5, 2e-5, 0, coupling, 0]")
-# Torsional frequencies are proportional to 1/length, bending frequencies to 1/length^2. The modes are not coupled.
 TWIST = PLAIN.replace("It: 1e-3*width*thickness", "It: 1e-12").replace("1..4", "1..6").replace(
     "wanted: 4", "wanted: 6")
 
@@ -284,8 +277,6 @@ class Follow(ProgramTest):
         self.assertLess(max(curve) / min(curve) - 1, tolerance, what)
 
     def test_crossing(self):
-        """The modes must cross at the square section, and follow their laws before and after it, even if one of the
-        values is at the crossing."""
         for formulation in FORMULATIONS:
             for over in ("width=5e-3..12e-3/7", "width=12e-3..4.5e-3/3"):
                 got = self.follow(PLAIN, formulation, over)
@@ -304,7 +295,6 @@ class Follow(ProgramTest):
                 self.assertEqual([e for e in got["events"] if e["kind"] == "veering"], [])
 
     def test_torsion(self):
-        """The frequencies of torsion and bending must cross at the length for which their laws give equal values."""
         got = self.follow(TWIST, "collocation", "length=0.3..1.5/12")
         values, curves = got["values"], [c["frequency"] for c in got["curves"]]
         powers = {1: [], 2: []}
@@ -323,8 +313,6 @@ class Follow(ProgramTest):
             self.assertLess(abs(found[0] / known[0] - 1), 1e-8)
 
     def test_veering(self):
-        """A body with oblique axes couples the two planes. The frequencies then do not cross, and are closest near the
-        square section. No crossing may be reported, however few values are requested."""
         for parts in (1, 2, 9):
             got = self.follow(COUPLED, "collocation", f"width=6e-3..10e-3/{parts}", "--set",
                               "coupling=1e-5")

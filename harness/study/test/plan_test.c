@@ -1,6 +1,5 @@
 /* The cells of a verification: each point of the reference values must occur once, with the meshes
- * of these values. A row that is valid for any value of a parameter (*) must add no point, and
- * apply to all points. */
+ * of these values. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -90,8 +89,6 @@ static void points(const case_type *type, const int number[2])
     expect(type, 3, row, 2, 0, "of one that holds at none of them");
 }
 
-/* With `doublings` n, each series must have n additional meshes. The last has 2^n times the
- * elements of the finest original mesh. The original meshes must not change. */
 static void doublings(void)
 {
     const truths none = {.rows = 0};
@@ -114,8 +111,6 @@ static void doublings(void)
     sweep_free(&two);
 }
 
-/* Builds the first case of the registry with as many meshes as a scene can have, or with one given
- * mesh. */
 static status with_meshes(const double value[], scene *s, fault *f)
 {
     double defaults[CASE_MAX_PARAMETERS] = {0};
@@ -172,10 +167,6 @@ static void plan_tests(void)
     }
     gsl_test(cases < 10, "%d cases have two numbers", cases);
 }
-
-/* Bounds of the effect of omitted physics must agree with results on fine meshes, for beams of any
- * thickness under any load, and for every case with its default parameters. If there is no bound,
- * the formulation must solve another model. */
 
 static const double length = 0.1, young = 2e11, shear_modulus = 8e10;
 

@@ -63,7 +63,6 @@ static inline void fill_counts(random_source *d, cell_result *c)
     for (size_t i = 0; i < sizeof size / sizeof size[0]; i++)
         *size[i] = whole(d, 1 << 30);
     c->size.features = (unsigned)roll(d);
-    /* random bits, also in counters that will be added to the structure */
     for (size_t at = 0; at < sizeof c->counters; at += sizeof(uint64_t)) {
         const uint64_t bits = roll(d);
         memcpy((char *)&c->counters + at, &bits, sizeof bits);

@@ -89,7 +89,6 @@ static void conditions(const char *path)
     truths_file_refused(path, "condition", r, "a word for a number");
 }
 
-/* A rule must count as observed if a verdict shows it and verdicts confirm all derived limits. */
 static void predictions(const char *path)
 {
     truths t;

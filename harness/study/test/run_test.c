@@ -1,4 +1,4 @@
-/* Parameters, names, selection, reference values. */
+/* Tests of parameters, names, selections and reference values, and of how numbers are printed. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -75,7 +75,6 @@ static void parameters(void)
              "refused: %s", f.text);
 }
 
-/* Every value and every formulation, with any option changed, must be recovered from its text. */
 static void texts(void)
 {
     static const double value[] = {1.0 / 3, 0.1 + 0.2, 1e-300, 123456789.123456789,
@@ -115,8 +114,6 @@ static void meshes(void)
     sweep_free(&s);
 }
 
-/* Random combinations of pieces of valid input must be accepted, or rejected in one line. A crash
- * or another status is an error. */
 static void random_input(void)
 {
     static const char *const piece[] = {"length",
@@ -272,8 +269,6 @@ static void change_tests(void)
     scene_free(&s);
 }
 
-/* Values must be written up to the second digit of their uncertainty, errors in percent. */
-
 static void output(const char *text, const char *expected, const char *what)
 {
     gsl_test(strcmp(text, expected) != 0, "%s: '%s', should be '%s'", what, text, expected);
@@ -294,7 +289,6 @@ static void percent(double error, const char *expected)
     gsl_test(strlen(text) > 11, "'%s' is no wider than its column", text);
 }
 
-/* For any number, the text must contain the value up to its uncertainty, without further digits. */
 static void every_size(void)
 {
     for (int size = -12; size <= 12; size++)
@@ -337,8 +331,7 @@ static void rounding_tests(void)
     every_size();
 }
 
-/* Returns the text of the progress display, which the caller frees. The remaining time must follow
- * from the work, not from the number of cells. */
+/* Returns the text of the progress display, which the caller frees. */
 static char *shown(double now, int done, double share, int ends)
 {
     char *text = NULL;

@@ -162,7 +162,7 @@ static inline void compare_solution(difference *out, const solve_result *a, cons
     SAME(seconds_setup);
     SAME(seconds_solve);
     SAME(phase);
-    if (out->name != NULL) /* arrays of different counts cannot be compared */
+    if (out->name != NULL)
         return;
     for (int i = 0; i < a->quantities; i++)
         compare_quantity(out, &a->quantity[i], &b->quantity[i]);

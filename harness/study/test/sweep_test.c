@@ -1,5 +1,4 @@
-/* Sweeps in several processes must give the same results for any number of jobs. Crashes and
- * endless cells must count as results. END only stops a test that would never end. */
+/* Sweeps in several processes must give the same results for any number of jobs. */
 #include <gsl/gsl_test.h>
 #include <signal.h>
 #include <string.h>
@@ -32,8 +31,6 @@ static void crashes(int end, int jobs, const char *reason)
     sweep_free(&s);
 }
 
-/* If a worker crashes or exceeds the time limit, its cell must have this result. If a worker is
- * killed, the process that requested the sweep must end. */
 static void together(int end, int dies)
 {
     static const int mesh[] = {1};
@@ -117,8 +114,6 @@ static status is_passed(void *context, const sweep *s, int series_index, fault *
     return log->passed <= log->most ? STATUS_OK : fault_set(f, STATUS_REFUSED, "enough");
 }
 
-/* The follower must receive every series in order, with its cells and its scatter, while other
- * cells are computed. */
 static void followed(int jobs, int most)
 {
     static const int mesh[] = {1, 2, 4};
@@ -147,7 +142,6 @@ static void followed(int jobs, int most)
     sweep_free(&s);
 }
 
-/* Builds the first case of the registry in the planning process; fails in any other process. */
 static status build_in_plan(const double value[], scene *s, fault *f)
 {
     double defaults[CASE_MAX_PARAMETERS] = {0};
@@ -182,8 +176,7 @@ static void cells_share_a_scene(void)
 
 int main(void)
 {
-    signal(SIGINT, SIG_DFL); /* a background job of a shell ignores SIGINT, and a signal that is
-                                ignored at the start remains ignored */
+    signal(SIGINT, SIG_DFL);
     alarm(END);
     crashes(KILLED, 1, "crashed with signal 9");
     crashes(KILLED, 2, "crashed with signal 9");

@@ -20,8 +20,6 @@ static void fill(truths *t, int from, int to)
     t->rows = to;
 }
 
-/* For one case and quantity, the index must give the same rows as a full search, in the same
- * order. */
 static void compare(const truths *t, const case_type *type, const char *quantity)
 {
     int i = truth_index_first(t, type, quantity), wrong = 0;

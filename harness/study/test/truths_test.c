@@ -97,8 +97,6 @@ static void wrong_files(const char *path)
     truths_file_refused(path, "at", r, "infinite abscissa");
 }
 
-/* Rows that must not be used for limits: those of one formulation, of a curve, and those without
- * effect on the exit status. */
 static void rows_without_effect(const char *path)
 {
     recipe of_formulation = right, of_curve = right, agreed = right, unrepeatable = right;
@@ -122,8 +120,6 @@ static void rows_without_effect(const char *path)
     }
 }
 
-/* A row that is valid for any value of a parameter, or of all parameters, must apply to every point
- * at which the other parameters have the values of the row. */
 static void any_value(const char *path)
 {
     const case_type *type = registry_cases[0];
@@ -208,9 +204,6 @@ static void damaged_files(const char *path)
     gsl_test_int(broken, 0, "damaged files without a clear refusal");
 }
 
-/* Verdicts on formulations in the table must affect the exit status; verdicts on other built-in
- * formulations must not. Until a table is read, all
- * verdicts affect the exit status. */
 static void accepted_ones(const char *path)
 {
     truths t;

@@ -1,5 +1,4 @@
-/* The matrix of verdicts on a terminal. No line may be wider than the terminal, for any names.
- * Every name and every mark must be shown. If there are many cases, those that pass share lines. */
+/* The matrix of verdicts on a terminal. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <stdio.h>
@@ -116,8 +115,6 @@ static void new_ones(void)
     free(text);
 }
 
-/* If there are many cases, those that pass must share lines, and so must those without a verdict.
- * Every other case must have its own row. */
 static void passing(void)
 {
     static table_bench b;
@@ -175,9 +172,6 @@ static void overview_table_tests(void)
     passing();
     legend();
 }
-
-/* Unexpected results of every kind must be reported: verdicts, stored values, published values that
- * are superseded, and known deviations and reference values that match no run. */
 
 static const case_type made_up = {.name = "made_up"};
 static char words[][300] = {"load",       "N",       "exact", "book, page 3",
@@ -300,9 +294,6 @@ static void unexpected_tests(void)
     strcpy(b.t.unknown_case, "gone");
     holds(&b, "\n 6. unknown cases in the reference values: 2; the first is gone\n");
 }
-
-/* Texts on the stability of a path, for several kinds of analyses. Consecutive steps with equal
- * stability must be joined. */
 
 enum { STABILITY_MOST = 16 };
 

@@ -1,6 +1,4 @@
-/* The energy balance of motions. An allowed error must be accepted, and a larger one must end the
- * motion with a message of one line. The work of external loads of every kind is included, with
- * every integrator. */
+/* The energy balance of motions. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -39,8 +37,6 @@ static double missing(const solve_result *r, double *turned)
     return most / account_size(&of);
 }
 
-/* Checks that fixed steps have an energy-balance error below `most`. Adaptive steps with a
- * tolerance must be at least as accurate. */
 static void balanced(scene_scheme by, double step, double most)
 {
     for (int k = 0; k < KINDS; k++) {
@@ -66,8 +62,6 @@ static void balanced(scene_scheme by, double step, double most)
     }
 }
 
-/* A motion with an energy of 10 J, and work of 2 J that changes its sign `turned` times. `drift`
- * [J] is the part of the energy that no work explains. */
 static const struct {
     double drift, turned, rounding, rho, tolerance;
     scene_scheme by;
@@ -132,8 +126,6 @@ static status run(const case_type *type, const char *parameters, int elements, c
     return cell_run(&request, out, &f);
 }
 
-/* Steps that do not resolve axial waves gain energy. The motion must end, or continue with shorter
- * steps. */
 static void made(void)
 {
     cell_result r;
@@ -164,10 +156,6 @@ static void account_tests(void)
     balanced(SCENE_CONSERVING, 1 / 64.0, 1e-10);
     balanced(SCENE_EXPLICIT, 1 / 512.0, 1e-8);
 }
-
-/* Tests the strains that belong to given stresses. A member that is a million times stiffer in
- * elongation than in bending must have strains that match its stresses. Elements whose strains
- * already match must keep all bits, and types with linear stresses must not change. */
 
 extern const element_type element_beamw_consistent, element_beamw, element_geometrically_exact,
     element_collocation;
@@ -223,8 +211,6 @@ static long checks_flutter(const equations *eq, strain_update *c, model_state *s
     return eq->run->counters.stress_evaluations - before;
 }
 
-/* After all elements agree, they must be evaluated again only after larger corrections and in a new
- * step. */
 static void again(const equations *eq, strain_update *c, model_state *s)
 {
     gsl_test(checks_flutter(eq, c, s, 2, 0.5) != ELEMENTS,
@@ -282,7 +268,6 @@ static void take(const element_type *type, double angle)
     scene_free(&s);
 }
 
-/* If no strains belong to the given stresses, the strains must not change. */
 static void keep(void)
 {
     scene s;

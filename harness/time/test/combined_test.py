@@ -1,4 +1,4 @@
-"""Combinations of keys of scene files in one structure. Other tests check each key separately."""
+"""Combinations of keys of scene files in one structure."""
 from cases.format.test.scene_case import SceneCase, values
 
 HEAD = """beamwork: 1
@@ -45,8 +45,6 @@ class CombinedTest(SceneCase):
         return values(self.record("solve", "--scene", self.scene(text), "-f", formulation, "-n", 8, *more))
 
     def test_formulations_agree(self):
-        """Formulations must agree to a few parts in a thousand. Chords and lumped foundations cause errors of second
-        order."""
         text = HEAD + STATIC + "omit: [wagner_torque]\n"
         one = self.solve(text, "collocation")
         self.assertGreater(abs(one["uz"]), 1e-3)
@@ -56,8 +54,6 @@ class CombinedTest(SceneCase):
                 self.assertAlmostEqual(other[name] / value, 1, delta=3e-3, msg=(formulation, name))
 
     def test_integrators_agree(self):
-        """Motions from the heated, pretensioned state must agree between integrators. Only the dashpot may dissipate
-        energy."""
         runs = {"radau": "tolerance: 1e-6", "alpha": "step: 2.5e-4", "conserving": "step: 2.5e-4"}
         got = {name: self.solve(MOVED + MOTION.format(integrator=name, steps=steps), "collocation")
                for name, steps in runs.items()}

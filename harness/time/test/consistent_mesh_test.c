@@ -1,6 +1,4 @@
-/* Meshes with consistent mass must converge to the limit of meshes with lumped mass. For a
- * structure that is released and oscillates, consistent mass is of higher order and more accurate
- * on coarse meshes. */
+/* Meshes with consistent mass must converge to the limit of meshes with lumped mass. */
 #include <math.h>
 
 #include "harness/time/test/moving.h"

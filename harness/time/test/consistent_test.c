@@ -1,8 +1,4 @@
-/* Motions with consistent mass. In free flights, momenta and energy must be conserved with the
- * order of the scheme. Reactions at a fixed or prescribed base must equal the rate of change of
- * momentum, with rigid offsets, bodies and released ends. Newton's method must require as many
- * iterations as with lumped mass, even if members are stiff. Unsupported combinations must be
- * rejected with a message that names them. */
+/* Motions with consistent mass. */
 #include <math.h>
 
 #include "harness/analysis/analysis.h"
@@ -44,8 +40,6 @@ static void ask_momenta(scene *s, int motion)
         scene_add_quantity(s, name[i], "1", motion, scene_balance_of(SCENE_PX + i));
 }
 
-/* A rod that is bent by a moment, which rises and ends, and that starts with a velocity and a spin.
- */
 static void add_free(scene *s, double stiffening, scene_mass mass, scene_scheme scheme, double step,
                      double end)
 {
@@ -271,10 +265,6 @@ static void consistent_tests(void)
     refuse();
 }
 
-/* The energy gained must equal the work done, for loads that rise and end, gravity, and a
- * prescribed motion. The difference decreases with the order of the scheme, and is zero for the
- * conserving scheme. */
-
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_spin_up, case_elbow, case_pendulum;
 
@@ -323,11 +313,6 @@ static void drift_tests(void)
         }
     }
 }
-
-/* In free flight under piecewise linear loads, every integrator must give the time integral of the
- * load as momentum, to round-off. Generalized-alpha averages accelerations over two steps.
- * Therefore, while a load rises, its momentum has an error proportional to h^2, which vanishes when
- * the load has ended. Unsupported options of motion cases must be rejected. */
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space, case_free_flight_plane, case_release,
@@ -406,9 +391,6 @@ static void flight_tests(void)
     refused(&case_release, "tolerance=1", "tolerance");
 }
 
-/* Members that are stiff in elongation must need no additional iterations, with any formulation.
- * The pendulum swings with EA times 1, 1e3 and 1e6 in long steps, none of which may be halved. */
-
 extern const case_type case_pendulum;
 extern const element_type element_collocation;
 
@@ -465,8 +447,6 @@ static void compare(const element_type *type, scene_scheme by, double step, doub
     }
 }
 
-/* In one element, the moments have more accurate digits than the forces, whose round-off is eps EA.
- */
 static void one_element(void)
 {
     const int steps = 60;

@@ -1,6 +1,4 @@
-/* Error estimates of integrators for one step, which determine the next step size. For a mass on a
- * spring, a step has a closed form. For prescribed, rotating and damped masses, the order of the
- * estimate is checked. */
+/* Error estimates of integrators for one step, which determine the next step size. */
 #include <math.h>
 
 #include "elements/math/dense.h"
@@ -31,8 +29,6 @@ static void add_motion(scene *s, scene_scheme by, const scene_alpha *alpha, doub
                                     .start = {.velocity = {vx}}});
 }
 
-/* A mass on a spring under the force 2 + 3 t [N]. `eta` is the stiffness-proportional damping [s].
- */
 static void add_oscillator(scene *s, scene_scheme by, const scene_alpha *alpha, double eta,
                            int forced)
 {
@@ -153,8 +149,6 @@ static void explicit_one(void)
     gsl_test(!(log2(error[0] / error[1]) > 7.5), "explicit: estimates %g, %g", error[0], error[1]);
 }
 
-/* Returns the estimate for a step of a rod on a body with a prescribed lift and free rotation. The
- * centre of mass of the body is not at the lifted point. */
 static double of_lifted(double eta, double h)
 {
     const section_spec spec = timed_profile(&(timed_section){
@@ -207,11 +201,6 @@ static void estimate_tests(void)
     of_second_order(SCENE_CONSERVING, "conserving", NULL, 0.1);
     explicit_one();
 }
-
-/* In rods without rotary inertia of bending, only the twist has inertia, and its gyroscopic moment
- * acts on the bending rotations. Rods with an oblique spin must start in equilibrium with that
- * moment, and errors must decrease with the order of each integrator. The motion must be the limit
- * of motions with decreasing bending inertia. A restart must change nothing. */
 
 extern const element_type element_geometrically_exact;
 
@@ -278,7 +267,6 @@ static void agree(scene_scheme by, double step, double most)
     gsl_test(!(error < most), "integrator %d, spin %g, joint: error %g m", by, how.spin, error);
 }
 
-/* compared with explicit steps for decreasing bending inertia */
 static void limit(void)
 {
     double place[3][PLACES], without[PLACES];
@@ -333,8 +321,6 @@ static void start_again(void)
     scene_free(&s);
 }
 
-/* The spin is so fast that bending cannot balance the gyroscopic moments, so the start must be
- * rejected. */
 static void refuse(void)
 {
     scene s;
@@ -353,7 +339,7 @@ static void motion_massless_tests(void)
     for (how.joint = 0; how.joint < 2; how.joint++)
         for (int i = 0; i < 2; i++) {
             how.spin = spins[i];
-            if (how.joint) { /* the steps do not resolve the modes of the second rod */
+            if (how.joint) {
                 agree(SCENE_ALPHA, 0.01, 3e-3);
             } else {
                 converge(SCENE_ALPHA, 0.02, 4);
@@ -369,10 +355,6 @@ static void motion_massless_tests(void)
     how.thrown = 1;
     limit();
 }
-
-/* Steps of all integrators: the trapezoidal rule must be reversible, a rigid body without torque
- * must follow its exact motion with the order of the scheme, and steps must end at slope
- * discontinuities of loads. */
 
 extern const element_type element_geometrically_exact;
 extern const case_type case_free_flight_space;
@@ -439,7 +421,6 @@ static double turn_body(scene_scheme by, double h)
                                                              .polar = 2e-11,
                                                              .rotary = 1e-11});
     const int profile = scene_add_section(&s, &spec), body = scene_add_node(&s, 0, 0, 0);
-    /* a massless rod, because a member must be attached */
     scene_add_member(&s, body, scene_add_node(&s, 1, 0, 0), profile, y_axis);
     scene_node_at(&s, body)->body = (scene_body){.mass = 1, .inertia = {1, 2, 3}};
     const int motion = scene_add_motion(&s, SCENE_NONE, 1, at,
@@ -469,8 +450,6 @@ static void check_body(scene_scheme by, double h, double order, double least)
              log2(first / second));
 }
 
-/* The impulse of 50 N s must be exact. Steps must be shortened so that they end at slope
- * discontinuities of the load. */
 static void impulse(scene_scheme by)
 {
     scene s;

@@ -192,9 +192,6 @@ static void explicit_tests(void)
     refused("geometrically_exact", "released ends");
 }
 
-/* The tangent operator of rotations, its inverse and its derivative must agree with finite
- * differences of the rotations, on both sides of the angle below which series are used. */
-
 static const double along[3] = {0.48, -0.6, 0.64}, other[3] = {0.7, 0.4, -0.9}, step = 1e-4;
 
 /* Computes the rotation vector of exp(-t~) exp(s~). */
@@ -270,7 +267,6 @@ static void turn(double angle)
     check("one turn behind another", angle, back, other);
 }
 
-/* At the angle below which the series are used, both formulas must be accurate to round-off. */
 static void seam(double angle)
 {
     static const char *const what[] = {"Jr", "its inverse", "its derivative"};

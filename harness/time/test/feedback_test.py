@@ -57,8 +57,6 @@ class Feedback(ProgramTest):
         return found, [s["iterations"] for s in said["steps"]]
 
     def test_exponential(self):
-        """Proportional, derivative and integral gains must give the exact motion, stable or unstable, in few iterations. The
-        displacement is measured at the cart, on which the force acts, or at the tool."""
         for scheme, step, near in (("radau", 0.01, 1e-6), ("alpha", 1e-3, 2e-3),
                                    ("explicit", 0.02, 1e-9)):
             for kp, kd, ki, node in ((20, 3, 5, 2), (20, 0, 0, 2), (300, -4, 0, 2), (50, 8, 90, 1)):
@@ -92,8 +90,6 @@ class Feedback(ProgramTest):
             self.assertAlmostEqual(centre / (3 * 1.5**2 / 2 / (M1 + M2)), 1, 5)
 
     def test_continued(self):
-        """The integral must keep its value in a motion that continues another motion, also if the reference value
-        jumps."""
         gains = "node: tool, component: ux, proportional: 20, derivative: 3, integral: 40"
         jump = "pieces: [{until: 0.5, is: 0.01}, {is: 0.03 + 0.01*t}],"
         for scheme in ("radau", "alpha", "explicit"):
@@ -138,7 +134,7 @@ class Feedback(ProgramTest):
         self.refusal("node: tool, component: ux", motion, "", "the feedback has no gain")
         self.refusal(gains + ", from: tool", motion, "", "the component of node tool minus itself is always 0")
         path, turn = self.folder / "scene.yaml", "node: tool, component: %s, proportional: 20"
-        for component, code in (("ry", 2), ("rx", 0)):  # the member releases ry
+        for component, code in (("ry", 2), ("rx", 0)):
             text = SCENE % {"gains": turn % component, "analyses": motion, "more": "time: 0.01,", "eta": 0}
             path.write_text(text.replace("hold: [uy, uz, rx, ry, rz], mass: 0.5", "hold: [uy, uz], mass: 0.5").replace(
                 "warping: free", "release: {to: [ry]}, warping: free"), encoding="utf-8")
@@ -173,7 +169,6 @@ omit: [trapeze, wagner_moments, wagner_torque]
 class Driven(ProgramTest):
 
     def solved(self, *words, code=0):
-        """Solves the scene. Returns the values of quantities or, if an exit code is given, the printed text."""
         path = self.folder / "scene.yaml"
         path.write_text(self.scene % words, encoding="utf-8")
         done = self.answered("solve", "--scene", path, "-f", "collocation", "-n", self.elements, "--format", "json",
@@ -190,7 +185,6 @@ class Elongation(Driven):
             self.assertAlmostEqual(self.solved("0.01", part, "linear: {}")["x"], 0.01, 12)
 
     def test_motion(self):
-        """The mass must follow m x'' = k (s(t) - x), s = 0.01 (1 - cos 7 t). Its eigenfrequency is 10 rad/s."""
         t = 1.3
         x = 0.01 * (1 - 100 / 51 * np.cos(7 * t) + (100 / 51 - 1) * np.cos(10 * t))
         for scheme, step, near in (("radau", 0.01, 1e-7), ("alpha", 5e-4, 1e-4)):

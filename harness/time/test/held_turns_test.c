@@ -1,6 +1,4 @@
-/* Fixed rotations of a node. The motion must not depend on whether their equations are kept or
- * eliminated. In both cases, a model must be rejected if two rotations about fixed axes remain
- * free, because they do not determine the orientation of the node. */
+/* Fixed rotations of a node. */
 #include <math.h>
 #include <stdio.h>
 
@@ -97,8 +95,6 @@ static void kept(int held, int released, int integrator)
                  integrator, released, plain.name[i], plain.value[i], all.value[i]);
 }
 
-/* With the rotation about x fixed, rotates the node about y, then about z, then back about both,
- * and checks its orientation. */
 static void way(void)
 {
     static const double angle = 0.5, path[] = {0, 1, 2, 3, 4}, first[] = {0, angle, angle, 0, 0},

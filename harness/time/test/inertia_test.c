@@ -1,6 +1,6 @@
 /* Inertia forces must be the rates of change of momenta and of kinetic energy along a motion, for
  * off-centre bodies, beams at offsets from their nodes, sequences of angles, released ends and
- * warping. Kinetic energy is the sum over all masses. */
+ * warping. */
 #include "elements/math/rotation.h"
 #include "elements/test/kit.h"
 #include "harness/model/model.h"
@@ -25,8 +25,6 @@ static void in_space(const moving_one *o, const double v[], double out[])
     }
 }
 
-/* Computes the momenta and the kinetic energy after the time dt, which is so short that third
- * derivatives are negligible. */
 static void later(const moving_one *o, double dt, inertia_balance *out)
 {
     fault f = {""};
@@ -76,8 +74,6 @@ static void forces(const moving_one *o)
     near("power", power, (after.kinetic - before.kinetic) / (2 * dt), 4e-7);
 }
 
-/* For any virtual velocity, the power of the inertia forces on the frames must equal that on the
- * coordinates. */
 static void virtual_work(const moving_one *o)
 {
     double other[MOST], spatial[MOST], out[MOST] = {0}, given = 0, found = 0;
@@ -179,10 +175,6 @@ static void inertia_tests(void)
         end(&o);
     }
 }
-
-/* Interpolation between two instants must give their values at both ends: positions, shifts,
- * angles, warping, rates and accelerations, for bodies, sequences of angles and released ends that
- * rotate by half a radian. */
 
 static void rates_of(const moving_one *o, uint64_t seed, motion_state *at)
 {
@@ -308,8 +300,6 @@ static void force_at(const moving_one *o, const double inc[], const double from[
     kinematics_state_free(s);
 }
 
-/* Adds half of the vector product of the moments with the increment, because the tangent is in the
- * exponential chart. */
 static void add_chart(const moving_one *o, const double out[], int column, double slope[])
 {
     for (int i = 0; i < model_first_release(o->m); i++) {
@@ -381,10 +371,6 @@ static void tangent_tests(void)
         end(&o);
     }
 }
-
-/* A rotation is prescribed by the components of its vector as functions of time. From any state,
- * increments must lead to the prescribed orientation, and rates and their derivatives must be those
- * of the frame. */
 
 static void build_driven(scene *s)
 {

@@ -1,6 +1,6 @@
 /* Two bars with every kind of joint are loaded by a follower force and a moment with fixed axes,
  * and then move without loads. The gain of energy must equal the work of the loads, and the energy
- * must then remain constant. If nothing is fixed, both momenta must remain constant. */
+ * must then remain constant. */
 #include <stdio.h>
 
 #include "harness/model/model.h"
@@ -177,9 +177,6 @@ static void joints_tests(void)
     }
 }
 
-/* Bodies without torque with the conserving scheme: one node, two bodies connected by a stiff rod,
- * and a flexible rod between two bodies, at offsets from its ends. */
-
 static const double bodies_y_axis[] = {0, 1, 0};
 
 static struct {
@@ -339,11 +336,6 @@ static void bodies_tests(void)
     bodies();
     offsets();
 }
-
-/* Rotations without inertia with the conserving scheme. Conserved quantities must remain constant.
- * The rates must not change their sign from step to step. A node may rotate by several angles. Two
- * scenes must be rejected: one in which no rotation has inertia, and one in which a node rotates by
- * two free angles. */
 
 static const double massless_y_axis[] = {0, 1, 0};
 

@@ -20,7 +20,6 @@ quantities:
   drift: {energy: {analysis: go, of: drift}}
 omit: [trapeze, wagner_moments, wagner_torque]
 """
-# Two masses and a massless bar on a spring of 200 N/m.
 MASS = """beamwork: 1
 sections: {s: {constants: {A: 1e-4, Iy: 1e-8, Iz: 1e-8, It: 1e-8}, young: 2e11, shear_modulus: 8e10}}
 nodes:
@@ -35,7 +34,6 @@ quantities:
   between: {internal: {analysis: go, member: m, end: to, resultant: N}}
 omit: [trapeze, wagner_moments, wagner_torque]
 """
-# A massless node between springs, one of which has a light dashpot in parallel.
 LIGHT = """beamwork: 1
 sections:
   tube: {tube: {diameter: 20e-3, thickness: 1e-3}, young: 70e9, shear_modulus: 26e9, density: 2700}
@@ -106,8 +104,6 @@ class MassDampingTest(ProgramTest):
         self.assertRegex(done.stdout + done.stderr, "conserving does not support damping of masses")
 
     def test_light_dashpot(self):
-        """A dashpot parallel to a spring given by a table must start in the same equilibrium as a dashpot parallel to a
-        spring of equal stiffness."""
         for damping in ("1e-6", "1e-4"):
             for integrator in ("alpha", "radau"):
                 both = []

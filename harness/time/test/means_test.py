@@ -35,7 +35,6 @@ def vy(t):
     return V*math.cos(5*t)
 
 
-# keys of the quantity, its function of time, its first zero after 0.05 s, and the time between zeros
 KINDS = {
     "force": ("reaction: {analysis: go, node: wall, component: ux", lambda t: -100*x(t), (math.pi/10, math.pi/10)),
     "moment": ("reaction: {analysis: go, node: wall, component: rz", lambda t: -25*y(t)/2, (math.pi/5, math.pi/5)),
@@ -59,8 +58,6 @@ WINDOWS = {"whole": (0, 2), "part": (0.333, 1.777), "step": (0.5003, 0.5007)}
 SCHEMES = (("radau", 0.01, 1e-7, {}), ("explicit", 0.02, 1e-7, {}),
            ("alpha", 0.005, 6e-4, {"jerk"}), ("conserving", 0.005, 6e-4, {"acceleration", "jerk"}))
 
-# A load on a fixed node jumps at 0.3 s, where the reaction changes from -1 N to 2 N. A second load moves a mass on a
-# spring.
 JUMP = """beamwork: 1
 sections: {bar: {constants: {A: 1, Iy: 1, Iz: 1, It: 1}, young: 100, shear_modulus: 100}}
 nodes:
@@ -81,8 +78,6 @@ quantities:
 omit: [shear, wagner_torque]
 """
 
-# The load on the fixed node is 6 N at the end of the static path. In the motion it is (1 + t) N. Another load jumps at
-# 0.3 s.
 INSTANTS = """beamwork: 1
 sections: {bar: {constants: {A: 1, Iy: 1, Iz: 1, It: 1}, young: 100, shear_modulus: 100}}
 nodes:
@@ -117,8 +112,6 @@ class MeansTest(SceneCase):
         return record, {one["quantity"]: one for one in record["quantities"]}
 
     def test_table(self):
-        """Every statistic of every kind of quantity is checked in every window and with every integrator. The stated
-        error must cover errors at jumps of the slope."""
         for scheme, step, most, none in SCHEMES:
             lines = []
             for kind, (keys, _, passes) in KINDS.items():
@@ -148,8 +141,6 @@ class MeansTest(SceneCase):
                     self.assertAlmostEqual(one["value"]/exact, 1, delta=3*allowed, msg=(scheme, kind, take))
 
     def test_jump(self):
-        """A jump of a force must be counted as a crossing, and the mean must be integrated separately before and after
-        it."""
         def after(t):
             return 2 - (1 - math.cos(10*t))
         for scheme, step, most in (("radau", 0.01, 1e-8), ("explicit", 0.02, 1e-8), ("alpha", 1e-3, 2e-4),
@@ -165,8 +156,6 @@ class MeansTest(SceneCase):
             self.assertIn("crosses the level too few times", got["gone"]["reason"])
 
     def test_instants(self):
-        """At the start and at a jump, stations must have the loads that act afterwards. Extremes must include the loads
-        on both sides."""
         for scheme, *_ in SCHEMES:
             record, got = self.solve(INSTANTS % scheme)
             for value, exact in zip(record["curves"][0]["curve_value"], (-1, 2.7, 2.5)):

@@ -1,7 +1,4 @@
-/* Motions of all formulations. The results must not depend on the direction of a member, on the
- * axes of the scene, on whether the base moves or an equivalent gravity field acts, or on the
- * stiffness of modes that do not affect the results. A small motion must have the frequency of its
- * mode. */
+/* Motions of all formulations. */
 #include <math.h>
 
 #include "elements/math/scalar.h"
@@ -100,8 +97,6 @@ static motion_rod add_rod(scene *s, const char *name)
     return out;
 }
 
-/* A body at the tip of a nearly massless rod. The frequency of the only mode is known from a modal
- * analysis. */
 static void check_frequency(scene_scheme by, double step, double tolerance)
 {
     const double one[1] = {1}, first = sqrt(3 * EI / 50);
@@ -192,8 +187,6 @@ static void check_stiffness(const char *integrator)
              integrator, stiff, rigid);
 }
 
-/* Without rotary inertia, the accelerations of the trapezoidal rule grow without bound. This must
- * be rejected. */
 static void check_massless(void)
 {
     const double at[1] = {0.1};

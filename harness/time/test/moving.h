@@ -46,10 +46,8 @@ static inline int motion_added(scene *s, scene_scheme by, double step, double en
         path[i] = end * (i + 1) / MOVING_STATIONS;
     return scene_add_motion(
         s, SCENE_NONE, MOVING_STATIONS, path,
-        (scene_motion){.scheme = by,
-                       .alpha = scene_alpha_of_radius(0.9),
-                       .step = step,
-                       .mass = SCENE_LUMPED}); /* lumped mass is supported by all integrators */
+        (scene_motion){
+            .scheme = by, .alpha = scene_alpha_of_radius(0.9), .step = step, .mass = SCENE_LUMPED});
 }
 
 /* Adds the quantities NAME_max and NAME_min, the extremes of an energy or momentum over the

@@ -22,7 +22,6 @@ quantities:
 JERK = """  j: {rate: {analysis: go, node: n, component: ux, of: jerk}}
   early: {rate: {analysis: go, node: n, component: ux, of: jerk, at: 0.4}}
 """
-# Jumps of two loads, and the end of the first motion, at times that differ only by round-off.
 JUMPS = HEAD + """loads:
   p: {force: [1, 0, 0], on: n, pieces: [{until: 0.3, is: 0}, {is: 30}]}
   q: {force: [1, 0, 0], on: n, pieces: [{until: 3*0.1, is: 0}, {is: 30}]}
@@ -33,7 +32,6 @@ quantities:
   a: {rate: {analysis: go, node: n, component: ux, of: acceleration}}
   greatest: {rate: {analysis: go, node: n, component: ux, of: acceleration, take: max}}
 """
-# Quantities at a time within a step, after several steps, read a jerk and an acceleration.
 SHORT = HEAD + """analyses: {go: {motion: {stations: [0.001234567, 0.002], start: {velocity: [1, 0, 0]}, integrator: %s, step: %s}}}
 quantities:
   a: {rate: {analysis: go, node: n, component: ux, of: acceleration, at: 0.001234567}}
@@ -51,7 +49,6 @@ class ShortStepsTest(SceneCase):
         return values(record), [one["step"] for one in record["motion"] if one["step"] > 0]
 
     def test_long_sum(self):
-        """The number of steps must be exact, although the time is rounded in each step."""
         for scheme, most in SCHEMES:
             for end in (1.1, 2.0):
                 got, steps = self.solve(FREE % (end, scheme, "1e-4") + (JERK if scheme != "alpha" else ""))
@@ -65,8 +62,6 @@ class ShortStepsTest(SceneCase):
                     self.assertAlmostEqual(got["early"], -100*math.cos(4), delta=0.05, msg=why)
 
     def test_remainder(self):
-        """A tiny remainder must be added to the last step. A short remainder must be distributed between the last two
-        steps."""
         for scheme, _ in SCHEMES:
             for beyond, count, last in ((1e-9, 10, 0.1), (1e-4, 11, 0.05), (0.03, 11, 0.03)):
                 _, steps = self.solve(FREE % (1 + beyond, scheme, "0.1"))
@@ -85,8 +80,6 @@ class ShortStepsTest(SceneCase):
                 self.assertAlmostEqual(got["greatest"], 60, delta=most, msg=(scheme, end))
 
     def test_rounding(self):
-        """With short steps, errors of rates must be within their stated round-off. A rate without any accurate digit
-        must have no value."""
         time = 0.001234567
         exact = {"a": -10*math.sin(10*time), "j": -100*math.cos(10*time), "largest": -100}
         for scheme in ("radau", "explicit"):

@@ -1,7 +1,5 @@
 /* K, C + G and M of small motions about a state with rates must be the derivatives of all forces,
- * by finite differences. The structures have bodies, sequences of angles, released ends, warping,
- * damped members, dashpots, follower loads and prescribed motions, with lumped and consistent
- * mass. */
+ * by finite differences. */
 #include "elements/math/rotation.h"
 #include "elements/test/kit.h"
 #include "harness/model/model.h"
@@ -25,7 +23,6 @@ static void add_more(scene *s)
     scene_drive(s, 0, SCENE_UY, d);
 }
 
-/* A state of a motion, with the equations about it. */
 typedef struct way {
     moving_one o;
     run_state run;
@@ -33,7 +30,7 @@ typedef struct way {
     equations eq;
     motion_state at;
     outcome_about out;
-    double size; /* size of the stresses */
+    double size;
 } way;
 
 static void relax_inner(way *w)
@@ -106,8 +103,6 @@ static void forces(way *w, double h, const double *const d[3], double out[])
     inertia_subtract(o->m, &o->masses, w->at.state, v, a, out);
 }
 
-/* Adds half of the vector product of the moments with the increments of free rotations, because the
- * tangent is in the exponential chart. */
 static void add_chart(way *w, const double dx[], double out[])
 {
     static const double none[MOST];
@@ -184,7 +179,6 @@ static void case_of(const element_type *type, int released, int spread)
         memset(&w.o.masses, 0, sizeof w.o.masses);
         gsl_test(frame_masses_alloc_bodies(w.o.m, &w.o.masses, &f) != STATUS_OK, "%s", f.text);
     }
-    /* collocation: smaller increments, so that the equations within the elements have a solution */
     for (int c = 0; c < w.o.all && type == &element_collocation; c++)
         w.o.inc[c] *= 0.1;
     increment_apply(w.o.m, w.o.rest, w.o.inc, 0, w.o.now);

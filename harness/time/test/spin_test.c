@@ -75,7 +75,6 @@ static status build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Sets the rates of a steady rotation, and their derivatives. */
 static void turn_rates(const flight *f)
 {
     const model *m = f->m;
@@ -221,10 +220,6 @@ static void spin_tests(void)
                 check(registry_formulations[i]->name, axes[a], turns[t]);
 }
 
-/* Free flights with the conserving scheme. Energy and momenta must be constant over 40 s for any
- * stiffness of the rod in tension and shear, the order must be 2, and steps must be reversible.
- * Results must depend neither on the axes nor on the direction of the member. */
-
 static struct {
     double stiffening,
         turn[4]; /* factor of the stiffness, and quaternion of the axes of the scene */
@@ -233,7 +228,6 @@ static struct {
 static const double flights_h = 0.05,
                     thrown = 5; /* step size, and time at which the loads end [s] */
 
-/* Builds the rod of the case free_flight_space. */
 static status flights_build(const double value[], scene *s, fault *f)
 {
     static const double end = 50, y[3] = {0, 1, 0}, at[2][3] = {{0, 0, 8}, {6, 0, 0}},
@@ -345,7 +339,6 @@ static void stiff_flights(const char *with)
              least, most);
 }
 
-/* If steps are halved, the differences between results must decrease by a factor of 4. */
 static void order(const char *with)
 {
     double r[4][6];
@@ -416,10 +409,6 @@ static void flights_tests(void)
     }
 }
 
-/* Every formulation flies freely with the conserving scheme: sheets, thin-walled sections with
- * warping and an eccentric shear centre, curved members, and members of two sections, spinning and
- * swinging. Energy and both momenta must be constant, and steps must be reversible. */
-
 enum { FORMULATIONS_STEPS = 60 };
 
 typedef struct look {
@@ -457,7 +446,6 @@ static section_spec profile_of(double thickness)
     return spec;
 }
 
-/* Builds a member of unit length, which starts along the axes of the scene. */
 static status formulations_build(const double value[], scene *s, fault *f)
 {
     static const double y_axis[] = {0, 1, 0}, axis[] = {0.36, 0.48, -0.8}, end = 1;
@@ -480,8 +468,6 @@ static status formulations_build(const double value[], scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Starts a bending motion by transverse velocities. Their total momentum is zero for a straight
- * rod. */
 static void swing(flight *f)
 {
     const model *m = f->m;

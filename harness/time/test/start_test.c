@@ -1,7 +1,4 @@
-/* Initial states of motions, and quantities read from them. A beam in steady rotation must keep its
- * shape in the motion that follows. Its reactions must be those of the steady rotation. Resultants
- * must balance the inertia of the part beyond the cross-section. A structure at rest must oscillate
- * when its load ends. */
+/* Initial states of motions, and quantities read from them. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 
@@ -59,8 +56,6 @@ static void refuse_otherwise(void)
              "a drive beside the axes is refused (%s)", a.reason);
 }
 
-/* Checks a beam at rest under a force that remains (rings 0) or ends (rings 1), in which case it
- * oscillates. */
 static void release(const char *then, int rings)
 {
     answer a;
@@ -85,7 +80,7 @@ static void start_tests(void)
 /* Resultants between nodes in a motion must agree with a closed form. A rod of length L and mass m
  * per length along x spins about z through its end. The point at X moves to r = sin(k X)/(k cos(k
  * L)), and N = EA (cos(k X)/cos(k L) - 1) with k^2 = m w^2/EA. For small strains, N is m w^2 (L^2 -
- * X^2)/2. With lumped masses, the order is 2 at nodes and between them. */
+ * X^2)/2. */
 
 extern const element_type element_geometrically_exact, element_collocation;
 
@@ -130,12 +125,9 @@ static void between_nodes_tests(void)
 {
     spin(&element_collocation, SCENE_CONSERVING, 2);
     spin(&element_collocation, SCENE_RADAU, 2);
-    spin(&element_geometrically_exact, SCENE_CONSERVING, 3); /* three nodes; of order 4 at nodes */
+    spin(&element_geometrically_exact, SCENE_CONSERVING, 3);
     spin(&element_geometrically_exact, SCENE_RADAU, 3);
 }
-
-/* Two rods swing on a ball joint in space, with released rotations or translations between them.
- * The inertia of released ends must move with the ends; otherwise the energy would increase. */
 
 extern const element_type element_geometrically_exact;
 
@@ -176,10 +168,6 @@ static void linked_tests(void)
                  "%s: damped (drift %g, at %.9g) %s", joints[i], damped, radau, why);
     }
 }
-
-/* Ends that are released from their nodes must have inertia at the position of the end, with every
- * integrator. All integrators must give the same motion and reaction, with errors of at least
- * second order. */
 
 extern const element_type element_geometrically_exact;
 
@@ -234,10 +222,6 @@ static void ends_tests(void)
     }
 }
 
-/* Tests stiffness-proportional damping eta. The lowest mode, of angular frequency w, must have the
- * damping ratio eta w/2. A rigid rotation must not decay, and the lost energy must be dissipated.
- */
-
 extern const element_type element_geometrically_exact;
 
 #define DAMPING_RODS "harness/time/test/rods.yaml"
@@ -265,8 +249,6 @@ static void decay(scene_scheme scheme, double h, double drift)
              moving_largest(&a, "drift"), moving_largest(&a, "energy"));
 }
 
-/* Rotates a free rod that only its inertia bends, so little energy is dissipated. Returns the
- * energy-balance error. */
 static double turn(scene_scheme scheme, double eta, double h)
 {
     answer a;

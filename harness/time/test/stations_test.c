@@ -1,5 +1,4 @@
-/* Stations at any times. Values within steps must be as accurate as at the ends of steps, with any
- * number of stations in one step and at the start. Stations must not affect the motion. */
+/* Stations at any times. */
 #include <gsl/gsl_test.h>
 #include <math.h>
 #include <string.h>
@@ -39,8 +38,6 @@ static double apart(const cell_result *a, const cell_result *b, int first, int l
     return largest;
 }
 
-/* Computes the errors for a step size and for half of it, by comparison with a much smaller step.
- */
 static void errors_of(int scheme, double step, int requested, int last, double out[2])
 {
     cell_result exact, r;
@@ -53,8 +50,6 @@ static void errors_of(int scheme, double step, int requested, int last, double o
     cell_result_free(&exact);
 }
 
-/* Results within steps and at their ends must have the order of the scheme. The errors within steps
- * must not be larger. Order 8 is an exception, because the polynomial inside a step has order 6. */
 static void orders(const char *name, int scheme, double step, double order)
 {
     double inside[2], at_ends[2], forces[2];
@@ -72,8 +67,6 @@ static void orders(const char *name, int scheme, double step, double order)
     gsl_test(!(inside[0] > 1e-9), "%s: nothing to be seen, %.1e", name, inside[0]);
 }
 
-/* The steps must be bit for bit the same as without stations. Values that need a separate step to
- * the station must be close to those of the polynomial. */
 static void undisturbed(const char *name, int scheme, double step)
 {
     cell_result with[REQUESTED_KINDS];
@@ -106,9 +99,6 @@ static void stations_tests(void)
     undisturbed("explicit", SCENE_EXPLICIT, 0.04);
 }
 
-/* Step sizes. Without a tolerance, they are halved if a step fails, and doubled after successful
- * steps up to the requested size. With a tolerance, error estimates determine them. */
-
 #define CONTROL_SWUNG "harness/time/test/swung.yaml"
 
 static void turn(scene_scheme by, double step, double tolerance, double spin, cell_result *r)
@@ -118,8 +108,6 @@ static void turn(scene_scheme by, double step, double tolerance, double spin, ce
                  scenes_integrator[by], step, tolerance, spin);
 }
 
-/* A step may rotate a node by at most one radian. At 3 rad/s, a step of 0.5 s must therefore be
- * halved. */
 static void halve(void)
 {
     cell_result r;
@@ -133,8 +121,6 @@ static void halve(void)
     cell_result_free(&r);
 }
 
-/* Step sizes must follow the order of the estimate. A tolerance that is smaller by the factor
- * 2^order requires twice the steps, and hardly any step is rejected. */
 static void follow(scene_scheme by, double order, double tolerance)
 {
     int steps[2], rejected = 0;
@@ -156,8 +142,6 @@ static void follow(scene_scheme by, double order, double tolerance)
     gsl_test(rejected > steps[1] / 20, "scheme %d: %d longer steps rejected", by, rejected);
 }
 
-/* If errors of steps add up, the allowed error of a step is proportional to its size. The total
- * error must be below the tolerance, but not by a factor of more than ten. */
 static void share(scene_scheme by, double tolerance)
 {
     cell_result r;
@@ -183,14 +167,8 @@ static void control_tests(void)
     follow(SCENE_RADAU, 4, 1e-8);
 }
 
-/* A sequence of motions, each of which continues the previous one, must equal one motion bit for
- * bit. If errors are estimated, both must be equal up to the round-off of a factorisation with new
- * pivots. */
-
 #define RESUME_SWUNG "harness/time/test/swung.yaml"
 
-/* A load jumps at 0.5 s. Steps must end at the jump, also if no motion ends there. If `joint` is 1,
- * a rod at the tip is attached by a joint. */
 static void same_linked(const char *name, int scheme, double tolerance, int parts, int joint)
 {
     cell_result one, more;
@@ -235,12 +213,8 @@ static void resume_tests(void)
     same_linked("conserving with a joint", SCENE_CONSERVING, 0, 3, 1);
 }
 
-/* A load is not finite for some time. The motion must end before this time, and every accepted step
- * must have a finite state. */
-
 #define FINITE_SWUNG "harness/time/test/swung.yaml"
 
-/* Steps of 1/512 s end inside the interval in which the load is not finite. */
 static void stop(int scheme)
 {
     cell_result r;
@@ -269,13 +243,8 @@ static void not_finite_tests(void)
     stop(SCENE_EXPLICIT);
 }
 
-/* Largest and smallest values of quantities that are known at the ends of steps. A peak must be
- * found between stations, in a time window, and at a jump of the loads. A peak within a step must
- * have the accuracy of cubic interpolation. */
-
 #define PEAKS_SWUNG "harness/time/test/swung.yaml"
 
-/* The only station is at the end, so all earlier extrema are between stations. */
 static void extrema_tests(void)
 {
     static const double step[] = {0.04, 0.02, 0.00125};
@@ -303,13 +272,8 @@ static void extrema_tests(void)
     }
 }
 
-/* Extrema, crossings, periods and means. For a known, prescribed motion they must be accurate to
- * round-off. For a free motion they have the order of the scheme, with an estimate of the error of
- * the polynomial inside steps. */
-
 #define OBSERVERS_SWUNG "harness/time/test/swung.yaml"
 
-/* The base moves as 0.3 sin 5 t until 3 s, so all values are known. */
 static const struct {
     const char *name;
     double expected, at, tolerance; /* at < 0: no value */
@@ -360,8 +324,6 @@ static void fly(int scheme, double step, int observed, cell_result *out)
                  observed ? "crossings" : "way", scenes_integrator[scheme], step);
 }
 
-/* Errors of a free motion must decrease with the order of the scheme, and the estimates of the
- * interpolation error must decrease as fast. */
 static void freely(const char *name, int scheme, double step, double order)
 {
     cell_result exact, r[2], unwatched;

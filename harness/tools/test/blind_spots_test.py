@@ -9,7 +9,7 @@ from harness.tools.kit.program import PROGRAM, ROOT, environment, run
 from harness.tools import blind_spots
 
 PLANTED = pathlib.Path(PROGRAM).parent / "planted"
-MOST = 40  # largest number of quantities for which some formulation may have an undetected fault of 0.1 %
+MOST = 40
 
 
 def table(name):
@@ -63,7 +63,6 @@ class BlindSpots(unittest.TestCase):
         return quick[::max(1, len(quick) // 6)]
 
     def test_quantities_measured(self):
-        """Twice the smallest detected fault must be detected for both signs, and a third of it must not."""
         former = ("--not-worse-than", ROOT / "harness" / "baseline.csv")
         rows = self.sample(self.rows)
         self.assertEqual({row["by"] for row in rows}, {"verdict", "baseline"})

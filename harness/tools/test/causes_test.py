@@ -38,7 +38,7 @@ def shared():
 
 def members(formulation):
     body, macros = source(formulation).split(f"element_{formulation} = {{")[1], shared()
-    for _ in range(3):  # declarations may refer to others, at most three levels deep
+    for _ in range(3):
         body = re.sub(r"(?<![.\w])([A-Z]\w+)(?=,)", lambda m: macros.get(m[1], m[1]), body)
     return dict(re.findall(r"\.(\w+) =\s*(.*?),\s*(?=\.|\};)", body, re.S))
 
@@ -60,8 +60,6 @@ class OneThing(unittest.TestCase):
                 for name in one.keys() | other.keys() if one.get(name) != other.get(name)} - ABOUT
 
     def test_formulations(self):
-        """The two formulations of a pair must differ in one word of `prepare`, or in the whole stress function while
-        strains and inertia are the same."""
         for a, b in self.pairs(False):
             differing = self.differing(a, b)
             if differing:
@@ -208,8 +206,6 @@ class Bounds(unittest.TestCase):
             self.assertIn("should allow 0.0003", bounds.text_of(one))
 
     def test_loose(self):
-        """A bound must count as loose if it exceeds ten times the observed error with a derived limit, or 1.5 times
-        without one."""
         derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}
         for allowed, verdicts, loose in (("1e-2", [derived], False), ("1.1e-2", [derived], True),
                                          ("1.5e-3", [verdict_of_bounds(1e-3)], False), ("1.6e-3", [verdict_of_bounds(1e-3)], True),
@@ -219,7 +215,6 @@ class Bounds(unittest.TestCase):
         self.assertIn("a separate entry", bounds.text_of(self.said("1e-3", [derived, verdict_of_bounds(1e-9)])))
 
     def test_derived_limits_bind(self):
-        """If there is a derived limit, the distance from it must be bounded, relative to the reference value."""
         derived = {**verdict_of_bounds(-0.25, 3.0, 3.004, bounds.PREDICTED), "truth": 4.0}
         self.assertAlmostEqual(self.said("1e-3", [derived])["seen"], 1e-3)
         self.assertAlmostEqual(self.said("1", [derived, verdict_of_bounds(2e-3)])["seen"], 2e-3)
@@ -230,8 +225,7 @@ class Bounds(unittest.TestCase):
         self.assertFalse(self.said("1e-3", given)["stands"])
 
     def test_covered(self):
-        """A limit is covered if it is within three times its uncertainty plus that of the prediction. Covered limits
-        must be counted for any verdict."""
+        """A limit is covered if it is within three times its uncertainty plus that of the prediction."""
         given = [{**verdict_of_bounds(0.1, limit, 2.0), "limit_uncertainty": 1e-6}
                  for limit in (2.0, 2.0000029, 2.0000031, None)]
         self.assertEqual(bounds.covered(given + [verdict_of_bounds(0.1)]), (2, 3))

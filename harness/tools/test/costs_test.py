@@ -55,8 +55,6 @@ class Fit(unittest.TestCase):
                                        "loaded_buckling": 1, "buckling": 1})
 
     def test_steps_of_motions(self):
-        """The number of equal steps must follow from the time span, and the number of adaptive steps from their
-        tolerance."""
         swing = {"stations": [1, 3], "integrator": "alpha", "step": 0.7}
         for more, kind, count in (({}, "alpha_step", 5),
                                   ({"step": 0.75}, "alpha_step", 4),
@@ -158,8 +156,6 @@ class PricesTable(unittest.TestCase):
         self.assertTrue({"", "*"} < names)
 
 
-# Newton's loop calls strain twice and a factorisation once; strain calls a product. The strain that the set-up
-# evaluates counts as part of the set-up.
 PROFILE = """# callgrind format
 positions: instr line
 events: Ir
@@ -232,7 +228,6 @@ class Parts(ProgramTest):
         self.assertEqual(dict(parts), {"strain": 60, "factorisation": 20, "set-up": 33, "rest": 12})
 
     def test_operations(self):
-        """Two addresses belong to the program. Instructions of a library at one of these addresses must not be counted."""
         numbers = {0x200: 4, 0x204: 1, 0x104: 2, 0x3fc: 1}
         self.assertEqual(operations(self.path, "/there/build/beamwork", numbers),
                          4 * 50 + 16 + 2 * 7)

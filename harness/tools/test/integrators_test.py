@@ -1,4 +1,4 @@
-"""Tests of integrators.py. Every case with a motion must be in its table. One row is run, and its reference is checked."""
+"""Tests of integrators.py."""
 import csv
 import json
 import sys

@@ -37,7 +37,6 @@ double sum(const double A[9], int n)
     return total[0];
 }
 '''
-# A line, and the line after the edit.
 EDITS = {
     (8, "- to none (1)"), (8, "0.5 to (2 * 0.5) (1)"), (8, "1e-3 to (2 * 1e-3) (1)"),
     (12, "2 to 1 (1)"),
@@ -120,7 +119,6 @@ class Sample(unittest.TestCase):
 class Touched(unittest.TestCase):
 
     def test_lines_of_commits(self):
-        """For a range of commits, only lines written by these commits and unchanged since then may be edited."""
         with tempfile.TemporaryDirectory() as folder:
             root = pathlib.Path(folder)
             commits = []
@@ -146,7 +144,6 @@ class Touched(unittest.TestCase):
 class Equivalent(unittest.TestCase):
 
     def test_each_has_its_place_and_reason(self):
-        """The table lists the lines with equivalent faults. If a line changes, its row must be removed."""
         made = {}
         for (file, function, line, edit), reason in mutate.equivalent().items():
             if file not in made:

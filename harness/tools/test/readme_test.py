@@ -10,7 +10,6 @@ from harness.tools import words
 from harness.tools.kit.program import ROOT
 
 
-# names that the reader replaces, and a table inside results.h5
 PATTERNS = ("NAME", "my_beam", "*", "cases/elastica/quantities")
 PATH = re.compile(r"(?<![\w./-])(?:cases|docs|elements|harness|reference|reports)/[\w./*-]+\w")
 WALK = re.compile(r"^(\w+| \|) +((?:cases|elements|harness|reports)/\S+)", re.MULTILINE)
@@ -30,10 +29,10 @@ class Readme(unittest.TestCase):
     def test_paths_exist(self):
         found = 0
         for readme in files(".md"):
-            if readme.match("docs/index.md"):  # generated pages; Sphinx checks them
+            if readme.match("docs/index.md"):
                 continue
             text = readme.read_text(encoding="utf-8")
-            if readme.name == "CHANGELOG.md":  # entries on former releases refer to folders of that time
+            if readme.name == "CHANGELOG.md":
                 text = "## ".join(text.split("\n## ")[:2])
             for name in PATH.findall(text):
                 if any(part in name for part in PATTERNS):
@@ -44,7 +43,6 @@ class Readme(unittest.TestCase):
         self.assertGreater(found, 50)
 
     def test_walk_goes_down(self):
-        """No file may include a header of a folder that the README lists after the folder of the file."""
         text = (ROOT / "docs" / "project" / "source.md").read_text(encoding="utf-8")
         walked = [name for _, name in WALK.findall(text)]
         self.assertGreater(len(walked), 8)
@@ -56,8 +54,6 @@ class Readme(unittest.TestCase):
                 self.assertFalse(below & set(included))
 
 
-# Files that may use the unions of data of analyses and quantities. Each file of `quantities` is for a single kind,
-# which the builder checks before.
 THEIRS = (ROOT / "cases" / "scene", ROOT / "cases" / "quantities",
           ROOT / "cases" / "format" / "builder_members.c")
 
@@ -74,7 +70,6 @@ class Unions(unittest.TestCase):
                                             path.read_text(encoding="utf-8")))
 
 
-# The check of words must find a word to avoid in each kind of text, report its line, and ignore names.
 TEXTS = {
     "shown.c": ('#include "ledger of.h"\nint a;\nconst char *b = "it is "\n    "told here";\n', 4, "told"),
     "comment.c": ("int a; /* Sums.\n * A cell is told. */\n", 2, "told"),

@@ -12,7 +12,7 @@ from harness.tools.kit.program import PROGRAM, ROOT, ProgramTest, run
 
 TOOLS = ROOT / "harness" / "tools"
 COMMANDS = ("build", "verify", "report", "test", "truths")
-OPTIONAL = ("chromium", "vtk")  # packages of single tests, which no command installs
+OPTIONAL = ("chromium", "vtk")
 
 
 class Folder(ProgramTest):
@@ -26,8 +26,6 @@ class Folder(ProgramTest):
 class Loading(unittest.TestCase):
 
     def test_few_libraries(self):
-        """If HDF5 exists as a static archive, the program must load none of the thirty libraries on which the shared
-        library depends."""
         places = run("--libs-only-L", "hdf5", program="pkg-config").stdout.split()
         archive = next((path for path in (pathlib.Path(place[2:], "libhdf5.a") for place in places)
                         if path.exists()), None)
@@ -45,8 +43,6 @@ class Loading(unittest.TestCase):
 
 
 class Dependencies(Folder):
-    """Programs that search for packages find none, and apt-get records the packages whose installation is requested."""
-
     def setUp(self):
         super().setUp()
         for name in ("cc", "pkg-config", "python3"):
@@ -196,8 +192,6 @@ class Runner(Folder):
 
 
 class Circles(Folder):
-    """Circular calls among artificial object files must be found."""
-
     def objects(self, **sources):
         paths = []
         for name, text in sources.items():
@@ -258,8 +252,6 @@ class Circles(Folder):
 
 
 class Mutants(Folder):
-    """Tests of physical faults in the sources. With DRY=1, no fault is injected, and only its location is checked."""
-
     def dry(self, root, table=()):
         faults = self.folder / "faults.list"
         faults.write_text(run("-B", TOOLS / "mutate.py", "--physics", *table,
@@ -292,8 +284,6 @@ class Mutants(Folder):
         self.assertIn("SURVIVED  nowhere", done.stdout)
 
     def test_faults_that_are_made(self):
-        """A fault is detected if any of several checks fails. Faults that cannot be compiled or do not change the
-        object code must be reported."""
         root = self.folder / "clone"
         root.mkdir()
         texts = {
@@ -335,8 +325,6 @@ class Mutants(Folder):
 
 
 class Make(Folder):
-    """The Makefile with additional targets of the test."""
-
     def make(self, *arguments):
         goals = self.folder / "goals.mk"
         goals.write_text(textwrap.dedent("""\
@@ -368,7 +356,6 @@ class Make(Folder):
                          ["quick", "slow"])
 
     def test_clean_before_all_else(self):
-        """`clean` must run before all other targets, which must still find all files that they need."""
         told = self.make("-n", "V=1", "QUIET=", f"BUILD={self.folder}/b", "clean", "all")
         compiled = [line for line in told if line.endswith("-c harness/cli/main.c -o "
                                                            f"{self.folder}/b/harness/cli/main.o")]
@@ -392,7 +379,6 @@ class Make(Folder):
         self.assertIn("there is no nothing", said.exception.stderr)
 
     def chosen(self, words):
-        """Returns the tests that `make test T=words` runs."""
         told = self.make("-n", "test", f"T={words}", f"BUILD={self.folder}")
         runs = [line.split("/logs ")[1].split() for line in told if "run_tests.sh" in line]
         self.assertEqual(len(runs), 1)

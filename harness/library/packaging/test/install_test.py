@@ -22,8 +22,6 @@ SECONDS = re.compile(r'"seconds_\w+": [^,\n]+')
 
 
 def variables():
-    """Returns the variables of make for the same program as these tests. The names of the files must be the same,
-    because otherwise make would link everything again while other tests run the program."""
     given = shlex.split(os.environ.get("MAKEFLAGS", "").partition(" -- ")[2])
     return [f"BUILD={os.path.relpath(BUILD, ROOT)}", *(word for word in given if "=" in word)]
 

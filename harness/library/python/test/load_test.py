@@ -81,7 +81,6 @@ class Doors(ModuleTest):
                 self.assertIn(words, done.stdout)
 
 
-# A formulation with functions in Python, evaluated in a separate process, and in the process that solves.
 INSIDE = """
 import sys, threading
 import beamwork as bw
@@ -129,8 +128,6 @@ print("done")
 class Inside(ModuleTest):
 
     def test_functions_of_this_process(self):
-        """Functions in this process must give the same bits as functions in a separate process. This applies to
-        solutions in one or several processes, and to verbs of the program. Errors must have equal texts."""
         done = subprocess.run([sys.executable, "-c", INSIDE, EXAMPLES], text=True, check=False, stdout=subprocess.PIPE,
                               stderr=subprocess.PIPE, env=environment(**SETTINGS, BEAMWORK=PROGRAM))
         self.assertEqual((done.stdout, done.returncode), ("done\n", 0), done.stderr)

@@ -129,7 +129,7 @@ class Arguments(ModuleTest):
         error = self.one_line(bw.NotConverged, "converge", scene.solve, "beamw_first", 1)
         self.assertIsInstance(error.result, bw.Result)
         self.assertEqual(error.result.cell["status"], "not_converged")
-        again = pickle.loads(pickle.dumps(error))  # a process pool transfers exceptions in this way
+        again = pickle.loads(pickle.dumps(error))
         self.assertEqual((type(again), str(again), again.result),
                          (bw.NotConverged, str(error), None))
 
@@ -155,7 +155,7 @@ class Memory(ModuleTest):
         result.close()
         del result
         gc.collect()
-        for _ in range(50):  # further solutions would overwrite memory that was freed
+        for _ in range(50):
             bw.Scene.case(CASE).solve("sheet_third", 1, shapes=5)
         for ours, theirs in zip(kept, (x, y, position)):
             numpy.testing.assert_array_equal(ours, theirs)
@@ -163,7 +163,7 @@ class Memory(ModuleTest):
     def test_closed(self):
         with bw.Scene.case(CASE).solve("sheet_third", 1) as result:
             value = result["C_zz"]
-        self.assertEqual(result["C_zz"], value)  # the values are Python objects, independent of the result
+        self.assertEqual(result["C_zz"], value)
         for call in (lambda: result.curve("C_zz_curve"), lambda: result.document,
                      lambda: result.shapes, lambda: result.steps):
             self.one_line(ValueError, "closed", call)
@@ -257,17 +257,16 @@ class Processes(ModuleTest):
         scene = bw.Scene.case("elastica")
         self.assertTrue(scene.converge("beamw", meshes=[1, 2], stop=readable))
         os.write(writable, b"x")
-        many = bw.Scene.case(CASE)  # so many runs that some are still active when others have ended
+        many = bw.Scene.case(CASE)
         for call in (lambda: many.converge(stop=readable), lambda: many.verify(stop=readable),
                      lambda: bw.verify(select=CASE, stop=readable)):
             self.one_line(bw.TimeLimit, "stopped before", call)
-        for alone in (scene, bw.Scene.case("free_flight_space"), bw.Scene.case("deep_beam")):  # statics, a motion, frequencies
+        for alone in (scene, bw.Scene.case("free_flight_space"), bw.Scene.case("deep_beam")):
             self.one_line(bw.TimeLimit, "stopped before", alone.solve, "collocation", 1, stop=readable)
         self.one_line(bw.Refused, "stop", scene.converge, stop=-1)
         self.assertGreater(scene.solve("collocation", 1)["w_over_L"], 0)
 
     def test_interrupted_solution(self):
-        """Ctrl-C must end a motion of many steps long before its end. The scene can then be used again."""
         scene = bw.Scene.case("free_flight_space")
         expected = scene.solve("collocation", 1).values
         scene.set(time=100, step=1e-4, tolerance=0)
@@ -280,7 +279,6 @@ class Processes(ModuleTest):
         self.assertEqual(dict(again.values), dict(expected))
 
     def test_interrupt(self):
-        """Ctrl-C must end solve, and verify and converge with all their processes."""
         for call in ("bw.verify(refine=3)", "while True: s.solve('collocation', 16)",
                      "bw.Scene.case('hexapod').converge(meshes=[16, 32, 64])"):
             code = ("import beamwork as bw\ns = bw.Scene.case('sheet_cantilever')\n"
@@ -290,7 +288,7 @@ class Processes(ModuleTest):
                     stdout=subprocess.PIPE, stderr=subprocess.PIPE) as process:
                 process.stdout.readline()
                 threading.Timer(1, process.send_signal, (signal.SIGINT, )).start()
-                _, told = process.communicate(timeout=100)  # the timeout expires only if Ctrl-C has not ended the process
+                _, told = process.communicate(timeout=100)
                 self.assertIn("KeyboardInterrupt", told)
                 self.assertEqual(process.returncode, -signal.SIGINT)
 

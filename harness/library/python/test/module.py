@@ -45,7 +45,6 @@ def leaf(scene=None, **changes):
 class ModuleTest(ProgramTest):
 
     def one_line(self, kind, words, call, *arguments, **options):
-        """Checks that the call raises an exception of that kind whose text is one line and contains all the words."""
         with self.assertRaises(kind) as caught:
             call(*arguments, **options)
         text = str(caught.exception)

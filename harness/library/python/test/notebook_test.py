@@ -11,7 +11,6 @@ from harness.library.python.test.module import FOLDER, SETTINGS, ModuleTest
 from harness.tools.kit.program import environment, read_json
 
 NOTEBOOK = FOLDER / "sheet_flexures.ipynb"
-# part of the output of each notebook as a script
 SAID = {NOTEBOOK: "for 1 % in every quantity", FOLDER / "own_mechanism.ipynb": "resonance 11.2",
         FOLDER / "thin_walled_tables.ipynb": "beamw_consistent with 64 elements: +0.00 %"}
 NEEDS = [name for name in ("nbclient", "nbformat", "ipykernel", "matplotlib")
@@ -59,8 +58,6 @@ class Notebook(ModuleTest):
 
     @unittest.skipIf(NEEDS, f"needs {', '.join(NEEDS)}")
     def test_interrupted(self):
-        """A kernel, which has its own threads, runs verify in processes. An interrupt must end these processes, and the
-        scene must remain usable."""
         from jupyter_client.manager import run_kernel  # pylint: disable=import-outside-toplevel
         with mock.patch.dict(os.environ, self.settings()), run_kernel() as client:
             self.assertEqual(self.asked(client, "import beamwork as bw, numpy, os\n"
@@ -73,7 +70,7 @@ class Notebook(ModuleTest):
             time.sleep(0.5)
             client.parent.interrupt_kernel()
             self.assertEqual(self.reply(client, long), "KeyboardInterrupt")
-            time.sleep(0.5)  # Jupyter rejects requests that were waiting during the interrupt
+            time.sleep(0.5)
             self.assertEqual(self.asked(client, "assert s.solve('beamw', 1)['w_over_L'] > 0"), "ok")
             self.assertEqual(self.asked(client, "os.waitpid(-1, os.WNOHANG)"), "ChildProcessError")
 
@@ -93,7 +90,6 @@ class Notebook(ModuleTest):
 
     @unittest.skipIf("matplotlib" in NEEDS, "needs matplotlib")
     def test_as_a_script(self):
-        """The code of the cells of each notebook, one after the other, runs as a script."""
         for notebook, words in SAID.items():
             path = self.folder / "script.py"
             path.write_text("\n".join("".join(cell["source"]) for cell in read_json(notebook)["cells"]

@@ -52,7 +52,6 @@ loads:
 
     @unittest.skipUnless(INSTALLED, "needs sectionproperties")
     def test_thin_channel(self):
-        """As the walls become thinner, the shear centre, warping and torsion constants must approach those of thin walls."""
         apart = []
         for t in (4e-3, 2e-3):
             got, _ = bw.outline(channel(0.2, 0.1, t), parts=6000, **MATERIAL)
@@ -66,7 +65,6 @@ loads:
 
     @unittest.skipUnless(INSTALLED, "needs sectionproperties")
     def test_turned(self):
-        """A rotated and displaced outline must have the same constants, with its axes rotated by the same angle."""
         points, turn = channel(0.2, 0.1, 0.02), 0.3
         c, s = math.cos(turn), math.sin(turn)
         there = [[0.7 + c * y - s * z, -0.2 + s * y + c * z] for y, z in points]

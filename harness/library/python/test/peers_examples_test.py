@@ -1,5 +1,4 @@
-"""Drivers of other programs must reproduce numbers from the documentation or the tests of these programs. Programs that
-are not installed are skipped by name."""
+"""Drivers of other programs must reproduce numbers from the documentation or the tests of these programs."""
 import importlib
 import json
 import math
@@ -11,7 +10,6 @@ peers = None if bw is None else importlib.import_module("beamwork.peers")
 
 
 def cantilever(section, length, load, omit):
-    """Returns a cantilever along x with a load on its tip. section: constants with E and G."""
     made = bw.Scene("cantilever")
     constants = {key: value for key, value in section.items() if key not in ("E", "G")}
     made.sections["bar"] = {"constants": constants, "young": section["E"], "shear_modulus": section["G"]}
@@ -51,8 +49,6 @@ class Examples(ModuleTest):
         self.same(self.values("xara", "exact_4", 10, made), (-0.061315634, 0.31781389, 0), 1e-8)
 
     def test_xara_bend(self):
-        """Table 8 of the same paper. The results of this element depend on the steps, which differ from those of the
-        driver."""
         got = self.values("xara", "exact", 8, case="bend_45", set="torsion=polar")
         self.same(got, (-23.477869, -13.487488, 53.369390), 3e-5)
 
@@ -73,8 +69,6 @@ class Examples(ModuleTest):
         self.assertAlmostEqual(got[0], math.pi**2 * 10e6 * 0.041666666666667 / 4 / 100**2, delta=2e-3)
 
     def test_pyelastica(self):
-        """There is no documented number. The 45-degree bend, extrapolated with order 1, must have its exact values, and
-        a bar in another direction must have the rotated results and the reaction."""
         meshes = [self.values("pyelastica", "rod", n, case="bend_45", set="torsion=polar") for n in (8, 16)]
         self.same([2 * b - a for a, b in zip(*meshes)], (-23.5603, -13.6045, 53.4749), 0.25)
         bar = {"E": 1, "G": 1, "A": 1000, "Iy": 2, "Iz": 1, "It": 1, "Ip": 3, "D": [500, 0, 0, 0, 500, 0, 0, 0, 1]}
@@ -83,7 +77,7 @@ class Examples(ModuleTest):
         along_x = self.values("pyelastica", "rod", 4, made)
         self.assertAlmostEqual(along_x[3], -0.5, delta=1e-5)
         made.nodes["root"], made.nodes["tip"] = {"at": [0, 0, 0]}, {"at": [0, 0, 1], "hold": "all"}
-        made.members["bar"]["y"] = [1, 0, 0]  # from the free end to the clamped one: x is -z, y is x, z is -y
+        made.members["bar"]["y"] = [1, 0, 0]
         made.loads["load"] = {"force": [0.5, 0.2, -0.1], "on": "root"}
         for c in ("ux", "uy", "uz"):
             made.quantities[c]["displacement"]["node"] = "root"

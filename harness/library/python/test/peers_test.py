@@ -1,5 +1,4 @@
-"""Requirements on every driver of another program, and the handling of failures of drivers. Programs that are not
-installed are skipped by name."""
+"""Requirements on every driver of another program, and the handling of failures of drivers."""
 import importlib
 import json
 import math
@@ -27,7 +26,7 @@ def scene(element, turn=np.eye(3), space=True, reverse=False, small=1e-4, unit=1
     made.sections["bar"] = {"constants": {"A": SECTION["EA"] / 200e9, "Iy": SECTION["EIy"] / 200e9, "Iz": SECTION["EIz"] / 200e9,
                                           "It": SECTION["GIt"] / 80e9, "Ip": 1e-6, **shear}, "young": 200e9 / unit**4,
                             "shear_modulus": 80e9 / unit**4}
-    if unit != 1:  # stiffnesses EA, EI and GA, in other units of length
+    if unit != 1:
         area = made.sections["bar"]["constants"]
         area["A"] *= unit**2
         for name in ("Iy", "Iz", "It", "Ip"):
@@ -53,7 +52,6 @@ def scene(element, turn=np.eye(3), space=True, reverse=False, small=1e-4, unit=1
 
 
 def closed_form(element, space, small):
-    """Returns the displacements and rotations of the tip of the linear beam."""
     shear = 1 / SECTION["GA"] if "shear" in element.offers else 0
     (Fx, Fy, Fz), (Mx, My, Mz) = (np.array(v) * small for v in (FORCE, MOMENT))
     if not space:
@@ -72,7 +70,6 @@ class PeerTest(ModuleTest):
         return json.loads(self.answered("scene", "--scene", place, "--format", "json").stdout)
 
     def values(self, peer, name, made, n, whole=True):
-        """Returns displacements of the tip and reactions of the root. whole: no quantity may be refused."""
         found = peers.solve(self.data(made), peer, name, [n], rounds=1)
         if found.missing:
             self.skipTest(found.missing)
@@ -84,8 +81,6 @@ class PeerTest(ModuleTest):
 
 
 class Contract(PeerTest):
-    """Requirements on every driver, for each of its elements."""
-
     def each(self, check):
         for peer in peers.names():
             for name, element in peers.load(peer).ELEMENTS.items():
@@ -97,8 +92,6 @@ class Contract(PeerTest):
                     check(peer, name, element, "plane only" not in element.summary)
 
     def test_closed_form(self):
-        """Displacements, rotations and reactions must be those of the linear beam, with the correct units, signs and
-        section axes."""
         def check(peer, name, element, space):
             u, R = self.values(peer, name, scene(element, space=space), 16)
             want = closed_form(element, space, 1e-4)
@@ -112,7 +105,6 @@ class Contract(PeerTest):
         self.each(check)
 
     def test_rigid_rotation(self):
-        """A rotation of the whole scene must rotate the results."""
         def check(peer, name, element, space):
             u, R = self.values(peer, name, scene(element, space=space, small=1), 4)
             for turn in (np.array([[0, -1, 0], [1, 0, 0], [0, 0, 1]]), ) if not space else (np.array(TILT[0]), TILT[1]):
@@ -131,7 +123,6 @@ class Contract(PeerTest):
         self.each(check)
 
     def test_large_rotation(self):
-        """A moment must bend a bar to a quarter of a circle, about each axis of its section."""
         def check(peer, name, element, space):
             if "large rotations" not in element.offers:
                 return
@@ -148,8 +139,6 @@ class Contract(PeerTest):
         self.each(check)
 
     def test_follower(self):
-        """A follower force must keep its components in the axes of the bar: a rotation of the scene rotates the
-        results, and the reaction has the direction of the rotated force."""
         def check(peer, name, element, space):
             if "loads.follower" not in element.keys:
                 return
@@ -167,7 +156,6 @@ class Contract(PeerTest):
         self.each(check)
 
     def test_whole_turn(self):
-        """A moment must bend a bar to a circle. Load steps must not lead to another equilibrium."""
         def check(peer, name, element, space):
             if "large rotations" not in element.offers:
                 return
@@ -182,8 +170,6 @@ class Contract(PeerTest):
         self.each(check)
 
     def test_unit_of_length(self):
-        """Tolerances of a driver must not depend on the unit: the same structure is solved with all lengths multiplied
-        by a thousand."""
         def check(peer, name, element, space):
             one, other = (self.values(peer, name, scene(element, space=space, unit=s, small=1), 4) for s in (1, 1e3))
             np.testing.assert_allclose(other[0][:3], 1e3 * one[0][:3], atol=1e-3 * np.abs(one[0][:3]).max())
@@ -192,8 +178,6 @@ class Contract(PeerTest):
 
 
 class Door(PeerTest):
-    """Refusals and failures of drivers that this test writes must be reported."""
-
     def run_driver(self, body, elements=(1, 2), limit=60.0):
         code = ("from .data import *\nNAME = PROGRAM = 'fake'\nimport os, time, sys\n"
                 "ELEMENTS = {'bar': Element('bar', frozenset({'shear'}), frozenset({'linear'}))}\n"
@@ -218,8 +202,6 @@ class Door(PeerTest):
         self.answered("import", place, "-o", self.folder / "theirs.h5")
 
     def test_converge(self):
-        """`converge --peers` must show the results of drivers with those of formulations, and `--imported` stored
-        results."""
         self.run_driver("pass")
         made = scene(peers.load("pynite").ELEMENTS["frame"])
         made.write(self.folder / "own.yaml")
@@ -265,7 +247,6 @@ class Door(PeerTest):
             peers.chosen(["pynite:nothing"])
 
     def test_mesh(self):
-        """Nodes of curved members must be on the arc, and pieces must end at loads."""
         read = importlib.import_module("beamwork.peers.read")
         data = json.loads(self.answered("scene", "bend_45", "--format", "json").stdout)
         mesh = read.scene_of(data).mesh(3, 2)
@@ -281,7 +262,6 @@ class Door(PeerTest):
 class Drivers(ModuleTest):
 
     def test_list(self):
-        """Every driver must state its licence, packages with versions, and known physics."""
         known = {"warping", "shear", "eccentric shear centre", "trapeze", "wagner moments", "wagner torque", "geometric", "mass",
                  "large rotations", "rotary inertia", "initial curvature", "coupled section", "engesser", "haringx"}
         for name in peers.names():
@@ -296,8 +276,6 @@ class Drivers(ModuleTest):
 
 
 class Recorded(PeerTest):
-    """Recorded results (reference/peers) must be valid imports, and a new run must give the same values."""
-
     def test_import(self):
         files = sorted((ROOT / "reference" / "peers").glob("*.csv"))
         self.assertTrue(files)
@@ -324,8 +302,6 @@ class Recorded(PeerTest):
 
 
 class Documented(ModuleTest):
-    """The drivers must reproduce numbers from the documentation or the tests of the programs."""
-
     def values(self, peer, element, made, n=1):
         place = self.folder / "scene.yaml"
         made.write(place)
@@ -358,9 +334,6 @@ class Documented(ModuleTest):
             self.assertAlmostEqual(got[c] / want, 1, delta=2e-3, msg=c)
 
     def test_opensees(self):
-        """Prismatic column of the verification suite of OpenSees (AISC25.tcl, case 1), after AISC Design Guide 25 (kip,
-        in): tip displacement and moment of the foot at 60 % of the critical load. The formulas neglect the axial shortening of
-        0.16 %, which the load amplifies."""
         made, H, L, EI = bw.Scene("column"), 10, 196, 29500 * 2150
         P = 0.6 * math.pi**2 * EI / (4 * L**2)
         made.sections["W"] = {"constants": {"A": 51.7, "Iy": 2150, "Iz": 2150, "It": 4300, "Ip": 4300}, "young": 29500,

@@ -8,7 +8,6 @@ from harness.library.python.test.module import ROOT, ModuleTest, bw
 EXAMPLES = sorted((ROOT / "cases" / "examples").glob("*.yaml"))
 
 
-# the whole motion of the machine with twelve joints takes too long for a test
 PART = {"hexapod_motion": {"time": 0.05}}
 
 
@@ -19,8 +18,6 @@ def bits(value):
 class SameBits(ModuleTest):
 
     def same(self, record, result):
-        """Checks that every value, error and curve equals the value in the record, which the program wrote with 17
-        digits."""
         self.assertEqual((record["formulation"], record["elements"]),
                          (result.document["formulation"], result.elements))
         values = [q for q in record["quantities"] if q["quantity"] not in result.curves]

@@ -1,5 +1,5 @@
 """beamwork as a model of UM-Bridge: values must equal those of the module, and errors must have the types of protocol
-1.0. The UM-Bridge client is used if it is installed."""
+1.0."""
 import importlib
 import json
 import threading

@@ -16,7 +16,6 @@ from harness.library.python.test.module import ModuleTest, SETTINGS, bw, leaf
 from harness.tools.kit.program import PROGRAM, ROOT, environment, read_json, run
 
 RUNS = ("-f", "beamw", "-n", "1,2")
-# columns with times, or with values that may differ between runs
 CLOCKS = re.compile(r"clock|seconds.*|spent|round_.*|keep_all_.*|repeats|kept|noise|work_spread")
 
 
@@ -45,7 +44,6 @@ class Verbs(ModuleTest):
         self.assertGreater(len(ours), 0)
 
     def same_rows(self, ours, theirs):
-        """Checks that the numbers of `ours`, records of the module, are bit for bit those of a CSV file."""
         self.assertGreater(len(ours), 0)
         self.assertEqual(len(ours), len(theirs))
         for mine, one in zip(timeless(list(ours)), timeless(theirs)):
@@ -55,7 +53,6 @@ class Verbs(ModuleTest):
                 self.assertEqual(value, type(value)(told) if value is not None else None, key)
                 self.assertEqual(value is None, told == "" and not isinstance(value, str), key)
 
-    # A test for each verb, where list_ is the function of 'list'.
     def test_list(self):
         self.same(bw.list_(), self.json("list"))
         self.same(bw.list_("beamw"), self.json("list", "beamw"))
@@ -171,8 +168,6 @@ class Verbs(ModuleTest):
         self.same(bw.schema(), self.json("schema"))
 
     def test_each_has_a_function(self):
-        """The verbs of `beamwork --help` must be those of the tests in this file, and each verb must have a documented
-        function."""
         verbs = re.findall(r"^  ([a-z-]+)  +\S", self.answered("--help").stdout.partition("to begin with")[0], re.M)
         self.assertGreater(len(verbs), 16)
         methods = {"solve": bw.Scene.solve, "converge": bw.Scene.converge, "scene": bw.Scene.write}
@@ -188,7 +183,6 @@ class Verbs(ModuleTest):
 class Running(ModuleTest):
 
     def test_scenes(self):
-        """A verb must use scenes built in Python, scenes that were read, and parameter values that were set."""
         built = leaf()
         built.parameters["push"] = {"value": 1, "unit": "N"}
         built.loads["push"]["force"] = [0, "push", 0]
@@ -202,8 +196,6 @@ class Running(ModuleTest):
         self.one_line(bw.Refused, "--colour", bw.stress, colour="red")
 
     def test_progress(self):
-        """The progress function receives the text that the program writes to a terminal. An exception in it must be
-        raised after the verb."""
         program = self.folder / "program"
         program.write_text("#!/bin/sh\n[ -t 2 ] || exit 4\nprintf '\\rcells 3 of 7, 40 %%, about 3 s left: elastica, "
                            "beamw, n = 2\\r   \\r\\rtimes of points 4 of 7, 50 %%: x\\r' >&2\n"
@@ -218,7 +210,6 @@ class Running(ModuleTest):
             self.one_line(bw.Fault, "status 4", bw.stress)
 
     def test_interrupt(self):
-        """Ctrl-C must end the program and raise KeyboardInterrupt. Other work must be possible afterwards."""
         timer = threading.Timer(1.5, os.kill, [os.getpid(), signal.SIGINT])
         timer.start()
         begun = time.monotonic()
@@ -228,7 +219,6 @@ class Running(ModuleTest):
         self.assertTrue(bw.element_test("beamw_vlasov").passed)
 
     def test_loaded(self):
-        """The verbs must use a formulation that load() has loaded."""
         code = ("import beamwork as bw, sys; name = bw.load(sys.argv[1]);"
                 "print(name, bw.sweep('elastica', name, vary={'load': [1]}, elements=2)[0]['status'])")
         path = ROOT / "elements" / "examples" / "timoshenko.py"

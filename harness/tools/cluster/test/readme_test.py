@@ -11,7 +11,6 @@ README = pathlib.Path(__file__).parents[1] / "README.md"
 
 class Loop(ProgramTest):
     def shell(self, text, code=0):
-        """Runs the text in a shell in which `beamwork` is the program under test."""
         places = f"{pathlib.Path(PROGRAM).parent}:{os.environ['PATH']}"
         done = subprocess.run(["sh", "-c", text], cwd=self.folder, capture_output=True, text=True,
                               check=False, env=os.environ | {"PATH": places})

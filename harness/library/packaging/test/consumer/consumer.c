@@ -16,14 +16,12 @@ static const char leaf[] =
     "loads:\n"
     "  push: {force: [0, 1, 0], on: tip}\n";
 
-/* Internal names of the library must remain available to user programs. */
 int model_alloc(void);
 int model_alloc(void)
 {
     return 1;
 }
 
-/* Prints the message of a call that has failed, and frees it. */
 static int failed(bw_status status, char **why)
 {
     if (status == BW_OK)
