@@ -72,7 +72,6 @@ class Sheet(unittest.TestCase):
         self.assertLess(np.max(np.abs(C - D) / np.sqrt(np.outer(np.diag(D), np.diag(D)))), 1e-12)
 
     def test_compliance_is_the_derivative_of_the_equilibrium(self):
-        """The compliance must predict the displacements of the deformed sheet due to small dead loads."""
         net, tip, _ = self.twisted(6, 12)
         C = net.response(1.0, tip, {tip: free})
         x, R, load = tip.x.copy(), tip.R, tip.load.copy()
@@ -105,7 +104,7 @@ class Sheet(unittest.TestCase):
             1,
             delta=1e-12)
         self.assertAlmostEqual(C[0, 0] / (beam.length / beam.EA), 1, delta=1e-12)
-        rate = beam.length * math.sqrt(beam.GJ / beam.EIw)  # warping is restrained at both ends
+        rate = beam.length * math.sqrt(beam.GJ / beam.EIw)
         self.assertAlmostEqual(
             C[3, 3] / (beam.length / beam.GJ * (1 - math.tanh(rate / 2) / (rate / 2))),
             1,

@@ -58,8 +58,6 @@ class Buckling(unittest.TestCase):
             delta=1e-7)
 
     def test_end_moments(self):
-        """The determinant must vanish at the critical end moments, with and without shear, and with -2 ys or b_z - 2 ys
-        of the Wagner moments."""
         for shear in (0, 1):
             for wagner in (False, True):
                 closed = column.buckling_moments(column.channel_data(), 6, shear, True, wagner)[0]

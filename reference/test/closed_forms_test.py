@@ -14,7 +14,6 @@ from reference.derive.section import section  # noqa: E402
 class Sections(unittest.TestCase):
 
     def test_channel_of_table_1(self):
-        """The constants of J Table 1 and the shear rigidities must be those of closed forms."""
         s = column.channel_data()
         for got, value in ((s.A, "0.054"), (s.Iy, "3.78e-3"), (s.Iz, "2.16e-3"), (s.It, "1.62e-5"),
                            (s.ys, mpf(16) / 35), (s.Iw, mpf(243) / 175 * mpf("1e-4"))):
@@ -43,8 +42,6 @@ class Sections(unittest.TestCase):
 class Torsion(unittest.TestCase):
 
     def test_rectangles(self):
-        """The constant must be that of the series in which tanh x = 1 - 2/(exp 2x + 1), whose constant terms have the
-        sum 31/32 zeta(5)."""
         for w, t in ((1, 1), (2, 1), (mpf("0.05"), mpf("0.0005"))):
             rest = sum(mpf(2) / n ** 5 / (exp(n * pi * w / t) + 1) for n in range(1, 40, 2))
             value = w * t ** 3 / mpf(3) * (1 - 192 / pi ** 5 * t / w * (31 * zeta(5) / 32 - rest))
@@ -74,7 +71,6 @@ class Buckling(unittest.TestCase):
                                              (2 * (1 + nu)) * b * t ** 3 / 3)) - 1), 1e-20)
 
     def test_shear_column_without_shear(self):
-        """Without shear deformation, both theories must give Euler's load."""
         plain = column.channel_data()
         for haringx in (False, True):
             stiff = column.channel_data()
@@ -111,7 +107,6 @@ class Rotating(unittest.TestCase):
                     1e-10)
 
     def test_symmetric_shaft(self):
-        """In the rotating frame, the whirling frequencies must be omega_j +- Omega, even beyond the critical speed."""
         rest = rotating.bending(3)
         for Omega in (2, 5):
             frequencies, growth = rotating.whirl(Omega, 1, 3)
@@ -136,7 +131,6 @@ class Rotating(unittest.TestCase):
                         (rotating.flap(Omega, 1e6) ** 2 - Omega ** 2) - 1)), 1e-7)
 
     def test_body_at_the_end(self):
-        """At rest, the frequencies must satisfy the characteristic equation."""
         for m, c, g in ((1.0, 0.2, 0.3), (0.1, -0.5, 0.3), (10.0, 0.0, 0.0)):
             rest = np.array([float(w) for w in tip_body.at_rest(m, c, g)])
             self.assertLess(np.max(np.abs(tip_body.flap(0, m, c, g) / rest - 1)), 1e-11)

@@ -83,7 +83,6 @@ def bending_fields(h, p, q, stiffness, sheared):
 
 
 def local_coordinates(h):
-    """Returns the local coordinates u, px, yp, yq, zp, zq of N Eqs. 40 and 42."""
     r, Rp, Rq = ends(h)
     d, l = Rp.T @ r, np.linalg.norm(r)
     yp, zp = math.asin(d[2] / l), -math.atan(d[1] / d[0])
@@ -127,7 +126,7 @@ def torsion_of_appendix_a(h, i, q):
 
 
 def appendix_a(h):
-    """Returns S of J App. A with S23 .. S26 corrected, for strains of the shear centre."""
+    """Returns S of J App."""
     Phi = 12 * E * np.array([IZ, IY, IW]) / (G * np.diag(D) * h ** 2)
     (qy, qz, qw), S, pair = Phi / (1 + Phi), np.zeros((8, 8)), np.array([1, -1])
     S[0, 0] = E * AREA / h
@@ -144,8 +143,6 @@ def appendix_a(h):
 
 
 class Measures(unittest.TestCase):
-    """The strain measures of derive/predicted_beam.py must be those of short elements."""
-
     def assert_limit(self, modes, measures, centre, h, delta):
         limit = extrapolated(lambda length: measured(modes(length), length, centre), h)
         self.assertLess(np.max(np.abs(limit - measures)), delta)
@@ -159,7 +156,6 @@ class Measures(unittest.TestCase):
         self.assertGreater(np.min(np.abs(printed - first)), 1e-3)
 
     def test_sheets(self):
-        """The sheet elements are compared without warping shear, for which the amplitude W equals the twist rate p."""
         for sheared, name in ((False, "sheet_second"), (True, "sheet_second_consistent")):
             p = KAPPA[0] + KAPPA[1] * GAMMA[1] / (1 + GAMMA[0])
             limit = values(predicted_beam.OF[name], a=p)
@@ -167,7 +163,6 @@ class Measures(unittest.TestCase):
             self.assert_limit(modes, limit, (0, 0), 0.1, 1e-5)
 
     def test_energy_of_a_short_element(self):
-        """The energy per length e^T S e/(2 h) with the printed stiffness must tend to that of the measures."""
         def energy(h):
             e, at_centre = eq66(jonker_modes(h), h), np.eye(8)
             at_centre[2:6, 1] = np.array([-YS, YS, -ZS, ZS]) / h

@@ -38,7 +38,6 @@ class Pack(unittest.TestCase):
         (self.folder / name).write_text("\n".join(lines) + "\n")
 
     def packed(self, column, *rows):
-        """Returns one column of the packed rows."""
         self.assertEqual(self.run_pack(*rows).returncode, 0)
         with h5py.File(self.folder / "t.h5") as file:
             values = list(file[f"truths/beam/{column}"][()])

@@ -21,7 +21,6 @@ ITEMS = {
          "|Sec. 4.1|Sec. 4.2|Sec. 5|App. A|App. B"
 }
 FIGURES = {"J": 13, "N": 10}
-# Numbers of the equations as printed. The equations of J App. A have no numbers.
 EQUATIONS = {
     "J": {*map(str, range(1, 77)), "App. A"},
     "N": {*map(str, range(1, 71)), "A1", "B2"}
@@ -127,7 +126,7 @@ class Equations(unittest.TestCase):
             self.assertTrue(defines(ROOT / path, name), r)
             text = (ROOT / path).read_text(encoding="utf-8")
             self.assertTrue(r["by"] in text, r)
-            if path.endswith(".c"):  # the function must be called, not only defined
+            if path.endswith(".c"):
                 self.assertGreater(len(re.findall(rf"\b{name}\(", text)), 1, r)
             else:
                 self.assertTrue(name.split(".")[1].startswith("test_"), r)
@@ -138,11 +137,9 @@ class Equations(unittest.TestCase):
         self.assertFalse(defines(REFERENCE / "test/papers_test.py", "Papers.test_files_and_functions"))
 
 
-# `make truths` runs exactly the programs that derive exact rows, and every row is stored.
 class Programs(unittest.TestCase):
 
     def test_each_takes_no_more_than_whether_all_are_wanted(self):
-        """Checks the parameters of every function rows(), because each is run as a deriving program."""
         for name in rederive.programs([]):
             module = rederive.importlib.import_module(f"reference.derive.{name}")
             wanted = ["everything"] if rederive.is_solid(name) else []

@@ -44,8 +44,6 @@ class Machinery(unittest.TestCase):
         self.assertGreater(len(rows), 60)
 
     def test_other_intervals_and_nodes(self):
-        """Results with other intervals and nodes must agree within the uncertainty of the rows."""
-
         def finer(*arguments, intervals=4, **options):
             return Network(*arguments, **{**options, "intervals": intervals + 3, "nodes": 17})
 
@@ -61,8 +59,6 @@ class Machinery(unittest.TestCase):
                 self.assertLess(abs(one[3] / two[3] - 1), one[5], one[:3])
 
     def test_amplitude_between_the_nodes(self):
-        """Without J Eq. 66, the twist rate equals the warping amplitude, so the option `interpolated` must not change
-        the frequency."""
         for name, least, most in (("beamw_first", 0, 1e-10), ("beamw", 2e-7, 3e-7)):
             form = predicted.as_printed(name)
             nodes, between = (equilibrium.sheet_frequencies(3, {}, form, one)[2] for one in (0, 1))
@@ -112,9 +108,6 @@ def cantilever_column(beam, level):
 
 
 class ClosedForms(unittest.TestCase):
-    """The values of predicted_column.py must be those of the nearly inextensible nonlinear beam of the same
-    measures."""
-
     def test_c_column(self):
         s = column.channel_data(section_data="printed")
         names = "A Iy Iz It Iw ys Ip E G".split()

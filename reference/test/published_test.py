@@ -85,8 +85,6 @@ class Published(unittest.TestCase):
 
 
 class DeepBeam(unittest.TestCase):
-    """The origin of the published values of NAFEMS FV5."""
-
     def published(self, *modes):
         found = {
             row["quantity"]: float(row["value"])
@@ -105,8 +103,6 @@ class DeepBeam(unittest.TestCase):
             self.assertLess(abs(float(exact) * discrete / value - 1), 2e-5)
 
     def test_bending_asks_for_another_shear_factor_and_a_mesh(self):
-        """The shear factor that reproduces a value must increase with the mode, so that no factor reproduces all
-        values."""
         needed = []
         for half_waves, value in zip((1, 2, 3), self.published(1, 5, 8)):
             low, high = 0.8, 0.9

@@ -16,7 +16,6 @@ from reference.derive.solids import channel, deck, sheet
 from reference.derive.solids.deck import BRICK, graded, spin, turned
 
 
-# Tests of solids.
 TABLES = pathlib.Path(__file__).resolve().parents[1] / "tables"
 needs_ccx = unittest.skipUnless(deck.available(), f"{deck.PROGRAM} is not installed")
 
@@ -99,9 +98,6 @@ class Sheet(unittest.TestCase):
             self.assertLess(np.max(np.abs(slope - K[:, i]) / (scale * scale[i])), 1e-3, i)
 
     def test_at_rest(self):
-        """In the undeformed state, there must be no force, and the stiffness must be symmetric. Because the ends of the
-        sheet cannot contract, the stiffness along the sheet must be higher than E A/L, by at most nu^2/(1 - nu^2).
-        """
         force, moment, K = self.sheet.state(np.zeros(6))
         self.assertLess(np.max(np.abs(np.concatenate([force, moment]))), 1e-6)
         np.testing.assert_allclose(K, K.T, atol=1e-6 * np.max(np.abs(K)))
@@ -141,7 +137,6 @@ def network_load(bracket, ratio, K):
 class Forks(unittest.TestCase):
 
     def test_a_stiff_beam_stays_straight(self):
-        """For large EIy/EIz, the critical load must be that of linear prestress. The difference is of order EIz/EIy."""
         for distributed, K, load, guess in ((False, 0, "mid", "16.9"), (True, 0, "mid_distributed",
                                                                         "28.3"),
                                             (True, 4, "mid_distributed", "52.7")):

@@ -45,7 +45,7 @@ class Scenes(unittest.TestCase):
         by_others = {row["source"] for row in stored.values()}
         programs = {f"reference/derive/{name}.py" for name in rederive.programs([])
                     if rederive.folder_of(name) == scenes.FOLDER}
-        self.assertLessEqual(by_others, programs)  # `make truths` derives these values
+        self.assertLessEqual(by_others, programs)
         self.assertFalse(by_others & {f"reference/derive/{name}.py" for name, _ in quick})
 
 
@@ -103,10 +103,10 @@ class OffCentreMasses(unittest.TestCase):
         for plane in (0, 1):
             k, total = (np.block([[a, none], [none, b]]) for a, b in (K[plane], M[plane]))
             for at, point in ((arm, 10000.0), (-arm, 1000.0)):
-                if plane == 0:  # displacement v along y, and u - y t along x
+                if plane == 0:
                     moved = [(bent_end[:, 0], 0 * rod_end[:, 0]),
                              (-at * bent_end[:, 1], rod_end[:, 0])]
-                else:  # along z: w + y p
+                else:
                     moved = [(bent_end[:, 0], at * rod_end[:, 0])]
                 for row in (np.concatenate(one) for one in moved):
                     total = total + point * np.outer(row, row)
@@ -122,9 +122,6 @@ class OffCentreMasses(unittest.TestCase):
 class TransferMatrices(unittest.TestCase):
 
     def test_cantilever_with_a_mass(self):
-        """The frequencies of an Euler-Bernoulli cantilever with a mass must be zeros of the determinant of
-        tip_body.py."""
-
         def end(f):
             t, o = bending(mpf(1), f, mpf(1), mpf(1)), f
             return t[2, 2] * (t[3, 3] - 2 * o ** 2 * t[0, 3]) - t[2, 3] * (t[3, 2] -
@@ -140,7 +137,7 @@ class TransferMatrices(unittest.TestCase):
         b = 1 + 2 * k2
         values = [sqrt((b - s * sqrt(b ** 2 - 4 * k2 ** 2)) / 2) for s in (1, -1)]
 
-        def end(o):  # w = M = 0 at both ends, where the columns are t and Q
+        def end(o):
             t = bending(mpf(1), o, mpf(1), mpf(1), mpf(1), mpf(1))
             return t[0, 1] * t[2, 3] - t[0, 3] * t[2, 1]
 
