@@ -1,5 +1,3 @@
-/* analysis/: linear, static, buckling, modal, continuation, rotation, flutter, compliance;
- * extraction of quantities. */
 #ifndef BEAMWORK_ANALYSIS_H
 #define BEAMWORK_ANALYSIS_H
 

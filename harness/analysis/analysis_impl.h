@@ -35,28 +35,22 @@ typedef struct arnoldi_result {
 status arnoldi_solve(const arnoldi_problem *, arnoldi_result *, fault *);
 void arnoldi_free(arnoldi_result *);
 
-/* Centre lines of the structure in all solutions, for pictures. */
-
 /* Collects the shapes of the undeformed structure, of at most `most` states of every path, of the
  * frames of motions, of linear solutions and of modes. */
 status collect_shapes(const analysis_context *, int most, shapes *, fault *);
-
-/* Matrices for small motions about the states of all solutions. */
 
 /* Collects the matrices about the undeformed structure, about every computed station of every path,
  * and about the states of modal analyses. If linear models are requested, also collects those of
  * harmonic analyses. */
 status collect_systems(const analysis_context *, system_matrices *, fault *);
 
-/* Imperfections. */
-
 /* Returns the number of modes that an analysis must find for the imperfections that use it,
  * including two more modes that reveal equal modes; 0: no imperfection uses the analysis. Only
  * buckling modes with positive critical factors are counted. */
 int imperfection_modes(const scene *, int analysis);
 /* Sets x[free + driven] to the sum of the imperfections, each of which is a mode times its
- * amplitude. REFUSED: a mode does not exist, is not unique, or does not move along its direction.
- */
+ * amplitude. REFUSED: a mode does not exist, is not unique, or has its largest displacement
+ * perpendicular to the given direction. */
 status imperfection_of_modes(const analysis_context *, double x[], fault *);
 
 /* Compliance and stiffness of a node in a deformed state. */
@@ -64,23 +58,17 @@ status imperfection_of_modes(const analysis_context *, double x[], fault *);
 status compliance_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
 
 /* Compliances that are computed while a path is followed. If Newton's last correction changes the
- * tangent by less than its rounding error, the last tangent is used for the station. If members are
- * condensed, the tangent is computed immediately, because the states of many elements are not
- * stored. */
+ * tangent by less than its rounding error, the last tangent is used for the station. */
 
 typedef struct compliance_walk compliance_walk;
 
-/* Computes compliances when Newton's method has converged at a station. The analysis later computes
- * the compliances that this function does not compute. w NULL: no compliance analysis follows.
- * FAULT: out of memory. */
+/* Computes compliances when Newton's method has converged at a station. FAULT: out of memory. */
 status compliance_walk_take(compliance_walk *w, const newton_run *, int station, fault *);
 void compliance_walk_end(compliance_walk *);
 
 /* Equilibrium paths under proportional loads, including limit points. */
 
 status continuation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-
-/* Quantities of a continued path. */
 
 /* Evaluates curves and critical points. Returns 0 for any other quantity. */
 int continuation_extract(const analysis_context *, const scene_quantity *, const analysis_outcome *,
@@ -131,8 +119,7 @@ void unsymmetric_free(unsymmetric_result *);
 status refine_pole(const sparse of[], double complex *s, double mode[], double *error, fault *);
 
 /* Small motions and stability about states with an unsymmetric tangent (follower loads, moments
- * about fixed axes). Stability is lost by divergence, if the tangent is singular, or by flutter, if
- * two frequencies coincide. If members are damped, stability is lost when a mode starts to grow. */
+ * about fixed axes). */
 
 typedef enum flutter_kind { FLUTTER_NONE, FLUTTER_DIVERGES, FLUTTER_OSCILLATES } flutter_kind;
 
@@ -166,7 +153,7 @@ const char *flutter_name(const flutter_system *, flutter_kind);
  * frees mode[free]. */
 typedef struct flutter_point {
     double path, error, frequency; /* error: relative to the path parameter; frequency: in rad/s */
-    const char *what;              /* flutter_name */
+    const char *what;
     int massless;
     double *mode;
 } flutter_point;
@@ -186,19 +173,17 @@ typedef struct flutter_check {
 } flutter_check;
 
 /* Stores the stability of the state in the record of the step that ended in the state; STEP_OPEN:
- * unknown. The work is not counted. */
+ * unknown. */
 status flutter_check_state(flutter_check *, analysis_context *, const model_state *, step_record *,
                            fault *);
-/* Allocates j->n in the first call. Later calls have no effect. */
 status flutter_check_begin(flutter_check *, analysis_context *, fault *);
 void flutter_check_free(flutter_check *);
 
 /* Replaces the number of negative pivots for an unsymmetric tangent K: computes the eigenvalues of
  * D^-1 K nearest to zero, where D is the metric, and counts those to the left of the imaginary
  * axis. This number changes at a critical point, where an eigenvalue passes zero. It also changes
- * where a pair crosses the imaginary axis away from zero, which is not a critical point. It does
- * not change where a pair meets on the real axis, or if rounding changes a double eigenvalue into a
- * pair. If K is symmetric, the number equals the number of negative pivots. */
+ * where a pair crosses the imaginary axis away from zero, which is not a critical point. If K is
+ * symmetric, the number equals the number of negative pivots. */
 
 enum { LEFT_NEAREST = 6 };
 
@@ -218,11 +203,7 @@ status left_count(matrix_factor *K, int n, const double weight[], left_of_axis *
  * The load factor is an additional unknown, and either a coordinate or the arc length is
  * prescribed: K dx = r + f' dl, g . dx = c. Here r is the residual, l is the load factor, f' is the
  * derivative of the loads, and g and c are the gradient and the right-hand side of the constraint.
- * This gives dx = K^-1 r + dl K^-1 f', dl = (c - g . K^-1 r)/(g . K^-1 f'). The last factored K
- * before a point gives the tangent of the path at this point, the first direction of the next step
- * and, if K is symmetric, the number of its negative eigenvalues. These results are accurate
- * enough, because the last correction is at most the convergence limit, and the change of K is
- * proportional to this correction. */
+ * This gives dx = K^-1 r + dl K^-1 f', dl = (c - g . K^-1 r)/(g . K^-1 f'). */
 
 typedef struct path_point {
     double factor, control; /* load factor, and value of the control coordinate */
@@ -278,8 +259,8 @@ void continuation_step_free(continuation *);
 
 /* Returns the scalar product in the metric. */
 double continuation_step_dot(const continuation *, const double a[], const double b[]);
-/* Applies Newton's method from n.backup, which is the state of `here`, until the goal is reached.
- * The arc length is measured along the tangent of `here`. */
+/* Applies Newton's method from n.backup, which is the state of `here`, until the goal is
+ * reached. */
 status continuation_step_correct(continuation *, path_goal, step_record *, fault *);
 /* Like continuation_step_correct, but starts from the current state, the result of the previous
  * iteration. */
@@ -307,8 +288,7 @@ typedef struct other_branch {
  * negative pivots then changes without a critical point. */
 status continuation_critical(continuation *, path_goal, int *jump, fault *);
 /* If critical points are requested, sets *hidden to 1 if an indicator of a critical point (the sign
- * of the rate, or the number of negative pivots) changes and changes back within the step. A change
- * that lasts for at least a fifth of the step is detected. */
+ * of the rate, or the number of negative pivots) changes and changes back within the step. */
 status continuation_critical_within(continuation *, path_goal, int *hidden, fault *);
 
 /* Quantities of a scene from the outcomes of its analyses. */
@@ -323,9 +303,8 @@ void extract_quantity(const analysis_context *, const scene_quantity *, quantity
 void extract_path(const analysis_context *, const scene_quantity *, const analysis_outcome *,
                   quantity_result *);
 
-/* Returns 1 if the quantity has no value because it needs a part of a motion that this run omits:
- * the run continues the motion of another run. r contains the reason. Otherwise returns 0, and r
- * states if a curve lacks its first stations. */
+/* Returns 1, with the reason in r, if the quantity needs a part of a motion that only an earlier
+ * run has computed. */
 int extract_continued(const analysis_context *, const scene_quantity *, quantity_result *r);
 
 /* Sets the spectrum of the quantity from `count` values in the unit of the quantity, at equal time
@@ -384,8 +363,6 @@ typedef struct control_loop {
     const scene_feedback *gains;
     /* [free + driven] loads for a factor of 1, and coefficients of the measured quantity */
     double *push, *measured;
-    /* 1: the integral of the loop adds a pole; 0: there is no integral, or its load or its measured
-     * quantity is zero for all free coordinates */
     int integrates;
 } control_loop;
 
@@ -423,7 +400,6 @@ status loops_find(vibration *, fault *);
 void loops_free(vibration *);
 /* Returns the number of coordinates and loop factors. */
 size_t loops_whole(const vibration *);
-/* Returns the loop of a load; NULL: the loop is not closed. */
 const control_loop *loops_of(const vibration *, int load);
 /* Computes the coefficients of a loop: own u + gain S^T x = gain r at s = i w, with the factor u,
  * the reference r and the measured form S. Returns `gain` and sets *own. If there is an integral
@@ -438,16 +414,12 @@ void loops_release(sparse closed[]);
 double complex harmonic_dynamic(const vibration *, double w, int k);
 /* Computes K, M, C and B. whole 1: including the driven coordinates. */
 status harmonic_matrices(vibration *, int whole, fault *);
-/* Lists the entries of the free block, including both halves of symmetric matrices: sets v->first,
- * row and source. */
 status harmonic_pattern(vibration *, fault *);
-/* Allocates the matrix of a direct solution. */
 status harmonic_matrix(vibration *, fault *);
 /* Factors the matrix of a direct solution at the circular frequency w. */
 status harmonic_factor(vibration *, double w, fault *);
 /* Returns the number of additional unknowns for modes with a damping ratio in a direct solution.
- * Each such mode has one unknown, y = i w U^T (x - r), with D x + U y = f. The vector r contains
- * the static displacements due to driven coordinates. */
+ * Each such mode has one unknown, y = i w U^T (x - r), with D x + U y = f. */
 int harmonic_border(const vibration *);
 
 /* Inputs and outputs (harmonic_inputs.c). */
@@ -502,8 +474,8 @@ struct harmonic_modes {
         *entry; /* [count x count] scaled and factored D; entries of D in the order of v->first */
     double *scale; /* [count] */
     int *pivot;
-    double complex *y, *inverse, *half; /* [count]; [kept x kept]; [2 kept x kept] */
-    double *work;                       /* [2 n] */
+    double complex *y, *inverse, *half;
+    double *work;       /* [2 n] */
     double w, positive; /* w: circular frequency; positive: lower bound of the real part of D beyond
                            the modes */
     /* loops of feedback: [(count + loops)^2] factored matrix; work space */
@@ -551,9 +523,6 @@ double harmonic_modes_bound(vibration *, const double complex left_of_f[],
 double harmonic_modes_left(vibration *, const double complex r[]);
 /* Returns NOT_CONVERGED with the message that a bound requires more modes. */
 status harmonic_modes_few(const vibration *, fault *);
-
-/* Modes with closed loops (harmonic_closed.c). Without loops, the first two functions do nothing.
- */
 
 /* Call this function after harmonic_modes_project. */
 status harmonic_closed_alloc(vibration *, fault *);
@@ -618,13 +587,11 @@ int poles_integrals(const vibration *);
 status poles_solve(vibration *, unsymmetric_problem *, sparse closed[], unsymmetric_result *,
                    fault *);
 
-/* Computes damped modes. */
 status damped_modal(analysis_context *, int analysis, analysis_outcome *, fault *);
 
 /* Stationary rotation and small motions about it. */
 
 status rotation_analysis(analysis_context *, int analysis, analysis_outcome *, fault *);
-/* Sets the stability of the stations from their modes, after the steps have been evaluated. */
 void rotation_evaluate_stations(analysis_context *, int analysis, const analysis_outcome *);
 
 /* Nonlinear equilibrium along a path. */

@@ -30,8 +30,8 @@ typedef struct solver {
     double *work, *A, *z, *re, *im;
     int *order;
     unsigned long long seed;
-    int found;         /* number of requested Ritz values that are not rounding errors */
-    double *last;      /* [wanted] magnitudes at the last convergence */
+    int found;
+    double *last;
     double complex *x; /* [n] */
 } solver;
 
@@ -66,7 +66,6 @@ static double orthogonalise(const solver *s, double x[])
     return before > 0 ? sqrt(dense_dot(n, x, x)) / before : 0;
 }
 
-/* Normalises x, which must be orthogonal to the basis, and adds it to the basis. */
 static void take(solver *s, double x[])
 {
     const int n = s->p->n, k = s->count++;
@@ -82,8 +81,7 @@ static void take(solver *s, double x[])
     }
 }
 
-/* Adds a vector of the current chain, or a new start vector if the chain has ended. Returns 0 if
- * there is no further vector. */
+/* Adds a vector of the current chain, or a new start vector if the chain has ended. */
 static int grow(solver *s)
 {
     const int n = s->p->n;
@@ -109,7 +107,6 @@ static double size_of(const solver *s, int i)
     return hypot(s->re[s->order[i]], s->im[s->order[i]]);
 }
 
-/* Sorts eigenvalues in decreasing order of magnitude. Conjugates remain adjacent, as in LAPACK. */
 static void sort(solver *s)
 {
     const int k = s->count;
@@ -170,7 +167,6 @@ static double vector_of(const solver *s, int i, double complex x[])
     return sqrt(residual / length) / cabs(theta);
 }
 
-/* Returns 1 if all requested pairs have converged. *worst: largest residual. */
 static int converged(solver *s, double *worst)
 {
     int good = 1;
@@ -183,8 +179,7 @@ static int converged(solver *s, double *worst)
     return good;
 }
 
-/* Returns 1 if the magnitude of a requested eigenvalue has changed since the last convergence. The
- * last start vector has then given a new eigenvalue. */
+/* Returns 1 if the magnitude of a requested eigenvalue has changed since the last convergence. */
 static int changed(solver *s)
 {
     int different = 0;
@@ -196,7 +191,6 @@ static int changed(solver *s)
     return different;
 }
 
-/* Adds vectors until the requested pairs have converged or no further vector is useful. */
 static status iterate(solver *s, int vectors, fault *f)
 {
     for (double best = INFINITY, worst;; vectors = s->count / 3 > MORE ? s->count / 3 : MORE) {

@@ -54,9 +54,8 @@ static void keep_motion(const analysis_context *c, int analysis, shapes *s)
         keep(c, s, &(shape_state){SHAPE_MOTION, analysis, o->value[i], 1}, o->state[i]);
 }
 
-/* Stores a state displaced by x[free + driven]. The displacement starts from the state that the
- * analysis follows (an instant of a motion or the last state of a path), or from the undeformed
- * state. */
+/* The displacement starts from the state that the analysis follows (an instant of a motion or the
+ * last state of a path), or from the undeformed state. */
 static status keep_displaced(const analysis_context *c, shape_state *what, const double x[],
                              const double sigma[], shapes *s, fault *f)
 {
@@ -79,7 +78,6 @@ static status keep_displaced(const analysis_context *c, shape_state *what, const
     return outcome;
 }
 
-/* Stores the displacements of linear solutions. sigma[stresses]: work space. */
 static status keep_displacements(const analysis_context *c, int analysis, double sigma[], shapes *s,
                                  fault *f)
 {
@@ -104,7 +102,6 @@ static status keep_linear(const analysis_context *c, int analysis, shapes *s, fa
     return outcome;
 }
 
-/* Stores the modes of one side. x[free + driven]: work space. */
 static status keep_modes_in(const analysis_context *c, int analysis, const outcome_side *side,
                             double x[], shapes *s, fault *f)
 {
@@ -119,7 +116,6 @@ static status keep_modes_in(const analysis_context *c, int analysis, const outco
     return STATUS_OK;
 }
 
-/* Stores the modes mode[count x free] of one side. */
 static status keep_modes(const analysis_context *c, int analysis, const outcome_side *side,
                          shapes *s, fault *f)
 {
@@ -138,7 +134,7 @@ static status keep_modes(const analysis_context *c, int analysis, const outcome_
 static status keep_all(const analysis_context *c, int most, shapes *s, fault *f)
 {
     TRY(shapes_alloc(s, f));
-    s->states = 0; /* this number increases again while the shapes are filled */
+    s->states = 0;
     centreline_points(c->model, s->first);
     const analysis_context *first = c->sides != NULL ? c->sides[0] : c;
     keep(first, s, &(shape_state){SHAPE_UNDEFORMED, -1, 0, 1}, kinematics_rest(first->model));
@@ -218,7 +214,6 @@ static void workspace_free(workspace *w)
     kinematics_state_free(w->state);
 }
 
-/* Appends an entry, which system_matrices_free frees, even after a failure. */
 static status next(system_matrices *s, state_matrices **out, fault *f)
 {
     if (s->states == s->room) {
@@ -234,7 +229,6 @@ static status next(system_matrices *s, state_matrices **out, fault *f)
     return STATUS_OK;
 }
 
-/* Fills B with the forces of each load in this state for a factor of 1. */
 static status inputs(const analysis_context *c, const model_state *state, workspace *w,
                      triplets *out, fault *f)
 {
@@ -249,7 +243,6 @@ static status inputs(const analysis_context *c, const model_state *state, worksp
     return triplets_of_columns(size.free, c->scene->loads, w->input, out, f);
 }
 
-/* Stores the block of the free coordinates. */
 static status keep_block(const workspace *w, const sparse *a, int skew, triplets *out, fault *f)
 {
     TRY(triplets_of(a, skew, out, f));
@@ -315,7 +308,6 @@ static status systems_keep_linear(const analysis_context *c, int analysis, const
                : STATUS_OK;
 }
 
-/* Stores the tangent of a state of a path, in the axes of the analysis. */
 static status keep_state(const analysis_context *c, int analysis, int station,
                          const model_state *state, workspace *w, system_matrices *s, fault *f)
 {
@@ -338,16 +330,13 @@ static status systems_keep_path(const analysis_context *c, int analysis, workspa
 {
     const outcome_path *path = outcome_path_of(&c->outcomes[analysis]);
     const scene_analysis_kind kind = c->scene->analysis[analysis].kind;
-    if (kind == SCENE_COMPLIANCE ||
-        kind == SCENE_MOTION) /* compliances use the states of other analyses, and states of motions
-                                 are not in equilibrium */
+    if (kind == SCENE_COMPLIANCE || kind == SCENE_MOTION)
         return STATUS_OK;
     for (int i = 0; i < path->reached; i++)
         TRY(keep_state(c, analysis, i, path->state[i], w, s, f));
     return STATUS_OK;
 }
 
-/* Stores the matrices of the state without loads, in which stress-free strains remain. */
 static status keep_unloaded(const analysis_context *c, int analysis, workspace *w,
                             system_matrices *s, fault *f)
 {
@@ -356,7 +345,6 @@ static status keep_unloaded(const analysis_context *c, int analysis, workspace *
     return systems_keep_linear(&unloaded, analysis, strained, 0, w, s, f);
 }
 
-/* Stores the matrices about the state that the modal analysis follows. */
 static status keep_about(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
                          fault *f)
 {
@@ -407,7 +395,6 @@ static status keep_instant(const analysis_context *c, int analysis, workspace *w
     return outcome;
 }
 
-/* Stores the matrices of a modal analysis and its modes. Does nothing if the analysis failed. */
 static status keep_modal(const analysis_context *c, int analysis, workspace *w, system_matrices *s,
                          fault *f)
 {
@@ -430,7 +417,6 @@ static status keep_modal(const analysis_context *c, int analysis, workspace *w, 
     return STATUS_OK;
 }
 
-/* Stores the linear model of a harmonic analysis, including its damping. */
 static status keep_harmonic(analysis_context *c, int analysis, const workspace *w,
                             system_matrices *s, fault *f)
 {

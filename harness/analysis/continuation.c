@@ -18,15 +18,14 @@ static const char *continuation_step_defect(const continuation *, int last_resor
 static status continuation_report_jump(continuation *, const other_branch *, double from, fault *);
 
 enum { MOST_POINTS = 20000, MANY_ITERATIONS = 9, HALVINGS = 14 };
-/* Target rotation of the next step relative to its limit. This value gives the longest steps with a
- * rejection rate below 1 % (measured for c_cantilever: 0.5 costs 10 % more, 0.85 costs the same).
- * */
+/* Target rotation of the next step relative to its limit.
+ *  */
 static const double aim = 0.7;
 
 /* Result of an attempted step. */
 typedef struct attempt {
     const char *reason; /* reason why the step may be invalid; NULL: the step is valid */
-    double swing;       /* rotation of the path relative to its limit */
+    double swing;
     step_record record;
 } attempt;
 
@@ -78,7 +77,6 @@ static void evaluate_step(continuation *p, const path_point *before, step_record
     record->by_eigenvalues = !p->here.symmetric && !o->undecided && p->first >= 0;
 }
 
-/* Makes `next` the point `here`, and records the step and the point. */
 static status accept(continuation *p, step_record *record, fault *f)
 {
     const path_point before = p->here;
@@ -106,8 +104,8 @@ static void turn_start(continuation *p)
         p->here.tangent[k] = -p->here.tangent[k];
 }
 
-/* Corrects the state and evaluates the point. If the attempt is uncertain, the state may be on
- * another branch. A step along the arc that would pass the station ends at the station. */
+/* If the attempt is uncertain, the state may be on another branch. A step along the arc that would
+ * pass the station ends at the station. */
 static status try_step(continuation *p, path_goal goal, double station, int last_resort, attempt *t,
                        fault *f)
 {
@@ -161,8 +159,6 @@ static double length_left(const continuation *p, path_goal goal, double travelle
     return goal.by_arc ? goal.value - travelled : fabs(goal.value - p->here.control);
 }
 
-/* Returns 1 if the goal has been reached. The arc length to a point depends on the steps, so a
- * point of the other branch that has not been reached may be farther along the arc. */
 static int arrived(const continuation *p, path_goal goal, double station, const other_branch *r,
                    double travelled, double nearest)
 {
@@ -186,7 +182,6 @@ static path_goal part_of(const continuation *p, path_goal goal, double from, dou
     return (path_goal){0, from + way * (fabs(p->here.control - from) + length)};
 }
 
-/* Repeats the step from `here` to the goal in smaller steps. */
 static status retrace(continuation *p, path_goal goal, double station, const other_branch *r,
                       double *size, fault *f)
 {
@@ -228,8 +223,6 @@ static status retrace(continuation *p, path_goal goal, double station, const oth
     return r->state != NULL && nearest > same ? continuation_report_jump(p, r, from, f) : STATUS_OK;
 }
 
-/* Stores the end of a step, which may be on another branch, as `other_branch`. It is compared with
- * the end to which smaller steps lead. */
 static status other_branch_alloc(const continuation *p, other_branch *r, fault *f)
 {
     TRY(kinematics_state_alloc(p->c->model, &r->state, f));
@@ -238,8 +231,6 @@ static status other_branch_alloc(const continuation *p, other_branch *r, fault *
     return STATUS_OK;
 }
 
-/* Repeats a step in smaller steps if it failed, or if its end may be on another branch. This end is
- * then stored as `other_branch`, which reach() frees. */
 static status try_again(continuation *p, path_goal goal, double station, const attempt *t,
                         int is_uncertain, other_branch *r, double *size, fault *f)
 {
@@ -249,7 +240,6 @@ static status try_again(continuation *p, path_goal goal, double station, const a
     return retrace(p, goal, station, r, size, f);
 }
 
-/* Reaches the goal in one or more steps. */
 static status reach(continuation *p, path_goal goal, double station, double *size, fault *f)
 {
     attempt t = {0};
@@ -268,7 +258,6 @@ static status reach(continuation *p, path_goal goal, double station, double *siz
     return outcome;
 }
 
-/* Returns the goal of the next step towards the station. */
 static path_goal next_goal(const continuation *p, double station, double length)
 {
     const double left = station - p->here.control;
@@ -293,7 +282,6 @@ static status walk_to(continuation *p, double station, double *size, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the equilibrium without the proportional loads, and its tangent. */
 static status start(continuation *p, fault *f)
 {
     step_record record = {0};
@@ -304,7 +292,6 @@ static status start(continuation *p, fault *f)
     return add_point(p, f);
 }
 
-/* Follows the path. The caller continuation_analysis() frees *p, even after a failure. */
 static status walk(analysis_context *c, int analysis, outcome_continuation *o, continuation *p,
                    fault *f)
 {
@@ -326,8 +313,6 @@ status continuation_analysis(analysis_context *c, int analysis, analysis_outcome
     continuation_step_free(&p);
     return result;
 }
-
-/* Checks if a step remained on its branch, and reports a jump. */
 
 /* Limit of the angle [rad] between the tangent and the secant in the metric, which is the relative
  * error of the tangent over a step. This limit controls the step size. */

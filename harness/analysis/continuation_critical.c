@@ -24,7 +24,6 @@ static const double touches =
 static const double aside =
     1e-3; /* largest relative real part of a pair that crosses the imaginary axis near zero */
 
-/* An end of the interval that contains the critical point. */
 typedef struct bound {
     double at, value; /* fraction of the step, and value of the test function (NAN: unknown) */
 } bound;
@@ -62,13 +61,11 @@ static double least_of(continuation *p, const path_point *at)
     return at->symmetric ? least_eigenvalue(p) : at->least;
 }
 
-/* Returns 1 if the eigenvalue nearest to zero belongs to a pair with a negligible real part. */
 static int is_aside(const path_point *at)
 {
     return !at->symmetric && at->nearest > 0 && fabs(creal(at->mu[0])) < aside * cabs(at->mu[0]);
 }
 
-/* Returns |phi . f'|/(|phi| |f'|), with the lengths in the metric and in the dual metric. */
 static double load_work(continuation *p)
 {
     const double *load = p->load;
@@ -94,7 +91,6 @@ typedef struct sought {
     int negative; /* number of negative pivots at `from` */
 } sought;
 
-/* Returns 1 if the indicator of the critical point has its initial value at the trial point. */
 static int is_before(const continuation *p, const sought *s)
 {
     if (s->by_rate)
@@ -114,7 +110,6 @@ static double control_of(const continuation *p)
     return kinematics_component(p->c->model, p->n.state, p->by->node, p->by->component);
 }
 
-/* Stores the trial point if its eigenvalue has the largest magnitude so far. */
 static void keep_apart(continuation *p, int by_rate, double eigenvalue, apart *a)
 {
     if (by_rate && isnan(a->eigenvalue) && p->trial.symmetric)
@@ -136,7 +131,6 @@ static status try_at(continuation *p, path_goal goal, const sought *s, bound *b,
     TRY(continuation_step_look(p, p->moved, &p->trial, &record, f));
     *before = is_before(p, s);
     b->value = s->by_rate ? p->trial.rate : least_of(p, &p->trial);
-    /* The eigenvalue nearest to zero may belong to another mode, whose sign is irrelevant. */
     const int falls =
         p->here.negative < 0 ? p->here.determinant > 0 : p->next.negative > s->negative;
     if (!s->by_rate && (b->value > 0) != (*before == falls))
@@ -144,8 +138,6 @@ static status try_at(continuation *p, path_goal goal, const sought *s, bound *b,
     return STATUS_OK;
 }
 
-/* Returns the next fraction to be examined: the secant with Illinois weights if both values are
- * known, otherwise the midpoint. */
 static double next_part(const bound *low, const bound *high)
 {
     const double width = high->at - low->at;
@@ -222,9 +214,7 @@ static int is_pair(const continuation *p, const sought *s)
            p->next.negative >= 0;
 }
 
-/* Returns 1 if a node is fixed about some axes and free about others. The tangent does not contain
- * the moment of the support of such a node, so a pair that passes near zero may in reality pass
- * through zero. */
+/* Returns 1 if a node is fixed about some axes and free about others. */
 static int holds_some_turns(const model *m)
 {
     const scene *s = model_scene(m);
@@ -238,7 +228,6 @@ static int holds_some_turns(const model *m)
     return 0;
 }
 
-/* Continues the search *s after the pair, whose crossing is not a critical point. */
 static status pass_pair(continuation *p, path_goal goal, sought *s, double behind, int *jump,
                         fault *f)
 {
@@ -269,7 +258,6 @@ static void estimate_rounding(continuation *p, const apart *away, path_event *e)
         (e->kind == EVENT_LIMIT_POINT ? part * part : part) * fabs(away->factor - e->factor);
 }
 
-/* Reports the critical point inside the step as an event, and continues the search *s after it. */
 static status report_critical(continuation *p, path_goal goal, sought *s, int *jump, fault *f)
 {
     double behind = 1;
@@ -304,7 +292,6 @@ static status report_critical(continuation *p, path_goal goal, sought *s, int *j
     return *jump ? STATUS_OK : history_add_event(p->c->result, &event, f);
 }
 
-/* Reports all critical points in order. */
 static status report_all(continuation *p, path_goal goal, int by_rate, int *jump, fault *f)
 {
     sought s = {by_rate, 0, p->here.negative};
@@ -356,8 +343,6 @@ static int turns_back(const path_point *a, const path_point *b, const path_point
            b->negative > (a->negative > c->negative ? a : c)->negative;
 }
 
-/* Examines the state after every sixth of the step. A loss of stability over a fifth of the step
- * contains one of these states. */
 static status look_within(continuation *p, path_goal goal, int *hidden, fault *f)
 {
     double value[PARTS + 1] = {p->here.least, [PARTS] = p->next.least};

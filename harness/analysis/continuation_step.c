@@ -10,7 +10,6 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-/* Returns 1 if a curve of coordinates is requested, for which the states of all points are kept. */
 static int continuation_extract_keeps_states(const scene *, int analysis);
 
 status continuation_step_alloc(analysis_context *c, int analysis, outcome_continuation *o,
@@ -84,14 +83,12 @@ static double control_value(const continuation *p)
     return kinematics_component(p->c->model, p->n.state, p->by->node, p->by->component);
 }
 
-/* Returns the residual of the constraint. */
 static double residual_of(const continuation *p, path_goal goal)
 {
     return goal.value -
            (goal.by_arc ? continuation_step_dot(p, p->here.tangent, p->moved) : control_value(p));
 }
 
-/* Returns the change of the constraint due to an increment of the coordinates. */
 static double change_of(const continuation *p, path_goal goal, const double dx[])
 {
     if (goal.by_arc)
@@ -158,7 +155,6 @@ static status index_of(continuation *p, path_point *out, fault *f)
     return STATUS_OK;
 }
 
-/* Fills the point from response = K^-1 f'. */
 static status point_of(continuation *p, const double along[], path_point *out,
                        const step_record *record, fault *f)
 {
@@ -211,8 +207,6 @@ void continuation_step_go_back(continuation *p)
     p->looked = 0;
 }
 
-/* Quantities of a continued path. */
-
 static int continuation_extract_keeps_states(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++) {
@@ -223,7 +217,6 @@ static int continuation_extract_keeps_states(const scene *s, int analysis)
     return 0;
 }
 
-/* Stores the load factor or a coordinate at every point as a function of the control coordinate. */
 static void take_curve(const analysis_context *c, const scene_quantity *q,
                        const analysis_outcome *o, quantity_result *r)
 {

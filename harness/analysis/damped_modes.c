@@ -120,7 +120,6 @@ static status damped_frequencies(vibration *v, double below, int *count, double 
     return outcome;
 }
 
-/* Returns 1 if the growth is larger than rounding. */
 static int grows(const vibration *v, const unsymmetric_result *r, int i)
 {
     return r->growth[i] > (v->about != NULL ? 1e-7 : 1e-9) * r->frequency[i];
@@ -276,7 +275,6 @@ static status find_modes_with(vibration *v, const sparse *const of[], matrix_fac
                            closed != NULL ? "; if there is feedback, use fewer elements" : "");
 }
 
-/* Removes the integrals of the loops from the modes. */
 static void shorten(unsymmetric_result *r, int n)
 {
     for (int i = 1; i < r->count && n < r->n; i++)

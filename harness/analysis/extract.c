@@ -37,7 +37,6 @@ static int is_turned(const scene *s, int node, int component, fault *f)
     return 0;
 }
 
-/* Returns 1 if all rotations that the quantity reads are defined. */
 static int is_defined(const scene *s, const scene_quantity *q, fault *f)
 {
     const quantity_type *type = quantity_type_of(q);
@@ -62,8 +61,6 @@ static int has_energy(const analysis_context *c, const scene_quantity *q, fault 
     return 0;
 }
 
-/* Sets the value to that at full load, about the undeformed state, for a load case or combination.
- */
 static void under_one(const analysis_context *c, const scene_quantity *q, const analysis_outcome *o,
                       int acting, quantity_result *r)
 {
@@ -88,8 +85,6 @@ static void under_one(const analysis_context *c, const scene_quantity *q, const 
     free(sigma);
 }
 
-/* Sets the value to that of the governing load case or combination, which is named in the result.
- * */
 static void from_envelope(const analysis_context *c, const scene_quantity *q,
                           const analysis_outcome *o, quantity_result *r)
 {
@@ -122,7 +117,6 @@ static void from_linear(const analysis_context *c, const scene_quantity *q,
                   r);
 }
 
-/* Returns 1 if a failed analysis has left results. */
 static int has_anything(const analysis_outcome *o)
 {
     if (o->kind == SCENE_CONTINUATION && outcome_continuation_of(o)->points > 0)
@@ -142,8 +136,7 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
     const analysis_outcome *o = &c->outcomes[q->analysis];
     fault f = {""};
     memset(r, 0, sizeof *r);
-    if (q->what.kind ==
-        SCENE_ENVELOPE_OF) /* solve.c computes this quantity later, from other values */
+    if (q->what.kind == SCENE_ENVELOPE_OF)
         return;
     if (!is_defined(c->scene, q, &f) || !has_energy(c, q, &f)) {
         quantity_no_value(r, STATUS_REFUSED, f.text);
@@ -190,13 +183,11 @@ void extract_quantity(const analysis_context *c, const scene_quantity *q, quanti
                           "the value is NaN or Inf; check stiffnesses, loads and units");
 }
 
-/* Stores value i of a side, or the reason why the value does not exist. */
 static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, int i,
                             quantity_result *r)
 {
     const quantity_eigenvalue found = {side->value[i], side->growth != NULL ? -side->growth[i] : 0};
     const double size = hypot(found.decay, found.value);
-    /* a larger error does not allow the conclusion that damping is zero */
     const double undamped = 1e-4;
     double part;
     if (isnan(found.value)) {
@@ -208,7 +199,7 @@ static void take_eigenvalue(const scene_quantity *q, const outcome_side *side, i
     if (side->growth != NULL && part == 0 && found.decay == 0 && r->rounding > undamped)
         quantity_no_value(r, STATUS_NOT_CONVERGED,
                           "the damping is lost in round-off; use fewer elements");
-    if (side->growth != NULL) /* the error refers to the complex eigenvalue */
+    if (side->growth != NULL)
         r->rounding = part != 0 ? r->rounding * size / fabs(part) : 0;
 }
 

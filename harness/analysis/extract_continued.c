@@ -1,5 +1,4 @@
-/* Quantities of a motion that continues the motion of another run. That run is not repeated, so
- * only its last state is known. */
+/* Quantities of a motion that continues the motion of another run. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>

@@ -55,7 +55,6 @@ static double growth_of(const analysis_context *c, const rotation_modes *modes, 
     return known(c, growth, modes->error[largest] * size / growth, "the growth rate", r);
 }
 
-/* Returns the modes at a station; NULL: no quantity requested modes. */
 static const rotation_modes *modes_at(const analysis_outcome *o, int i)
 {
     rotation_modes *const modes = outcome_rotation_of(o)->modes;
@@ -148,7 +147,6 @@ static double bound_at(const analysis_context *c, const scene_quantity *q,
                : 0;
 }
 
-/* Returns the error relative to the value; 0 if the error or the value is zero. */
 static double relative(double error, double value)
 {
     return value != 0 ? error / fabs(value) : 0;
@@ -188,7 +186,6 @@ static void take_curve(const analysis_context *c, const scene_quantity *q,
     check_rate(q, largest, r);
 }
 
-/* Computes the spectrum from the stations of a window. */
 static void take_spectrum(const analysis_context *c, const scene_quantity *q,
                           const analysis_outcome *o, quantity_result *r)
 {
@@ -236,7 +233,7 @@ static void path_ends(const analysis_context *c, const scene_quantity *q, const 
 }
 
 /* Returns 1 if the quantity is evaluated at the station: at the requested station, otherwise at the
- * last one. Maxima and minima, which need all stations, are not considered. */
+ * last one. */
 static int is_taken_at(const scene_quantity *q, int stations, const double path[], int station)
 {
     if (q->reduction == SCENE_AT)
@@ -244,7 +241,6 @@ static int is_taken_at(const scene_quantity *q, int stations, const double path[
     return station == stations - 1;
 }
 
-/* Returns 1 if a quantity that is not a curve needs the station. */
 static int takes_station(const scene_quantity *q, int stations, const double path[], int station)
 {
     return q->reduction == SCENE_MAX || q->reduction == SCENE_MIN ||
@@ -269,7 +265,7 @@ int extract_path_needs(const analysis_context *c, int analysis, int stations, co
     return !c->options->values_only || extract_path_has(c, analysis, stations, path, station);
 }
 
-extern const quantity_type quantity_hinge; /* angles of releases are stored with the elements */
+extern const quantity_type quantity_hinge;
 
 /* Returns 1 if an analysis that follows the path starts from this state. */
 static int begins_with(const analysis_context *c, int analysis, int path, int station)
@@ -306,8 +302,7 @@ int extract_path_whole(const analysis_context *c, int analysis, int station)
     return 0;
 }
 
-/* Evaluates a quantity of a motion between its stations. A crossing that was found remains valid if
- * the motion fails later. */
+/* Evaluates a quantity of a motion between its stations. */
 static void extract_passing(const analysis_context *c, const scene_quantity *q,
                             const analysis_outcome *o, quantity_result *r)
 {
@@ -356,7 +351,6 @@ static void extract_peak(const scene_quantity *q, const outcome_peak *peak, quan
     r->x = quantity_abscissa(q, peak->hertz);
 }
 
-/* Records in the meaning of a response that a feedback loop is closed. */
 static void take_loops(const analysis_context *c, const scene_quantity *q, quantity_result *r)
 {
     for (int i = 0; q->what.kind == SCENE_RESPONSE && i < c->scene->loads; i++)

@@ -161,7 +161,7 @@ static status flutter_check_here(flutter_check *j, step_record *record, fault *f
     record->negative_pivots = -1;
     if (factored == STATUS_FAULT)
         return fault_set(f, factored, "%s", why.text);
-    if (factored != STATUS_OK) /* the matrix is singular, and the stability remains open */
+    if (factored != STATUS_OK)
         return STATUS_OK;
     record->negative_pivots = at.negative_pivots;
     if (at.negative_pivots >= 0)

@@ -1,8 +1,7 @@
-/* Search for the path parameter at which stability is lost. The path is followed from 0 in steps in
- * which all frequencies change little. If two frequencies approach each other, flutter is sought
- * between the stations. Bisection narrows the interval between the last stable and the first
- * unstable station. Interpolation follows on the unstable side, where the square of the imaginary
- * part of s^2 (flutter), s^2 (divergence) or s (with damping) is smooth. */
+/* Search for the path parameter at which stability is lost. Bisection narrows the interval between
+ * the last stable and the first unstable station. Interpolation follows on the unstable side, where
+ * the square of the imaginary part of s^2 (flutter), s^2 (divergence) or s (with damping) is
+ * smooth. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -87,8 +86,7 @@ static void describe(search *s, const unsymmetric_result *r, station *out)
                                                      : rate * rate;
 }
 
-/* Computes the station at `path`, starting from the stored state. STATUS_SINGULAR: the tangent is
- * singular. significant 1: growth within rounding is ignored. */
+/* STATUS_SINGULAR: the tangent is singular. significant 1: growth within rounding is ignored. */
 static status look_closely(search *s, double path, int significant, station *out, fault *f)
 {
     newton_run *n = s->n;
@@ -160,8 +158,6 @@ static double vertex(const station *a, const station *b, const station *c, int i
     return at > a->path && at < c->path && least < 0.1 * fmin(fa, fmin(fb, fc)) ? at : NAN;
 }
 
-/* Searches for flutter between the stable stations a, b and c. If flutter is found, s->next is its
- * station. */
 static status look_between(search *s, station a, station b, station c, int i, fault *f)
 {
     for (int trials = 0; trials < MAX_TRIALS; trials++) {
@@ -190,14 +186,12 @@ static status look_between(search *s, station a, station b, station c, int i, fa
     return STATUS_OK;
 }
 
-/* Reports that there is no critical load up to `last`, and the reason why the search ends there. */
 static status is_lost(const search *s, const char *why, fault *f)
 {
     return fault_set(f, STATUS_NOT_CONVERGED, "no critical load from path 0 to %g; beyond this, %s",
                      s->last.path, why);
 }
 
-/* Checks that the growth at `next` is larger than rounding. */
 static status confirm(search *s, fault *f)
 {
     station again;
@@ -278,7 +272,6 @@ static double extrapolate(int points, const double p[], const double g[])
     return line + g[0] * g[1] * bend;
 }
 
-/* Narrows the interval between the last stable station and the next unstable station. */
 static status close_in(search *s, flutter_point *out, fault *f)
 {
     double p[POINTS] = {0}, g[POINTS] = {0}, low = s->last.path, estimate = NAN, apart = INFINITY;

@@ -84,7 +84,6 @@ static void solve_by_modes(vibration *v, const scene_response *r, double w, doub
         harmonic_modes_solve(v, left, v->loops > 0 ? v->dual : x);
 }
 
-/* Solves for the input of a quantity. */
 static status solve_own_input(vibration *v, int quantity, double w, fault *f)
 {
     const scene *s = v->c->scene;
@@ -99,8 +98,6 @@ static status solve_own_input(vibration *v, int quantity, double w, fault *f)
     return STATUS_OK;
 }
 
-/* Sets the solution for the input of a quantity. If an earlier quantity has the same input, its
- * solution is used. */
 static status solve_input(vibration *v, int quantity, double w, fault *f)
 {
     const scene *s = v->c->scene;
@@ -184,7 +181,7 @@ static status respond_at(vibration *v, int quantity, double sign, double hertz, 
     const int amplitude = v->c->scene->quantity[quantity].what.of.response.part == SCENE_AMPLITUDE;
     *out = (outcome_peak){.hertz = hertz};
     const status factored = factor_at(v, hertz, f);
-    if (factored == STATUS_SINGULAR) { /* the frequency is an undamped resonance */
+    if (factored == STATUS_SINGULAR) {
         out->value = amplitude ? INFINITY : sign * INFINITY;
         return STATUS_OK;
     }
@@ -332,8 +329,6 @@ status harmonic_analysis(analysis_context *c, int analysis, analysis_outcome *o,
     return outcome;
 }
 
-/* Returns the largest difference between two solutions for a response, relative to the largest
- * value of the first solution, or in radians for a phase. */
 static double apart(const vibration *v, int quantity, const outcome_harmonic *a,
                     const outcome_harmonic *b)
 {
@@ -356,7 +351,7 @@ status harmonic_inside(analysis_context *c, int analysis, double *error, int *qu
     analysis_outcome o = {.kind = SCENE_HARMONIC};
     const counters before = c->run->counters;
     const status outcome = solve(&v, &o.left.harmonic, f);
-    c->run->counters = before; /* this solution is not counted as work */
+    c->run->counters = before;
     for (int i = 0; outcome == STATUS_OK && i < c->scene->quantities; i++) {
         if (!scene_requests(&c->scene->quantity[i], analysis, SCENE_RESPONSE))
             continue;

@@ -57,7 +57,6 @@ static double scaled_size(const harmonic_modes *m, int loop, int part)
     return sqrt(sum);
 }
 
-/* Adds the scaled row and column of loop l to the matrix m->closed. */
 static void put_loop(const vibration *v, int l)
 {
     harmonic_modes *m = v->modes;

@@ -81,8 +81,6 @@ static status is_pole(extreme_search *s, double hertz, int *pole, fault *f)
     return STATUS_OK;
 }
 
-/* Searches between two frequencies. Excludes the singular frequencies whose modes do not contribute
- * to the response. */
 static status find_between(extreme_search *s, double low, double high, outcome_peak *best, fault *f)
 {
     for (int pole = 0;;) {
@@ -95,9 +93,7 @@ static status find_between(extreme_search *s, double low, double high, outcome_p
     }
 }
 
-/* Frequencies at which a search for extremes starts. They are the frequencies of the analysis, some
- * on both sides of each natural frequency at distances below the width of any peak, and some
- * between natural frequencies, where responses have minima. */
+/* Frequencies at which a search for extremes starts. */
 typedef struct samples {
     int count;
     double *hertz, *value;
@@ -114,7 +110,6 @@ static void samples_free(samples *s)
     free(s->station);
 }
 
-/* Inserts a frequency in ascending order, unless it is already in the list. */
 static void insert(samples *s, double hertz, int station)
 {
     int at = s->count;

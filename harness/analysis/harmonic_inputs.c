@@ -53,7 +53,7 @@ status harmonic_input(const vibration *v, const scene_response *r, double w, dou
         return STATUS_OK;
     }
     if (r->reference != SCENE_NONE) {
-        const control_loop *loop = loops_of(v, r->reference); /* checked in response.c */
+        const control_loop *loop = loops_of(v, r->reference);
         x[v->all + (loop - v->loop)] = loops_gain(loop, w, &own);
         return STATUS_OK;
     }
@@ -104,7 +104,7 @@ status harmonic_reacting(const vibration *v, const scene_response *r, int *out, 
     scene_node_axes(&s->node[r->node], R);
     *out = -1;
     for (int k = 0; k < count; k++) {
-        double moved = 0; /* the motion is along the support axes of the node */
+        double moved = 0;
         for (int i = 0; i < 3; i++)
             moved += R[3 * i + r->component % 3] * T[(first + i) * count + k];
         if (fabs(moved) > rounding)
@@ -117,7 +117,7 @@ status harmonic_reacting(const vibration *v, const scene_response *r, int *out, 
         for (int k = 0; k < 3; k++)
             nodes += (s->node[i].translation[k] == driver) + (s->node[i].angle[k] == driver) +
                      2 * (model_vertex(v->c->model, i)->vector_driver[k] == driver);
-    for (int i = 0; i < 6 * s->nodes && driver != SCENE_NONE; i++) /* coordinates that follow it */
+    for (int i = 0; i < 6 * s->nodes && driver != SCENE_NONE; i++)
         nodes += model_tie(v->c->model, i / 6, i % 6) != NULL &&
                  model_vertex(v->c->model, i / 6)->coordinate[i % 6] == *out;
     if (driver == SCENE_NONE)
@@ -214,15 +214,13 @@ static int shapes_of_motion(const vibration *v, int c, double out[])
     return HARMONIC_SHAPES_OF_MOTION;
 }
 
-/* Copies the real part of v->output to out[free]. */
 static void take_shape(const vibration *v, double out[])
 {
     for (int k = 0; k < v->free; k++)
         out[k] = creal(v->output[k]);
 }
 
-/* Sets the forces of an input, and returns their number. The forces at any frequency are
- * combinations of these forces. */
+/* Sets the forces of an input, and returns their number. */
 static int shapes_of_input(vibration *v, const scene_response *r, double out[])
 {
     const size_t n = (size_t)v->free;

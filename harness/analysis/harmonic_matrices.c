@@ -65,8 +65,8 @@ static status tangent_of(vibration *v, const analysis_outcome *o, fault *f)
     return linearise_state(&c->eq, &c->run->memory, v->state, &lin, f);
 }
 
-/* Computes K, and C with all effects of rates, about a state during a motion, for all coordinates.
- * G: work space. */
+/* Computes K, and C with all effects of rates, about a state during a motion, for all
+ * coordinates. */
 static status small_motions(const vibration *v, sparse *K, sparse *C, sparse *G, fault *f)
 {
     const outcome_about *about = v->about;
@@ -112,7 +112,6 @@ static status instant_of(vibration *v, int whole, const analysis_outcome *o, fau
     return outcome;
 }
 
-/* Computes the damping matrix C. */
 static status damping_of(vibration *v, fault *f)
 {
     analysis_context *c = v->c;
@@ -156,7 +155,6 @@ status harmonic_matrices(vibration *v, int whole, fault *f)
     } else {
         TRY(tangent_of(v, &c->outcomes[follows], f));
     }
-    /* about such a state, B is not needed and temporarily contains the Coriolis forces */
     sparse *G = v->rotates ? &v->B : NULL;
     TRY(rotating_frame_inertia(&c->eq, v->state, kinematics_state_path(v->state), &v->M, G, f));
     TRY(damping_of(v, f));

@@ -94,7 +94,6 @@ static void whole(const sparse *a, double D[])
             D[(size_t)a->row[k] * n + j] = D[j * n + (size_t)a->row[k]] = a->value[k];
 }
 
-/* Computes all modes in ascending order of frequency, including those without mass. */
 static status all_modes(vibration *v, harmonic_modes *m, fault *f)
 {
     const size_t n = (size_t)m->n;
@@ -115,7 +114,7 @@ static status all_modes(vibration *v, harmonic_modes *m, fault *f)
     }
     const double none = 16 * (double)n * sqrt((double)n) * DBL_EPSILON;
     for (size_t i = 0; info == 0 && i < n; i++) {
-        const size_t from = n - 1 - i; /* sorts in ascending order */
+        const size_t from = n - 1 - i;
         memcpy(m->V + i * n, x + from * n, n * sizeof *x);
         m->square[i] = mu[from] > none * mu[n - 1] ? 1 / mu[from] : INFINITY;
     }
@@ -132,7 +131,6 @@ static status all_modes(vibration *v, harmonic_modes *m, fault *f)
                                     m->n, info);
 }
 
-/* Computes the first modes and the frequency of the next one. */
 static status first_modes(vibration *v, harmonic_modes *m, int wanted, fault *f)
 {
     const size_t n = (size_t)m->n;

@@ -139,7 +139,6 @@ static status couplings(vibration *v, harmonic_modes *m, double *X[2], fault *f)
     return outcome;
 }
 
-/* Adds V^T U U^T V of the damping ratios to Cp. */
 static void add_ratios(harmonic_modes *m)
 {
     const size_t n = (size_t)m->n, count = (size_t)m->count;
@@ -294,7 +293,7 @@ status harmonic_modes_factor(vibration *v, double w, fault *f)
     for (size_t i = 0; i < count; i++)
         for (size_t j = 0; j < count; j++)
             m->D[i * count + j] = m->scale[i] * m->scale[j] * projected(v, m, w, i * count + j);
-    for (size_t i = 0; i < count && v->loops > 0; i++) /* harmonic_closed.c adds the loops */
+    for (size_t i = 0; i < count && v->loops > 0; i++)
         memcpy(m->closed + i * (count + (size_t)v->loops), m->D + i * count, count * sizeof *m->D);
     m->positive = m->complete ? 1 : positive_part(v, m, w);
     if (!(m->positive > 0))

@@ -14,7 +14,7 @@ int imperfection_modes(const scene *s, int analysis)
     for (int i = 0; i < s->imperfections; i++) {
         const scene_imperfection *p = &s->imperfection[i];
         if (p->analysis == analysis && p->order + 3 > wanted)
-            wanted = p->order + 3; /* two more modes are needed to detect equal modes */
+            wanted = p->order + 3;
     }
     return wanted;
 }
@@ -70,8 +70,6 @@ static void name_mode(const scene *s, const scene_imperfection *p, char text[FAU
              scene_called(s, SCENE_ANALYSES, p->analysis).text);
 }
 
-/* Sets out[free] to the mode. Of two equal modes, uses the combination along the requested
- * direction. */
 static status mode_of(const analysis_context *c, int index, double out[], fault *f)
 {
     const scene_imperfection *p = &c->scene->imperfection[index];
@@ -120,9 +118,9 @@ static status mode_of(const analysis_context *c, int index, double out[], fault 
                              owner_name.text, same.mode[0], same.mode[1]);
 }
 
-/* Returns the sign, 1 or -1, for which the shift is along the requested direction; 0: the shift is
- * normal to this direction. If no direction is given, the largest component of the shift becomes
- * positive. */
+/* Returns the sign, 1 or -1, for which the largest displacement of the shift is along the requested
+ * direction; 0: it is perpendicular to this direction. If no direction is given, the largest
+ * component of the shift becomes positive. */
 static double sign_of(const scene_imperfection *p, const double shift[3])
 {
     const double least = 1e-6, size = vec3_norm(shift), along = vec3_dot(shift, p->direction);
@@ -135,7 +133,6 @@ static double sign_of(const scene_imperfection *p, const double shift[3])
     return copysign(1, shift[k]);
 }
 
-/* Adds the mode times its amplitude to x. */
 static status add_mode(const analysis_context *c, int index, double mode[], double x[], fault *f)
 {
     const scene_imperfection *p = &c->scene->imperfection[index];

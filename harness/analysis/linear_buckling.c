@@ -48,7 +48,6 @@ static status solutions_alloc(const analysis_context *c, int analysis, outcome_l
                         : fault_set(f, STATUS_FAULT, "out of memory for a linear solution");
 }
 
-/* Solves for the displacements. The caller linear_analysis() frees *s, even after a failure. */
 static status displace(analysis_context *c, int analysis, linear_system *s, outcome_linear *l,
                        fault *f)
 {
@@ -179,7 +178,6 @@ static status split_constant(analysis_context *c, linear_system *s, prestresses 
     return factored;
 }
 
-/* Computes the linear solution, its stresses and their geometric stiffness. */
 static status prestress(analysis_context *c, linear_system *s, prestresses *p, fault *f)
 {
     if (!s->K.symmetric)
@@ -207,7 +205,6 @@ typedef struct buckling {
     eigen_result found;
 } buckling;
 
-/* Frees everything except the results. */
 static void buckling_free(buckling *b)
 {
     linear_system_free(&b->system);
@@ -218,7 +215,6 @@ static void buckling_free(buckling *b)
     free(b->of.product);
 }
 
-/* Solves the eigenvalue problem. The caller buckling_analysis() frees *b, even after a failure. */
 static status solve(analysis_context *c, int analysis, buckling *b, fault *f)
 {
     TRY(linear_system_alloc(c, &b->system, f));
@@ -254,11 +250,10 @@ static int only_turns(const analysis_context *c, const eigen_side *side, int i)
     return part < no_shift;
 }
 
-/* Solves the same problem on a mesh with half the element length. */
 static status solve_halved(const analysis_context *c, int analysis, eigen_result *found, fault *f)
 {
     model *halved = NULL;
-    run_state run = {0}; /* this work is not counted */
+    run_state run = {0};
     context_work work = {0};
     buckling b = {0};
     status result = model_halved(c->model, &halved, f);

@@ -33,7 +33,6 @@ static const double wanted_error = 1e-9;
  * determines the stability */
 static const double closest = 1e-5;
 
-/* Sets *state to the followed state, which is the end of a computed static path. */
 static status followed_state(const analysis_context *c, int analysis, const model_state **state,
                              fault *f)
 {
@@ -107,7 +106,6 @@ static status unsymmetric_frequencies(analysis_context *c, int analysis, newton_
     return outcome;
 }
 
-/* Finds the frequencies. The caller loaded_modal() frees *n, *M and *e, even after a failure. */
 static status frequencies(analysis_context *c, int analysis, newton_run *n, sparse *M,
                           eigen_result *e, outcome_spectrum *out, fault *f)
 {
@@ -139,7 +137,7 @@ status loaded_modal(analysis_context *c, int analysis, analysis_outcome *o, faul
     const status result = frequencies(c, analysis, &n, &M, &e, &o->left.spectrum, f);
     for (int i = 0; i < e.positive.count; i++) {
         e.positive.mu[i] = 1 / sqrt(e.positive.mu[i]);
-        e.positive.error[i] /= 2; /* relative error of the square root */
+        e.positive.error[i] /= 2;
     }
     if (e.positive.mu != NULL)
         outcome_take(&e.positive, &o->left.spectrum.positive);
@@ -163,10 +161,8 @@ typedef struct loaded_search {
     double noise; /* bound of the rounding error of sigma[0] */
     /* unstable: smallest path parameter that is known to be beyond the critical point */
     double estimate, change, unstable;
-    int wanted;  /* number of loads requested */
+    int wanted;
     double size; /* length of the path so far */
-    /* predicted distance from the start to the first critical point, from the rate of K at the
-     * start; INFINITY: none */
     double predicted;
     double farthest; /* path parameter at which the search ends */
     double rate; /* distance between the last two stable states, divided by the difference of their
@@ -236,7 +232,6 @@ static void search_free(loaded_search *s)
     eigen_free(&s->found);
 }
 
-/* Computes the bound of the rounding error of sigma in Newton's current state. */
 static status find_noise(loaded_search *s, fault *f)
 {
     const newton_run *n = &s->n;
@@ -293,7 +288,6 @@ static status take_state(loaded_search *s, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the equilibrium at `path`, and factors its tangent. */
 static status tangent_at_path(loaded_search *s, double path, fault *f)
 {
     step_record unused = {0};
@@ -319,9 +313,9 @@ static status go_to(loaded_search *s, double path, int *stable, fault *f)
     const status outcome = tangent_at_path(s, path, f);
     *stable = outcome == STATUS_OK && factor_count(s->n.factor).negative_pivots == 0;
     s->lost = outcome == STATUS_NOT_CONVERGED;
-    if (outcome != STATUS_OK && outcome != STATUS_SINGULAR && !s->lost) /* singular: critical */
+    if (outcome != STATUS_OK && outcome != STATUS_SINGULAR && !s->lost)
         return outcome;
-    if (outcome == STATUS_OK) { /* a distant unstable state may belong to another path */
+    if (outcome == STATUS_OK) {
         const double rate = rate_to(s, path);
         s->lost = s->rate > 0 && rate > steepest * s->rate && rate * (path - s->p[0]) > at_rest;
         *stable &= !s->lost;
@@ -386,8 +380,6 @@ static status predict(loaded_search *s, double step, sparse *A, fault *f)
     return outcome == STATUS_FAULT ? outcome : STATUS_OK;
 }
 
-/* Predicts the distance in two steps. The second step is small relative to the prediction of the
- * first step, so the scale of the path need not be known. */
 static status predict_twice(loaded_search *s, fault *f)
 {
     const double small = 1e-3;
@@ -478,7 +470,6 @@ typedef struct loads_found {
     double *value, *error;
 } loads_found;
 
-/* Adds loads until their number equals the number of negative eigenvalues or of requested loads. */
 static void add_loads(const loaded_search *s, int negative, double value, double error,
                       loads_found *out)
 {
@@ -584,7 +575,6 @@ static status find_more(loaded_search *s, loads_found *out, fault *f)
     return STATUS_OK;
 }
 
-/* Moves the loads, and the modes of the first load, to the outcome. */
 static status store_results(loaded_search *s, outcome_side *out, fault *f)
 {
     const size_t n = (size_t)s->n.free, wanted = (size_t)s->wanted;
@@ -688,7 +678,6 @@ static status find_without_potential(analysis_context *c, loaded_search *s, outc
     return STATUS_OK;
 }
 
-/* Runs the search. The caller loaded_buckling() frees *s, even after a failure. */
 static status run(analysis_context *c, int analysis, loaded_search *s, outcome_spectrum *out,
                   fault *f)
 {

@@ -80,7 +80,6 @@ double complex loops_gain(const control_loop *l, double w, double complex *own)
 
 enum { CLOSED = 4 }; /* K, M, C, B */
 
-/* A full column of all four matrices. */
 typedef struct full_column {
     int n, rows;
     int *row;      /* [n] */
@@ -111,7 +110,7 @@ static void add_loops(const vibration *v, int n, int j, full_column *c)
             }
         if (!loop->integrates)
             continue;
-        if (measured != 0) /* equation z' + S^T x = 0, with the forces Ki P z */
+        if (measured != 0)
             add(c, 0, at, measured);
         for (int i = 0; i < n && j == at; i++)
             if (loop->push[i] != 0)
@@ -127,7 +126,6 @@ static int ascending(const void *a, const void *b)
     return *(const int *)a - *(const int *)b;
 }
 
-/* Appends the column to the matrices, whose capacity must be sufficient. */
 static void append(full_column *c, int j, sparse to[])
 {
     qsort(c->row, (size_t)c->rows, sizeof *c->row, ascending);

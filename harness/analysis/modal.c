@@ -75,10 +75,6 @@ static void stiffness_product(void *context, const double mode[], double y[])
         add_product(f, &f->M, f->shift, mode, y);
 }
 
-/* Returns the eigenvalue lambda of a mode x with x^T (K + shift M) x = 1. lambda is the positive
- * root of x^T K x = lambda x^T M x + lambda^2 x^T B x, where B describes the motions inside
- * elements (field/field.h). B is omitted if there are stresses, because stresses would also act on
- * these motions. A value below the rounding error of the shift is a rigid-body mode. */
 static double eigenvalue(modal_forms *about, double mu, const double mode[])
 {
     const double square = 1 / mu - about->shift;
@@ -106,7 +102,7 @@ static void keep(modal_forms *about, eigen_side *side, analysis_outcome *o)
     const int n = about->of.free;
     for (int i = 0; i < side->count; i++) {
         side->mu[i] = sqrt(eigenvalue(about, side->mu[i], side->mode + (size_t)i * (size_t)n));
-        side->error[i] /= 2; /* relative error of the square root */
+        side->error[i] /= 2;
         for (int k = i; k > 0 && side->mu[k] < side->mu[k - 1]; k--) {
             swap(&side->mu[k - 1], &side->mu[k], 1);
             swap(&side->error[k - 1], &side->error[k], 1);
@@ -127,7 +123,6 @@ static status explain_massless(analysis_context *c, fault *f)
     return singular_mechanism(c, STATUS_SINGULAR, f);
 }
 
-/* Adds shift M to K of a free structure, which would be singular. */
 static status shifted_system(analysis_context *c, linear_system *s, const sparse *M, double *shift,
                              fault *f)
 {
@@ -185,7 +180,6 @@ static status add_strains(const analysis_context *c, linear_system *s, modal_for
     return add_stresses(&unloaded, 0, s, about, f);
 }
 
-/* Assembles M and the factored K. K of a free structure is shifted. */
 static status assemble(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                        fault *f)
 {
@@ -213,7 +207,6 @@ static status assemble(analysis_context *c, int analysis, linear_system *s, moda
     return STATUS_OK;
 }
 
-/* Finds the modes. The caller modal_analysis() frees *s, *about and *e, even after a failure. */
 static status solve(analysis_context *c, int analysis, linear_system *s, modal_forms *about,
                     eigen_result *e, fault *f)
 {

@@ -124,8 +124,6 @@ static int is_same(const unsymmetric_result *r, int i, int k)
            part > (1 - same) * size;
 }
 
-/* Refines the slow poles, which lose digits because of the shift. closed: matrices without the
- * shift. */
 static status refine_slow(const sparse closed[], double shift, unsymmetric_result *r, fault *f)
 {
     const double slow = 1e-2 * shift;

@@ -46,7 +46,6 @@ static int factor_just_at(refinement *t, double complex s)
     return LAPACKE_zgetrf(LAPACK_COL_MAJOR, t->n, t->n, t->D, t->n, t->order) == 0;
 }
 
-/* Factors D at s, or at a value next to s if s is exactly a pole. */
 static int factor_at(refinement *t, double complex s)
 {
     return factor_just_at(t, s) || factor_just_at(t, s * (1 + 8 * DBL_EPSILON));

@@ -101,7 +101,6 @@ static status linearise(analysis_context *c, const model_state *state, matrices 
     return context_symmetric(a->factor, "frequencies in a rotating frame", f);
 }
 
-/* Sets the frequencies and families of the computed modes. */
 static status identify(analysis_context *c, const gyroscopic_result *r, double mode[],
                        rotation_modes *out, fault *f)
 {
@@ -156,9 +155,7 @@ static int needs_modes(const analysis_context *c, int analysis, int elsewhere)
     return 0;
 }
 
-/* Returns 1 if the modes of a station are needed. If the modes of a station before the last are
- * needed, the modes of all stations are needed, because growth is reported at the first station
- * where it occurs. */
+/* Returns 1 if the modes of a station are needed. */
 static int are_wanted_at(const analysis_context *c, int analysis, const outcome_path *path,
                          int station)
 {
@@ -167,7 +164,6 @@ static int are_wanted_at(const analysis_context *c, int analysis, const outcome_
     return station == path->stations - 1 || needs_modes(c, analysis, 1);
 }
 
-/* Returns the initial number of modes to be computed. */
 static int modes_wanted(const analysis_context *c, int analysis)
 {
     int wanted = scene_walk_of(&c->scene->analysis[analysis])->modes;
@@ -179,7 +175,6 @@ static int modes_wanted(const analysis_context *c, int analysis)
     return wanted + OTHERS;
 }
 
-/* Returns 1 if there is a mode for every quantity of the analysis. */
 static int is_enough(const analysis_context *c, int analysis, const rotation_modes *modes)
 {
     for (int i = 0; i < c->scene->quantities; i++) {
@@ -195,7 +190,6 @@ static int is_enough(const analysis_context *c, int analysis, const rotation_mod
     return 1;
 }
 
-/* Finds the modes. The caller try_modes() frees *result, even after a failure. */
 static status find_modes(analysis_context *c, const gyroscopic_problem *problem,
                          gyroscopic_result *result, rotation_modes *out, fault *f)
 {
@@ -219,8 +213,6 @@ static status try_modes(analysis_context *c, int analysis, const gyroscopic_prob
     return outcome;
 }
 
-/* Computes the modes in a state. Increases their number until it is sufficient, because modes of
- * other families may lie between the requested modes. */
 static status modes_at(analysis_context *c, int analysis, const model_state *state, matrices *a,
                        rotation_modes *out, fault *f)
 {
@@ -249,7 +241,6 @@ static int grows(const rotation_modes *modes, int i)
     return modes->growth[i] > modes->error[i] * hypot(modes->growth[i], modes->frequency[i]);
 }
 
-/* Reports the first station where a mode grows. */
 static void note_instability(analysis_context *c, const rotation_modes *modes, double path)
 {
     for (int i = 0; i < modes->count; i++)
@@ -270,7 +261,6 @@ static void note_unproven(analysis_context *c, const rotation_modes *modes, doub
                  path, modes->unproven);
 }
 
-/* Computes the modes at every station, or only at the last station. */
 static status modes_of(analysis_context *c, int analysis, matrices *a, outcome_rotation *out,
                        fault *f)
 {

@@ -137,7 +137,7 @@ static void forces_of(const vibration *v, const system_input *in, double out[])
     double T[6 * KINEMATICS_MOST];
     memset(out, 0, (size_t)v->all * sizeof *out);
     if (in->reference)
-        return; /* the input acts only in a closed loop */
+        return;
     if (in->load != SCENE_NONE) {
         const scene_load *load = &v->c->scene->load[in->load];
         loads_add_one(&v->c->eq, v->state, load, 1, out);
@@ -162,8 +162,6 @@ static void add_motion(const vibration *v, int node, int component, double times
             out[at[index[k]]] += times * T[component * count + k];
 }
 
-/* Fills the measured components of closed loops and the rates of these components, which follow the
- * outputs of the scene. */
 static void fill_measured(const vibration *v, const system_matrices *s, const int at[],
                           second_order *m)
 {

@@ -129,8 +129,6 @@ static void compare_at(transfers_compared *t, double frequency, reduced_model *o
     }
 }
 
-/* Computes the largest differences between the transfer functions of the two models at the
- * frequencies of a harmonic analysis. */
 static status compare_transfer(const vibration *v, const system_matrices *s,
                                const second_order *whole, const second_order *small,
                                reduced_model *out, fault *f)

@@ -41,7 +41,6 @@ static int input_of(const system_matrices *s, int load, int reference)
     return i;
 }
 
-/* Closes the loops in a state space. */
 static status close_loops(const vibration *v, const system_matrices *s, int inputs,
                           state_space *space, fault *f)
 {

@@ -46,7 +46,6 @@ static int is_stuck(const analysis_outcome *o)
            (!outcome_has_path(o) || outcome_path_of(o)->reached == 0);
 }
 
-/* Adds a remedy for a structure that only pretension or temperatures make stiff. */
 static void advise_prestressed(const analysis_context *c, int analysis, fault *f)
 {
     const scene_analysis *a = &c->scene->analysis[analysis];
@@ -60,7 +59,6 @@ static void advise_prestressed(const analysis_context *c, int analysis, fault *f
                  : "more elements or stations");
 }
 
-/* Adds an explanation to the failure of an analysis if the structure can move. */
 static void explain(analysis_context *c, int analysis, analysis_outcome *o, fault *f)
 {
     fault why = {""};
@@ -83,15 +81,14 @@ static int has_negative(const solve_result *r, int from)
     return 0;
 }
 
-/* Detects a path that starts from a structure whose stiffness is indefinite at rest. The function
- * is called if the path was unstable or failed. The work is not counted. */
+/* Detects a path that starts from a structure whose stiffness is indefinite at rest. */
 static status check_undeformed_state(analysis_context *c, const analysis_outcome *o, int first_step,
                                      fault *f)
 {
     if (!outcome_has_path(o) || o->kind == SCENE_COMPLIANCE || o->kind == SCENE_MOTION ||
         o->kind == SCENE_HARMONIC ||
         (o->status == STATUS_OK && !has_negative(c->result, first_step)) ||
-        newton_check_rest(c->model, NULL) != STATUS_OK) /* already reported */
+        newton_check_rest(c->model, NULL) != STATUS_OK)
         return o->status;
     fault why = {""};
     linear_system s = {0};
@@ -102,8 +99,7 @@ static status check_undeformed_state(analysis_context *c, const analysis_outcome
     return at_rest == STATUS_NOT_CONVERGED ? fault_set(f, at_rest, "%s", why.text) : o->status;
 }
 
-/* Returns the failure of the linear analysis whose stresses the analysis includes. After a failed
- * path, the analyses that follow it use the states that it reached, and check them. */
+/* Returns the failure of the linear analysis whose stresses the analysis includes. */
 static status check_base(const analysis_context *c, int analysis, fault *f)
 {
     const int base = c->scene->analysis[analysis].follows;
@@ -184,7 +180,6 @@ static void corrupt(solve_result *r, status outcome, const fault *f)
     snprintf(r->reason, sizeof r->reason, "%s", f->text);
 }
 
-/* Stores the shapes and matrices of all states, if they were requested. */
 static void keep_states(analysis_context *c)
 {
     fault f = {""};
@@ -220,7 +215,6 @@ static void put_envelope(const scene *s, solve_result *r, int quantity)
     }
 }
 
-/* Reports a curve as a function of another quantity, at the points that both have. */
 static void put_over(const scene *s, solve_result *r, int quantity)
 {
     const int over = scene_abscissa_of(s, &s->quantity[quantity]);
@@ -249,7 +243,6 @@ static void add_counters(const counters *more, counters *to)
     to->condition = fmax(to->condition, more->condition);
 }
 
-/* Data for the analyses of the imperfect structure. */
 typedef struct imperfect {
     model_imperfect *shape;
     model *m;
@@ -296,8 +289,6 @@ static void exclude(analysis_context *c, int perfect, status outcome, const faul
     corrupt(c->result, outcome, f);
 }
 
-/* Runs the analyses whose modes are used as imperfections, then the analyses of the imperfect
- * structure. */
 static void run_imperfect(analysis_context *c, imperfect *p)
 {
     fault f = {""};
@@ -370,7 +361,7 @@ status solve_scene(const scene *s, const model *m, const solve_options *options,
         put_envelope(s, result, i);
     }
     add_counters(&other.run.counters, &run.counters);
-    result->counters = run.counters; /* shapes are for pictures, so their work is not counted */
+    result->counters = run.counters;
     keep_states(&c);
     for (int i = 0; i < s->analyses; i++)
         outcome_free(&c.outcomes[i]);

@@ -1,4 +1,4 @@
-/* Spectra of time histories. scene_transform documents the formulas. */
+/* Spectra of time histories. */
 #include "harness/analysis/analysis_impl.h"
 
 #include <complex.h>
@@ -49,7 +49,6 @@ static double weight_of(const scene_quantity *q, int i, int count)
     return q->passing.taper == SCENE_TAPER_HANN ? s * s : 1;
 }
 
-/* Stores the curve, which is computed from the weighted and transformed values. */
 static void put(const scene_quantity *q, int count, double step, const double complex x[],
                 quantity_result *r)
 {

@@ -1,8 +1,5 @@
-/* Nonlinear equilibrium along a load path with adaptive steps. The step size depends on the success
- * of Newton's method, and not on the error of the tangent. Steps that depend on this error are
- * shorter than Newton's method needs and cost more: 14 to 20 % more iterations, measured for all
- * cases with one station and for errors from 0.2 to 2 (rotations in rad, displacements in lengths).
- * */
+/* Nonlinear equilibrium along a load path with adaptive steps.
+ *  */
 #include "harness/analysis/analysis_impl.h"
 
 #include <math.h>
@@ -34,8 +31,6 @@ static status check_flutter(newton_run *n, flutter_check *flutter, int last_reso
                : flutter_check_state(flutter, n->c, n->state, record, f);
 }
 
-/* Restores the state at the start of the step, so that the step can be repeated in shorter steps.
- */
 static void take_back(newton_run *n, const step_record *record)
 {
     history_drop_step(n->c->result, record);
@@ -84,7 +79,6 @@ static status walk_to(newton_run *n, double target, flutter_check *flutter, doub
             rejected = 0;
             continue;
         }
-        /* shorter steps have the same matrix, except for the load stiffness */
         const int cannot_converge =
             outcome == STATUS_SINGULAR && record.iterations == 0 && rejected >= SINGULAR_STARTS;
         if (outcome == STATUS_FAULT || outcome == STATUS_REFUSED || to - from <= least ||
@@ -104,7 +98,6 @@ status static_walk(newton_run *n, double target, double *increment, fault *f)
     return walk_to(n, target, NULL, increment, f);
 }
 
-/* Repeats iterations from the undeformed state to measure their time. The state does not change. */
 static status sample(newton_run *n, double path, fault *f)
 {
     step_record record = {.path = path};
@@ -127,7 +120,6 @@ static int begins_loaded(const analysis_context *c)
     return acts;
 }
 
-/* Computes the equilibrium at path 0. */
 static status equilibrate(newton_run *n, flutter_check *flutter, fault *f)
 {
     step_record record = {.path = 0};
@@ -144,7 +136,6 @@ static status equilibrate(newton_run *n, flutter_check *flutter, fault *f)
     return STATUS_OK;
 }
 
-/* Advances to every station and stores its state. Steps are shortened only if this is necessary. */
 static status walk(newton_run *n, int analysis, flutter_check *flutter, compliance_walk *on_the_way,
                    outcome_path *o, fault *f)
 {
@@ -169,7 +160,6 @@ static status walk(newton_run *n, int analysis, flutter_check *flutter, complian
     return STATUS_OK;
 }
 
-/* Solves the path. The caller static_analysis() frees the workspace, even after a failure. */
 static status solve(analysis_context *c, int analysis, newton_run *n, predictor *t,
                     flutter_check *flutter, compliance_walk **on_the_way, outcome_path *o, fault *f)
 {
@@ -201,9 +191,6 @@ status static_analysis(analysis_context *c, int analysis, analysis_outcome *o, f
     newton_free(&n);
     return result;
 }
-
-/* Compliance and stiffness of a node in a deformed state. A released prescribed motion is replaced
- * by its reactions: dead forces, and moments that follow the convention of the analysis. */
 
 /* Returns the columns of the compliance or stiffness that quantities request, one bit each. */
 static unsigned wanted_columns(const analysis_context *c, int analysis)
@@ -238,8 +225,6 @@ static status reaction_of(analysis_context *c, const scene_compliance *what, con
     return tangent_driven_moment(c, s, what->node, t, reaction + 3, f);
 }
 
-/* Computes the compliance C and the stiffness K of the node. Columns of C that are not needed are
- * NaN, and K is then also NaN. */
 static status matrices_of(analysis_context *c, const scene_compliance *what, double reaction[6],
                           node_tangent *t, unsigned wanted, station_matrices *out, fault *f)
 {
@@ -316,8 +301,6 @@ static status unloaded(analysis_context *c, newton_run *n, const model_state **s
     return newton_to(n, 0, &unused, f);
 }
 
-/* Computes the compliances at the stations of the path. The caller compliance_analysis() frees the
- * workspace, even after a failure. */
 static status compliance_solve(analysis_context *c, int analysis, node_tangent *t, newton_run *n,
                                outcome_compliance *out, fault *f)
 {
@@ -422,7 +405,6 @@ static status compliance_walk_begin(newton_run *n, int path, compliance_walk **o
 status compliance_walk_take(compliance_walk *w, const newton_run *n, int station, fault *f)
 {
     analysis_context *c = n->c;
-    /* the states of many elements are not stored for later use */
     if (w == NULL ||
         (n->condensed == NULL && !newton_convergence_tangent_stands(&n->newton_convergence)))
         return STATUS_OK;

@@ -159,9 +159,7 @@ static void find_second(unsymmetric_solver *s, double from[], double to[])
     s->second = size > 0 ? sqrt(size) : 1;
 }
 
-/* Increases the scales of integrals z, with C z' = -K x. The new scale is the geometric mean of the
- * scale from the forces that they cause and of the scale from their change in the time `second`.
- * rate: work space. */
+/* Increases the scales of integrals z, with C z' = -K x. */
 static void scale_integrals(unsymmetric_solver *s, double rate[])
 {
     const sparse *K = s->p->K, *C = s->p->C;
@@ -407,7 +405,6 @@ static void take(unsymmetric_solver *s, int i, double error, const growth_estima
     r->count++;
 }
 
-/* Sorts eigenvalues in ascending order of |s|, because a shift changes their order. */
 static void sort(unsymmetric_solver *s)
 {
     arnoldi_result *r = &s->right;

@@ -1,4 +1,3 @@
-/* States of a motion for other analyses, and the matrices of small motions about these states. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -59,14 +58,11 @@ void abouts_free(abouts *a)
     motion_state_free(&a->room);
 }
 
-/* Returns the time of the next state in the outcome [s]; INFINITY: none. */
 static double next_of(const abouts *a)
 {
     return a->next < a->out->abouts ? a->out->about[a->next].time : INFINITY;
 }
 
-/* Stores the state a->at and its small motions. Accelerations of conserving steps are mean values,
- * so consistent accelerations are computed and stored in a->at first. */
 static status take(abouts *a, fault *f)
 {
     const model *m = a->c->model;

@@ -24,8 +24,6 @@ static double averaged(const alpha *s, double a, double before, double now)
     return ((1 - s->force) * now + s->force * before - s->mass * a) / (1 - s->mass);
 }
 
-/* Sets the relation between rates and increment, and the initial increment of the iteration for
- * constant acceleration. */
 static void relate(alpha *s, const motion_state *from, double h, stage_rates *r)
 {
     for (int i = 0; i < s->stage.free; i++) {
@@ -53,8 +51,6 @@ static status error_of(alpha *s, const motion_state *from, const motion_state *t
     return STATUS_OK;
 }
 
-/* Sets the relation between strain rates and strains of damped members, which has the same form as
- * for positions. Computes the constant part of the strain rates. */
 static void relate_strains(alpha *s, const motion_state *from, double h, motion_state *to)
 {
     const double g = s->gamma / (s->beta * h), kept = 1 - s->gamma / s->beta,
@@ -82,9 +78,6 @@ static double circulated(const model *m, const model_state *from, const model_st
     return sum;
 }
 
-/* Sets the strain rates at the end of a step, and adds the dissipated energy. The energy is
- * computed from mean rates. Without inertia, rates at the ends of steps oscillate about this
- * mean. */
 static void damp(alpha *s, const motion_state *from, double h, motion_state *to)
 {
     const double g = s->gamma / (s->beta * h), part = 1 / (s->beta * h * h);

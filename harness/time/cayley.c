@@ -257,8 +257,7 @@ void cayley_slopes_of(const cayley_step *s, cayley_slopes *d)
         node_slopes(s, j, d);
 }
 
-/* Derivatives of r(s) and R(s) of a node. R is differentiated with respect to c_j, and both with
- * respect to the mean c. */
+/* Derivatives of r(s) and R(s) of a node. */
 typedef struct node_columns {
     double by_phi[9], r_common[9], phi_common[9];
 } node_columns;
@@ -270,8 +269,7 @@ static void columns_of(const cayley_step *s, const cayley_slopes *d, const cayle
     double back[3], Jl[9], first[3], swept[9], carried[9], apart[9], turned[9], more[9];
     for (int i = 0; i < 3; i++)
         back[i] = -at * y[3 + i];
-    rotation_rates_jacobian(
-        back, Jl); /* derivative with respect to an increment after the rotation, in global axes */
+    rotation_rates_jacobian(back, Jl);
     for (int i = 0; i < 9; i++)
         Jl[i] *= at;
     mat3_mul(Jl, d->own[j], out->by_phi);

@@ -16,7 +16,6 @@ static void conserving_rates(conserving *, const motion_state *from, double h, m
 
 enum { LEAST_ITERATIONS = 3 };
 
-/* Solves (S + column row^T) dx = residual. */
 static status direction(conserving *s, const motion_state *from, model_state *now, double h,
                         step_record *record, fault *f)
 {
@@ -138,7 +137,7 @@ static status step(motion_scheme *base, const motion_state *from, double h, moti
     if (!s->massive.ready)
         TRY(massive_of(m, s->of.masses, from->state, &s->massive, f));
     s->base.light = s->massive.light;
-    for (int c = 0; c < s->free; c++) /* error of the trapezoidal rule: h^2/12 (a1 - a) */
+    for (int c = 0; c < s->free; c++)
         s->dx[c] = h * h / 12 * (to->a[c] - from->a[c]);
     *error = massive_norm(&s->massive, m, s->weight, s->dx);
     return STATUS_OK;
@@ -158,9 +157,7 @@ static void release(motion_scheme *base)
     free(s);
 }
 
-/* Checks the rotations. REFUSED: a node rotates by a sequence of two angles, and both are free. At
- * the end of a step, a mass would have an angular velocity normal to both axes, whose energy the
- * rates of the angles do not contain. */
+/* Checks the rotations. REFUSED: a node rotates by a sequence of two angles, and both are free. */
 static status check(const model *m, fault *f)
 {
     for (int i = 0; i < model_scene(m)->nodes; i++) {
@@ -188,7 +185,6 @@ static int turns_freely(const model *m, int vertex)
     return free > 0;
 }
 
-/* Returns 1 if the node is the master of a diaphragm. */
 static int leads(const model *m, int node)
 {
     for (int i = 0; i < model_scene(m)->constraints; i++)
@@ -204,9 +200,7 @@ static status refuse_constraint(const model *m, int node, const char *why, fault
                      scene_called(model_scene(m), SCENE_NODES, node).text);
 }
 
-/* Checks the constraints. REFUSED: the rates at the end of a step would violate a constraint.
- * Cayley vectors of rotations with a given ratio do not have this ratio, and eccentric masses have
- * independent velocities. */
+/* Checks the constraints. REFUSED: the rates at the end of a step would violate a constraint. */
 static status check_constraints(const model *m, const frame_masses *masses, fault *f)
 {
     if (model_mesh_of(m)->joined == NULL)
@@ -303,8 +297,6 @@ status conserving_alloc(const scheme_request *request, motion_scheme **out, faul
     return allocate(s, f);
 }
 
-/* Computes the rates at the end of a step, for coordinates with and without inertia. */
-
 enum { BALL = 3 };
 
 /* Computes N, the projection onto the axes about which J[9] is zero. Returns the number of these
@@ -316,8 +308,7 @@ static int null_space(const double J[9], double N[9])
     int count = 0;
     memset(N, 0, 9 * sizeof *N);
     memcpy(A, J, sizeof A);
-    LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', 3, A, 3,
-                  value); /* eigenvalues are in ascending order; fails only for NaN */
+    LAPACKE_dsyev(LAPACK_ROW_MAJOR, 'V', 'U', 3, A, 3, value);
     for (int k = 0; k < 3; k++) {
         if (value[k] > nothing * value[2])
             continue;
@@ -346,7 +337,6 @@ static status conserving_massless(conserving *s, fault *f)
                            "rotation; use alpha or radau, or give the sections rotary inertia");
 }
 
-/* Computes the rates of a sequence of angles whose angular velocity is closest to w. */
 static void angle_rates(const model *m, int vertex, motion_state *to, const double w[3])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -391,8 +381,6 @@ static void without_inertia(const frame_mass *one, const double N[9], frame_mass
         p->W1[i] += back[i];
 }
 
-/* Finds the coordinates of a released end that move its mass, in the order three shifts, three
- * rotations. heavy 1: the coordinate moves the mass. */
 static void heavy_ones(const model *m, const frame_mass *one, const frame_mass_step *p,
                        const model_state *s, int heavy[6])
 {
@@ -413,7 +401,7 @@ static void heavy_ones(const model *m, const frame_mass *one, const frame_mass_s
 
 /* Computes the velocities of the masses at released ends, and the rates of the released
  * coordinates. The velocities are separate unknowns, so that energy and momenta of these masses are
- * conserved. They differ from the rates by terms of second order in the step size. */
+ * conserved. */
 static void conserving_released_rates(const conserving *s, const motion_state *from, double h,
                                       motion_state *to)
 {
@@ -451,8 +439,6 @@ static int turns_with(const model *m, int vertex)
     return with;
 }
 
-/* Computes N[9] for without_inertia from the masses of all nodes that rotate with the coordinates
- * of this vertex. */
 static void massless_together(const conserving *s, int vertex, double N[9])
 {
     const model *m = s->of.c->model;
@@ -488,8 +474,7 @@ static void massless_together(const conserving *s, int vertex, double N[9])
 }
 
 /* Sets the rates of translations in constraints. Without mass at the nodes that a translation
- * moves, the rate is the mean rate of the step. In-plane translations of a diaphragm are excluded;
- * they are computed from its centre of mass. */
+ * moves, the rate is the mean rate of the step. */
 static void rates_together(const conserving *s, const motion_state *from, double h,
                            motion_state *to)
 {
@@ -508,8 +493,6 @@ static void rates_together(const conserving *s, const motion_state *from, double
         }
 }
 
-/* Sets the rates after a step, for a frame with mass from the motion of its centre of mass,
- * otherwise from the motion of the frame. */
 static void conserving_rates(conserving *s, const motion_state *from, double h, motion_state *to)
 {
     const model *m = s->of.c->model;

@@ -36,8 +36,6 @@ static double energy_of(const frame_mass *one, const double J[9], const double v
     return sum;
 }
 
-/* Adds `factor` times the momenta of a mass to out[free + driven], in the coordinates of
- * forms_rates. */
 static void add_momenta(const model *m, const model_state *s, const frame_mass *one,
                         const centre_rates *of, double factor, double out[])
 {
@@ -51,7 +49,7 @@ static void add_momenta(const model *m, const model_state *s, const frame_mass *
         H[i] = factor * spun[i] + lever[i];
     if (model_vertex(m, one->frame)->angles > 0)
         memcpy(P + 3, H, sizeof H);
-    else /* rates of rotations are in the axes of the frame */
+    else
         mat3_transpose_mul_vec(of->R, H, P + 3);
     forms_add_force(m, s, one->frame, P, out);
 }
@@ -132,12 +130,10 @@ static double square_of(const conserving *s, const double x[], const double diag
     return sum;
 }
 
-/* The change of the free rates is computed by conjugate gradients, because few rates are
- * coupled. */
 void conserving_free_rates(conserving *s, const motion_state *from, double h, motion_state *to)
 {
-    const double rounding = 1e-30, /* square of a relative rounding error */
-        nothing = 1e-10;           /* smaller inertia, relative to the largest, counts as none */
+    const double rounding = 1e-30,
+                 nothing = 1e-10; /* smaller inertia, relative to the largest, counts as none */
     const int most = 60;
     double *r = s->residual, *d = s->column, *Md = s->row, *diagonal = s->dx;
     memset(r, 0, (size_t)s->all * sizeof *r);

@@ -99,8 +99,6 @@ static void add_scalar(conserving *s, const double J[], deformable_values *v)
     dense_add_transpose_mul(n, strains, 1, of->J, k_e, v->row);
 }
 
-/* Transforms the equations to the coordinates that move the nodes. F[7 nodes]: forces due to
- * `middle`. */
 static void to_coordinates(const conserving *s, const motion_state *from, const model_state *now,
                            const double F[], deformable_values *v)
 {
@@ -125,7 +123,6 @@ static void to_coordinates(const conserving *s, const motion_state *from, const 
     }
 }
 
-/* Computes the equations of one evaluated element or spring. Returns its incompatibility. */
 static double equations_of(conserving *s, const motion_state *from, const model_state *now,
                            deformable_values *v)
 {
@@ -192,8 +189,7 @@ void conserving_forces(conserving *s, const motion_state *from, model_state *now
     }
 }
 
-/* Loads at the middle of a step. Directions and arms that rotate are means of their values at both
- * ends. */
+/* Loads at the middle of a step. */
 
 typedef struct loaded {
     conserving *s;
@@ -268,7 +264,6 @@ static void loads_middle_of(const loaded *of, const applied *what, const double 
         F[3 + i] += levered[i];
 }
 
-/* Adds a load and its tangent in the coordinates that move the vertex. */
 static void take(void *context, const applied *what)
 {
     const loaded *of = context;
@@ -290,9 +285,6 @@ void conserving_loads(conserving *s, const motion_state *from, const model_state
                      take, &of);
 }
 
-/* Newton's corrections of the strains at the end of the step and inside the step. */
-
-/* Computes the corrections of dr, c and da of the nodes of an element: local[7 nodes]. */
 static void own_increments(const conserving *s, const motion_state *from, const model_state *now,
                            const mesh_element *el, double local[])
 {
@@ -344,10 +336,6 @@ double conserving_update(conserving *s, const motion_state *from, model_state *n
     return largest;
 }
 
-/* Work of external forces in a step: forces times increments of the coordinates. */
-
-/* Returns the work [J] of a force on dr and c of the coordinates, where c is 2 tan(d angle/2) for
- * angles. */
 static double worked_on(const conserving *s, const double force[])
 {
     const model *m = s->of.c->model;
@@ -417,8 +405,7 @@ status conserving_work(conserving *s, const motion_state *from, motion_state *to
 
 /* Computes the strain rates r1 and their derivatives s1 at the end of a step from r0 and s0 at its
  * start and from the mean rate m: r1 = (3 m - r0)/2 + h s0/4, s1 = (m - r0)/h + s0/2. The result is
- * of second order, even if there is no inertia. An initial error vanishes after two steps; with r1
- * = 2 m - r0 it would remain. */
+ * of second order, even if there is no inertia. */
 void conserving_damped(const conserving *s, const motion_state *from, double h, motion_state *to)
 {
     const model *m = s->of.c->model;
@@ -435,8 +422,7 @@ void conserving_damped(const conserving *s, const motion_state *from, double h, 
             r[k] = (3 * mean - r0) / 2 + h * s0 / 4;
             rate2[k] = (mean - r0) / h + s0 / 2;
         }
-        if (of.V == NULL ||
-            of.spring != NULL) /* the stresses of a spring follow from its strains */
+        if (of.V == NULL || of.spring != NULL)
             continue;
         dense_mul_vec(of.strains, of.strains, of.V, r, more);
         for (int k = 0; k < of.strains; k++)

@@ -1,5 +1,3 @@
-/* Strains and stresses of all elements and springs, and the number k for which the work of the
- * stresses is exact. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -136,7 +134,7 @@ static void stress_spring(conserving *s, const motion_state *from, model_state *
     const deformable of = deformable_at(s, from, now, i);
     double mean[SPRING_STRAINS];
     spring_mean(of.spring->spring, of.first, of.e, mean, of.C);
-    for (int k = 0; k < SPRING_STRAINS; k++) /* the mean is (before + present)/2 */
+    for (int k = 0; k < SPRING_STRAINS; k++)
         of.present[k] = 2 * mean[k] - of.before[k];
     for (int k = 0; k < SPRING_STRAINS * SPRING_STRAINS; k++)
         of.C[k] *= 2;
@@ -185,9 +183,8 @@ status conserving_stresses(conserving *s, const motion_state *from, model_state 
  * the mean positions of the centres. If a frame can only rotate, the tensor of the mass about the
  * origin of the frame is constant in the axes of the frame. */
 
-/* Returns the number of fixed translations of a frame that has free translations too; otherwise 0.
- * In these directions, the translation of the centre of mass follows from the rotation of the
- * frame. */
+/* Returns the number of fixed translations of a frame that has free translations too; otherwise
+ * 0. */
 static int held_of(const model *m, int frame, int held[3])
 {
     int count = 0;
@@ -257,7 +254,6 @@ void frame_mass_step_of(const conserving *s, const motion_state *from, const mod
     frame_mass_step_follow(one, out);
 }
 
-/* Computes the mean force and moment F[6] on the frame that accelerate the mass in the step. */
 static void forces_of(const frame_mass *one, const frame_mass_step *p, double h, double F[6])
 {
     double H0[3], H1[3], spun0[3], spun1[3], lever[3];
@@ -331,8 +327,6 @@ void conserving_inertia(conserving *s, const motion_state *from, const model_sta
     }
 }
 
-/* Initial increments of the iteration of a step. */
-
 static int turns_freely(const model *m, int vertex)
 {
     return model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
@@ -380,7 +374,6 @@ void conserving_increment(const conserving *s, const model_state *from, double i
     }
 }
 
-/* Computes c = h w; a prescribed rotation has its prescribed increment. */
 static void predict_turn(conserving *s, const frame_rates *r, const int at[3], double h,
                          double c[3])
 {

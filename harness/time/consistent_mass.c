@@ -10,7 +10,6 @@
 
 enum { MOST = ELEMENT_MAX_COORDINATES };
 
-/* States, velocities and accelerations of the nodes of an element. */
 typedef struct moving_element {
     node_state x[ELEMENT_MAX_NODES];
     double rate[MOST], acceleration[MOST];
@@ -82,8 +81,6 @@ void consistent_mass_subtract(const model *m, const model_state *s, const double
     }
 }
 
-/* Adds the columns of B for the translations of a node, multiplied by Q[3 x 3], to the columns of A
- * for its rotations. The coordinates of the node start at `at`. */
 static void add_through(int columns, int at, const double B[], const double Q[9], double A[])
 {
     for (int i = 0; i < columns; i++)
@@ -116,8 +113,7 @@ static void cross_all(const double x[3], const double A[9], double out[9])
 }
 
 /* Transforms the rates of a node at rho from the body that moves it: v = v_b + w x rho, a = a_b +
- * w' x rho + w x (w x rho). Adds two kinds of terms: those with w, and those with rotations d of
- * the body that the Jacobian of the rates does not contain. */
+ * w' x rho + w x (w x rho). */
 static void carry(int n, int at, const moving_element *e, const double rho[3], const double M[],
                   double C[], double K[])
 {
@@ -140,7 +136,6 @@ static void carry(int n, int at, const moving_element *e, const double rho[3], c
     add_through(n, at, M, by_w, C);
 }
 
-/* Transforms the data of an element from its nodes to the bodies that move them. */
 static void to_bodies(const model *m, const mesh_element *el, const model_state *s,
                       const moving_element *e, double F[], consistent_mass_parts *p)
 {
@@ -210,7 +205,6 @@ void consistent_mass_element(const model *m, int element, const model_state *s, 
 
 static const double spread_one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* Adds the motion of a node on the arm of a diaphragm. */
 static void swing_column(const model *m, const consistent_mass_parts *p, int node, double plain,
                          double T[])
 {
@@ -262,7 +256,6 @@ static void wide_motion(const model *m, const consistent_mass_parts *p,
     }
 }
 
-/* Adds rows^T A motion, with A[7 nodes x 7 nodes], to out[columns x columns]. */
 static void wide_times(const model *m, const consistent_mass_parts *p, const double A[],
                        const consistent_mass_motion moves[], double out[])
 {
@@ -365,7 +358,6 @@ void consistent_mass_place(const model *m, const consistent_mass_parts *p,
     }
 }
 
-/* Computes the derivatives of the rates of the bodies with respect to their coordinates. */
 static void motions_of(const model *m, const mesh_element *el, const inertia_relation *with,
                        const consistent_mass_parts *p, consistent_mass_motion rates[])
 {

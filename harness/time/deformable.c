@@ -74,7 +74,6 @@ static void place_turn(const model *m, const double at[DEFORMABLE_POINTS], const
     }
 }
 
-/* Sets the states of the nodes at the ends of the step and at the points inside it. */
 static void place_nodes(const conserving *s, const motion_state *from, const model_state *now,
                         deformable_values *v)
 {
@@ -94,7 +93,6 @@ static void place_nodes(const conserving *s, const motion_state *from, const mod
     place_turn(m, at, from, now, v);
 }
 
-/* Returns the states of the nodes at a point; point DEFORMABLE_POINTS: at the end of the step. */
 static const node_state *nodes_of(const deformable_values *v, int point)
 {
     return point < DEFORMABLE_POINTS ? v->point[point].x : v->last;
@@ -220,8 +218,6 @@ status inertia_resultants_node(const model *m, const model_state *s,
     return STATUS_OK;
 }
 
-/* Computes the inertia force on node k of an element, including warping. *share: fraction of the
- * element's mass that is lumped at the node. */
 static void force_of(const model *m, const model_state *s, const inertia_resultants_motion *motion,
                      int element, int k, double F[7], frame_mass *share)
 {
@@ -254,9 +250,8 @@ void inertia_resultants_along(const model *m, const model_state *s,
     }
 }
 
-/* Corrects the forces at the ends of an element whose mass is lumped at its nodes. The effect of
- * translations is then exact, and resultants are exact at nodes. F: for each node, the force on the
- * whole mass of the element when it moves with the node. */
+/* Corrects the forces at the ends of an element whose mass is lumped at its nodes. F: for each
+ * node, the force on the whole mass of the element when it moves with the node. */
 static void add_couple(const model *m, const model_state *s, int element, double F[2][7],
                        double ends[2][7])
 {

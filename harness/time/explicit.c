@@ -11,8 +11,7 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* Computes dydt at time t [s] for y; the signature is GSL's. The state at this time is stored in
- * `at`. */
+/* Computes dydt at time t [s] for y; the signature is GSL's. */
 static int explicit_rates(double t, const double y[], double dydt[], void *context);
 /* Checks the model. REFUSED: a coordinate of the undeformed model has no inertia, or a member has
  * an offset or a released end. */
@@ -54,8 +53,7 @@ static status step(motion_scheme *base, const motion_state *from, double h, moti
     s->at = to;
     s->end = discontinuities_before(m, record->path);
     s->outcome = STATUS_OK;
-    if (s->of.c->run->damping !=
-        NULL) /* the forces of dashpots depend on the rates of the coordinates */
+    if (s->of.c->run->damping != NULL)
         damping_follow(&s->of.c->eq, 0, s->of.c->run->damping->none, NULL);
     kinematics_state_copy(m, from->state, to->state);
     kinematics_commit(m, to->state);
@@ -143,7 +141,6 @@ static int block(const model *m, const frame_masses *masses, int index, const mo
     return count;
 }
 
-/* Like explicit_accelerate, for bodies connected by constraints. */
 static status accelerate_joined(const model *m, const frame_masses *masses, int body,
                                 const model_state *s, const double residual[], body_mass *g,
                                 double a[], fault *f)
@@ -273,7 +270,6 @@ static status check_vertex(const model *m, int index, const int heavy[], fault *
     return STATUS_OK;
 }
 
-/* Marks the free coordinates that have inertia, given the previous coordinates of their frame. */
 static void mark(const model *m, const frame_masses *masses, const double rest[], int heavy[])
 {
     for (int k = 0; k < masses->masses; k++) {
@@ -282,8 +278,6 @@ static void mark(const model *m, const frame_masses *masses, const double rest[]
         const int n = block(m, masses, k, kinematics_rest(m), rest, of, M);
         for (int i = 0; i < n; i++) {
             double some[36];
-            /* mass matrix of the first i + 1 coordinates; if it is singular, coordinate i adds no
-             * inertia */
             for (int r = 0; r <= i; r++)
                 memcpy(&some[(i + 1) * r], &M[n * r], (size_t)(i + 1) * sizeof *some);
             heavy[of[i]] = is_heavy(i + 1, some);
@@ -293,7 +287,6 @@ static void mark(const model *m, const frame_masses *masses, const double rest[]
         heavy[model_warp(m, w)] = masses->warping[model_warp(m, w)] > 0;
 }
 
-/* Like explicit_check, for bodies connected by constraints; their masses are added. */
 static status check_joined(const model *m, const frame_masses *masses, fault *f)
 {
     const double rounding = 1e-13;
@@ -373,8 +366,6 @@ static void turn_rates(const explicit_scheme *s, const double inc[], const doubl
     }
 }
 
-/* Solves for the inner unknowns of an element at given strains by Newton's method. The element's
- * function `update` computes the corrections. */
 static status consistent_rates(const explicit_scheme *s, int i, double time, fault *f)
 {
     enum { MOST = 30 };
@@ -493,8 +484,6 @@ void work_free(outer_work *w)
     free(w->element);
 }
 
-/* Returns the sum of force times `along` over all coordinates. Moments are in global axes, so
- * rotations in the axes of a frame are transformed to global axes first. */
 static double product(const outer_work *w, const model_state *s, const double along[])
 {
     const model *m = w->m;

@@ -1,4 +1,3 @@
-/* Extrema of reactions, resultants, stresses, energies and momenta during a motion. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -86,7 +85,7 @@ static double cubic(const extrema *s, const extremum *one, double time)
 }
 
 /* Returns the time between a and b at which the cubic is largest (sign 1) or smallest (sign -1),
- * found by golden-section search. A step with two maxima would not resolve the motion. */
+ * found by golden-section search. */
 static double top_of(const extrema *s, const extremum *one, double a, double b)
 {
     const double golden = (sqrt(5) - 1) / 2;
@@ -100,7 +99,6 @@ static double top_of(const extrema *s, const extremum *one, double a, double b)
     return (a + b) / 2;
 }
 
-/* Searches for an extremum between the ends i and i + 1 of steps. */
 static status look_between(extrema *s, extremum *one, int i, fault *f)
 {
     const double a = fmax(s->last[i].time, one->from), b = fmin(s->last[i + 1].time, one->until);
@@ -120,7 +118,6 @@ static status look_between(extrema *s, extremum *one, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Uses the values at the start and at the end of the window if they are inside the last step. */
 static status look_at_edges(extrema *s, extremum *one, fault *f)
 {
     const motion_state *from = &s->last[EXTREMA_ENDS - 2], *to = &s->last[EXTREMA_ENDS - 1];

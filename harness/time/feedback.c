@@ -1,5 +1,3 @@
-/* Loads with feedback during motions: their factors, the integrals of their errors, and their
- * tangents. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -32,7 +30,6 @@ static void turn_row(const model *m, const model_state *s, int node, int k, doub
     double t[3], inverse[9];
     for (int i = 0; i < 3; i++)
         t[i] = kinematics_component(m, s, node, SCENE_RX + i);
-    /* maps rates in the axes of the node; its transpose maps rates in fixed axes */
     rotation_rates_inverse(t, inverse);
     for (int i = 0; i < 3; i++)
         row[i] = inverse[3 * i + k];
@@ -74,7 +71,6 @@ static double error_of(const model *m, const model_state *s, const scene_load *l
            (component_at(m, s, b->node, b->component) - component_at(m, s, b->from, b->component));
 }
 
-/* Returns the factor of the load before limits are applied. */
 static double feedback_of(const model *m, const model_state *s, const scene_load *load, int index,
                           const double v[], double time)
 {

@@ -27,8 +27,6 @@ static void shift(double mass, const double moment[3], const double r[3], double
             tensor[3 * i + j] += (i == j ? mixed : 0) - r[i] * moment[j] - moment[i] * r[j];
 }
 
-/* Adds the mass at a vertex to the frame that moves the vertex. A released end has a separate
- * frame. */
 static void take(const model *m, int vertex, double mass, const double moment[3],
                  const double tensor[9], frame_mass of[])
 {
@@ -47,8 +45,6 @@ static void take(const model *m, int vertex, double mass, const double moment[3]
         to->inertia[i] += moved[i];
 }
 
-/* Computes the first moment and the tensor of a lumped mass, in the axes of the element. share:
- * fraction of the mass. */
 static void lump(const lumped_mass *l, double share, double moment[3], double tensor[9])
 {
     memset(moment, 0, 3 * sizeof *moment);
@@ -161,8 +157,6 @@ status frame_masses_alloc_bodies(const model *m, frame_masses *out, fault *f)
     return alloc(m, 1, out, f);
 }
 
-/* Adds the mass of a node to the master of its diaphragm. For translations along the normal, the
- * mass remains at the node. */
 static void lead(const model *m, const frame_mass *one, frame_mass of[])
 {
     const mesh_vertex *v = model_vertex(m, one->frame);
@@ -212,7 +206,6 @@ void frame_masses_free(frame_masses *c)
  * The moment g x m (v_c1 - v_c)/4 of the fixed components compensates the work of this difference,
  * so the gain of kinetic energy equals the work. */
 
-/* Replaces the components along fixed translations in to[3 x n] by those of `from`. */
 static void hold_rows(const frame_mass_step *p, int n, const double from[], double to[])
 {
     for (int k = 0; k < n; k++) {

@@ -14,14 +14,13 @@ int frame_motion_is_plain(const model *m, int vertex)
     return v->body == vertex && v->angles == 0 && !v->turned;
 }
 
-/* A relative position under construction, with its derivatives [3 x columns]. */
 typedef struct place_chain {
     const model *m;
     const model_state *from, *now;
     int vertex;
     const mesh_release *release; /* NULL: none */
     const double *F;
-    double about[9]; /* c of the node is `about` times the conjugate coordinates */
+    double about[9];
     double a[3][3],
         da[3][3 * FRAME_MOTION_MOST];       /* columns of `about` that are mean axes of angles */
     double c[3], dc[3 * FRAME_MOTION_MOST]; /* c after all rotations */
@@ -31,7 +30,6 @@ typedef struct place_chain {
     double sigma[3], dsigma[3 * FRAME_MOTION_MOST]; /* (a s)_m, the mean of the shift */
 } place_chain;
 
-/* Computes out[3 x columns] = A B multiplied by `times`. */
 static void product(int columns, double times, const double A[9], const double B[], double out[])
 {
     for (int i = 0; i < 3; i++)
@@ -40,7 +38,6 @@ static void product(int columns, double times, const double A[9], const double B
                                             A[3 * i + 2] * B[2 * columns + k]);
 }
 
-/* Computes out = (T_c dc) x v multiplied by `times`. */
 static void sweep(const place_chain *by, int columns, double times, const double v[3], double out[])
 {
     double T[9], V[9], B[9];
@@ -61,7 +58,6 @@ static void beside(place_chain *by, int columns)
     sweep(by, columns, 0.5, after, by->drho);
 }
 
-/* Appends a rotation about b, and updates x[3], dx[3 x columns], c and dc. */
 static void turn(const double b[3], double angle, int column, double x[3], double dx[], int columns,
                  place_chain *by)
 {
@@ -87,7 +83,6 @@ static void turn(const double b[3], double angle, int column, double x[3], doubl
     }
 }
 
-/* Computes c of the body from three coordinates or from a sequence of angles. */
 static void begin(const double step[], place_chain *by, frame_motion *p)
 {
     const int at = model_vertex(by->m, by->vertex)->body;
@@ -112,7 +107,6 @@ static void begin(const double step[], place_chain *by, frame_motion *p)
         }
 }
 
-/* Appends all released rotations of the end. */
 static void turns(const double step[], place_chain *by, frame_motion *p)
 {
     const mesh_release *r = by->release;
@@ -134,8 +128,7 @@ static void turns(const double step[], place_chain *by, frame_motion *p)
 }
 
 /* Computes the direction of a slide, (before + after)/2 - c x (after - before)/4, and its
- * derivative. before, after: direction of its axis at the start and at the end of the step. The
- * shift changes by c x its mean plus the direction times the change of the coordinate. */
+ * derivative. before, after: direction of its axis at the start and at the end of the step. */
 static void direction(const double before[3], const double after[3], const place_chain *by,
                       int columns, double along[3], double change[])
 {
@@ -155,7 +148,6 @@ static void direction(const double before[3], const double after[3], const place
         change[i] += swept[i] / 2 + more[i];
 }
 
-/* Computes the mean shift of an end due to its slides, and the columns of the slides. */
 static void slides(const double step[], place_chain *by, frame_motion *p)
 {
     const mesh_release *r = by->release;
@@ -197,7 +189,6 @@ static void work_on(const double lever[3], const double A[9], int moments, int c
         }
 }
 
-/* Adds A^T B, with B[3 x columns], to the rows of `curved` that start with `row`. */
 static void add_curved(const double A[9], const double B[], int row, int columns, frame_motion *p)
 {
     for (int i = 0; i < 3; i++)
@@ -208,8 +199,6 @@ static void add_curved(const double A[9], const double B[], int row, int columns
 
 static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 
-/* Computes the columns of `work` and the rows of `curved` of single released rotations. Their
- * generalised force is x . moment with moment = M + sigma x F. */
 static void turning_rows(const place_chain *by, const double moment[3], const double dmoment[],
                          frame_motion *p)
 {
@@ -228,8 +217,6 @@ static void turning_rows(const place_chain *by, const double moment[3], const do
     }
 }
 
-/* Adds da . moment to the rows of `curved` of the body's angles. Their mean axes a rotate with the
- * previous angles. */
 static void angle_rows(const place_chain *by, const double moment[3], frame_motion *p)
 {
     const int n = p->columns,
@@ -240,8 +227,6 @@ static void angle_rows(const place_chain *by, const double moment[3], frame_moti
                 p->curved[(SCENE_RX + k) * n + c] += moment[i] * by->da[k][i * n + c];
 }
 
-/* Adds the motion of a body on the arm of a diaphragm: dr of its node is tau times the mean of
- * normal x arm. */
 static void swing(const place_chain *by, int at, frame_motion *p)
 {
     const int n = p->columns;
@@ -342,7 +327,6 @@ static int index_of(int column, int at, int own)
     return column < SIX ? at + column : own + column - SIX;
 }
 
-/* Computes out[columns] = A^T of[6], with A[6 x columns]. */
 static void transposed(const frame_motion *p, const double A[], const double of[SIX], double out[])
 {
     memset(out, 0, (size_t)p->columns * sizeof *out);
@@ -382,7 +366,6 @@ void frame_motion_matrix(const frame_motion *p, int n, int at, int own, double K
             K[index_of(i, at, own) * n + index_of(k, at, own)] += p->curved[i * p->columns + k];
 }
 
-/* Lists the global indices of the columns. Returns their number. */
 static int index_place(const model *m, int vertex, int index[FRAME_MOTION_MOST])
 {
     const mesh_vertex *v = model_vertex(m, vertex);

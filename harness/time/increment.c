@@ -32,7 +32,6 @@ static void apply_vertex(const model *m, const model_state *from, int index, con
     rotation_normalise(&to->q[4 * index]);
 }
 
-/* Rotates a ball joint to R_n exp(inc), like a frame. */
 static void turn_ball(const model *m, const model_state *from, int index, const double inc[],
                       model_state *to)
 {
@@ -68,8 +67,6 @@ void increment_apply(const model *m, const model_state *from, const double inc[]
     to->path = time;
 }
 
-/* Composes the increment of a frame whose rates are in rotating axes with the spatial rotation in
- * dx. */
 static void add_turn(const model_state *now, int index, const mesh_vertex *v, const double dx[],
                      double inc[])
 {

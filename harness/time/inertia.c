@@ -95,8 +95,7 @@ static void skew(const double v[3], double A[9])
 
 /* Computes three derivatives [6 x 6] of the force and moment on a frame: with respect to its
  * position and rotation, to its velocity and to its acceleration. The first uses spatial increments
- * in the exponential chart, at fixed rates in the frame's axes. `place` includes the effect of
- * rotating axes on velocity and acceleration. */
+ * in the exponential chart, at fixed rates in the frame's axes. */
 static void parts_of(const frame_mass *one, const frame_rates *r, const double F[6],
                      inertia_parts *out)
 {
@@ -117,7 +116,7 @@ static void parts_of(const frame_mass *one, const frame_rates *r, const double F
     mat3_mul(A, C, AC); /* derivative of c x a, where a does not rotate: d(c x a) = a~ c~ dphi */
     vec3_cross(s.c, r->a, c_a);
     for (int i = 0; i < 3; i++) {
-        rest[i] = F[3 + i] - c_a[i]; /* both vectors rotate with the frame */
+        rest[i] = F[3 + i] - c_a[i];
         force[i] = F[i] - one->mass * r->a[i];
     }
     skew(rest, R);
@@ -194,8 +193,6 @@ void inertia_finish(const model *m, const frame_masses *all, int index, const in
     kinematics_turn_matrix(model_vertex(m, all->mass[index].frame), 6, 0, K);
 }
 
-/* Like inertia_add_tangent, for a released end. The change of its rates with the orientation of its
- * axes is neglected. */
 static void released_tangent(const model *m, int vertex, const model_state *s,
                              const inertia_parts *p, const inertia_relation *with, sparse *S)
 {
@@ -303,7 +300,7 @@ static status stored(const equations *eq, const model_state *s, double time, dou
 {
     const model *m = eq->m;
     double none[1] = {0};
-    *out = model_absolute(m) ? NAN : 0; /* there may be no energy function */
+    *out = model_absolute(m) ? NAN : 0;
     for (int i = 0; i < model_elements(m) && !model_absolute(m); i++) {
         double energy = 0;
         const double *inner =

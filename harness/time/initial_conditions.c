@@ -1,5 +1,3 @@
-/* Initial accelerations are those of a stage with a very small softness: accelerations change, and
- * positions hardly move. time_impl.h describes coordinates without inertia. */
 #include "harness/time/time_impl.h"
 
 #include <float.h>
@@ -16,8 +14,6 @@
  * acceleration, relative to h^2; so small that the positions hardly move */
 static const double softness = 1e-12;
 
-/* Sets the rates of a sequence of angles so that the angular velocity is closest to `spin`. Fixed
- * and prescribed angles, and angles of other nodes, are unchanged. */
 static void start_angles(const model *m, const model_state *s, int index, const double spin[3],
                          double v[])
 {
@@ -41,7 +37,7 @@ static void start_angles(const model *m, const model_state *s, int index, const 
             A[n * i + j] = vec3_dot(b[of[i]], b[of[j]]);
     }
     if (n == 0 || dense_lu_regular(n, A, pivot) != 0)
-        return; /* two axes coincide; both angles keep their rates */
+        return;
     dense_lu_solve(n, 1, A, pivot, right);
     for (int i = 0; i < n; i++)
         v[frame->coordinate[SCENE_RX + of[i]]] = right[i];
@@ -64,8 +60,7 @@ static void start_vertex(const model *m, const model_state *s, int index, const 
                          double v[])
 {
     const mesh_vertex *frame = model_vertex(m, index);
-    const int own =
-        index < model_first_release(m); /* released coordinates do not move, except ball joints */
+    const int own = index < model_first_release(m);
     double R[9], velocity[3], body[3];
     velocity_of(m, s, index, field, velocity);
     rotation_matrix(&s->q[4 * index], R);
@@ -158,7 +153,7 @@ static status begin(motion_stage *s, const scene_motion *how, motion_state *now,
     if (massless == 0)
         return accelerate(s, how->step, now, room, inc, zero, f);
     TRY(consistent_massless(s, zero, how->step, now, f));
-    if (!s->masses->spread) /* with consistent mass, the accelerations of all masses are coupled */
+    if (!s->masses->spread)
         return STATUS_OK;
     TRY(accelerate(s, how->step, now, room, inc, zero, f));
     TRY(massless_drop(m, s->masses, now->state, now->a, f));
@@ -220,7 +215,7 @@ static status check_followers(const model *m, const model_state *s, const scene_
 static status set_field(const model *m, const model_state *s, const scene_start *field, double v[],
                         fault *f)
 {
-    for (int i = 0; i < 2 * model_vertices(m); i++) { /* masters of diaphragms come first */
+    for (int i = 0; i < 2 * model_vertices(m); i++) {
         const int vertex = i % model_vertices(m);
         if ((model_vertex(m, vertex)->body == vertex || vertex >= model_first_release(m)) &&
             model_owns(m, vertex, SCENE_RX) == (i < model_vertices(m)))
@@ -249,7 +244,6 @@ status initial_conditions_rotating(analysis_context *c, const frame_masses *mass
         TRY(set_field(m, now->state, &field, now->v, f));
         TRY(check_field(m, now->state, &field, now->v, f));
     }
-    /* initial velocity field of the scene plus the rotation of the axes, relative to the origin */
     double own[3], of_frame[3];
     vec3_cross(how->start.spin, how->start.centre, own);
     vec3_cross(frame->omega, frame->centre, of_frame);
@@ -321,7 +315,6 @@ static status check_conserving(const analysis_context *c, int analysis, fault *f
                      t->name, model_history(c->model) > 0 ? "has a history" : "is not objective");
 }
 
-/* Checks that the explicit integrator has no damping of elements to integrate. */
 static status check_explicit(const analysis_context *c, int analysis, fault *f)
 {
     if (scene_motion_of(&c->scene->analysis[analysis])->scheme != SCENE_EXPLICIT ||
@@ -391,7 +384,6 @@ static const double rounding = 32 * DBL_EPSILON;
 
 double extent_allows(const extent *so_far, double part, double tolerance)
 {
-    /* the size of the structure, independent of its position in space */
     const double size = 1;
     const double most = tolerance * fmax(so_far->scale, fmin(size, so_far->largest)),
                  noise = 8 * DBL_EPSILON * so_far->bent;
@@ -400,7 +392,6 @@ double extent_allows(const extent *so_far, double part, double tolerance)
 
 int extent_is_less(const extent *so_far, double tolerance, double *scale)
 {
-    /* known: relative error of an equilibrium from Newton's method */
     const double part = 0.5, known = 1e-10;
     *scale = fmax(so_far->largest, rounding);
     return so_far->largest > known * so_far->bent && *scale < part * so_far->scale &&

@@ -11,7 +11,6 @@
 /* Relative to the largest mass: eigenvalue of the scaled M below which a motion has no mass. */
 static const double massless_nothing = 1e-14;
 
-/* Operations on the mass matrix of a body. */
 typedef enum massless_task { COUNT, STIFFEST, KEEP_FORCES, KEEP_MOTION, ACCELERATE } massless_task;
 
 typedef struct null_space_task {
@@ -21,8 +20,6 @@ typedef struct null_space_task {
     double stiffest;
 } null_space_task;
 
-/* Projects x[free] onto the null space of M. Its basis vectors are the columns of g->M with
- * eigenvalues up to `none`. forces 1: x contains forces; 0: increments. */
 static void project(const body_mass *g, double none, int forces, double x[])
 {
     const int n = g->count;
@@ -182,7 +179,6 @@ static void turn_axes(const model *m, const model_state *s, int own_to_space, do
     }
 }
 
-/* Converts spatial rotations of bodies in a[free] to the axes of forms_rates. */
 static void massless_own_axes(const model *m, const model_state *s, double a[])
 {
     turn_axes(m, s, 0, a);
@@ -231,8 +227,6 @@ static int is_whole(const model *m, int i, int block)
     return whole;
 }
 
-/* Computes column k of the projections of all bodies in one call, because the projections are
- * independent. */
 static status column(const model *m, const frame_masses *masses, const model_state *s, int block,
                      int k, double dx[], massive *h, fault *f)
 {
@@ -248,8 +242,6 @@ static status column(const model *m, const frame_masses *masses, const model_sta
     return STATUS_OK;
 }
 
-/* Replaces the projection P onto rotations by R^T P R for bodies whose rates are in rotating axes.
- * */
 static void own_axes(const model *m, const model_state *s, massive *h)
 {
     for (int i = 0; i < model_first_release(m); i++) {
@@ -262,8 +254,6 @@ static void own_axes(const model *m, const model_state *s, massive *h)
     }
 }
 
-/* Returns 1 if a motion dx[free] without inertia moves this component, or another component of the
- * same translation or rotation. */
 static int is_moved(const model *m, const model_state *s, const scene_component *what,
                     const double dx[])
 {
@@ -283,7 +273,6 @@ static int is_moved(const model *m, const model_state *s, const scene_component 
     return most > 1e-9;
 }
 
-/* Returns 1 if all quantities of the analysis are undefined and no other analysis continues it. */
 static int is_all(const scene *s, int analysis, const unsigned char undefined[])
 {
     for (int i = 0; i < s->quantities; i++)
@@ -320,7 +309,7 @@ status massless_readings(const model *m, const frame_masses *masses, const model
             q->what.of.rated.rate == SCENE_SPEED)
             continue;
         for (int k = 0; k < model_unknowns(m); k++)
-            dx[k] = 1 + 0.01 * k; /* a motion of all coordinates */
+            dx[k] = 1 + 0.01 * k;
         outcome = massless_motion(m, masses, s, dx, f);
         (*undefined)[i] = outcome == STATUS_OK && is_moved(m, s, scene_component_of(q), dx);
         first = (*undefined)[i] && first == NULL ? q : first;
@@ -377,12 +366,8 @@ double massive_norm(const massive *h, const model *m, const double weight[], dou
     return sqrt(square);
 }
 
-/* Newton's method for the motions without inertia. Forces and increments are projected onto these
- * motions (massless_forces). For all other motions, the tangent contains a large stiffness. */
-
 /* Relative to the largest stiffness: stiffness that fixes coordinates with inertia. It multiplies
- * rounding errors by at most this factor. Newton's method converges linearly, with a ratio of
- * corrections of about its inverse. */
+ * rounding errors by at most this factor. */
 static const double firm = 1e6;
 
 static double *diagonal_of(const sparse *S, double out[])
@@ -395,7 +380,6 @@ static double *diagonal_of(const sparse *S, double out[])
     return out;
 }
 
-/* Computes the unbalanced forces for the known accelerations. K NULL: not requested. */
 static status forces(motion_stage *s, motion_state *now, sparse *K, fault *f)
 {
     const model *m = s->c->model;
@@ -510,9 +494,6 @@ static status relax(motion_stage *s, const double zero[], double h, double softn
     return balance(s, zero, now, moved, f);
 }
 
-/* Computes the rates from a displacement that is large enough to be accurate. Then computes the
- * equilibrium of coordinates without damping, from the state before this displacement. Gaps between
- * D(x) and e would act as a displacement, so they are closed first. */
 static status overdamped_rates(motion_stage *s, const double zero[], double h, motion_state *now,
                                double moved[], const unsigned char of[], fault *f)
 {

@@ -1,4 +1,3 @@
-/* Values of a quantity inside a step, and its mean and root mean square over time. */
 #include "harness/time/time_impl.h"
 
 #include <math.h>
@@ -51,7 +50,6 @@ static double integrand(const observer *one, double value)
     return one->largest > 0 ? pow(value / one->largest, 2) : 0;
 }
 
-/* Rescales the integrals of squares if a value is the largest so far. */
 static void rescale(observer *one, double value)
 {
     if (!is_square(one) || !(fabs(value) > one->largest))
@@ -80,7 +78,6 @@ static void add_inside(observers *s, observer *one, double a, double b)
         }
 }
 
-/* In every eighth step, compares the polynomial with a probe step at the middle. */
 static status check_inside(observers *s, observer *one, const motion_state *from, double a,
                            double b, fault *f)
 {
@@ -138,8 +135,7 @@ static double apart_from_simpson(const observer *one, const means_part *p)
 }
 
 /* Returns the difference of two integrals over two steps: that of the polynomial through all points
- * except the middle of each step, and that by Lobatto's rule. The difference has the order of the
- * rule, and exceeds its error even if the slope jumps. */
+ * except the middle of each step, and that by Lobatto's rule. */
 static double apart_from_both(const observer *one, const means_part *a, const means_part *b)
 {
     double t[MOST], value[MOST];
@@ -155,8 +151,6 @@ static double apart_from_both(const observer *one, const means_part *a, const me
     return whole_of(points, t, value) - lobatto(one, a) - lobatto(one, b);
 }
 
-/* Updates the error estimate of Lobatto's rule from pairs of successive steps. A single step is
- * used only at the start. */
 static void add_error(observer *one, const means_part *now)
 {
     const int pairs = one->holds && continues(&one->past, now);
@@ -170,7 +164,6 @@ static void add_error(observer *one, const means_part *now)
     one->holds = !pairs;
 }
 
-/* Adds the integral from a to b by Lobatto's rule, for forces and energies from probe steps. */
 static void add_from_probes(observers *s, observer *one, double a, double b)
 {
     means_part now;

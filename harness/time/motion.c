@@ -12,13 +12,11 @@ enum { MAX_HALVINGS = 12, MAX_PASSES = 8 };
 /* bounds of the ratio of consecutive step sizes, and safety factor for the error estimate */
 static const double shorter = 0.3, longer = 2, safety = 0.9;
 
-/* Rates computed in a very short step are rounding errors. A remainder before a discontinuity or
- * before the end that is shorter than `least_rest`, relative to the step size, is added to the last
- * step. The sum of the last step and a remainder that is shorter than `short_rest` is divided into
- * two equal steps. */
+/* A remainder before a discontinuity or before the end that is shorter than `least_rest`, relative
+ * to the step size, is added to the last step. The sum of the last step and a remainder that is
+ * shorter than `short_rest` is divided into two equal steps. */
 static const double least_rest = 1e-6, short_rest = 1e-3;
 
-/* Data of the integration of a motion. */
 typedef struct motion_course {
     analysis_context *c;
     const scene_motion *how;
@@ -41,14 +39,13 @@ typedef struct motion_course {
     frames frames;
     abouts abouts;
     outcome_motion *out;
-    /* energy balance of `now` and of `next` */
     double balance[SCENE_BALANCES], ahead[SCENE_BALANCES];
     int looked_ahead; /* 1: `ahead` is valid */
     account account;
     extent extent, reaches; /* extent so far, and extent with the trial step */
     double rounding;        /* [J] rounding error of the energy */
-    int quiet;              /* number of steps since the last discontinuity of the loads */
-    int unchecked;          /* number of steps whose balance has not been checked */
+    int quiet;
+    int unchecked;
 } motion_course;
 
 static status balance_at(motion_course *w, const motion_state *at, double balance[SCENE_BALANCES],
@@ -61,7 +58,6 @@ static status balance_at(motion_course *w, const motion_state *at, double balanc
     return STATUS_OK;
 }
 
-/* Records the step that ends at `now`, with its energy balance. */
 static status record_step(motion_course *w, const step_record *record, double error, fault *f)
 {
     outcome_step one = {.time = w->now.time,
@@ -80,7 +76,6 @@ static status record_step(motion_course *w, const step_record *record, double er
     return memory_append(&w->out->step, &w->out->steps, &one, sizeof one, "steps of a motion", f);
 }
 
-/* Accepts a step. last 1: a discontinuity or the end of the motion follows. */
 static status keep_step(motion_course *w, const step_record *record, double error, int last,
                         fault *f)
 {
@@ -108,9 +103,8 @@ static double end_of_all(const motion_course *w)
     return path->value[path->stations - 1];
 }
 
-/* Returns 1 if the error of the step is allowed. Sets the size of the next step accordingly. If the
- * errors of steps add up to the error of the motion, the allowed error of a step is proportional to
- * its size. */
+/* Returns 1 if the error of the step is allowed. If the errors of steps add up to the error of the
+ * motion, the allowed error of a step is proportional to its size. */
 static int allowed(motion_course *w, double step, double error)
 {
     w->reaches = extent_with(&w->extent, w->c->model, w->scheme, &w->now, &w->next, step, error);
@@ -126,8 +120,6 @@ static int allowed(motion_course *w, double step, double error)
     return of <= most;
 }
 
-/* Returns 1 if the energy gain of this step is checked. The first steps of generalized-alpha after
- * a jump of the loads gain energy, even if they are short. */
 static int checks_flutter(const motion_course *w)
 {
     return w->how->tolerance > 0 && !model_absolute(w->c->model) &&
@@ -136,7 +128,7 @@ static int checks_flutter(const motion_course *w)
 
 /* Checks for an unexplained gain of energy, for example because of unresolved modes; shorter steps
  * reduce it. *grows: 1 if the gain in this step, or in this and previous steps, is larger than
- * allowed. Fixed steps are not checked. */
+ * allowed. */
 static status check_growth(motion_course *w, int *grows, fault *f)
 {
     *grows = 0;
@@ -152,18 +144,14 @@ static status check_growth(motion_course *w, int *grows, fault *f)
     return STATUS_OK;
 }
 
-/* Sets the size of the next step after an accepted step. */
 static void lengthen(motion_course *w, double step, double whole, int rejected)
 {
     if (w->how->tolerance > 0 && step < whole)
-        w->h = fmax(
-            w->h,
-            whole); /* a step shortened to end at a discontinuity does not limit the next step */
+        w->h = fmax(w->h, whole);
     if (w->how->tolerance <= 0 && rejected == 0)
-        w->h = fmin(w->how->step, 2 * w->h); /* return to the size before halving */
+        w->h = fmin(w->how->step, 2 * w->h);
 }
 
-/* Makes one step. After a failure, tries shorter steps until a step succeeds. */
 static status take_step(motion_course *w, double target, fault *f)
 {
     for (int rejected = 0;; rejected++) {
@@ -206,7 +194,6 @@ static status take_step(motion_course *w, double target, fault *f)
     }
 }
 
-/* Restarts the scheme after a discontinuity of the loads. */
 static status jump(motion_course *w, fault *f)
 {
     TRY(consistent_restart(w->c, &w->masses, w->how, &w->now, &w->next, f));
@@ -214,9 +201,6 @@ static status jump(motion_course *w, fault *f)
     return extrema_here(&w->extrema, &w->now, w->balance, 0, f);
 }
 
-/* Checks the energy balance at the end of a step. The first steps after the start or after a
- * jump of the loads are checked together with later ones. At most 2 ACCOUNT_STEPS steps are
- * unchecked. */
 static status check_balance(motion_course *w, double end, fault *f)
 {
     if (w->quiet <= ACCOUNT_STEPS && w->unchecked < 2 * ACCOUNT_STEPS && w->now.time < end) {
@@ -224,7 +208,7 @@ static status check_balance(motion_course *w, double end, fault *f)
         return STATUS_OK;
     }
     w->unchecked = 0;
-    if (model_absolute(w->c->model)) /* there may be no energy function */
+    if (model_absolute(w->c->model))
         return STATUS_OK;
     return account_check(&w->account, w->how, w->now.time, w->balance, w->rounding, f);
 }
@@ -253,8 +237,6 @@ static status integrate(motion_course *w, fault *f)
                        w->out, f);
 }
 
-/* Continues from the end of the previous motion. The scheme or step size may differ only if both
- * motions are in one scene. */
 static status go_on(motion_course *w, fault *f)
 {
     const scene_motion *former = w->from->analysis == w->analysis
@@ -273,7 +255,6 @@ static status go_on(motion_course *w, fault *f)
                : STATUS_OK;
 }
 
-/* Finds the end that this motion continues, of another run or of the scene. */
 static status find_end(motion_course *w, fault *f)
 {
     w->from = resume_given(w->c, w->analysis);
@@ -283,8 +264,6 @@ static status find_end(motion_course *w, fault *f)
     return resume_before(w->c, w->follows, &w->from, f);
 }
 
-/* Finds the state at time 0 from which the motion starts, and the rotation of the axes in which it
- * is at rest. */
 static status begin(motion_course *w, scene_rotating_frame *frame, fault *f)
 {
     const int follows = w->follows;
@@ -293,7 +272,7 @@ static status begin(motion_course *w, scene_rotating_frame *frame, fault *f)
     TRY(find_end(w, f));
     if (w->from != NULL)
         return go_on(w, f);
-    if (follows == SCENE_NONE) /* free strains deform members even if there are no loads */
+    if (follows == SCENE_NONE)
         return linearise_make_compatible(&w->c->eq, w->now.state, f);
     const analysis_outcome *before = &w->c->outcomes[follows];
     const outcome_path *path = outcome_path_of(before);
@@ -414,7 +393,7 @@ static status run(analysis_context *c, int analysis, double *scale, int *again, 
         history_add_motion(c->result, analysis, w.path, w.out, f) != STATUS_OK)
         result = STATUS_FAULT;
     release(&w);
-    if (*again) { /* the work is counted; the steps are discarded */
+    if (*again) {
         history_go_back(c->result, &begin);
         c->run->counters.steps = before.steps;
         c->run->counters.rejected_steps = before.rejected_steps;
@@ -453,7 +432,6 @@ void frames_free(frames *p)
     motion_state_free(&p->at);
 }
 
-/* Returns the time of the next frame; INFINITY: none. */
 static double next_of(const frames *p)
 {
     const int next = p->to->reached, last = p->to->stations - 1;

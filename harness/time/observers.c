@@ -7,7 +7,6 @@
 
 #include "harness/numerics/numerics.h"
 
-/* intervals of a step in which one root each is sought */
 enum { PIECES = MEANS_NODES - 1, MOST_HALVINGS = 200 };
 
 /* relative to the size of the quantity: values below this have no sign */
@@ -32,7 +31,6 @@ static void begin(observers *s, observer *one, const scene_quantity *q)
     s->by_probe |= one->by_probe;
 }
 
-/* Returns 1 for a quantity of the motion that `extrema` does not evaluate. */
 static int is_observed(const observers *s, const scene_quantity *q)
 {
     return q->analysis == s->analysis && scene_is_passed(q, SCENE_MOTION) &&
@@ -83,8 +81,7 @@ static double above_level(observers *s, const observer *one, double time)
 }
 
 /* Returns the root between a and b, where the values fa and fb of f have opposite signs. Uses
- * secant steps, and bisection in every third iteration. If values come from probe steps, the search
- * ends when the value is a rounding error or when the interval is 1e-10 of the step. */
+ * secant steps, and bisection in every third iteration. */
 static double root(observers *s, const observer *one, along *f, double a, double fa, double b,
                    double fb)
 {
@@ -143,8 +140,6 @@ static int counts(const observer *one, int side)
     return way == SCENE_EITHER || side == (way == SCENE_RISING ? 1 : -1);
 }
 
-/* Returns 1 for positions, whose jumps are no crossings. Jumps of forces and accelerations with the
- * loads are crossings. */
 static int turns_back(const observer *one)
 {
     return !one->by_probe && one->q->what.kind != SCENE_RATE;
@@ -209,7 +204,6 @@ static status observe_extreme(observers *s, observer *one, const motion_state *f
     return STATUS_OK;
 }
 
-/* Records that the quantity has no value from now on. */
 static void lose(observer *one)
 {
     one->out->known = one->by_probe ? PASSING_UNSOLVED : PASSING_LOST;
@@ -288,7 +282,6 @@ static int is_followed(const scene *s, int analysis)
     return 0;
 }
 
-/* Computes the numbers of stored values for this model. */
 static void measure(const model *m, const motion_state *now, outcome_end *out)
 {
     out->between = (size_t)turns_between_count(m);
@@ -298,7 +291,6 @@ static void measure(const model *m, const motion_state *now, outcome_end *out)
     out->released = now->ends_known ? motion_state_ends(m) : 0;
 }
 
-/* Positions and sizes of the parts of a state in outcome_end.value. */
 enum { PARTS = 7 };
 typedef struct part {
     double *of;

@@ -56,7 +56,6 @@ void probe_steps_set(probe_steps *s, const motion_state *from, const motion_stat
     s->outcome = STATUS_OK;
 }
 
-/* Finds the state at a time of the step. Makes a probe step if the state is not stored. */
 static status state_at(probe_steps *s, double time, const motion_state **out, fault *f)
 {
     *out = time == s->from->time ? s->from : time == s->to->time ? s->to : NULL;

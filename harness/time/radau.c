@@ -120,7 +120,7 @@ static status step(motion_scheme *base, const motion_state *from, double h, moti
 {
     radau *r = (radau *)base;
     *error = 0;
-    if (r->of.c->run->damping != NULL) /* the stages add the damping */
+    if (r->of.c->run->damping != NULL)
         damping_follow(&r->of.c->eq, 0, r->of.c->run->damping->none, NULL);
     return solve(r, from, h, to, error, record, f);
 }

@@ -11,7 +11,6 @@
 /* Computes out = R B, where R is the orientation of a vertex in stage i. */
 static void radau_in_space(const radau *, int vertex, int i, const double B[9], double out[9]);
 static void radau_spread(radau *, double h);
-/* Adds the damping of members to the residual and, if fresh is 1, to S. */
 static void radau_damp(radau *, int fresh, const motion_state *from, double h);
 
 /* Adds the derivatives of the inertia forces on a frame in stage i to the blocks (i, k) for all k.
@@ -45,7 +44,6 @@ static void add_frame(radau *r, int index, double h, int i)
     }
 }
 
-/* Like add_frame, for a released end. */
 static void add_released(radau *r, int index, double h, int i)
 {
     static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -113,7 +111,6 @@ void radau_integrate(radau *r, const motion_state *from, double h, const step_re
         }
 }
 
-/* A block of the matrix of the stages. */
 typedef struct stages_block {
     stages_matrix *S;
     int i, k;
@@ -303,14 +300,10 @@ static void radau_in_space(const radau *r, int vertex, int i, const double B[9],
     mat3_mul(R, B, out);
 }
 
-/* Elements with damping stresses V e'. The strain rates e_i' = 1/h sum_j B_ij (e_j - e_0) couple
- * all three stages. */
-
 /* Damping forces of an element in a stage. */
 typedef struct damped {
-    /* derivatives with respect to the coordinates of the model */
     double J[ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES];
-    double gained[ELEMENT_MAX_STRAINS]; /* increases of the strains since the start of the step */
+    double gained[ELEMENT_MAX_STRAINS];
 } damped;
 
 static void take(radau *r, const motion_state *from, int stage, int element, damped *out)
@@ -330,8 +323,6 @@ static void take(radau *r, const motion_state *from, int stage, int element, dam
     }
 }
 
-/* Adds V e' in a stage to the linearised stress of the element, and subtracts its forces from
- * the residual. */
 static void add_stress(radau *r, const damped all[STAGES], double h, const double V[], int stage,
                        int element)
 {
@@ -374,8 +365,6 @@ static void add_blocks(radau *r, const damped all[STAGES], double h, const doubl
     }
 }
 
-/* Like add_stress and add_blocks, for a dashpot, whose stress is in no slot. The tangent includes
- * the rotation of its axes. */
 static void damp_spring(radau *r, int fresh, const motion_state *from, double h, int spring)
 {
     enum { SIX = SPRING_STRAINS, X = ELEMENT_MAX_COORDINATES };
@@ -515,11 +504,6 @@ void radau_damp_error(const radau *r, const motion_state *from, double h, const 
     damping_follow(&r->of.c->eq, g, room, from->state);
 }
 
-/* Consistent masses of elements in the equations of the three stages, with blocks for all nodes of
- * an element. */
-
-/* Computes the derivative of the motion of a node in stage i with respect to spatial increments
- * of its coordinates in stage k. */
 static void motions_of(const radau *r, const consistent_mass_parts *p, int node, double h, int i,
                        int k, consistent_mass_motion *rates, consistent_mass_motion *accelerations)
 {

@@ -1,4 +1,4 @@
-/* Values of quantities in a state. The functions in cases/quantities use this interface. */
+/* Values of quantities in a state. */
 #include "harness/time/time_impl.h"
 
 #include <float.h>
@@ -9,7 +9,6 @@
 #include "elements/math/rotation.h"
 #include "elements/math/vec3.h"
 
-/* A state with the interface of cases/quantities. */
 typedef struct read_state {
     quantity_state as;
     const reading *from;
@@ -88,7 +87,6 @@ static double released_of(const quantity_state *s, int member, int end, int comp
     return release_value(model_of(s), of(s)->from->state, member, end, component);
 }
 
-/* Returns a displacement or rotation of a node in linear statics. */
 static double linear_component(const quantity_state *s, int node, int component)
 {
     const double *x = of(s)->from->x;
@@ -100,7 +98,6 @@ static double linear_component(const quantity_state *s, int node, int component)
     return sum;
 }
 
-/* Returns the motion of a released end in linear statics. */
 static double linear_released(const quantity_state *s, int member, int end, int component)
 {
     const model *m = model_of(s);
@@ -154,7 +151,6 @@ static const int value_of[SCENE_RESULTANTS] = {[SCENE_N] = SPAN_N,
                                                [SCENE_MX_WARPING] = SPAN_MX_WARPING,
                                                [SCENE_MX_WAGNER] = SPAN_MX_WAGNER};
 
-/* A resultant multiplied by a sign; sign 0: its absolute value. */
 typedef struct chosen_resultants {
     scene_resultant resultant;
     double sign;

@@ -133,7 +133,6 @@ void released_add_force(const model *m, const model_state *s, int vertex, const 
             out[of.index[k]] += of.T[i * of.count + k] * F[i];
 }
 
-/* Multiplies the columns `first` to `first` + 2 of T by B: out[6 x count]. */
 static void turn_columns(const released_masses *of, int first, const double B[9], double out[])
 {
     for (int i = 0; i < 6 && first != NONE; i++)
@@ -216,7 +215,6 @@ static size_t of_members(const model *m)
     return (size_t)model_elements(m) * (size_t)model_strains(m);
 }
 
-/* Damping matrices of elements of the same kind: one for each damping of a member. */
 typedef struct damped_kinds {
     int *first; /* [kinds] first matrix of a kind, or NONE */
     int *next,
@@ -315,7 +313,6 @@ static status fill_matrix(const model *m, int element, double eta, double V[], d
     return STATUS_OK;
 }
 
-/* Finds the damping matrices of all elements. more [s]: additional damping of all members. */
 static status fill_matrices(const model *m, double more, damped_kinds *k, run_damping *d, fault *f)
 {
     const size_t square = (size_t)model_strains(m) * (size_t)model_strains(m);
@@ -339,7 +336,6 @@ static status fill_matrices(const model *m, double more, damped_kinds *k, run_da
     return STATUS_OK;
 }
 
-/* Allocates the damping matrices of a model. */
 static status matrices_alloc(const model *m, double more, run_damping *d, fault *f)
 {
     const size_t all = (size_t)model_stresses(m);
@@ -476,7 +472,6 @@ size_t dashpots_room(const model *m)
     return (size_t)model_all_coordinates(m) + (size_t)(SPRING_STRAINS * model_springs(m)) + 1;
 }
 
-/* Computes the deformation rates of dashpots [6 x springs] in `room`. */
 static double *rates_of_dashpots(const model *m, const model_state *s, const double v[],
                                  double room[])
 {
@@ -552,7 +547,6 @@ double damping_power(const equations *eq, const double rate[])
     return sum + dashpots_power(m, rate + of_members(m));
 }
 
-/* Returns the number of rotations that have rows: free, prescribed, or fixed with a kept row. */
 static int turns_of(const model *m, int vertex)
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -640,7 +634,6 @@ static void sequence_rates(const model *m, const model_state *s, int vertex, con
     }
 }
 
-/* Adds the motion of a frame on the arm of a diaphragm. */
 static void add_swing(const model *m, const model_state *s, int vertex, const double v[],
                       const double a[], frame_rates *out)
 {

@@ -76,8 +76,6 @@ static void add(const sparse *a, double times, sparse *to)
         to->value[i] += times * a->value[i];
 }
 
-/* Returns 1 if the rotation of a vertex is given by its angular velocity and has separate
- * coordinates. */
 static int turns_freely(const model *m, int vertex)
 {
     const int own = vertex >= model_first_release(m) ||
@@ -85,8 +83,6 @@ static int turns_freely(const model *m, int vertex)
     return own && forms_of(m, vertex) == FORM_BODY;
 }
 
-/* Marks the coordinates of released ends and of sequences of angles. Their derivatives have no
- * closed form in this file, because they rotate about moving axes. */
 static void mark_odd(small_motions *s)
 {
     const model *m = s->m;
@@ -104,7 +100,6 @@ static void mark_odd(small_motions *s)
     }
 }
 
-/* Subtracts B w~ from A[:, columns of a free rotation]. */
 static void subtract_turning(const small_motions *s, const sparse *B, sparse *A)
 {
     const model *m = s->m;
@@ -138,8 +133,6 @@ static void add_forces(small_motions *s, int c, int rate, double h, double scale
         out[i] -= scale * s->force[i];
 }
 
-/* Computes the derivative of the inertia forces with respect to a coordinate, or to its rate. The
- * forces are quadratic in the rate, so one central difference is exact. */
 static void differentiate(small_motions *s, int c, int rate, double out[])
 {
     const double h = rate ? 1 : turn_by;
@@ -149,16 +142,12 @@ static void differentiate(small_motions *s, int c, int rate, double out[])
             add_forces(s, c, rate, sign * (k + 1) * h, sign * (rate ? 0.5 : weight_of[k]) / h, out);
 }
 
-/* Replaces column c of A within its pattern. */
 static void put_column(int c, const double of[], sparse *A)
 {
     for (int k = A->column[c]; k < A->column[c + 1]; k++)
         A->value[k] = of[A->row[k]];
 }
 
-/* Computes the columns of a free rotation from the columns in the axes of the frame. Derivatives
- * with respect to positions are in the exponential chart, so half of the effect of the moment is
- * added. */
 static void put_turn(small_motions *s, int vertex, int rate, sparse *A)
 {
     const int *at = &model_vertex(s->m, vertex)->coordinate[SCENE_RX];
@@ -189,7 +178,6 @@ static void put_turn(small_motions *s, int vertex, int rate, sparse *A)
     }
 }
 
-/* Computes the columns of the marked coordinates by finite differences. */
 static void put_odd(small_motions *s, int rate, sparse *A)
 {
     const model *m = s->m;
@@ -210,8 +198,6 @@ static void put_odd(small_motions *s, int rate, sparse *A)
     }
 }
 
-/* Computes M, G and the part of K due to inertia forces, and C of mass-proportional damping. G
- * first serves as work space. */
 static void add_inertia(small_motions *s)
 {
     const motion_state *now = s->now;
@@ -238,14 +224,12 @@ static void add_inertia(small_motions *s)
         out->G.value[i] = out->C.value[i] - out->G.value[i];
     sparse_zero(&out->C);
     put_odd(s, 1, &out->G);
-    if (s->masses->damping != 0) /* the finite differences contain this term */
+    if (s->masses->damping != 0)
         for (int c = 0; c < s->all; c++)
             for (int k = out->G.column[c]; k < out->G.column[c + 1] && s->odd[c]; k++)
                 out->G.value[k] -= s->masses->damping * out->M.value[k];
     subtract_turning(s, &out->M, &out->G);
 }
-
-/* Change of J of damped elements and dashpots during the motion, by finite differences. */
 
 /* Returns a duration [s] in which rotations of nodes are at most about turn_by, and their
  * displacements at most about turn_by times the size of the model; 0: nothing moves. */
@@ -287,7 +271,6 @@ static void strains_of(const model *m, const model_state *at, int element, doubl
     }
 }
 
-/* Memory for J of one element or spring. */
 enum { ROOM = ELEMENT_MAX_STRAINS * MODEL_MAX_COORDINATES };
 
 /* Adds `scale` times the Jacobians J of damped elements and springs to change[(elements + springs)
@@ -313,7 +296,6 @@ static void add_jacobians(const small_motions *s, const model_state *at, double 
     }
 }
 
-/* Computes J' [(elements + springs) x ROOM]. */
 static void change_jacobians(small_motions *s, double change[])
 {
     const double h = short_time(s);
@@ -360,8 +342,6 @@ static void add_rates(small_motions *s, const double change[])
     }
 }
 
-/* Computes C, and the part of K due to the effect of a change of J on damping forces. The tangent
- * already contains the effect of the current damping forces. */
 static status add_damping(small_motions *s, fault *f)
 {
     if (s->eq->run->damping != NULL)
@@ -379,8 +359,6 @@ static status add_damping(small_motions *s, fault *f)
     return STATUS_OK;
 }
 
-/* Makes the strains compatible with the positions. Then computes the stresses from the strains and
- * their rates. */
 static status make_compatible(const equations *eq, motion_state *now, fault *f)
 {
     const model *m = eq->m;
@@ -398,7 +376,6 @@ static status make_compatible(const equations *eq, motion_state *now, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the part of K due to stresses, damping stresses and loads in the state. */
 static status add_stiffness(small_motions *s, fault *f)
 {
     const equations *eq = s->eq;

@@ -68,7 +68,6 @@ static void add_entry(void *S, int row, int column, double value)
     assemble_subtract(S, row, column, -value);
 }
 
-/* Computes dx from the equations of the state. fresh 0: the previous factors are used. */
 static status direction(motion_stage *s, int fresh, double time, const stage_rates *r,
                         model_state *now, step_record *record, fault *f)
 {
@@ -148,7 +147,6 @@ struct strain_update {
         settled;
 };
 
-/* Returns 1 if C depends on the strains. */
 static int curved(const model *m, const element_data *data, double length)
 {
     double e[MOST] = {0}, sigma[MOST], rest[MOST * MOST] = {0}, C[MOST * MOST] = {0};
@@ -205,17 +203,14 @@ void strain_update_begin(strain_update *c, const model_state *s)
                (size_t)(model_elements(c->m) * model_strains(c->m)) * sizeof *s->e);
 }
 
-/* Iteration of an element towards its target stresses. */
 typedef struct strain_update_search {
     const equations *eq;
     const model *m;
     int element;
-    double near;                                 /* [N] distance below which stresses agree */
-    double e[MOST], sigma[MOST], C[MOST * MOST]; /* P' and P'' at e */
+    double near; /* [N] distance below which stresses agree */
+    double e[MOST], sigma[MOST], C[MOST * MOST];
 } strain_update_search;
 
-/* Returns a difference of stresses below which Newton's method converges equally fast from the
- * strains and from the stresses. */
 static double near_of(int n, const double sigma[])
 {
     double largest = 0;
@@ -244,8 +239,7 @@ static int evaluate(strain_update_search *w)
                                     &(stress_output){.sigma = w->sigma, .C = w->C}) == STATUS_OK;
 }
 
-/* Computes e += C^-1 gap. Strains without stiffness, such as warping strains, do not change.
- * Returns 0 if C is singular. */
+/* Computes e += C^-1 gap. Returns 0 if C is singular. */
 static int move(strain_update_search *w, double gap[])
 {
     const int n = model_strains(w->m);
@@ -350,7 +344,6 @@ static void find(const strain_update *c, int element, const double sigma[], doub
         memcpy(e, w.e, n * sizeof *e);
 }
 
-/* Marks the elements of a batch whose stresses already agree. */
 static void settled(const strain_update *c, const model_state *s, int count, const int index[],
                     const double *const goal[], int is[])
 {
@@ -376,8 +369,6 @@ static void settled(const strain_update *c, const model_state *s, int count, con
                                                 near_of(model_strains(m), goal[k]));
 }
 
-/* Updates the strains of elements [first, end). Returns 1 if the stresses of all these elements
- * agree with their targets. */
 static int follow_stresses(const strain_update *c, model_state *s, int first, int end)
 {
     const size_t n = (size_t)model_strains(c->m);

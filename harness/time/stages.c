@@ -208,15 +208,13 @@ static double add_mass(const model *m, const frame_masses *all, int index, const
     return all->mass[index].mass;
 }
 
-/* Returns the first of the bodies that constraints connect to the body of a vertex. */
 static int first_of(const model *m, int vertex)
 {
     return model_first_joined(m, model_vertex(m, vertex)->body);
 }
 
 /* Adds an element with consistent mass: the entries of the nodes that the body moves and of the
- * ends released from them. The coupling with other nodes is omitted, because a motion without mass
- * in this block has no mass in the whole matrix. Returns the largest mass of a node. */
+ * ends released from them. Returns the largest mass of a node. */
 static double add_element(const model *m, int element, int body, const model_state *s,
                           const body_mass *g)
 {
@@ -280,7 +278,6 @@ double body_mass_of(const model *m, const frame_masses *all, int body, const mod
     return largest;
 }
 
-/* Returns the largest number of coordinates of a body, or of bodies connected by constraints. */
 static int most_coordinates(const model *m, int count[])
 {
     int most = 0;

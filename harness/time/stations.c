@@ -47,8 +47,6 @@ static void put(const dense_output *b, int coordinate, const between_ends *e)
     memcpy(part, b->degree == DENSE_OUTPUT_CUBIC ? cubic : quintic, sizeof cubic);
 }
 
-/* Sets the polynomial of a coordinate that is not a rotation in body axes. It increases by `whole`
- * in the step. */
 static void put_plain(const dense_output *b, int c, double whole, double h)
 {
     const motion_state *from = b->from, *to = b->to;
@@ -73,7 +71,6 @@ static void vector_rates(const double t[3], const double W[3], const double Wd[3
     mat3_mul_vec(inverse, more, second);
 }
 
-/* Computes the rotation vector of a vertex in the step, in its axes at the start. */
 static void turn_of(const dense_output *b, int vertex, double t[3])
 {
     double back[4], q[4];
@@ -102,7 +99,6 @@ static void put_turn(const dense_output *b, int vertex, double h)
                 &(between_ends){t[1][k], {rate[0][k], rate[1][k]}, {second[0][k], second[1][k]}});
 }
 
-/* Interpolates the rotation vector of a ball joint linearly. */
 static void put_ball(const dense_output *b, int vertex)
 {
     const int *at = model_vertex(b->m, vertex)->coordinate + SCENE_RX;
@@ -161,7 +157,6 @@ void dense_output_set(dense_output *b, dense_output_degree degree, const motion_
         put_plain(b, model_warp(m, i), to->state->warp[i] - from->state->warp[i], h);
 }
 
-/* Computes the body rates of rotations from the rates of their rotation vectors. */
 static void turn_rates(const dense_output *b, int vertex, const double inc[], const double rate[],
                        const double second[], motion_state *at)
 {
@@ -279,8 +274,6 @@ static int is_slope(const stations *s, int quantity)
     return q->analysis == s->analysis && reading_is_slope(q);
 }
 
-/* Computes slopes at the stations of a step and at its end. After the first step, also computes the
- * slopes at time 0. */
 static void take_slopes(stations *s, const motion_state *from, const motion_state *to)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
@@ -321,7 +314,6 @@ void stations_free(stations *s)
     motion_state_free(&s->at);
 }
 
-/* Returns the time of the next station; INFINITY: none. */
 static double next_of(const stations *s)
 {
     const scene_path *path = scene_path_of(&s->c->scene->analysis[s->analysis]);
@@ -346,7 +338,6 @@ static status keep(stations *s, const motion_state *at, const double balance[SCE
     return outcome_keep(&s->out->path, m, at->state, 1, next_of(s), f);
 }
 
-/* Returns 1 if quantities at this station need more than positions and rates. */
 static int reads_forces(const stations *s, double time)
 {
     const scene *what = s->c->scene;
@@ -361,7 +352,6 @@ static int reads_forces(const stations *s, double time)
     return 0;
 }
 
-/* Writes a station from a probe step that begins at the start of the step. */
 static status step_to(stations *s, const motion_state *from, double time, fault *f)
 {
     double balance[SCENE_BALANCES];

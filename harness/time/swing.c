@@ -1,4 +1,3 @@
-/* Motion of frames on the arms of diaphragms. */
 #include "harness/time/time_impl.h"
 
 #include "elements/math/vec3.h"

@@ -36,7 +36,7 @@ size_t motion_state_ends(const model *);
 /* Interpolation of a motion inside a step by a polynomial for the increment of each coordinate. For
  * rotations, the increment is a rotation vector in the axes of the frame at the start. The
  * polynomial matches positions and rates at both ends, and also accelerations if their order equals
- * that of the rates. Prescribed coordinates follow from their drivers. */
+ * that of the rates. */
 
 typedef enum dense_output_degree {
     /* matches positions and rates; the error is of order 4, and accelerations are linear */
@@ -54,8 +54,7 @@ typedef struct dense_output {
     double *room; /* [3 x (free + driven)] */
 } dense_output;
 
-/* Computes the whole state. Strains, stresses and inner unknowns are interpolated linearly. This is
- * sufficient for pictures, but not for forces. */
+/* Computes the whole state. Strains, stresses and inner unknowns are interpolated linearly. */
 void dense_output_at(const dense_output *, double time, motion_state *at);
 
 /* Masses at the frames of a model: lumped masses of the elements, and rigid bodies. The masses that
@@ -87,8 +86,7 @@ typedef struct frame_masses {
 } frame_masses;
 
 /* Lumps the masses of elements at their nodes (mesh_element.share). Elements with three nodes have
- * the weights of Simpson's rule (Jonker, Eq. 73). The mass of a released end moves with the
- * rotations and shifts of this end. */
+ * the weights of Simpson's rule (Jonker, Eq. 73). */
 status frame_masses_alloc(const model *, frame_masses *, fault *);
 /* Like frame_masses_alloc, for rigid bodies only; the elements have consistent masses. */
 status frame_masses_alloc_bodies(const model *, frame_masses *, fault *);
@@ -116,8 +114,6 @@ typedef struct outer_work {
 status work_alloc(const equations *, const frame_masses *, outer_work *, fault *);
 void work_free(outer_work *);
 
-/* Interface of all time integrators: a step from one state of a motion to the next. */
-
 typedef struct scheme_request {
     analysis_context *c;
     const frame_masses *masses;
@@ -138,7 +134,7 @@ struct motion_scheme {
     dense_output_degree
         degree; /* interpolation inside a step; quintic if accelerations are as accurate as rates */
     /* Makes a step of h [s]. *error: estimated error of the positions, with the norm of
-     * metric_distance. NOT_CONVERGED: `to` is invalid; `from` is unchanged. */
+     * metric_distance. NOT_CONVERGED: */
     status (*step)(motion_scheme *, const motion_state *from, double h, motion_state *to,
                    double *error, step_record *, fault *);
     void (*free)(motion_scheme *);
@@ -148,7 +144,8 @@ struct motion_scheme {
 
 enum { ACCOUNT_STEPS = 10 }; /* number of first steps whose energy is too small for a check */
 /* Limits relative to account_size: unexplained energy gain that stops a motion, energy loss that is
- * reported, and energy loss that stops a motion without requested numerical damping */
+ * reported, and energy loss that stops a motion, unless its steps are fixed or rho_inf is below 0.9
+ */
 extern const double account_gained, account_stated, account_lost;
 
 typedef struct account {
@@ -157,18 +154,15 @@ typedef struct account {
     double work;    /* [J] work at the end of the last step */
 } account;
 
-/* Adds the energy balance of a step. The first call passes the initial balance (steps 0); later
- * calls pass the steps in order. */
 void account_take(account *, int steps, const double balance[SCENE_BALANCES]);
 /* Returns the larger of two values [J]: the largest energy, and the sum of the absolute work of all
  * steps. */
 double account_size(const account *);
 
-/* Returns 1 if an element or a spring has damping, from its member or its formulation. */
 int damping_acts(const model *);
 int damping_of_elements(const model *);
 /* Computes the damping matrices of all elements. After this call, stresses of the run include
- * damping. Strain rates are zero until they are set. Without damping, nothing changes. */
+ * damping. Strain rates are zero until they are set. */
 status damping_begin(const equations *, run_damping *, fault *);
 void damping_end(const equations *, run_damping *);
 
@@ -181,8 +175,6 @@ status damping_matrix(const equations *, const model_state *, double more, spars
 void feedback_signals(const equations *, const model_state *, int load, double push[],
                       double measured[]);
 
-/* Transient analysis: computes the states at the requested times. */
-
 /* Checks before any analysis runs that the integrator supports the formulation, the form of
  * Newton's method, the damping and the kind of mass, and that the values of all drivers are
  * known. */
@@ -193,16 +185,13 @@ const outcome_end *resume_given(const analysis_context *, int analysis);
 /* Returns REFUSED with the reason why the quantity is undefined (outcome_motion.undefined). */
 status motion_undefined(const scene *, const scene_quantity *, fault *);
 
-/* Transforms K and G of small motions about a state during a motion to rotating axes, which are
- * parallel to the fixed axes at the time of the state. K, G: input in fixed axes, output in
- * rotating axes. room: work space. All matrices have the pattern of `about`. The axes rotate with
- * `node`. node SCENE_NONE: each node has its own axes, unless some of its components are fixed,
- * prescribed or constrained. REFUSED: the rotation of `node` mixes free components of a node with
- * other components. */
+/* Transforms K and G of small motions about a state during a motion from fixed axes to rotating
+ * axes, which are parallel to the fixed axes at the time of the state. room: work space. All
+ * matrices have the pattern of `about`. The axes rotate with `node`. node SCENE_NONE: each node has
+ * its own axes, unless some of its components are fixed, prescribed or constrained. REFUSED: the
+ * rotation of `node` mixes free components of a node with other components. */
 status about_turning(const model *, const outcome_about *, int node, sparse *K, sparse *G,
                      sparse *room, fault *);
-
-/* Values of quantities in a state, for cases/quantities. */
 
 /* Known data of a state. */
 typedef struct reading {

@@ -10,9 +10,7 @@
 #include "harness/newton/newton.h"
 #include "harness/time/time.h"
 
-/* Each state of a motion contains the convergence history of Newton's method, so a rejected step
- * does not change the history. Call motion_state_recall before a step, and motion_state_store after
- * the step. */
+/* Call motion_state_recall before a step, and motion_state_store after the step. */
 void motion_state_recall(const motion_state *from, newton_convergence *);
 void motion_state_store(const newton_convergence *, motion_state *to);
 
@@ -42,15 +40,15 @@ double work_trapezoid(outer_work *, const motion_state *from, const motion_state
 double account_most(const account *, double part, double rounding);
 
 /* Checks the energy balance. NOT_CONVERGED: the unexplained gain exceeds account_gained, or the
- * loss exceeds account_lost although the scene requests no numerical damping. rounding [J]: see
+ * loss exceeds account_lost, unless steps are fixed or rho_inf is below 0.9. rounding [J]: see
  * balance_rounding. */
 status account_check(const account *, const scene_motion *, double time,
                      const double balance[SCENE_BALANCES], double rounding, fault *);
 
-/* Damping adds V e' to the stresses of elements, where e' are the strain rates. V is eta S0 plus
- * the damping matrix of the formulation; eta [s] is the damping of the member, and S0 is the
- * stiffness of the undeformed element. Rigid motions are not damped. For dashpots, e' are the
- * deformation rates of the spring, and V is given. */
+/* Damping adds V e' to the stresses of elements, where e' are the strain rates and V is eta S0 plus
+ * the damping matrix of the formulation. eta [s] is the damping of the member, and S0 is the
+ * stiffness of the undeformed element. For dashpots, e' are the deformation rates of the spring,
+ * and V is given. */
 
 /* Sets the strain rates to known + g (e - strains of `from`) with known[model_stresses]. from NULL:
  * g is 0. */
@@ -85,14 +83,11 @@ double damping_power(const equations *, const double rate[]);
  * (alpha_m - alpha_f)/2 - 1/6| (a1 - a). */
 status alpha_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* Probe steps: a probe step computes the state at a time inside a step. The motion does not
- * continue from this state. */
+/* Probe steps: a probe step computes the state at a time inside a step. */
 
-/* Makes a probe step from the start of the step. Its work is counted, but its iterations are not
- * recorded. */
+/* Makes a probe step from the start of the step. */
 status probe_step(analysis_context *, motion_scheme *, const motion_state *from, double time,
                   motion_state *at, fault *);
-/* An instant of the motion at which a quantity is read. */
 typedef struct probe_point {
     const motion_state *at;
     const double *balance; /* [SCENE_BALANCES]; NULL: not computed */
@@ -101,7 +96,7 @@ typedef struct probe_point {
 status probe_read(const analysis_context *, const frame_masses *, const outcome_motion *,
                   const scene_quantity *, const probe_point *, double *out, fault *);
 
-/* Values of any quantity inside a step. Quantities at the same time share a probe step. */
+/* Values of any quantity inside a step. */
 
 enum { PROBE_STEPS = 4 }; /* number of stored probe steps in a step: the first three and the last */
 
@@ -117,7 +112,6 @@ typedef struct probe_steps {
     fault why;
 } probe_steps;
 
-/* The caller sets c, scheme, masses and out. */
 status probe_steps_alloc(probe_steps *, fault *);
 void probe_steps_free(probe_steps *);
 void probe_steps_set(probe_steps *, const motion_state *from, const motion_state *to);
@@ -125,10 +119,7 @@ void probe_steps_set(probe_steps *, const motion_state *from, const motion_state
  * and `outcome` is the status. */
 double probe_steps_reading(probe_steps *, const scene_quantity *, double time);
 
-/* Energies and momenta during a motion. */
-
-/* Computes out[SCENE_BALANCES]. The energy-balance error does not yet contain the initial
- * energy. */
+/* Computes out[SCENE_BALANCES]. */
 status balance_of(const equations *, const frame_masses *, const motion_state *,
                   double out[SCENE_BALANCES], fault *);
 /* Returns the strain energy [J] due to rounding errors of all coordinates. */
@@ -150,7 +141,6 @@ typedef struct body_mass {
     double *zero;         /* [free + driven] zeros, used as rates */
 } body_mass;
 
-/* Allocates work space for all bodies of the model. */
 status body_mass_alloc(const model *, body_mass *, fault *);
 void body_mass_free(body_mass *);
 /* Computes the mass matrix of a body in a state; for the first of several connected bodies, that of
@@ -216,8 +206,7 @@ void cayley_forces(const cayley_step *, int columns, double f[]);
  * nonlinear. Newton's increment de gives sigma = P'(e) + P''(e) de; at the new strains, P' differs
  * from sigma by P''' de^2 / 2. In a member that is stiff in elongation, this difference can be
  * thousands of times the axial force, and it would enter the next tangent. Therefore the strains
- * are changed to satisfy P'(e) = sigma, and D(x) - e contains the difference. This is a
- * complementary (Hellinger-Reissner) form of the same equations, with the same solution. */
+ * are changed to satisfy P'(e) = sigma, and D(x) - e contains the difference. */
 
 typedef struct strain_update strain_update; /* data for one state */
 
@@ -229,13 +218,10 @@ void strain_update_free(strain_update *);
 
 /* Call it before advance_state. NULL: nothing happens. */
 void strain_update_begin(strain_update *, const model_state *);
-/* Changes e of each element so that its stresses become sigma. Call it after advance_state. An
+/* Changes e of each element so that its stresses become sigma; call it after advance_state. An
  * element does not change if its stresses agree to 10 %, or if no such strains are found.
- * iteration: starts at 1. correction: size of Newton's correction. After all elements have agreed,
- * they are not checked again for smaller corrections in the same step. NULL: nothing happens. */
+ * iteration: starts at 1. correction: size of Newton's correction. */
 void strain_update_apply(strain_update *, model_state *, int iteration, double correction);
-
-/* Derivatives of increments and rates with respect to the state. */
 
 /* Derivatives of rates and accelerations with respect to the state: dv = g dx and da = b dx for
  * translations, warping and angles. For a rotation in the axes of the frame, dx is replaced by d
@@ -266,11 +252,8 @@ typedef enum rotation_form {
     FORM_SEQUENCE /* successive angles */
 } rotation_form;
 
-/* Checks the rotations of all nodes. REFUSED: of three rotations about fixed axes, exactly two are
- * free, and the third is fixed or prescribed, with or without a row. Then a component of the
- * angular velocity is given. This constraint is not integrable: exp(-b e_j~) exp(-a e_i~) exp(b
- * e_j~) exp(a e_i~) = 1 - a b e_k~ + ..., so the coordinates do not determine the orientation of
- * the node. */
+/* Checks the rotations of all nodes. REFUSED: the coordinates of a node are rotations about fixed
+ * axes that do not determine its orientation. */
 status forms_check(const model *, fault *);
 rotation_form forms_of(const model *, int vertex);
 
@@ -354,8 +337,6 @@ typedef struct inertia_balance {
     double momentum[3]; /* [kg m/s] */
     double angular[3];  /* [kg m^2/s] angular momentum about the origin */
 } inertia_balance;
-/* Computes momenta and kinetic energy. ends[released ends x 6]: velocities of the centres of mass
- * of released ends, and angular velocities in the axes of the ends; NULL: they follow from v. */
 void inertia_of(const model *, const frame_masses *, const model_state *, const double v[],
                 const double ends[], inertia_balance *out);
 
@@ -380,8 +361,6 @@ void massive_free(massive *);
 /* Removes motions without inertia from e. Returns the square root of the sum of weight[c] e[c]^2
  * over the free coordinates. */
 double massive_norm(const massive *, const model *, const double weight[], double e[]);
-
-/* Internals of a conserving step. */
 
 typedef struct deformable_values deformable_values;
 
@@ -418,15 +397,14 @@ typedef struct conserving {
     double k, denominator,
         /* missing: residual of the equation for k, sum of k_e . gap_e + k_d . gap_d */
         missing;
-    int settled;            /* 1: the remaining gaps are rounding errors and cause no stresses */
+    int settled;
     int wild;               /* 1: k was too large and is not used */
     double largest, change; /* stresses */
     newton_convergence newton_convergence;
     long counted;
 } conserving;
 
-/* Functions for all elements and springs (conserving_strain.c). */
-/* Computes the energies, and the data of the springs, at the start of the step. Sets d to zero. */
+/* Computes the energies, and the data of the springs, at the start of the step. */
 status conserving_begin(conserving *, const motion_state *from, fault *);
 /* Computes the stresses for the current strains, and k. k is 0 until it is reliable. */
 status conserving_stresses(conserving *, const motion_state *from, model_state *now, int iteration,
@@ -435,8 +413,6 @@ status conserving_stresses(conserving *, const motion_state *from, model_state *
  * change of an inner unknown. */
 double conserving_update(conserving *, const motion_state *from, model_state *now);
 
-/* Subtracts the forces of elements and springs from the residual, and adds their tangent to S,
- * including the terms `column` and `row` (conserving_forces.c). */
 void conserving_forces(conserving *, const motion_state *from, model_state *now,
                        double *incompatibility);
 
@@ -444,16 +420,12 @@ void conserving_forces(conserving *, const motion_state *from, model_state *now,
  * */
 void conserving_inertia(conserving *, const motion_state *from, const model_state *now, double h);
 
-/* Adds the loads at the middle of the step to out[free + driven], and their tangent to S
- * (conserving_forces.c). */
 void conserving_loads(conserving *, const motion_state *from, const model_state *now, double h,
                       double out[]);
 
-/* Computes initial increments of the step (conserving_strain.c). */
 void conserving_predict(conserving *, const motion_state *from, double h);
 void conserving_increment(const conserving *, const model_state *from, double inc[]);
 
-/* Sets the work and the dissipated energy of `to` (conserving_forces.c). */
 status conserving_work(conserving *, const motion_state *from, motion_state *to, double h, fault *);
 /* Computes the strain rates e' at the end of the step, and adds V e' to the stresses of damped
  * members. */
@@ -468,8 +440,6 @@ void conserving_free_rates(conserving *, const motion_state *from, double h, mot
 /* Returns the work [J] of the impulses. */
 double conserving_impulses(const conserving *, const motion_state *from, double h,
                            const motion_state *to);
-
-/* A frame and its mass during a step. */
 
 typedef struct frame_mass_step {
     double Rn[9], R1[9];
@@ -494,7 +464,6 @@ void frame_mass_step_centre(const model *, const frame_mass *, double centre[3],
 void frame_mass_step_of(const conserving *, const motion_state *from, const model_state *now,
                         double h, const frame_mass *, frame_mass_step *);
 
-/* Frames with both fixed and free translations (frame_masses.c). */
 /* Computes v1 in the directions of the fixed translations, and `late`, the moment of the forces in
  * these directions. */
 void frame_mass_step_follow(const frame_mass *, frame_mass_step *);
@@ -505,9 +474,6 @@ void frame_mass_step_sway(const frame_mass_step *, double h, const double T[9],
 /* Adds the derivative of `late` to K[6 x 6]. */
 void frame_mass_step_late(const frame_mass *, const frame_mass_step *, double h, const double T[9],
                           const double sway[9], double K[36]);
-
-/* Derivatives of the relative motion of a step (cayley_step) with respect to dr, c and da of the
- * nodes, in closed form. */
 
 /* d phi_j = own_j dc_j + common_j dc, where c is the mean. d z_j has the same form. spin dc is the
  * derivative of G. */
@@ -525,11 +491,7 @@ void cayley_slopes_columns(const cayley_step *, const cayley_slopes *, const cay
 /* Adds to K[7 nodes x 7 nodes] the derivative of cayley_forces at fixed f[7 nodes]. */
 void cayley_slopes_forces(const cayley_step *, const cayley_slopes *, const double f[], double K[]);
 
-/* Checks whether a motion can be integrated as requested. REFUSED: the request is not supported. */
-
-/* Checks the treatment of massless coordinates. Their positions follow from equilibrium per body,
- * which is not possible with consistent mass. Without numerical damping, their accelerations grow
- * without bound. */
+/* Checks the treatment of massless coordinates. */
 status checks_massless(const analysis_context *, const frame_masses *, const scene_motion *,
                        const model_state *begin, fault *);
 
@@ -543,17 +505,13 @@ status checks_massless(const analysis_context *, const frame_masses *, const sce
  * internal force, with dr = h (v + v1)/2. Rotations follow from the Cayley vector c with R_n^T c =
  * h (w_n + w_1)/2 and from (R_1 J w_1 - R_n J w_n)/h = external minus internal moment, where w_n
  * and w_1 are the angular velocities in the axes of the frame. The method follows Simo, Tarnow &
- * Doblare (1995), Gonzalez (1996) and Sansour et al. (2004). The common rotation of an element, its
- * two points and the single number k are beamwork's variant. W is not P'' of the undeformed
- * element: if stresses depend on the bending of an element, its stiff directions change with the
- * strains, and k W d would have a component along them. */
+ * Doblare (1995), Gonzalez (1996) and Sansour et al. (2004). */
 
-/* Allocates the integrator. Rates of massless coordinates are mean rates of a step. REFUSED: a node
- * rotates by two free successive angles, no rotation has inertia, a node of a diaphragm tilts, or
- * rates cannot satisfy the constraints. */
+/* Allocates the integrator. REFUSED: the integrator does not support the model; the message gives
+ * the reason. */
 status conserving_alloc(const scheme_request *, motion_scheme **, fault *);
 
-/* An element or a spring in a step. Only the evaluation differs between the two. */
+/* An element or a spring in a step. */
 
 enum {
     DEFORMABLE_POINTS = 2, /* number of points between the ends of the step */
@@ -570,7 +528,6 @@ typedef struct deformable {
     double *W, *C_before;        /* mean of P'' at the two ends of the step, and P''(e_n) */
     double *e, *sigma, *d;       /* values of the current iteration */
     double *first;               /* [strains] e_n of a spring; NULL: an element */
-    /* Values of an iteration, stored for the update. */
     /* [strains x coordinates] de/dx at the end of the step, with respect to dr, c and da */
     double *J;
     double *C, *memory;    /* [strains x strains] P''(e), and the memory of the stress function */
@@ -586,7 +543,6 @@ int deformable_count(const conserving *);
 deformable deformable_at(const conserving *, const motion_state *from, model_state *now, int i);
 int deformable_together(const conserving *, int first);
 
-/* Values of an element in an iteration. */
 struct deformable_values {
     deformable of;
     cayley_step step;
@@ -606,12 +562,9 @@ struct deformable_values {
     double K[DEFORMABLE_COORDINATES * DEFORMABLE_COORDINATES];
 };
 
-/* Evaluates the strains and their derivatives of `count` deformables. If there are several, they
- * are elements of the same kind (deformable.c). */
+/* Evaluates the strains and their derivatives of `count` deformables. */
 void deformable_evaluate(const conserving *, const motion_state *from, const model_state *now,
                          int count, deformable_values[]);
-
-/* Prescribed coordinates as functions of time: increments, rates and accelerations. */
 
 /* Checks the drivers. REFUSED: the value of a driver is unknown. */
 status drive_check(const model *, fault *);
@@ -623,8 +576,7 @@ void drive_at(const equations *, const model_state *from, double time, double in
 /* Runge-Kutta method of order 8 with an error estimate of order 7 (Prince & Dormand 1981, rk8pd of
  * GSL). The equations are inc' = X v and v' = M^-1 (f - h - J^T sigma), where f are the loads and h
  * the inertia forces due to v, and X is rotation_rates_inverse for rotations in the axes of the
- * frame, and 1 otherwise. It is meant for reference values of a given mesh. Positions are
- * increments from the start of a step. */
+ * frame, and 1 otherwise. */
 
 /* Allocates the integrator. REFUSED: a coordinate has no inertia, or a member has an offset or a
  * released end. */
@@ -654,8 +606,7 @@ typedef struct explicit_scheme {
 
 /* Extent and rate of the motion so far. Tolerances of steps are relative to the largest motion so
  * far, or to an estimate of the largest motion if this is larger. The first estimate is 2 % of the
- * size of the structure. If the motion does not reach half of the estimate, it is integrated again
- * with a smaller estimate. */
+ * size of the structure. */
 
 typedef struct extent {
     model_state *begin; /* initial state */
@@ -692,8 +643,6 @@ double extent_allows(const extent *, double part, double tolerance);
  * *scale: a better estimate. */
 int extent_is_less(const extent *, double tolerance, double *scale);
 
-/* States of a motion for pictures, at equally spaced times. */
-
 typedef struct frames {
     const equations *eq;
     const model *m;
@@ -729,8 +678,6 @@ void increment_add(const model *, const model_state *now, const double dx[], dou
 status integrator_alloc(const scheme_request *, motion_scheme **, fault *);
 void integrator_free(motion_scheme *);
 
-/* Slope discontinuities and jumps of loads and prescribed motions; a step ends at each of them. */
-
 /* Returns the time of the first discontinuity after `time` [s]; INFINITY: none. */
 double discontinuities_next(const model *, double time);
 /* Returns the largest number below `time` if there is a discontinuity at `time`, otherwise `time`.
@@ -739,15 +686,10 @@ double discontinuities_before(const model *, double time);
 
 /* Computation of the state at a time from the previous state by a mixed Newton iteration (Nijenhuis
  * et al., section 4). The state is in equilibrium with the inertia forces of rates that follow the
- * increment, v = v0 + g inc, a = a0 + b inc. Strains and stresses of elements are unknowns, so
- * stiff elements need no additional iterations. */
+ * increment, v = v0 + g inc, a = a0 + b inc. */
 
-/* Returns 1 if the last factors may be used again, because corrections are below 1e-4 and at most
- * a tenth of the previous ones. The error due to old factors is the product of two successive
- * corrections. In stiff members, the corrections of stresses (newton.h) show it. The largest
- * possible limit was measured with members that are 1e6 times stiffer in elongation. If the limit
- * exceeds 2e-4, corrections stop decreasing and steps of 0.2 s fail. Below 2e-4, the number of
- * iterations is the same as with new factors. */
+/* Returns 1 if the last factors may be used again, because corrections are below 1e-4 and at most a
+ * tenth of the previous ones. */
 int stage_stands(const newton_convergence *);
 
 typedef struct motion_stage {
@@ -783,9 +725,6 @@ typedef struct stage_rates {
 status stage_solve(motion_stage *, const model_state *from, double time, stage_rates *,
                    model_state *now, step_record *, fault *);
 
-/* Initial conditions of a motion: the requested velocities, with consistent accelerations and
- * consistent massless coordinates. */
-
 /* Computes consistent accelerations and massless coordinates after a discontinuity of the loads.
  * Velocities do not change. */
 status consistent_restart(analysis_context *, const frame_masses *, const scene_motion *,
@@ -800,9 +739,6 @@ status initial_conditions_rotating(analysis_context *, const frame_masses *, con
 /* Like initial_conditions_rotating, for axes at rest. */
 status initial_conditions(analysis_context *, const frame_masses *, const scene_motion *,
                           motion_state *now, motion_state *room, fault *);
-
-/* Separation of motions with inertia from motions without inertia, for a body and the ends released
- * from it. Positions in motions without inertia follow from equilibrium. */
 
 /* Computes the number of free coordinates minus the rank of their masses in the state. */
 status massless_count(const model *, const frame_masses *, const model_state *, int *count,
@@ -829,9 +765,7 @@ status massless_accelerate(const model *, const frame_masses *, const model_stat
 /* Extrema of reactions, resultants, stresses, energies and momenta during a motion. The values at
  * the ends of steps are those of the scheme. Between the ends, a cubic through four consecutive
  * ends (order 4) gives the time and the value of an extremum, and a probe step to this time gives
- * the error of the value. The extremum counts only if this error is smaller than the amount by
- * which the cubic exceeds the values at both ends. Extrema that the steps do not resolve are thus
- * rejected. */
+ * the error of the value. */
 
 enum { EXTREMA_ENDS = 4 }; /* number of consecutive ends of steps */
 
@@ -839,7 +773,6 @@ enum { EXTREMA_ENDS = 4 }; /* number of consecutive ends of steps */
 typedef struct extremum {
     const scene_quantity *q;
     outcome_passing *out;
-    /* sign 1: maximum, -1: minimum; from, until: window [s] */
     double sign, from, until;
     double value[EXTREMA_ENDS]; /* values at the last ends of steps */
 } extremum;
@@ -867,17 +800,16 @@ status extrema_here(extrema *, const motion_state *, const double balance[SCENE_
                     fault *);
 /* Restarts the search after a discontinuity of the loads. */
 void extrema_jump(extrema *);
-/* Completes the search at the end of the motion. */
 void extrema_end(extrema *);
 
-/* Motion of a frame during a step, from the coordinates of its body and of a released end. It is
- * exact, so forces do equal work in both sets of coordinates. Subscript m denotes the mean of the
- * values at the two ends of the step, subscripts n and 1 denote the start and the end. A frame at
- * the vector rho from the body that moves it has dr = dr_b + c x rho_m, and its force f and moment
- * m act on the body as f and m + rho_m x f. Angles and released rotations, each about an axis b,
- * with tau = 2 tan(d angle/2): c_k = c_(k-1) + tau_k x_k, x = [b + c x b/2 + c (c.b)/4]/(1 - tau
- * c.b/4), where b is taken at the start; x lies along the mean axis, about which no moment acts.
- * Released sliding s along an axis a adds c x (a s)_m + [a_m - c x (a_1 - a_n)/4] ds to dr. */
+/* Motion of a frame during a step, from the coordinates of its body and of a released end.
+ * Subscript m denotes the mean of the values at the two ends of the step, subscripts n and 1 denote
+ * the start and the end. A frame at the vector rho from the body that moves it has dr = dr_b + c x
+ * rho_m, and its force f and moment m act on the body as f and m + rho_m x f. Angles and released
+ * rotations, each about an axis b, with tau = 2 tan(d angle/2): c_k = c_(k-1) + tau_k x_k, x = [b +
+ * c x b/2 + c (c.b)/4]/(1 - tau c.b/4), where b is taken at the start; x lies along the mean axis,
+ * about which no moment acts. Released sliding s along an axis a adds c x (a s)_m + [a_m - c x (a_1
+ * - a_n)/4] ds to dr. */
 
 enum { FRAME_MOTION_MOST = 6 + SCENE_RELEASED };
 
@@ -895,7 +827,7 @@ typedef struct frame_motion {
 
 /* Returns 1 if dr and c of the frame are coordinates. */
 int frame_motion_is_plain(const model *, int vertex);
-/* Computes the transformations of any frame. F[6]: force on the frame; NULL: zero. */
+/* Computes the transformations of any frame. */
 void frame_motion_of(const conserving *, const model_state *from, const model_state *now,
                      int vertex, const double F[6], frame_motion *);
 /* Computes dr and c of a frame. */
@@ -937,8 +869,7 @@ typedef struct stages_matrix {
 status stages_alloc(const equations *, const frame_masses *, const sparse *single, stages_matrix *,
                     fault *);
 void stages_free(stages_matrix *);
-/* Sets the diagonal block of a stage to K. The first call must be for stage 0, or the matrix must
- * have been cleared. */
+/* Sets the diagonal block of a stage to K. */
 void stages_put(stages_matrix *, int stage, const sparse *K);
 void stages_zero(stages_matrix *);
 /* Adds entries K[columns x columns] of an element to block (i, k), if off-diagonal blocks are full
@@ -948,8 +879,6 @@ void stages_add_element(stages_matrix *, int i, int k, const mesh_pattern *patte
 /* Adds a value to entry (row, column) of block (i, k). Rows and columns of coordinates that are not
  * free are skipped. */
 void stages_add(stages_matrix *, int i, int k, int row, int column, double value);
-
-/* Internals of the three stages. */
 
 /* One stage. */
 typedef struct radau_stage {
@@ -995,7 +924,6 @@ typedef struct radau_relation {
 } radau_relation;
 void radau_relate(const radau *, int vertex, double h, int i, int k, radau_relation *);
 
-/* Equations of the stages (radau_equations.c). */
 /* Computes the residual of all stages in their current states; fresh 1: also S. */
 status radau_equations(radau *, int fresh, const motion_state *from, double h, step_record *,
                        fault *);
@@ -1042,14 +970,12 @@ void released_motion(const released_masses *, double plain, const double body[9]
 void released_project(const released_masses *, const double A[36], const double motion[],
                       double out[KINEMATICS_MOST * KINEMATICS_MOST]);
 
-/* Continuation of a motion from the end of another motion, with the result of a single motion. */
-
 /* Step-control data with which a motion continues. */
 typedef struct resume_control {
     double step; /* [s] size of the next step */
     account account;
-    double origin; /* [J] energy at t = 0 */
-    int quiet;     /* number of steps since the last discontinuity of the loads */
+    double origin;
+    int quiet; /* number of steps since the last discontinuity of the loads */
     extent extent;
 } resume_control;
 
@@ -1073,8 +999,6 @@ status resume_take(const analysis_context *, const outcome_end *, motion_state *
  * from equilibrium. zero[free + driven]: zeros. NOT_CONVERGED: no equilibrium was found. */
 status consistent_massless(motion_stage *, const double zero[], double h, motion_state *now,
                            fault *);
-
-/* Inertia forces for reactions and section forces. */
 
 /* The motion that causes inertia forces. */
 typedef struct inertia_resultants_motion {
@@ -1155,14 +1079,11 @@ void consistent_mass_rows(const consistent_mass_parts *, double K[]);
 void consistent_mass_swing(const model *, const consistent_mass_parts *, double rate, double place,
                            double K[]);
 
-/* Computes the matrices of small motions about a state during a motion, on all coordinates. The
- * accelerations of `now` are consistent with its forces. out: zero except for its time on entry;
- * freed with the outcome, also after a failure. */
+/* Computes the matrices of small motions about a state during a motion, on all coordinates. */
 status small_motions_of(const equations *, const frame_masses *, motion_state *now,
                         outcome_about *out, fault *);
 
-/* Times about which modes and harmonic analyses compute small motions. For a time inside a step, a
- * probe step computes the state. */
+/* Times about which modes and harmonic analyses compute small motions. */
 
 typedef struct abouts {
     analysis_context *c;
@@ -1185,9 +1106,8 @@ status abouts_inside(abouts *, const motion_state *from, const motion_state *to,
 /* Stores the state if an analysis needs it. */
 status abouts_here(abouts *, const motion_state *now, fault *);
 
-/* Output of a motion at the requested times, which are independent of the ends of steps. Positions
- * and rates follow from the polynomial inside the step. If forces or energies are read, a probe
- * step computes the state. */
+/* Output of a motion at the requested times, which are independent of the ends of steps. If forces
+ * or energies are read, a probe step computes the state. */
 
 typedef struct stations {
     analysis_context *c;
@@ -1195,7 +1115,7 @@ typedef struct stations {
     const frame_masses *masses;
     motion_scheme *scheme;
     outcome_motion *out;
-    int slopes, sloped; /* slopes 1: a derivative is read; sloped 1: a step has been made */
+    int slopes, sloped;
     dense_output inside;
     motion_state at;
 } stations;
@@ -1221,8 +1141,6 @@ void rotation_rates_derivative(const double t[3], const double y[3], double D[9]
 /* Replaces t by the rotation vector of exp(t~) exp(d~). */
 void rotation_rates_add(double t[3], const double d[3]);
 
-/* Velocity and acceleration of frames. */
-
 /* Computes the rates of the frame of a node or of a released end, as given by forms_rates. */
 void inertia_rates(const model *, const model_state *, int vertex, const double v[],
                    const double a[], frame_rates *);
@@ -1230,8 +1148,7 @@ void inertia_rates(const model *, const model_state *, int vertex, const double 
 void vertex_rates(const model *, const model_state *, int vertex, const double v[],
                   const double a[], frame_rates *);
 
-/* Loads with feedback. Their factors are computed from measured components, their rates, and
- * integrals in the state. */
+/* Loads with feedback. */
 
 /* Starts the feedback of all loads that have it. */
 status feedback_begin(const equations *, fault *);
@@ -1261,10 +1178,8 @@ typedef void feedback_entry(void *to, int row, int column, double value);
 void feedback_tangent(const equations *, const model_state *, const feedback_gains *,
                       feedback_entry *take, void *to);
 
-/* Extrema, level crossings and means of a motion between its stations. Positions and rates are
- * values of the polynomial inside a step. Its roots are accurate to rounding error. For reactions,
- * resultants, stresses, energies and momenta, level crossings and means are computed from probe
- * steps. */
+/* Extrema, level crossings and means of a motion between its stations. For reactions, resultants,
+ * stresses, energies and momenta, level crossings and means are computed from probe steps. */
 
 /* Number of values in a step from which a mean is computed. */
 enum { MEANS_NODES = 5 };
