@@ -5,42 +5,24 @@
 writes the results of the peers in the form that `beamwork import` reads."""
 from __future__ import annotations
 
-import contextlib
-import dataclasses
 import importlib
-import json
 import os
 import pathlib
-import selectors
-import signal
-import subprocess
 import sys
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from ..errors import Refused
+from ._rounds import Contestant, Series, compete, of_formulation
 
 _HERE = pathlib.Path(__file__).resolve().parent
-_OWN = {"__init__", "__main__", "data", "read", "run"}
+_OWN = {"data", "read", "run"}  # files that are not peers, like those whose names begin with "_"
 __path__ += filter(None, os.environ.get("BEAMWORK_DRIVERS", "").split(os.pathsep))
-
-
-@dataclasses.dataclass
-class Series:
-    """Results of one element of a peer. runs: one dict for each mesh, with the keys elements and either values, refused,
-    unknowns, iterations, setup [s], seconds and settings, or refusal, or failure. missing: the reason why nothing was
-    run, or ""."""
-    peer: str
-    element: str
-    program: str
-    version: str = ""
-    missing: str = ""
-    runs: list[dict[str, Any]] = dataclasses.field(default_factory=list)
 
 
 def names() -> list[str]:
     """Returns the names of all peers: files of this folder, and of the folders in BEAMWORK_DRIVERS."""
-    return sorted(path.stem for folder in __path__ for path in pathlib.Path(folder).glob("*.py") if path.stem not in _OWN)
+    return sorted(path.stem for folder in __path__ for path in pathlib.Path(folder).glob("[!_]*.py") if path.stem not in _OWN)
 
 
 def load(name: str) -> Any:
@@ -74,67 +56,25 @@ def chosen(words: Sequence[str]) -> list[tuple[str, str]]:
     return out
 
 
-def _lines(process: subprocess.Popen[bytes], limit: float) -> Iterator[dict[str, Any]]:
-    """Yields the answers of a process. Raises TimeoutError if one takes longer than `limit` seconds."""
-    assert process.stdout is not None
-    rest = b""
-    with selectors.DefaultSelector() as wait:
-        wait.register(process.stdout, selectors.EVENT_READ)
-        while True:
-            if not wait.select(limit):
-                raise TimeoutError
-            some = os.read(process.stdout.fileno(), 65536)
-            if not some:
-                return
-            *whole, rest = (rest + some).split(b"\n")
-            for line in whole:
-                yield json.loads(line)
-
-
-def _one_process(series: Series, request: Mapping[str, Any], limit: float) -> str:
-    """Runs the remaining meshes in one process. Returns why it ended early; "": it did not."""
-    paths = [str(_HERE.parent.parent), os.environ.get("PYTHONPATH", "")]
-    environment = {**os.environ, "PYTHONPATH": os.pathsep.join(filter(None, paths)), "OMP_NUM_THREADS": "1"}
-    with subprocess.Popen([interpreter(), "-m", f"{__name__}.run", series.peer], stdin=subprocess.PIPE,
-                          stdout=subprocess.PIPE, stderr=None if os.environ.get("BEAMWORK_PEERS_STDERR") else subprocess.DEVNULL,
-                          env=environment, start_new_session=True) as process:
-        assert process.stdin is not None
-        try:
-            with contextlib.suppress(BrokenPipeError), process.stdin as to:
-                to.write(json.dumps(request).encode())
-            for line in _lines(process, limit):
-                if "elements" in line:
-                    series.runs.append(line)
-                else:
-                    series.version = line.get("version", series.version)
-                    series.missing = line.get("missing", "")
-            code = process.wait(limit)
-        except (TimeoutError, subprocess.TimeoutExpired):
-            return f"no answer within {limit:g} s"
-        finally:
-            if process.poll() is None:
-                os.killpg(process.pid, signal.SIGKILL)
-    if code == 0:
-        return ""
-    return f"ended by {signal.Signals(-code).name}" if code < 0 else f"ended with status {code}"
+def solve_all(scene: Mapping[str, Any], peers: Sequence[tuple[str, str]], formulations: Sequence[str],
+              elements: Sequence[int], rounds: int = 3, limit: float = 60,
+              progress: Callable[[str], None] = lambda text: None) -> list[Series]:
+    """Solves a scene (`beamwork scene --format json`) with elements of peers, (peer, element), and with formulations of
+    beamwork, on several meshes. Their rounds alternate, on one processor. limit: longest time for one mesh [s]. A mesh fails
+    if its process crashes or exceeds the limit; in the latter case, finer meshes are not tried."""
+    processor = max(os.sched_getaffinity(0))
+    request = {"scene": scene, "processor": processor}
+    all_ = [of_formulation(scene, name, processor, limit) for name in formulations]
+    all_ += [Contestant(Series(peer, element, f"{load(peer).PROGRAM}, {element}"), interpreter(), request, limit)
+             for peer, element in peers]
+    compete(all_, elements, rounds, progress)
+    return [contestant.series for contestant in all_]
 
 
 def solve(scene: Mapping[str, Any], peer: str, element: str, elements: Sequence[int], rounds: int = 3,
           limit: float = 60) -> Series:
-    """Solves a scene (`beamwork scene --format json`) with one element on several meshes. limit: longest time for one
-    mesh [s]. A mesh fails if its process crashes or exceeds the limit; in the latter case, finer meshes are not
-    tried."""
-    module = load(peer)
-    series = Series(peer, element, f"{module.PROGRAM}, {element}")
-    while len(series.runs) < len(elements) and not series.missing:
-        left = list(elements[len(series.runs):])
-        request = {"scene": scene, "element": element, "elements": left, "rounds": rounds}
-        why = _one_process(series, request, limit)
-        if why and len(series.runs) < len(elements):
-            series.runs.append({"elements": elements[len(series.runs)], "failure": why})
-        if why.startswith("no answer") or (not why and len(series.runs) < len(elements)):
-            break
-    return series
+    """Solves a scene with one element of a peer; see solve_all()."""
+    return solve_all(scene, [(peer, element)], [], elements, rounds, limit)[0]
 
 
 def _rows(scene: Mapping[str, Any], run: Mapping[str, Any]) -> Iterator[str]:

@@ -1,5 +1,6 @@
-"""The process of a peer: `python -m beamwork.peers.run NAME` reads one request as JSON, and writes a line of JSON about the
-program, then one for each mesh."""
+"""The process of a contestant: `python -m beamwork.peers.run NAME` reads a request as a line of JSON and writes a line of
+JSON about the program. Then it reads numbers of elements, one on each line, and for each writes a line with the results and
+the times of one round."""
 from __future__ import annotations
 
 import importlib
@@ -10,10 +11,9 @@ import sys
 import time
 from typing import Any
 
+from ._clock import ROUND, clock, least
 from .data import Answer, Failed, Model, Refused, Scene
 from .read import check, refusal, scene_of, value_of
-
-_ENOUGH = 2.0  # [s] no further rounds after this time
 
 
 def _finite(value: Any) -> bool:
@@ -36,33 +36,38 @@ def _values(scene: Scene, element: Any, answers: dict[str, Answer]) -> dict[str,
     return {"values": values, "refused": refused}
 
 
-def _solved(peer: Any, scene: Scene, name: str, n: int, rounds: int) -> dict[str, Any]:
-    """Solves one mesh. Each time is the shortest of all rounds."""
+def _solved(peer: Any, scene: Scene, name: str, n: int) -> dict[str, Any]:
+    """Solves one mesh. Each time is the shortest of the round. times: for each analysis with quantities, the time of its
+    solution with that of the state about which it is computed; "": all analyses."""
     element = peer.ELEMENTS[name]
     check(scene, element, peer.PROGRAM)
     asked = {q.analysis for q in scene.quantities if refusal(scene, element, q) == ""}
-    needed = asked | {a.about for a in scene.analyses.values() if a.name in asked and a.about}
+    about = {a.name: a.about for a in scene.analyses.values() if a.name in asked and a.about}
     if not asked:
         raise Refused("; ".join(sorted({refusal(scene, element, q) for q in scene.quantities})) or "no quantity")
     mesh = scene.mesh(n, element.order)
-    setup = seconds = math.inf
-    begun, answers, model = time.perf_counter(), {}, Model()
-    for _ in range(rounds):
-        start = time.perf_counter()
+    begun, setup, answers, model = time.perf_counter(), math.inf, dict[str, Answer](), Model()
+    took: dict[str, float] = {}
+    while not answers or time.perf_counter() - begun < ROUND:
+        start = clock()
         model = peer.build(scene, name, mesh)
-        ready = time.perf_counter()
-        answers = {a.name: model.solve(a) for a in scene.analyses.values() if a.name in needed}
-        end = time.perf_counter()
-        setup, seconds = min(setup, ready - start), min(seconds, end - ready)
-        if end - begun > _ENOUGH:
-            break
-    return {"setup": setup, "seconds": seconds, "unknowns": model.unknowns, "settings": model.settings,
+        setup, one = min(setup, clock() - start), dict[str, float]()
+        for analysis in scene.analyses.values():
+            if analysis.name in asked or analysis.name in about.values():
+                start = clock()
+                answers[analysis.name] = model.solve(analysis)
+                one[analysis.name] = clock() - start
+        took = least(took, one)
+    times = {a: took[a] + took.get(about.get(a, ""), 0.0) for a in took if a in asked}
+    return {"setup": setup, "seconds": sum(took.values()), "times": {**times, "": sum(took.values())},
+            "unknowns": model.unknowns, "settings": model.settings,
             "iterations": sum(a.iterations for a in answers.values()), **_values(scene, element, answers)}
 
 
-def _mesh(peer: Any, scene: Scene, name: str, n: int, rounds: int) -> dict[str, Any]:
+def _mesh(peer: Any, scene: Any, name: str, n: int) -> dict[str, Any]:
     try:
-        return {"elements": n, **_solved(peer, scene, name, n, rounds)}
+        solved = peer.solved if hasattr(peer, "solved") else _solved
+        return {"elements": n, **solved(peer, scene, name, n)}
     except Refused as error:
         return {"elements": n, "refusal": str(error)}
     except Failed as error:
@@ -74,7 +79,9 @@ def _mesh(peer: Any, scene: Scene, name: str, n: int, rounds: int) -> dict[str, 
 def main() -> None:
     answers = os.fdopen(os.dup(1), "w", encoding="utf-8")
     os.dup2(2, 1)  # what the peer prints goes to standard error
-    request = json.load(sys.stdin)
+    request = json.loads(sys.stdin.readline())
+    if "processor" in request:
+        os.sched_setaffinity(0, {request["processor"]})
     peer = importlib.import_module(f"{__package__}.{sys.argv[1]}")
 
     def say(line: dict[str, Any]) -> None:
@@ -85,9 +92,9 @@ def main() -> None:
     except ImportError as error:
         say({"missing": f"{peer.PROGRAM} is not installed: {error}"})
         return
-    scene = scene_of(request["scene"])
-    for n in request["elements"]:
-        say(_mesh(peer, scene, request["element"], n, request["rounds"]))
+    scene = peer.scene_of(request["scene"]) if hasattr(peer, "solved") else scene_of(request["scene"])
+    for n in map(int, sys.stdin):
+        say(_mesh(peer, scene, request["element"], n))
 
 
 if __name__ == "__main__":
