@@ -1,4 +1,3 @@
-/* Forces, moments and stiffness of loads on vertices. */
 #include "harness/newton/newton_impl.h"
 
 #include <string.h>
@@ -105,9 +104,6 @@ static double density_of(const model *m, const scene_load *load, const mesh_elem
     return load->kind == SCENE_GRAVITY ? c->density * c->A : 1;
 }
 
-/* Computes the vector [m], in global axes, from a node of the undeformed element to the point of
- * application of the load. It is zero, except for gravity on a section given by matrices: its point
- * of application is the centre of mass. */
 static void weight_centre(const model *m, const scene_load *load, const mesh_element *el, int node,
                           double centre[3])
 {
@@ -280,7 +276,6 @@ void applied_each(const model *m, const model_state *s, const scene_load *load, 
         applied_element(m, s, load, scale, i, take, context);
 }
 
-/* A state, and a function that receives the entries of the stiffness of a load in this state. */
 typedef struct entries {
     const model *m;
     const model_state *s;
@@ -288,9 +283,6 @@ typedef struct entries {
     void *to;
 } entries;
 
-/* Adds the derivative of the generalised load with respect to a rotation of the body about b =
- * b[column]. The load is a follower force F[0..2] at rho and a follower moment M = F[3..5]. Their
- * derivatives are b x F and b x M. */
 static void add_following(const entries *all, const mesh_vertex *body, const double F[6],
                           const double rho[3], double b[3][3], const double moved[3], int column)
 {
@@ -309,7 +301,6 @@ static void add_following(const entries *all, const mesh_vertex *body, const dou
     }
 }
 
-/* Effect of one coordinate on a load on a released end. */
 typedef struct load_motion {
     int coordinate;
     int own; /* 1: coordinate of the end; 0: coordinate of its body */
@@ -321,7 +312,7 @@ typedef struct load_motion {
 } load_motion;
 
 /* Computes the motions in the order in which they act on the frame of the load: position and
- * rotations of the body, rotations of the end, and shifts of the end. Returns their number. */
+ * rotations of the body, rotations of the end, and shifts of the end. */
 static int motions_at_release(const entries *all, const applied *what,
                               load_motion out[KINEMATICS_MOST])
 {
@@ -366,7 +357,6 @@ static double triple(const double a[3], const double b[3], const double c[3])
     return vec3_dot(a, cross);
 }
 
-/* Returns the derivative of the generalised load on coordinate i with respect to coordinate j. */
 static double release_entry(const mesh_release *r, const applied *what, const load_motion *i,
                             const load_motion *j)
 {
@@ -391,9 +381,6 @@ static void add_stiffness_at_release(const entries *all, const applied *what)
                 release_entry(release_of(all->m, what->vertex), what, &motion[i], &motion[j]));
 }
 
-/* Adds the stiffness of a load on a vertex: the derivative of the generalised load with respect to
- * rotations of the vertex's body. The load is a force F[0..2] at the offset rho and a spatial
- * moment F[3..5]. */
 static void add_stiffness(void *context, const applied *what)
 {
     const entries *all = context;
@@ -433,9 +420,7 @@ static void add_stiffness(void *context, const applied *what)
             mat3_mul_vec(D, b[j], Db);
             vec3_cross(b[j], b[i], cross);
             double value = vec3_dot(b[i], Db);
-            if (body->angles >
-                0) /* the part with a potential is symmetric; the axis on which the work of a
-                      spatial moment depends is rotated only by earlier angles */
+            if (body->angles > 0)
                 value += (i > j ? 1 : -1) * vec3_dot(moment, cross) / 2 +
                          (j < i ? vec3_dot(F + 3, cross) : 0);
             else
@@ -447,8 +432,6 @@ static void add_stiffness(void *context, const applied *what)
             add_following(all, body, F, rho, b, moved, j);
 }
 
-/* Adds the derivative of the forces of a tension load due to the rotation of the line between its
- * nodes. */
 static void add_turning(const entries *all, const scene_load *load, double tension)
 {
     const int node[] = {load->where, load->towards};

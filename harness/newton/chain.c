@@ -7,8 +7,7 @@
 #include "elements/math/dense.h"
 
 /* Returns the number of negative eigenvalues of A[n x n], which is overwritten; -1: A is singular
- * (a pivot is a rounding error). Uses LDL^T without pivoting. The result does not depend on the
- * units of the rows. */
+ * (a pivot is a rounding error). The result does not depend on the units of the rows. */
 static int symmetric_negative(int n, double A[]);
 
 status chain_alloc(int links, int joint, int y, chain **out, fault *f)
@@ -95,7 +94,6 @@ static status carry(chain *s, const double B[], double Z[], fault *f)
     return STATUS_OK;
 }
 
-/* out = A^T M A */
 static void congruence(int m, int n, const double A[], const double M[], double out[])
 {
     double work[CHAIN_JOINT * CHAIN_JOINT];
@@ -103,7 +101,6 @@ static void congruence(int m, int n, const double A[], const double M[], double 
     dense_add_congruence(m, n, A, M, out, work);
 }
 
-/* out[n x m] = A[m x n]^T */
 static void transpose(int m, int n, const double A[], double out[])
 {
     for (int i = 0; i < m; i++)
@@ -185,9 +182,7 @@ status chain_stiffness(const chain *s, double K[], fault *f)
 
 /* Transfers loads to the ends of a chain, and motions of the ends to its interior. Two sweeps
  * compute the forces between the links. If w is the force on the joint before a link, including the
- * force of the link, then x = Z a + Z F w and w - B x = Z^T w - B Z a. The motions then follow link
- * by link, so the motions of neighbours differ exactly by the deformation of a link. Independently
- * computed motions would lose as many digits in their differences as an assembled stiffness. */
+ * force of the link, then x = Z a + Z F w and w - B x = Z^T w - B Z a. */
 
 #define INLINED static inline __attribute__((always_inline))
 
@@ -202,7 +197,6 @@ INLINED void mul(int m, int n, const double M[], const double x[], double out[])
     }
 }
 
-/* Computes out[n] = M^T x with M[m x n]. */
 INLINED void mul_transposed(int m, int n, const double M[], const double x[], double out[])
 {
     for (int j = 0; j < n; j++)
@@ -212,7 +206,6 @@ INLINED void mul_transposed(int m, int n, const double M[], const double x[], do
             out[j] += M[i * n + j] * x[i];
 }
 
-/* Computes out[n] = S x with a packed S. */
 INLINED void mul_packed(int n, const double S[], const double x[], double out[])
 {
     for (int i = 0; i < n; i++) {
@@ -223,8 +216,6 @@ INLINED void mul_packed(int n, const double S[], const double x[], double out[])
     }
 }
 
-/* Adds the load on the joint before a link to w, the force on this joint. The two ends of the chain
- * have no such load. */
 INLINED void add_load_before(int c, int y, const double r[], int link, double w[])
 {
     if (link > 0)
@@ -232,8 +223,6 @@ INLINED void add_load_before(int c, int y, const double r[], int link, double w[
             w[i] += r[(size_t)link * (size_t)y - (size_t)(c - i)];
 }
 
-/* Computes a, the displacements without the forces of later links, for every joint. first: a of the
- * first joint. */
 INLINED void forward(chain *s, int c, int y, const double r[], const double first[])
 {
     const int in = y - c;
@@ -341,7 +330,6 @@ INLINED void reduce(chain *s, int c, int y, const double r[], double ends[])
     }
 }
 
-/* Distributes the rounding error at the last joint over all links. */
 INLINED void close_gap(chain *s, int c, int y, const double end[], double x[])
 {
     double gap[CHAIN_JOINT], last[CHAIN_JOINT], begin[CHAIN_JOINT];
@@ -362,7 +350,6 @@ INLINED void expand(chain *s, int c, int y, const double r[], const double ends[
     close_gap(s, c, y, ends + c, x);
 }
 
-/* compile-time sizes for elements with two nodes, with or without warping */
 void chain_reduce(chain *s, const double r[], double ends[])
 {
     if (s->c == 7 && s->y == 7)

@@ -42,7 +42,6 @@ static const double *inner_of(const model *m, const model_state *s, int element)
     return &s->inner[(size_t)element * (size_t)model_inner(m)];
 }
 
-/* Evaluates strains with the type's function for one element, or copies them from a batch. */
 static void strains_one_by_one(const equations *eq, const linear_memory *memory,
                                const model_state *s, int count, chunk_element element[],
                                double deformed[][ELEMENT_MAX_STRAINS])
@@ -211,7 +210,6 @@ static void mix(const model *m, const linear_memory *memory, const model_state *
         w.sigma[i] += more[i];
 }
 
-/* Adds the damping stresses due to strain rates to the linearised equations of an element. */
 static void damp(const equations *eq, const linear_memory *memory, const model_state *s, int index)
 {
     const model *m = eq->m;

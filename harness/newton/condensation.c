@@ -76,8 +76,6 @@ static status member_of(const model *m, int index, condensed_member *out, fault 
     return chain_alloc(out->links, out->joint, out->y, &out->chain, f);
 }
 
-/* Finds the members, and allocates their chains and the work space r. If `of` is given, uses its
- * members, chains and r instead. */
 static status find_members(condensation *s, const condensation *of, fault *f)
 {
     const model *m = s->m;
@@ -225,7 +223,6 @@ static status fill_chain(const equations *eq, const model_state *s, condensed_me
     return STATUS_OK;
 }
 
-/* Computes K of the ends of a member in coordinates of the model. */
 static status member_matrix(condensation *s, condensed_member *of, double path, double K[],
                             fault *f)
 {
@@ -293,9 +290,6 @@ status condensation_factor(condensation *s, fault *f)
     return factor_numeric(s->factor, &s->inside, f);
 }
 
-/* Numbers the end coordinates of members, and builds the patterns of the system that remains after
- * condensation. */
-
 static void note(const mesh_element *el, int number[])
 {
     for (int k = 0; k < el->columns; k++)
@@ -335,8 +329,6 @@ static void couple(const condensation *s, const mesh_element *el, int ends, char
                 coupled[s->number[el->index[k]] * ends + s->number[el->index[i]]] = 1;
 }
 
-/* Builds the pattern of the coordinates list[count]. own 1: rows are numbered as in the list; 0: as
- * all coordinates. */
 static status pattern_of(const condensation *s, int count, const int list[], int ends,
                          const char coupled[], int own, sparse *out, fault *f)
 {

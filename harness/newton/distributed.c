@@ -35,7 +35,6 @@ int distributed_jumps(const distributed_loads *of)
     return SCENE_NONE;
 }
 
-/* Computes the triad of the undeformed element at x. */
 static void undeformed(const distributed_loads *of, double x, double R[9])
 {
     const mesh_element *el = model_element(of->m, of->element);
@@ -89,7 +88,7 @@ static int same(const distributed_loads *of, const scene_load *load, const field
 }
 
 /* Computes acting[], the values of one load at quadrature points of an element times the weights of
- * the points. Also computes rows[] of the displacement field. Returns the number of points. */
+ * the points. Returns the number of points. */
 static int points_of(const distributed_loads *of, const scene_load *load, double scale,
                      const double part[2], field_rows rows[MOST], field_load acting[MOST])
 {
@@ -243,8 +242,7 @@ int distributed_add_own(const equations *eq, const model_state *s, const node_st
         of.out.inner = &s->inner[(size_t)element * (size_t)model_inner(m)];
     }
     const element_data *unstressed = linear ? data : free_strain_data(eq, element, path);
-    model_type(m)->along(1, &unstressed, x, &of.out,
-                         &outcome); /* cannot fail, because the state has been evaluated before */
+    model_type(m)->along(1, &unstressed, x, &of.out, &outcome);
     for (int k = 0; k < model_strains(m) && !linear; k++)
         D[k] -= s->e[first + (size_t)k];
     distributed_add_taken(m, &of.out, J, linear ? NULL : D, forces, K);
@@ -279,8 +277,6 @@ int distributed_stress(const equations *eq, const model_state *s, const node_sta
     return 1;
 }
 
-/* Adds the derivative of the forces with respect to the magnitude of one load, multiplied by
- * `scale`. */
 static void add_rate(const equations *eq, const model_state *s, const node_state x[], int element,
                      const scene_load *load, double scale, double forces[])
 {
@@ -313,8 +309,6 @@ static void add_rate(const equations *eq, const model_state *s, const node_state
     distributed_add_taken(m, &of.out, J, NULL, forces, NULL);
 }
 
-/* Adds loads to the forces and the matrix of an element with additional unknowns. The additional
- * unknowns do not move the points of application. */
 static void add_field_wide(const model *m, const displacement_field *field, const node_state x[],
                            int count, const field_rows rows[], const field_load acting[],
                            double forces[], double K[])
@@ -430,8 +424,6 @@ static void add_rotating_matrices(const section *c, const double omega[3], const
     }
 }
 
-/* Adds the centrifugal force on the mass at the centroid, and the centrifugal moment of the inertia
- * of the section. */
 static void add_rotating(const distributed_loads *of, const span_frame *at, span_load *out)
 {
     const model *m = of->m;

@@ -11,9 +11,6 @@
 static void extrapolate_errors(const equations *, int most, const model_state *const at[],
                                double error[]);
 
-/* With at least MANY_ELEMENTS elements, only OF_MANY states are stored. sheet_cantilever,
- * spherical_joint and hexapod need the same numbers of iterations with eight states as with
- * twelve. */
 enum { MANY_ELEMENTS = 1000, OF_MANY = 8 };
 /* The second step is extrapolated linearly if the first step took at most this number of
  * iterations. */
@@ -22,7 +19,6 @@ enum { EASY_ITERATIONS = 4 };
  * extrapolation saves iterations. */
 static const double worthwhile = 0.3;
 
-/* Returns the last k of the first `count` states. */
 static const model_state *const *last(const predictor *t, int count, int k)
 {
     return (const model_state *const *)t->at + count - k;
@@ -69,15 +65,14 @@ status predictor_add(const equations *eq, const model_state *s, int iterations, 
 }
 
 /* Returns the number of states for which the extrapolation of the last state has the smallest
- * error. Adds one if the error decreases up to the largest number. 0: no extrapolation is better
- * than the last state. */
+ * error. */
 static int states_of_least_error(const predictor *t)
 {
     int best = 2;
     for (int k = 3; k < t->count && k <= t->most; k++)
         if (t->error[k] < t->error[best])
             best = k;
-    if (isinf(t->error[best])) /* no error is known yet */
+    if (isinf(t->error[best]))
         return t->iterations <= EASY_ITERATIONS ? 2 : 0;
     if (!(t->error[best] < worthwhile * t->error[1]))
         return 0;
@@ -90,8 +85,6 @@ void predictor_guess(const equations *eq, const predictor *t, double path, model
         if (extrapolate_state(eq, k, last(t, t->count, k), path, s))
             return;
 }
-
-/* Initial guess for the next state of a path, from the polynomial through the last states. */
 
 /* far: largest step for which the state is extrapolated, relative to the last step. bent: largest
  * error of extrapolated prescribed values, relative to the largest of their steps. */
@@ -107,8 +100,6 @@ static void lagrange(int count, const model_state *const at[], double path, doub
     }
 }
 
-/* Returns 1 if value[count], the next value of a prescribed function, agrees with its
- * extrapolation. */
 static int continues(int count, const double weight[], const double value[])
 {
     const double rounding = 1e-12 * (fabs(value[count]) + fabs(value[count - 1]) + fabs(value[0]));
@@ -131,7 +122,6 @@ static void keep_continuing(const double value[], guesses *g)
         g->good[k] = g->good[k] && continues(k, g->weight[k], value + g->most - k);
 }
 
-/* Rejects extrapolations that disagree with the drivers and loads at the next path parameter. */
 static void keep_smooth(const equations *eq, const model_state *const at[], double path, guesses *g)
 {
     const model *m = eq->m;
@@ -152,8 +142,6 @@ static void keep_smooth(const equations *eq, const model_state *const at[], doub
     }
 }
 
-/* Sets the prescribed components of a spatial increment so that the frame agrees with the
- * drivers. */
 static void prescribe(const model *m, const mesh_vertex *v, const model_state *last,
                       const model_state *out, double turn[3])
 {
@@ -187,7 +175,6 @@ static void extrapolate_rotation(const model *m, int vertex, int count, const do
     rotation_normalise(&out->q[4 * vertex]);
 }
 
-/* Returns 1 if the vertex has an orientation of its own that is not described by angles. */
 static int turns_by_itself(const model *m, int vertex)
 {
     const mesh_release *r = release_of(m, vertex);
@@ -196,8 +183,6 @@ static int turns_by_itself(const model *m, int vertex)
                : model_vertex(m, vertex)->body == vertex && model_vertex(m, vertex)->angles == 0;
 }
 
-/* Computes the weights of extrapolations from `least` to `most` states, and determines which
- * extrapolations are possible. */
 static void weigh(const equations *eq, int least, int most, const model_state *const at[],
                   double path, guesses *g)
 {
@@ -220,7 +205,7 @@ static void add_weighted(double weight, size_t size, const double x[], double su
 enum { PART = 8 };
 
 /* Returns the maximum of `largest` and |sum_i weight[i] x_i - x_count|, where x_i = at[i]->block +
- * from, over `size` numbers. Small groups of numbers keep the sums in registers. */
+ * from, over `size` numbers. */
 static inline __attribute__((always_inline)) double largest_of(int count, const double weight[],
                                                                const model_state *const at[],
                                                                ptrdiff_t from, size_t size,
@@ -279,8 +264,8 @@ int extrapolate_state(const equations *eq, int count, const model_state *const a
     if (!g.good[count])
         return 0;
     const double *weight = g.weight[count];
-    const size_t before = (size_t)(out->history - out->block), /* the history is not extrapolated */
-        after = before + (size_t)model_elements(m) * (size_t)model_history(m);
+    const size_t before = (size_t)(out->history - out->block),
+                 after = before + (size_t)model_elements(m) * (size_t)model_history(m);
     memset(out->block, 0, before * sizeof *out->block);
     memset(out->block + after, 0, (out->size - after) * sizeof *out->block);
     for (int i = 0; i < count; i++) {

@@ -26,8 +26,6 @@ static int are_same(const double a[AMOUNTS], const double b[AMOUNTS])
     return a[ELONGATION] == b[ELONGATION] && a[ABOUT_Y] == b[ABOUT_Y] && a[ABOUT_Z] == b[ABOUT_Z];
 }
 
-/* Adds the free strains due to a temperature load, averaged over the element. The load may act on a
- * part of the element. */
 static void add_amounts(const model *m, int element, const scene_load *load, double scale,
                         double out[AMOUNTS])
 {
@@ -52,7 +50,6 @@ static void add_amounts(const model *m, int element, const scene_load *load, dou
     out[ABOUT_Z] -= strain * (a * along[0] + b * along[1]);
 }
 
-/* Computes the free strains due to all temperature loads at `path`. */
 static void heat_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const scene *s = model_scene(eq->m);
@@ -62,7 +59,6 @@ static void heat_at(const equations *eq, int element, double path, double out[AM
             add_amounts(eq->m, element, &s->load[i], applied_factor(eq, &s->load[i], path), out);
 }
 
-/* Computes the free strains including the initial strains of the member. */
 static void amounts_at(const equations *eq, int element, double path, double out[AMOUNTS])
 {
     const double *own = model_kind_of(eq->m, element)->free;
@@ -83,7 +79,6 @@ static void rates_at(const equations *eq, int element, double path, double out[A
     }
 }
 
-/* A free element in the axes of its first node. */
 typedef struct free_element {
     double length, rotation[3], strained[3]; /* length of the arc; rotation; R^T r' */
     node_state x[ELEMENT_MAX_NODES];
@@ -144,8 +139,6 @@ static void moved(const free_element *of, const double amounts[AMOUNTS], double 
         out[i] *= of->length;
 }
 
-/* Computes the derivative of the strains of a free element with respect to the amounts, in a given
- * direction. */
 static void strains_by(const model *m, int element, const free_element *of,
                        const double amounts[AMOUNTS], double out[])
 {
@@ -189,7 +182,6 @@ void free_strain_subtract(const equations *eq, int element, double path, double 
         e[i] -= own[i] - rest[i];
 }
 
-/* Element data that the type has modified for the last free strains. */
 typedef struct run_free {
     size_t size;     /* number of doubles per element: the amounts, followed by the data */
     double *element; /* [elements x size] */
@@ -314,7 +306,7 @@ static double energy_with(const equations *eq, const model_state *s, int element
 }
 
 /* Returns the energy gained by an element in a state when its free strains change from `before` to
- * `after` at constant stresses. The type measures its strains from the free strains. */
+ * `after` at constant stresses. */
 static double counted(const equations *eq, const model_state *s, int element,
                       const double before[AMOUNTS], const double after[AMOUNTS])
 {
@@ -348,8 +340,7 @@ static double gained(const equations *eq, const model_state *s, int element,
 
 double free_strain_power(const equations *eq, const model_state *s, double time)
 {
-    const double small =
-        1e-4; /* step of a central difference, which is exact for quadratic energies */
+    const double small = 1e-4;
     const model *m = eq->m;
     double power = 0;
     for (int i = 0; i < model_elements(m) && model_frees(m); i++) {

@@ -38,7 +38,6 @@ static int lies_along(const model *m, int element, const scene_load *load)
            (!scene_load_within(load) || applied_inside(part[0]));
 }
 
-/* Adds `sign` times the forces on the first and on the last node to taken[]. */
 static void note_taken(const model *m, const double force[], double sign, double taken[2][3])
 {
     for (int end = 0; end < 2; end++)
@@ -85,7 +84,6 @@ static void ends_of(const equations *eq, const internal_state *s, int i, node_st
     double taken[2][3] = {{0}};
     if (rotating_frame_lumps(eq))
         note_taken(m, force, 1, taken);
-    /* cannot fail in an accepted state */
     rotating_frame_add(eq, x, i, s->path, force, NULL, NULL);
     if (rotating_frame_lumps(eq))
         note_taken(m, force, -1, taken);
@@ -132,7 +130,6 @@ static double axes_turned(const model *m, int member, double place, const mesh_e
     if (!scene_member_tapers(sm))
         return 0;
     section_taper_at(&s->section[sm->section], &s->section[sm->section_q], place, &spec);
-    /* neighbouring elements give the same result */
     const int known = section_compute(&spec, &c, NULL) == STATUS_OK;
     return known ? c.axes_angle - model_section(m, model_kind(m, el->kind)->section)->axes_angle
                  : 0;
@@ -166,7 +163,6 @@ void internal_at_end(const equations *eq, const internal_state *s, int member, i
         out[c] *= -1;
 }
 
-/* Sets the end values of an element in the form of section_forces.h. */
 static void take_ends(const equations *eq, const internal_state *s, int i, span_end end[2])
 {
     const model *m = eq->m;
@@ -214,8 +210,6 @@ static void between_at(void *context, double x, const span_frame *at, span_load 
         }
 }
 
-/* Computes the undeformed frames of the ends, and the displacements and rotations from these
- * frames. */
 static void moves_of(const equations *eq, const internal_state *s, int i, span_frame begin[2],
                      span_move end[2])
 {
@@ -245,8 +239,6 @@ static void moves_of(const equations *eq, const internal_state *s, int i, span_f
     }
 }
 
-/* Recovers the resultants at x. moved: receives the displacement and rotation of the section at x;
- * NULL: not requested. */
 static status recover_moved(const equations *eq, const internal_state *s, int i, const span_grid *g,
                             double x, span_move *moved, span_fields *out, fault *f)
 {
@@ -338,7 +330,6 @@ status internal_at(const equations *eq, const internal_state *s, const internal_
     return STATUS_OK;
 }
 
-/* Fields of an element, and the quantity that is computed from them. */
 typedef struct measured {
     const span_grid *g;
     const span_fields *fields;
@@ -354,8 +345,7 @@ static double measure_at(const measured *what, double x)
     return what->of(what->context, what->element, x, v);
 }
 
-/* Refines a maximum between a and b by golden-section search. A grid point between a and b has a
- * larger value than its neighbours. */
+/* Refines a maximum between a and b by golden-section search. */
 static double refined(const measured *what, double a, double b)
 {
     const double golden = (sqrt(5) - 1) / 2;
@@ -378,7 +368,6 @@ static double refined(const measured *what, double a, double b)
     return fmax(at_c, at_d);
 }
 
-/* Replaces *largest by the maximum in the element if the maximum is larger. */
 static void take_largest(const measured *what, double *largest)
 {
     double value[SPAN_GRID_POINTS];
@@ -415,7 +404,6 @@ status internal_largest(const equations *eq, const internal_state *s, int member
     return STATUS_OK;
 }
 
-/* Stress points of a section, which may vary along a tapered member. */
 typedef struct member_points {
     const model *m;
     int member, tapers;
@@ -440,7 +428,6 @@ static status prepare(const model *m, const internal_state *s, int member, stres
                             &out->points, f);
 }
 
-/* Computes the section at a position of a tapered member. */
 static status take_local(member_points *of, double place, fault *f)
 {
     const scene_member *sm = &model_scene(of->m)->member[of->member];
@@ -451,8 +438,6 @@ static status take_local(member_points *of, double place, fault *f)
     return stress_points_of(&spec, &of->local, &of->points, f);
 }
 
-/* Transforms the resultants from the principal axes of the element's section to the axes of the
- * points. The rate of twist is computed with the local stiffness. */
 static stress_resultants local_resultants(const member_points *of, int element, const double v[])
 {
     const section *c = of->points.section,

@@ -34,7 +34,7 @@ static void place_load(const field_load *load, line_output *at, double df[9], do
     vec3_cross(arm, at->force, moment);
     for (int i = 0; i < 3; i++)
         at->moment[i] += moment[i];
-    if (load->follower) { /* the load rotates with the section */
+    if (load->follower) {
         times_cross(minus, at->moment, dm);
         return;
     }

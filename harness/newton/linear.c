@@ -36,7 +36,6 @@ status linear_stiffness(const equations *eq, sparse *K, fault *f)
     return outcome;
 }
 
-/* Computes J x of an element. */
 static void linear_strains(const model *m, int i, const undeformed_element *l, const double x[],
                            double e[])
 {
@@ -212,8 +211,6 @@ static void linear_terms(const equations *eq, int i, const double x[], double st
     }
 }
 
-/* Strains have the rounding errors of their terms, and stresses also those of the entries of S. The
- * errors of different elements are similar, so they add up. */
 double linear_strain_rounding(const equations *eq, const double x[])
 {
     const model *m = eq->m;
@@ -265,7 +262,6 @@ static double geometric_energy2(const equations *eq, int i, const double sigma[]
     const double inside = dense_quadratic(model_strains(m), G, e);
     if (model_element(m, i)->plain)
         return inside + dense_quadratic(model_own_coordinates(m), H, local);
-    /* second derivatives of offsets and of sequences of angles, in coordinates of the model */
     const mesh_element *el = model_element(m, i);
     double own[MODEL_MAX_COORDINATES];
     for (int k = 0; k < el->columns; k++)
@@ -354,9 +350,6 @@ void linear_system_free(linear_system *s)
     memset(s, 0, sizeof *s);
 }
 
-/* Computes the residual: the load minus K x and minus the forces of initial strains, including
- * prescribed coordinates. The residual is computed from element strains, so its error does not grow
- * with the number of elements. */
 static status residual_of(analysis_context *c, double path, const double load[], const double x[],
                           double sigma[], double r[], fault *f)
 {
@@ -400,7 +393,6 @@ static double part_of(const analysis_context *c, const system_workspace *w, cons
     return refinement_part(model_sizes(c->model).free, w->weight, change, x, w->strained);
 }
 
-/* Computes x += K^-1 (load - K x). *correction: size of the correction relative to x. */
 static status correct(analysis_context *c, linear_system *s, system_workspace *w, double x[],
                       double *correction, fault *f)
 {
@@ -413,9 +405,8 @@ static status correct(analysis_context *c, linear_system *s, system_workspace *w
     return STATUS_OK;
 }
 
-/* Estimates the error of x. For a single element, a correction may be zero by coincidence.
- * Therefore x is perturbed in its last digits and corrected; the result is the distance from the
- * previous x. This work is not counted. */
+/* Estimates the error of x. Therefore x is perturbed in its last digits and corrected; the result
+ * is the distance from the previous x. */
 static status shake(analysis_context *c, linear_system *s, system_workspace *w, const double x[],
                     double *change, fault *f)
 {
@@ -449,7 +440,6 @@ static status refine(analysis_context *c, linear_system *s, system_workspace *w,
     return state == REFINEMENT_ENDS ? STATUS_OK : refinement_refuse(&r, "the linear solution", f);
 }
 
-/* Solves for x with iterative refinement. linear_system_solve() frees *w, also after a failure. */
 static status solve(analysis_context *c, linear_system *s, double path, system_workspace *w,
                     double x[], fault *f)
 {

@@ -1,6 +1,5 @@
 /* Mixed linearisation (N section 4). With J = de/dx and independent e and sigma: de = D(x) - e + J
- * dx, sigma + dsigma = P'(e) + P''(e) de. The equations are condensed per element. During the
- * iteration, stiff modes therefore cause no spurious stresses. */
+ * dx, sigma + dsigma = P'(e) + P''(e) de. The equations are condensed per element. */
 #include "harness/newton/newton_impl.h"
 
 #include <stdlib.h>
@@ -10,7 +9,6 @@
 #include "elements/math/dense.h"
 #include "elements/math/vec3.h"
 
-/* Sets e and sigma of an element from D(x), for Newton's method with displacements only. */
 static status compatible_element(const equations *eq, model_state *s, int i)
 {
     const model *m = eq->m;
@@ -87,7 +85,6 @@ static status add_material(const equations *eq, const linear_memory *memory, con
     return STATUS_OK;
 }
 
-/* Subtracts the loads along the element. */
 static void subtract_loads(const equations *eq, const linear_memory *memory, chunk_element *of,
                            int tangent, double path, element_part *part)
 {
@@ -105,8 +102,6 @@ static void subtract_loads(const equations *eq, const linear_memory *memory, chu
     }
 }
 
-/* Computes the internal forces of an evaluated element, minus centrifugal forces and loads along
- * the element, and optionally their tangent. All results are in coordinates of the model. */
 static status element_equations(const equations *eq, const linear_memory *memory,
                                 const model_state *s, chunk_element *of, int tangent, double path,
                                 element_part *part)
@@ -161,8 +156,6 @@ static void add_columns(const model *m, const mesh_element *el, const double K[]
     }
 }
 
-/* Data shared by the threads of a pool. Elements are evaluated in batches of `window`, and their
- * parts are added in order. */
 typedef struct shared_loop {
     const equations *eq;
     const linear_memory *memory;
@@ -176,7 +169,6 @@ typedef struct shared_loop {
     fault *f;
 } shared_loop;
 
-/* Evaluates elements [first, end) into part[0], ... There are at most CHUNK_WINDOW elements. */
 static void fill_window(const shared_loop *loop, int first, int end, element_part part[])
 {
     unsigned char done[CHUNK_WINDOW] = {0};
@@ -225,7 +217,6 @@ static int window_of(const equations *eq)
     return eq->run->part != NULL ? wanted : 0;
 }
 
-/* Adds the equations of an element, without K, to those of the model. */
 static void add_part(const equations *eq, const mesh_element *el, element_part *part,
                      model_linearisation *lin)
 {
@@ -254,8 +245,6 @@ static void add_discrete(const equations *eq, const model_state *s, model_linear
     }
 }
 
-/* Adds the parts of the elements in a piece, which are stored in a slot. Returns 0 if the
- * evaluation of an element failed. */
 static int take_piece(void *context, int piece, int slot)
 {
     shared_loop *loop = context;
@@ -293,7 +282,6 @@ static status linearise_elements(const equations *eq, const linear_memory *memor
                         .window = window > 0 ? window : 1,
                         .part = window > 0 ? eq->run->part : &own,
                         .f = f};
-    /* evaluations of inertia are counted without synchronisation, so only one thread is used */
     thread_pool *together = window > 0 && !eq->loading.rotates ? eq->run->pool : NULL;
     memset(lin->residual, 0, (size_t)model_all_coordinates(m) * sizeof *lin->residual);
     lin->incompatibility = 0;
@@ -326,8 +314,6 @@ status linearise_state(const equations *eq, const linear_memory *memory, const m
     return outcome;
 }
 
-/* Forces of selected elements on a node or on coordinates. */
-
 void linearise_node_force(const equations *eq, const model_state *s, const double sigma[], int node,
                           double F[6])
 {
@@ -348,8 +334,7 @@ void linearise_node_force(const equations *eq, const model_state *s, const doubl
                                   &(strain_output){.J = J, .history = model_history_of(m, s, i)});
             dense_add_transpose_mul(model_own_coordinates(m), model_strains(m), 1, J,
                                     &stress[(size_t)i * (size_t)model_strains(m)], force);
-            rotating_frame_add(eq, x, i, s->path, force, NULL,
-                               NULL); /* cannot fail in an accepted state */
+            rotating_frame_add(eq, x, i, s->path, force, NULL, NULL);
             kinematics_offset(m, s, el->vertex[k], rho);
             vec3_cross(rho, force + NODE_COORDINATES * k, moment);
             for (int c = 0; c < 3; c++) {

@@ -165,7 +165,6 @@ status link_of(const link_element *el, chain_link *out, fault *f)
 
 enum { N = 6 };
 
-/* Rigid parts that are connected by released ends and constraints. */
 typedef struct linkage {
     const model *m;
     /* [vertices] root of each vertex; [vertices] index of the part of a root (NONE: the part has no
@@ -195,8 +194,6 @@ static void add_block(linkage *l, int a, int b, double sign, const double C[N * 
                 sign * block[N * i + j];
 }
 
-/* Removes the components along orthogonal unit vectors from the three rows of a translation or of a
- * rotation. */
 static void leave_out(int count, const double along[3][3], double rows[3 * N])
 {
     for (int k = 0; k < count; k++)
@@ -250,7 +247,7 @@ static int coordinate_row(const linkage *l, int node, int coordinate, double row
         for (int i = 0; i < 3; i++)
             row[j] += scale * axis[i] * C[N * (turns ? 3 + i : i) + j];
     }
-    if (v->led && !turns) { /* excluding the motion due to the angle about the normal */
+    if (v->led && !turns) {
         double moved[3];
         vec3_cross(v->axis[0], v->arm, moved);
         for (int j = 0; j < N; j++)
@@ -260,7 +257,6 @@ static int coordinate_row(const linkage *l, int node, int coordinate, double row
     return l->number[supports_root(l->part, node)];
 }
 
-/* Adds the constraint between a coordinate of a node and a coordinate of another node. */
 static void add_tie(linkage *l, int node, int coordinate)
 {
     const scene_tie *tie = model_tie(l->m, node, coordinate);
@@ -310,7 +306,6 @@ static double motion_of(const linkage *l, int part, const double position[3], do
     return vec3_norm(motion) + model_length(l->m) * vec3_norm(motion + 3);
 }
 
-/* Finds the node with the largest motion. If no node moves, finds a member that moves. */
 static void name_what_moves(const linkage *l, int *node, int *member, double motion[N])
 {
     const model *m = l->m;
@@ -332,7 +327,7 @@ static void name_what_moves(const linkage *l, int *node, int *member, double mot
         const double size =
             part != NONE ? motion_of(l, part, model_vertex(m, i)->position, moved) : 0;
         if (size > most) {
-            most = size * (1 + 1e-9); /* the first of equal values is chosen */
+            most = size * (1 + 1e-9);
             *node = i;
             memcpy(motion, moved, sizeof moved);
         }

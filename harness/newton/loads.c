@@ -1,4 +1,3 @@
-/* Loads and drivers along the path. */
 #include "harness/newton/newton_impl.h"
 
 #include <math.h>
@@ -13,8 +12,7 @@
 static const double potential = 1e-12;
 
 /* Returns bits LUMPS_*. In a motion with lumped mass, weights are lumped at the ends of elements;
- * with the conserving scheme, all loads are. The same applies to the states from which the motion
- * starts. */
+ * with the conserving scheme, all loads are. */
 static int lumps_of(const model *m, int analysis)
 {
     const scene *s = model_scene(m);
@@ -74,7 +72,6 @@ void loads_driver_rates(const equations *eq, const scene_driver *d, double path,
         out[i] *= scene_acting_factor(model_scene(eq->m), eq->loading.acting, d->load_case);
 }
 
-/* Sum of the forces of a load on vertices. */
 typedef struct sum_of_loads {
     const model *m;
     const model_state *s;
@@ -149,7 +146,6 @@ void loads_add(const equations *eq, const model_state *s, double path, double ou
                       applied_factor(eq, &model_scene(m)->load[i], path), out);
 }
 
-/* Computes C in the state under the loads along the element. */
 static status tangent_of(const equations *eq, const model_state *s, const node_state x[],
                          int element, double C[])
 {
@@ -182,7 +178,7 @@ void loads_add_temperature(const equations *eq, const model_state *s, const scen
         node_state x[ELEMENT_MAX_NODES];
         kinematics_gather(m, s, el, x);
         if (!free_strain_by_load(eq, s, i, load, scale, e) ||
-            tangent_of(eq, s, x, i, C) != STATUS_OK) /* cannot fail in an accepted state */
+            tangent_of(eq, s, x, i, C) != STATUS_OK)
             continue;
         dense_mul_vec(model_strains(m), model_strains(m), C, e, sigma);
         model_type(m)->strain(model_kind(m, el->kind)->data, x,
@@ -263,7 +259,6 @@ static void into_list(void *context, int row, int column, double value)
     e->value[e->count++] = value;
 }
 
-/* Returns the largest |K_ij - K_ji|. */
 static double skew_of(const entries_of_load *e)
 {
     double largest = 0;
@@ -318,7 +313,6 @@ void loads_release_moment(const model *m, const model_state *s, int node, const 
         }
 }
 
-/* Sum of the forces on the frame of a node. */
 typedef struct sum_at_node {
     const equations *eq;
     const model *m;
@@ -343,7 +337,6 @@ static void add_at_node(void *context, const applied *what)
         sum->F[k] += what->F[k] + (k >= 3 && away ? moment[k - 3] : 0);
 }
 
-/* Adds the contribution of the loads along an element to the force at a node. */
 static void add_element_at_node(sum_at_node *sum, int element, double path)
 {
     const model *m = sum->m;

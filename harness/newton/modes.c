@@ -12,7 +12,6 @@ static void put(const model *m, int row, const row_label *label, row_label out[]
         out[row] = *label;
 }
 
-/* Returns the name of coordinate c of a vertex. */
 static const char *component_of(const model *m, int vertex, int c)
 {
     static const char *const plain[] = {"ux", "uy", "uz", "rx", "ry", "rz"},
@@ -24,7 +23,6 @@ static const char *component_of(const model *m, int vertex, int c)
     return c >= SCENE_RX && model_vertex(m, vertex)->angles > 0 ? angle[c - SCENE_RX] : plain[c];
 }
 
-/* Labels the coordinates of a vertex. label: contains the position of the vertex on entry. */
 static void put_vertex(const model *m, int vertex, row_label label, row_label out[])
 {
     const mesh_vertex *v = model_vertex(m, vertex);
@@ -37,7 +35,6 @@ static void put_vertex(const model *m, int vertex, row_label label, row_label ou
     }
 }
 
-/* Labels the additional unknowns of node k of an element. */
 static void put_scalars(const model *m, const mesh_element *el, int k, row_label label,
                         row_label out[])
 {
@@ -141,8 +138,6 @@ static int points_of(const model *m, const scene *s)
     return points;
 }
 
-/* Computes the components of a mode. u[vertices x 7]: the mode at the vertices; index[vertices]:
- * work space. */
 static void fill_motion(const model *m, const scene *s, const double *u, int *index, motion *out)
 {
     for (int member = 0; member < s->members; member++) {
@@ -229,8 +224,6 @@ status modes_identify(const model *m, const scene *s, const double mode[], mode_
     return STATUS_OK;
 }
 
-/* Computes the sums of squares of two motions: translation of shear centres across members, and
- * twist times `radius`. */
 static void bends_and_twists(const model *m, const scene *s, const motion *shape, int stays,
                              double *bends, double *twists)
 {
@@ -296,7 +289,7 @@ const char *modes_family_name(scene_family family)
     return "any";
 }
 
-enum { MOST = 8 }; /* largest number of modes in a cluster */
+enum { MOST = 8 };
 
 static status motions_alloc(const model *m, const scene *s, int count, size_t n, const double *mode,
                             motion shape[], fault *f)
@@ -306,8 +299,6 @@ static status motions_alloc(const model *m, const scene *s, int count, size_t n,
     return STATUS_OK;
 }
 
-/* Computes two matrices of inner products [count x count]: of the motions along z, and of the
- * complete motions. */
 static void products(int count, const motion shape[], double along_z[], double all[])
 {
     memset(along_z, 0, (size_t)(count * count) * sizeof *along_z);
@@ -336,8 +327,6 @@ static void combine(int count, size_t n, const double C[], double *mode)
     }
 }
 
-/* Replaces the modes by combinations with the smallest and the largest possible fraction of motion
- * along z. Modes that are equal at the vertices do not change. */
 static status separate_cluster(const model *m, const scene *s, int count, size_t n, double *mode,
                                fault *f)
 {
@@ -355,7 +344,6 @@ static status separate_cluster(const model *m, const scene *s, int count, size_t
     return STATUS_OK;
 }
 
-/* Returns the index after the last of the consecutive values that equal value[first]. */
 static int cluster_end(int first, int count, const double value[])
 {
     const double equal = 1e-8; /* largest relative difference between values that count as equal */
@@ -381,7 +369,6 @@ identity identity_begin(void)
     return (identity){{14695981039346656037ull, 0x9e3779b97f4a7c15ull}};
 }
 
-/* Updates two FNV-1a hashes with different multipliers. */
 void identity_add(identity *out, const void *bytes, size_t size)
 {
     const unsigned char *at = bytes;
@@ -397,8 +384,6 @@ static void add_number(identity *out, long number)
     identity_add(out, &number, sizeof number);
 }
 
-/* Adds the members of a type to the hash, except descriptive strings and functions that are called
- * only during preparation. */
 static void add_type(identity *out, const element_type *type)
 {
     element_type t;

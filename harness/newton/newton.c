@@ -8,14 +8,10 @@
 
 #include "elements/math/dense.h"
 
-/* Releases a symmetric factor for the pattern of the free coordinates. If a compliance may need
- * it, the context stores it, which saves the ordering and the pattern. Otherwise the factor is
- * freed. */
 static void context_leave_factor(analysis_context *, matrix_factor *);
 
 enum { MAX_ITERATIONS = 30 };
 
-/* Allocates the factor, and K if members are not condensed. */
 static status allocate_tangent(newton_run *n, int condense, fault *f)
 {
     const sparse *pattern;
@@ -105,8 +101,6 @@ static int drives(const newton_run *n, int count, const model_condition conditio
     return conditioned > round_off * round_off * all;
 }
 
-/* Computes the increments of unknown drivers from their conditions and columns, and then dx of the
- * free coordinates. */
 static status meet_conditions(newton_run *n, int count, const model_condition condition[], fault *f)
 {
     double A[MODEL_MAX_CONDITIONS * MODEL_MAX_CONDITIONS], b[MODEL_MAX_CONDITIONS];
@@ -133,7 +127,6 @@ static status meet_conditions(newton_run *n, int count, const model_condition co
     return STATUS_OK;
 }
 
-/* Assembles the tangent of the state and factors it. */
 static status factor_tangent(newton_run *n, model_linearisation *lin, fault *f)
 {
     if (n->whole.value != NULL)
@@ -153,7 +146,6 @@ static status factor_tangent(newton_run *n, model_linearisation *lin, fault *f)
     return STATUS_OK;
 }
 
-/* Solves the condensed system for dx. */
 static status solve_condensed(newton_run *n, model_linearisation *lin, fault *f)
 {
     phases *p = &n->c->run->phases;
@@ -168,7 +160,6 @@ static status solve_condensed(newton_run *n, model_linearisation *lin, fault *f)
     return met;
 }
 
-/* Solves the uncondensed system for dx by Gaussian elimination with partial pivoting (LAPACK). */
 static status solve_dense(newton_run *n, model_linearisation *lin, fault *f)
 {
     const model *m = n->c->model;
@@ -238,8 +229,6 @@ static status direction(newton_run *n, double path, step_record *record, fault *
     return STATUS_OK;
 }
 
-/* Returns 1 if the state is the undeformed state without stresses, but members have initial strains
- * or temperatures. */
 static int is_unstressed(const newton_run *n)
 {
     const model *m = n->c->model;
@@ -252,8 +241,7 @@ static int is_unstressed(const newton_run *n)
     return 1;
 }
 
-/* Sets the stresses at `path` in the undeformed state, as if all nodes were fixed. If a structure
- * is stiff only because of prestress, Newton's method starts from these stresses. */
+/* Sets the stresses at `path` in the undeformed state, as if all nodes were fixed. */
 static status prestress(newton_run *n, double path, fault *f)
 {
     kinematics_state_copy(n->c->model, kinematics_rest(n->c->model), n->state);

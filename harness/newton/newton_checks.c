@@ -11,22 +11,15 @@
 #include "elements/math/rotation.h"
 #include "elements/math/scalar.h"
 
-/* Newton's method has converged after two successive corrections below `small`. With the
- * geometrically exact element, corrections reach 3e-11 with 1000 elements and 6e-9 with 40 000
- * elements. */
 static const double small = 1e-8;
 static const double many_elements =
     1e4; /* for more elements, `small` is proportional to their number */
 /* Newton's method has also converged after a correction below `newton_convergence_near` if the
  * predicted size of the next correction is negligible. */
 static const double newton_convergence_near = 1e-6, negligible = 1e-15;
-/* Newton's method has also converged after a correction below `rounding`. Its square is negligible,
- * even if stresses are 1e10 times as sensitive. */
 static const double rounding = 1e-12;
 /* Corrections above this limit need not converge quadratically. */
 static const double quadratic = 0.1;
-/* Relative change of stresses below which a tangent is reused. For the mechanisms of cases/, reuse
- * changes compliances by at most half of this value. */
 static const double same_tangent = 3e-11;
 
 void newton_convergence_start(double criterion, int differences, int elements,
@@ -179,8 +172,6 @@ void advance_settle(const model *m, const linear_memory *memory, const model_sta
     }
 }
 
-/* Checks the twist of the elements in the final state. */
-
 static status check_twist(const model *m, const model_state *s, fault *f)
 {
     int index;
@@ -216,7 +207,6 @@ static status check_elements(const model *m, const model_state *s, fault *f)
         model_type(m)->name, quarter ? "quarter" : "half");
 }
 
-/* Returns 1 if this end of a member can rotate about both transverse axes. */
 static int swings(const model *m, const mesh_element *el, int node)
 {
     const mesh_release *r = release_of(m, el->vertex[node]);
@@ -228,7 +218,6 @@ static int swings(const model *m, const mesh_element *el, int node)
            (fabs(vec3_dot(r->turn[0], x)) < across && fabs(vec3_dot(r->turn[1], x)) < across);
 }
 
-/* Checks that no element is too long for its axial force. Bars without bending are not checked. */
 static status check_tension_limit(const model *m, const model_state *s, fault *f)
 {
     int worst = 0;
@@ -305,7 +294,6 @@ static status check_springs(const model *m, const model_state *from, const model
     return STATUS_OK;
 }
 
-/* Returns the largest change [rad] of the orientation of a node by prescribed angles. */
 static double driven_by(const model *m, const model_state *from, const model_state *s, int node)
 {
     const mesh_vertex *v = model_vertex(m, node);
@@ -346,7 +334,6 @@ status newton_accept(const model *m, const model_state *from, model_state *s, fa
     return STATUS_OK;
 }
 
-/* Sizes of the corrections of a step. */
 typedef struct correction_sizes {
     double last, first, largest; /* largest: the largest correction after the first correction */
     int growing;                 /* number of successive growing corrections */

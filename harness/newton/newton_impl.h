@@ -20,8 +20,6 @@ static inline const spring_rates *damping_of_springs(const run_damping *d)
 /* Returns the rotating frame at a path parameter: its centre and its angular velocity. */
 element_rotating_frame loading_frame(const loading *, double path);
 
-/* Forces of a load on the vertices of a mesh. */
-
 /* Returns 1 for a uniform load on the whole length of a member without `lumped`. Its nodal shares
  * are those of the mass. */
 int applied_with_mass(const scene_load *);
@@ -32,7 +30,6 @@ void applied_element(const model *, const model_state *, const scene_load *, dou
  * both limits are its position. A point load between two elements belongs to the second one.
  * Returns 0 if the load does not act on this element. */
 int applied_part(const model *, int element, const scene_load *, double part[2]);
-/* Returns 1 if x is inside the element and not at an end. */
 int applied_inside(double x);
 /* Computes the vector of a load along the member at x in [0, 1] of an element, in the components of
  * the scene. */
@@ -47,13 +44,10 @@ typedef void (*loads_entry)(void *context, int row, int column, double value);
 void applied_stiffness(const model *, const model_state *, const scene_load *, double scale,
                        loads_entry take, void *context);
 
-/* Condenses members to their ends before the tangent is solved, and expands the solution. The error
- * of an assembled tangent is proportional to the fourth power of the number of elements.
- * Flexibilities of members (chain.c) avoid this error. The remaining system is as small as with one
- * element per member. */
+/* Condenses members to their ends before the tangent is solved, and expands the solution. The
+ * remaining system is as small as with one element per member. */
 
-/* Minimum number of elements of a condensed member. With fewer elements, the assembled tangent
- * costs less and is sufficiently accurate. */
+/* Minimum number of elements of a condensed member. */
 enum { CONDENSATION_ELEMENTS = 1000 };
 
 /* Allocates a condensation. *out is NULL if all members have fewer elements than `from`, or if the
@@ -72,12 +66,11 @@ void condensation_free(condensation *);
 status condensation_at(condensation *, const model_state *, double path, fault *);
 /* Computes the tangent with the members of `of` in its state. `of` remains their owner. */
 void condensation_take(condensation *, const condensation *of, const model_state *);
-/* Returns the matrix of all end coordinates. The caller may change it before it is factored. */
+/* Returns the matrix of all end coordinates. */
 sparse *condensation_ends(condensation *);
 /* Factors the matrix of the unknowns. SINGULAR: as for factor_numeric, or a member is in a critical
  * state. */
 status condensation_factor(condensation *, fault *);
-/* Solves for the unknowns in place, x[free + driven] := K^-1 x. transposed 1: x := K^-T x. */
 void condensation_solve(condensation *, int transposed, double x[]);
 factor_counts condensation_count(const condensation *);
 /* Creates a factor that uses the condensation for solutions. The factor owns the condensation. */
@@ -100,7 +93,6 @@ void border_free(border *);
  * displacements inside elements (elements/field), or the element includes them in its
  * equilibrium. */
 
-/* Loads along one element at a path parameter. */
 typedef struct distributed_loads {
     const equations *eq;
     const model *m;
@@ -126,7 +118,7 @@ typedef struct distributed_taken {
 /* Computes *out for the loads at `path`. out->acts is 0 if there are no such loads. */
 void distributed_take(const equations *, int element, double path, distributed_taken *out);
 /* Adds to forces[14] the part of the loads that J^T sigma does not contain, and subtracts its
- * derivative from K[14 x 14]. Both follow from `out`. gap[strains]: D(x) - e. */
+ * derivative from K[14 x 14]. gap[strains]: D(x) - e. */
 void distributed_add_taken(const model *, const along_output *out, const double J[],
                            const double gap[], double forces[], double K[]);
 
@@ -134,12 +126,12 @@ void distributed_add_taken(const model *, const along_output *out, const double 
  * `scale`. Subtracts their derivative from K[7 nodes x 7 nodes], which may be NULL. Returns 0 if
  * the load exerts no force on the element. If the element includes the load in its equilibrium,
  * adds the derivative of the forces with respect to the magnitude of the load, multiplied by
- * `scale`. K does not change in this case. */
+ * `scale`. */
 int distributed_add_one(const equations *, const model_state *, const node_state x[], int element,
                         const scene_load *, double scale, double forces[], double K[]);
 /* Like distributed_add_one, for all loads at `path`. Of loads that the element includes in its
  * equilibrium, it adds only the part that J^T sigma does not contain; about the state
- * kinematics_rest, the full forces. distributed_add_field excludes these loads. */
+ * kinematics_rest, the full forces. */
 int distributed_add(const equations *, const model_state *, const node_state x[], int element,
                     double path, double forces[], double K[]);
 /* Like distributed_add, but only for loads that the element includes in its equilibrium. */
@@ -157,7 +149,6 @@ int distributed_add_field(const equations *, const node_state x[], int element, 
 void line_add_loads(const model *, int element, const node_state x[], int count, const double at[],
                     const field_load load[], double forces[], double K[]);
 
-/* Returns 1 if a load acts along the element. */
 int distributed_acts(const distributed_loads *);
 /* Returns the index of a load that starts, ends or acts at a point inside the element; SCENE_NONE:
  * none. */
@@ -205,13 +196,11 @@ void loads_reference(const equations *, double path, double f[]);
 void loads_drive(const equations *, const model_state *, double path, double dx[]);
 
 /* Changes K for a node that rotates by a sequence of angles when the moment M of the prescribed
- * angles becomes a load. This load is conservative in the exponential chart, so the second
- * derivatives of the angles are removed. */
+ * angles becomes a load. */
 void loads_release_moment(const model *, const model_state *, int node, const double M[3],
                           sparse *K);
 
-/* Batches of a few elements that are evaluated together. A batch contains elements of the same kind
- * if the type has lanes (element_type.lanes), otherwise a single element. */
+/* Batches of a few elements that are evaluated together. */
 
 /* Evaluation of one element. */
 typedef struct chunk_element {
@@ -235,9 +224,7 @@ void chunk_evaluate(const equations *eq, const linear_memory *memory, const mode
 status history_add_iteration(solve_result *r, step_record *step, const iteration_record *one,
                              double energy, fault *f);
 
-/* Stress-free strains of elements, in addition to the strains of the undeformed state. Their causes
- * are temperatures, which are loads, and initial strains of members. Strains of a state are
- * measured from the stress-free strains, or element data contain the stress-free strains. */
+/* Stress-free strains of elements, in addition to the strains of the undeformed state. */
 
 /* Adds the free strain: the elongation, and the curvatures about the principal axes. */
 void free_strain_amounts(const equations *, int element, double path, double strain[3],
@@ -265,8 +252,7 @@ status linear_growing_stresses(const equations *, const double x[], double path,
                                fault *);
 void linear_forces(const equations *, const double sigma[],
                    double f[]); /* computes f[free + driven] = sum J^T sigma */
-/* Quadratic forms from element strains. They avoid the cancellation in x^T (K x), whose error is
- * proportional to n^4 for n elements. */
+/* Quadratic forms from element strains. */
 double linear_strain_energy2(const equations *, const double x[]);
 double linear_strain_rounding(const equations *,
                               const double x[]); /* returns a bound of the rounding error */
@@ -295,9 +281,7 @@ void rotating_frame_load_stiffness(const equations *, const model_state *, doubl
                                    sparse *out);
 
 /* Evaluates strains and stresses of all elements before the loop that uses them, if the type
- * provides strain_many or stress_many without lanes. For other types, or if there is too little
- * memory, the loop evaluates each element. Elements with lanes are evaluated in small batches
- * (chunk.c). */
+ * provides strain_many or stress_many without lanes. */
 
 /* Strains and stresses of all elements from one call. */
 typedef struct run_ahead {
@@ -345,15 +329,11 @@ static inline status ahead_stress(const equations *eq, int i, const element_data
     return model_type(eq->m)->stress(data, e, inner, out);
 }
 
-/* Allocates the data of a run (see free_strain_data). */
 status free_strain_begin(const model *, struct run_free **, fault *);
 void free_strain_end(struct run_free *);
 
-/* Solutions of the tangent bordered by released coordinates (tangent.c). */
-
-/* Factors of the bordered system. */
 typedef struct bordered {
-    double *Z; /* [count x free] K^-1 U */
+    double *Z;
     double S[TANGENT_BORDER * TANGENT_BORDER];
     int pivot[TANGENT_BORDER];
     double *solution;                 /* [TANGENT_COMPONENTS x all] solutions for unit loads */
@@ -372,10 +352,7 @@ void bordered_free(bordered *s);
  * where A is the rigid motion of the link with p, F is its flexibility with p clamped, and B is the
  * stiffness of the rigid motion (prestress, warping). Two joined links form a link (star product of
  * R. Redheffer, J. Math. Phys. 41, 1962). With F of the links before joint m, and B and A of the
- * next link: x_m = Z (a_m + F (r_m + A^T g_y)), Z = (1 + F B)^-1, F <- F_qq + A_q Z F A_q^T.
- * Flexibilities add without cancellation. Therefore rounding errors grow roughly in proportion to
- * the number of links. Errors of assembled stiffnesses are proportional to the fourth power of this
- * number. */
+ * next link: x_m = Z (a_m + F (r_m + A^T g_y)), Z = (1 + F B)^-1, F <- F_qq + A_q Z F A_q^T. */
 
 enum { CHAIN_JOINT = NODE_COORDINATES, CHAIN_LINK = (ELEMENT_MAX_NODES - 1) * CHAIN_JOINT };
 
@@ -411,8 +388,6 @@ void chain_reduce(chain *, const double r[], double ends[]);
 /* Computes x[links x y] for these loads and for the motions ends[2 joint] of the ends. The last
  * joint is an end. x may be r. */
 void chain_expand(chain *, const double r[], const double ends[], double x[]);
-
-/* Internals of a chain. chain.c builds the chain and solves with it. */
 
 /* Returns the size of a symmetric matrix of which only the lower triangle is stored. */
 static inline int chain_packed(int n)
@@ -502,8 +477,6 @@ double linear_springs_energy2(const model *, const double x[]);
 double linear_springs_rounding(const model *, const double x[]);
 double linear_springs_geometric_energy2(const model *, const double sigma[], const double x[]);
 
-/* Makes a link of a chain from an element. */
-
 /* Tangent J^T C J + H of an element in the coordinates of its nodes (element.h). */
 typedef struct link_element {
     int nodes, strains, joint; /* joint: number of leading coordinates of each node that are used */
@@ -517,34 +490,27 @@ typedef struct link_element {
  * not subtracted. SINGULAR: the element, clamped at its first node, is in a critical state. */
 status link_of(const link_element *, chain_link *, fault *);
 
-/* Mechanisms: members are the rigid parts of a linkage, and released ends and constraints connect
- * them. */
-
 /* Returns 1 if released ends or constraints make the undeformed structure with its supports a
  * mechanism. Sets *node to the node with the largest motion. If no node moves, sets *node to -1 and
  * *member to a moving member. motion: displacement [m] and rotation [rad], with an arbitrary
- * factor. Structures of more than 200 parts are not examined. */
+ * factor. */
 int linkage_mechanism(const model *, int *node, int *member, double motion[6]);
-
-/* Small symmetric matrices whose rows may have different units. */
 
 enum { SYMMETRIC_MOST = CHAIN_LINK };
 
 /* Computes inverse[n x n]. Returns the number of negative eigenvalues, or -1 if A is singular. */
 int symmetric_inverse(int n, const double A[], double inverse[]);
 
-/* Derivatives of elements in the undeformed state, which do not change. They are evaluated once and
- * stored. */
+/* Derivatives of elements in the undeformed state, which do not change. */
 
 /* Derivatives of an element: de/dx [strains x 7 nodes] and dsigma/de [strains x strains]. For a
  * member with initial strains, also the first-order stresses [strains] of the element with fixed
- * nodes (NULL: none). Valid until the next request. */
+ * nodes (NULL: none). */
 typedef struct undeformed_element {
     const double *J, *C, *initial;
 } undeformed_element;
 
-/* Returns the derivatives of an element. In large models, consecutive elements of the same kind
- * share derivatives if their orientations are equal up to rounding. FAULT: out of memory. */
+/* Returns the derivatives of an element. FAULT: out of memory. */
 status undeformed_of(const equations *, int element, undeformed_element *, fault *);
 /* Evaluates missing elements together if the formulation can. Values are valid until ahead_end. */
 void undeformed_begin(const equations *);

@@ -324,8 +324,7 @@ void history_evaluate_steps(solve_result *r, const scene *s, int analysis, int f
         if (one->negative_pivots == 0)
             one->stability = STEP_STABLE;
         else if (a->kind != SCENE_ROTATION && !scene_rotates(a))
-            one->stability =
-                STEP_UNSTABLE; /* gyroscopic forces may stabilise a state in rotating axes */
+            one->stability = STEP_UNSTABLE;
         else if (one->negative_pivots % 2 != 0)
             /* an odd number cannot be stabilised: det(s^2 M + s G + K) is negative at s = 0 and
              * positive for large s */

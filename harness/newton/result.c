@@ -66,8 +66,7 @@ void quantity_no_value(quantity_result *r, status s, const char *reason)
 
 int quantity_governs(scene_envelope how, double value, double best)
 {
-    const double ties = 1e-9; /* relative difference of magnitudes that count as equal; the first of
-                                 equal values governs */
+    const double ties = 1e-9;
     return how == SCENE_ENVELOPE_MIN       ? value < best
            : how == SCENE_ENVELOPE_LARGEST ? fabs(value) > (1 + ties) * fabs(best)
                                            : value > best;
@@ -207,7 +206,6 @@ static void gather(const movable *v, const double C[36], double to[])
             to[i * n + j] = C[N * v->component[i] + v->component[j]];
 }
 
-/* Expands a matrix to all components, without negative zeros. */
 static void scatter(const movable *v, const double from[], double to[36])
 {
     const int n = v->count;

@@ -123,7 +123,6 @@ double rotating_frame_inner(const model *m, const double x[])
     return sum;
 }
 
-/* Transforms the inner-mass matrix B to global axes. */
 static void turn_inner(const mesh_element *el, const double B[], double out[])
 {
     double T[FIELD_INNER * FIELD_INNER] = {0}, half[FIELD_INNER * FIELD_INNER];
@@ -171,8 +170,7 @@ void rotating_frame_load_stiffness(const equations *eq, const model_state *s, do
  * once, as a dense matrix.
  *   [ sum sigma H     0    J^T ] [dx    ]   [ f - J^T sigma ]
  *   [ J              -1    0   ] [de    ] = [ e - D(x)      ]
- *   [ 0              -C    1   ] [dsigma]   [ P'(e) - sigma ]
- * This is the published algorithm, kept as the baseline for comparisons of speed. */
+ *   [ 0              -C    1   ] [dsigma]   [ P'(e) - sigma ] */
 
 int uncondensed_size(const model *m)
 {
@@ -272,7 +270,6 @@ static status add_element(const equations *eq, const model_state *state, int i, 
     return STATUS_OK;
 }
 
-/* Accumulates the stiffness of one load. */
 typedef struct load_part {
     const model *m;
     uncondensed *s;

@@ -72,7 +72,6 @@ double quadratic_forms_geometric_rounding(quadratic_forms *p, const double x[])
     return linear_geometric_rounding(p->eq, p->load_x, p->sigma, all_of(p, x));
 }
 
-/* the undeformed elements have been evaluated for K, so no evaluation can fail */
 void quadratic_forms_product(quadratic_forms *p, const double x[], double y[])
 {
     linear_stresses(p->eq, all_of(p, x), p->stress, NULL);
@@ -84,7 +83,6 @@ void quadratic_forms_product(quadratic_forms *p, const double x[], double y[])
  * rounding. */
 static const double no_digits = 1e15;
 
-/* Describes a rigid motion that the supports allow. */
 static void name_motion(const scene *s, int node, const double motion[6], double length, fault *f)
 {
     const double *at = s->node[node].position;
@@ -121,9 +119,7 @@ status singular_mechanism(const analysis_context *c, status otherwise, fault *f)
                                                   : "parts joined by constraints");
 }
 
-/* Returns the ratio of the largest to the smallest stiffness of coordinates of K. Displacements are
- * scaled with the length of the structure, because a rigid rotation moves all coordinates. 1: out
- * of memory. */
+/* Returns the ratio of the largest to the smallest stiffness of coordinates of K. */
 static double spread(const model *m, const sparse *K)
 {
     const model_size size = model_sizes(m);
@@ -200,8 +196,6 @@ static double condition_when_coarse(const analysis_context *c, int *elements, in
     return condition;
 }
 
-/* Reports the cause of a loss of accuracy: the number of elements, to whose fourth power the
- * condition number is proportional, or differences of stiffness that do not depend on the mesh. */
 static void explain_loss(const analysis_context *c, fault *f)
 {
     const int elements = model_sizes(c->model).elements;

@@ -9,9 +9,7 @@
 
 #include "elements/math/dense.h"
 
-/* Returns the index of a coordinate in the border; -1: the coordinate is not released. */
 static int border_place(const border *, int coordinate);
-/* Sets the values of the border from K of all coordinates. */
 static void border_fill(border *, int free_count, const sparse *K);
 /* Solves the bordered system in place: x[columns x all]. Fixed and prescribed coordinates do not
  * change. */
@@ -25,9 +23,6 @@ static status bordered_refine(const equations *eq, node_tangent *t, const border
 
 /* Above this condition number, a solution has fewer than eight digits without refinement. */
 static const double harmless_condition = 1e8;
-/* A condition number is not estimated again if it differed from harmless_condition by at least the
- * factor `clear`, and the ratio of the largest to the smallest pivot has changed by less than the
- * factor `alike`. */
 static const double clear = 30, alike = 2;
 
 static void copy_inside(node_tangent *t)
@@ -109,7 +104,6 @@ static status factor_inside(analysis_context *c, node_tangent *t, fault *f)
     return outcome;
 }
 
-/* Returns 1 if solutions must be refined because of the condition number. */
 static int needs_refinement(node_tangent *t)
 {
     const double apart = factor_count(t->factor).condition;
@@ -123,7 +117,6 @@ static int needs_refinement(node_tangent *t)
     return t->condition > harmless_condition;
 }
 
-/* Completes the tangent from K and the factors of its block of free coordinates. */
 static status complete(analysis_context *c, const scene_compliance *a, const model_state *s,
                        const double reaction[6], node_tangent *t, fault *f)
 {
@@ -181,7 +174,6 @@ status tangent_take_condensed(analysis_context *c, const scene_compliance *a, co
     return complete(c, a, s, reaction, t, f);
 }
 
-/* Returns 1 if a coordinate of the node can move, because it is free or released. */
 static int moves(const node_tangent *t, int k)
 {
     return t->index[k] < t->free || border_place(&t->border, t->index[k]) >= 0;
@@ -215,8 +207,6 @@ static status refine(const equations *eq, node_tangent *t, const bordered *s, co
     return STATUS_OK;
 }
 
-/* Computes the columns of C for unit loads on the requested components that can move.
- * tangent_compliance() frees the memory. */
 static status respond_all(const equations *eq, node_tangent *t, bordered *s, unsigned wanted,
                           unsigned components, double C[36], fault *f)
 {
@@ -281,7 +271,7 @@ static void moment_of(int angles, double b[3][3], const double g[3], double mome
         for (int j = 0; j < angles; j++)
             A[i * angles + j] = vec3_dot(b[i], b[j]);
     if (dense_lu_regular(angles, A, pivot) != 0)
-        return; /* two axes are parallel, and the tangent is singular */
+        return;
     dense_lu_solve(angles, 1, A, pivot, factor);
     for (int k = 0; k < angles; k++)
         for (int i = 0; i < 3; i++)
@@ -424,7 +414,6 @@ void bordered_free(bordered *s)
     free(s->solution);
 }
 
-/* Computes the released coordinates z, and adds their contribution to a solution with z = 0. */
 static void add_released(const node_tangent *t, const bordered *s, double x[])
 {
     const border *b = &t->border;
@@ -447,7 +436,6 @@ static void bordered_solve(node_tangent *t, counters *n, const bordered *s, int 
         add_released(t, s, x + c * t->all);
 }
 
-/* Computes rest[all] = load - K x. */
 static void residual_of(const equations *eq, const node_tangent *t, const bordered *s)
 {
     double *rest = s->rest;
@@ -460,7 +448,6 @@ static void residual_of(const equations *eq, const node_tangent *t, const border
 
 static status bordered_refine(const equations *eq, node_tangent *t, const bordered *s, fault *f)
 {
-    /* x is the first solution; with condensed members, one more solution suffices */
     solution_refinement r = {.corrections = t->condensed != NULL ? 2 : 1, .last = 1};
     refinement_state state = REFINEMENT_GOES_ON;
     metric_of(eq->m, s->weight);
@@ -476,11 +463,6 @@ static status bordered_refine(const equations *eq, node_tangent *t, const border
 
 enum { LEAST = 2, MOST = 30 };
 
-/* Relative sizes of a correction. If a correction is below sure_digits, no further correction is
- * made. enough_digits is a thousandth of the tolerance of quantities (SCENE_TOLERANCE), because
- * quantities derived from the solution may lose further digits. With the error level 2.5 eps
- * (L/side)^2 (see newton.h), bars exceed sure_digits for L/side > 1300 and enough_digits for L/side
- * > 42000. */
 static const double sure_digits = 1e-9, enough_digits = 1e-6;
 
 refinement_state refinement_evaluate(solution_refinement *r, double correction)

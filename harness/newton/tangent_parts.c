@@ -68,7 +68,7 @@ void condensation_solve(condensation *s, int transposed, double x[])
 {
     const int free_count = model_unknowns(s->m);
     const size_t driven = (size_t)model_driven(s->m) * sizeof *x;
-    memcpy(s->driven, x + free_count, driven); /* prescribed values do not change */
+    memcpy(s->driven, x + free_count, driven);
     reduce(s, x);
     for (int i = 0; i < s->unknowns; i++)
         s->small[i] = x[s->unknown[i]];
@@ -116,9 +116,6 @@ factor_counts condensation_count(const condensation *s)
     counts.factorisations = s->factorisations;
     return counts;
 }
-
-/* Products with the tangent of the last linearisation, as sums of a stiff and a soft part. The
- * split makes residuals accurate. */
 
 void stiffness_parts_material_product(const model *m, const linear_memory *memory,
                                       const model_state *s, const double x[], double y[])

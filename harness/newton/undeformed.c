@@ -8,7 +8,6 @@
 #include "cases/scene/scene.h"
 #include "elements/math/dense.h"
 
-/* With more elements, less memory is used, at the cost of the last digits of J. */
 enum { LARGE = 1000, FIRST_ROOM = 16 };
 
 static size_t size_of(const model *m)
@@ -21,7 +20,7 @@ static status begin(const equations *eq, fault *f)
     const model *m = eq->m;
     run_undeformed *u = &eq->run->undeformed;
     if (u->of != NULL)
-        return STATUS_OK; /* allocated by an earlier call */
+        return STATUS_OK;
     u->room = model_elements(m) < LARGE ? model_elements(m) : FIRST_ROOM;
     u->of = malloc(((size_t)model_elements(m) + 1) * sizeof *u->of);
     u->value = malloc((size_t)u->room * size_of(m) * sizeof *u->value + 1);
@@ -81,8 +80,6 @@ static status evaluate_strained(const model *m, int i, const double e[], const d
     return STATUS_OK;
 }
 
-/* Checks that C is symmetric, also for types whose forces need not derive from an energy. Removes
- * asymmetry due to rounding. */
 static status make_symmetric(const model *m, double C[], fault *f)
 {
     const int n = model_strains(m);
@@ -122,7 +119,6 @@ static status evaluate(const equations *eq, int i, double J[], double C[], doubl
         &(stress_output){.C = C, .history = model_history_of(m, kinematics_rest(m), i)});
 }
 
-/* Allocates memory for one more element. */
 static status grow(const equations *eq, fault *f)
 {
     run_undeformed *u = &eq->run->undeformed;
@@ -190,7 +186,6 @@ static const mesh_discrete *spring_of(const model *m, int i)
     return model_discrete(m, model_discretes(m) - model_springs(m) + i);
 }
 
-/* Computes J in the undeformed state, and H for sigma if sigma is given. */
 static void springs_evaluate(const model *m, const mesh_discrete *d, const double sigma[],
                              double J[], double H[])
 {
@@ -262,7 +257,6 @@ void linear_springs_node_force(const model *m, const double sigma[], int node, d
     }
 }
 
-/* Computes sum sigma_i H_i in coordinates of the model. */
 static void geometric(const model *m, const mesh_discrete *d, const double sigma[], double H[])
 {
     double J[SIX * X], force[X] = {0};

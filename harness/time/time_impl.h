@@ -827,7 +827,7 @@ typedef struct frame_motion {
 
 /* Returns 1 if dr and c of the frame are coordinates. */
 int frame_motion_is_plain(const model *, int vertex);
-/* Computes the transformations of any frame. */
+/* Computes the transformations of any frame. F[6]: force on the frame; NULL: zero. */
 void frame_motion_of(const conserving *, const model_state *from, const model_state *now,
                      int vertex, const double F[6], frame_motion *);
 /* Computes dr and c of a frame. */
@@ -1079,7 +1079,8 @@ void consistent_mass_rows(const consistent_mass_parts *, double K[]);
 void consistent_mass_swing(const model *, const consistent_mass_parts *, double rate, double place,
                            double K[]);
 
-/* Computes the matrices of small motions about a state during a motion, on all coordinates. */
+/* Computes the matrices of small motions about a state during a motion, on all coordinates.
+ * out: zero except for its time on entry; freed with the outcome, also after a failure. */
 status small_motions_of(const equations *, const frame_masses *, motion_state *now,
                         outcome_about *out, fault *);
 
