@@ -13,7 +13,7 @@ class Turns(unittest.TestCase):
 
     @unittest.skipIf(bw is None, "needs a library without sanitizers")
     def test_order(self):
-        """Each round asks every contestant once, and all processes end."""
+        """Each round asks everyone once, and all processes end."""
         log = []
 
         class Silent:
@@ -30,7 +30,7 @@ class Turns(unittest.TestCase):
             def close(self):
                 log.append("close " + self.name)
 
-        rounds.compete([Silent("a"), Silent("b")], [1, 2], 2)
+        rounds.take_turns([Silent("a"), Silent("b")], [1, 2], 2)
         meshes = [["begin a", "begin b", f"a {n}", f"b {n}", f"a {n}", f"b {n}"] for n in (1, 2)]
         self.assertEqual(log, meshes[0] + meshes[1] + ["close a", "close b"])
 
@@ -41,7 +41,7 @@ class Ours(ModuleTest):
         return json.loads(self.answered("scene", case, "--format", "json").stdout)
 
     def test_values(self):
-        """A formulation as a contestant gives the values of `beamwork solve`."""
+        """A formulation in its own process gives the values of `beamwork solve`."""
         found = peers.solve_all(self.data("elastica"), [], ["collocation", "beamw"], [1, 4], 2)
         self.assertEqual([one.program for one in found], ["collocation", "beamw"])
         for one in found:

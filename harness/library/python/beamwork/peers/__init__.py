@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from ..errors import Refused
-from ._rounds import Contestant, Series, compete, of_formulation
+from ._rounds import Compared, Series, of_formulation, take_turns
 
 _HERE = pathlib.Path(__file__).resolve().parent
 _OWN = {"data", "read", "run"}  # files that are not peers, like those whose names begin with "_"
@@ -65,10 +65,10 @@ def solve_all(scene: Mapping[str, Any], peers: Sequence[tuple[str, str]], formul
     processor = max(os.sched_getaffinity(0))
     request = {"scene": scene, "processor": processor}
     all_ = [of_formulation(scene, name, processor, limit) for name in formulations]
-    all_ += [Contestant(Series(peer, element, f"{load(peer).PROGRAM}, {element}"), interpreter(), request, limit)
+    all_ += [Compared(Series(peer, element, f"{load(peer).PROGRAM}, {element}"), interpreter(), request, limit)
              for peer, element in peers]
-    compete(all_, elements, rounds, progress)
-    return [contestant.series for contestant in all_]
+    take_turns(all_, elements, rounds, progress)
+    return [one.series for one in all_]
 
 
 def solve(scene: Mapping[str, Any], peer: str, element: str, elements: Sequence[int], rounds: int = 3,

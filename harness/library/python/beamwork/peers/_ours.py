@@ -1,4 +1,4 @@
-"""Formulations of beamwork as contestants: solved in a process of their own, under the same clock as the peers."""
+"""Formulations of beamwork, solved in a process of their own, under the same clock as the peers."""
 from __future__ import annotations
 
 import json

@@ -1,5 +1,5 @@
-"""Contestants solve the same meshes in rounds that alternate between them, on one processor: each runs in a process of its
-own, which waits while another computes."""
+"""Peers and formulations solve the same meshes in rounds that alternate between them, on one processor: each runs in a
+process of its own, which waits while another computes."""
 from __future__ import annotations
 
 import dataclasses
@@ -39,7 +39,7 @@ class _Lost(Exception):
 
 
 class _Process:
-    """The process of a contestant."""
+    """The process of a peer or of a formulation."""
 
     def __init__(self, python: str, name: str, request: Mapping[str, Any]) -> None:
         paths = [str(_FOLDER), os.environ.get("PYTHONPATH", "")]
@@ -57,7 +57,7 @@ class _Process:
             self.process.stdin.write(line.encode() + b"\n")
             self.process.stdin.flush()
         except BrokenPipeError:
-            pass  # hear() tells why
+            pass  # hear() reports the reason
 
     def hear(self, limit: float) -> Any:
         """Returns the next answer. Raises TimeoutError if it takes longer than `limit` seconds, _Lost if there is none."""
@@ -91,7 +91,7 @@ class _Process:
         self.process.wait()
 
 
-class Contestant:
+class Compared:
     """One element of a peer, or one formulation. A process that crashes is started again for the next mesh; after a mesh that
     exceeds the time limit, finer meshes are not tried."""
 
@@ -145,22 +145,22 @@ class Contestant:
         self.process = None
 
 
-def compete(contestants: Sequence[Contestant], elements: Sequence[int], rounds: int,
+def take_turns(compared: Sequence[Compared], elements: Sequence[int], rounds: int,
             progress: Callable[[str], None] = lambda text: None) -> None:
-    """Runs the meshes. In each round, each contestant has its turn."""
+    """Runs the meshes. In each round, each has its turn."""
     try:
         for n in elements:
-            for contestant in contestants:
-                contestant.begin()
+            for one in compared:
+                one.begin()
             for i in range(rounds):
-                for contestant in contestants:
-                    progress(f"{n} elements, round {i + 1} of {rounds}: {contestant.series.program}")
-                    contestant.round(n)
+                for one in compared:
+                    progress(f"{n} elements, round {i + 1} of {rounds}: {one.series.program}")
+                    one.round(n)
     finally:
-        for contestant in contestants:
-            contestant.close()
+        for one in compared:
+            one.close()
 
 
-def of_formulation(scene: Mapping[str, Any], formulation: str, processor: int, limit: float) -> Contestant:
+def of_formulation(scene: Mapping[str, Any], formulation: str, processor: int, limit: float) -> Compared:
     series = Series("", formulation, formulation)
-    return Contestant(series, sys.executable, {"scene": scene, "processor": processor}, limit)
+    return Compared(series, sys.executable, {"scene": scene, "processor": processor}, limit)

@@ -1,6 +1,6 @@
-"""The process of a contestant: `python -m beamwork.peers.run NAME` reads a request as a line of JSON and writes a line of
-JSON about the program. Then it reads numbers of elements, one on each line, and for each writes a line with the results and
-the times of one round."""
+"""The process of a peer or of a formulation: `python -m beamwork.peers.run NAME` reads a request as a line of JSON and writes
+a line of JSON about the program. Then it reads numbers of elements, one on each line, and for each writes a line with the
+results and the times of one round."""
 from __future__ import annotations
 
 import importlib
