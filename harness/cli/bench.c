@@ -97,8 +97,8 @@ const verb verb_bench = {
     "solution. If the rounds of two times overlap, their comparison is undecided. --against "
     "FORMULATION runs two formulations alternately until the difference of their times is "
     "significant or the comparison stays undecided. For each error, a formulation uses the "
-    "smallest number of elements at and above which the errors of all quantities (-k selects) are "
-    "not larger; -n gives the meshes instead. --against PROGRAM times the same run with another "
+    "coarsest mesh of the case that is within the error, together with all finer meshes, in all "
+    "quantities (-k selects); -n gives the meshes instead. --against PROGRAM times the same run with another "
     "build of beamwork.",
     "beamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
     "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"

@@ -255,7 +255,7 @@ static void list_parameters(const case_type *type)
 /* Prints the quantities of a case at its default parameters, and the formulations that run it. */
 static void list_scene(const scene *s)
 {
-    printf("quantities (along a path: a curve)\n");
+    printf("quantities with the default parameters (along a path: a curve)\n");
     for (int i = 0; i < s->quantities; i++) {
         char meaning[MEANING_ROOM];
         meaning_of_quantity(s, i, meaning, sizeof meaning);

@@ -36,16 +36,27 @@ static void uncertainty_of(const verdict *v, char text[2 * ROUNDING_TEXT])
              by_truth ? " %" : " in the unit of the quantity");
 }
 
+/* Returns what may decide the verdict, as the end of a sentence. */
+static const char *remedy(const mesh_limit *fit)
+{
+    if (fit->kind == LIMIT_NOISE_DOMINATED)
+        return "";
+    return fit->meshes < 4 ? "; use at least four meshes" : "; use finer meshes";
+}
+
 static void undecided(const verdict *v, char *text, size_t size)
 {
     char uncertainty[2 * ROUNDING_TEXT];
     if (!isfinite(v->fit.limit_uncertainty)) {
-        snprintf(text, size, "undecided: one mesh does not determine a limit");
+        snprintf(text, size,
+                 "undecided: one mesh does not determine a limit; use at least four meshes");
         return;
     }
     uncertainty_of(v, uncertainty);
-    snprintf(text, size, "undecided: error of the limit %+.3g %%, uncertainty %s (%s, %d meshes)",
-             100 * v->error, uncertainty, limit_kind_name(v->fit.kind), v->fit.meshes);
+    snprintf(text, size,
+             "undecided: error of the limit %+.3g %%, uncertainty %s (%s%s, %d meshes)%s",
+             100 * v->error, uncertainty, limit_kind_name(v->fit.kind),
+             v->fit.kind == LIMIT_NOT_YET ? " asymptotic" : "", v->fit.meshes, remedy(&v->fit));
 }
 
 /* Describes a biased limit. If it is neither the reference value nor the limit derived for the
@@ -175,7 +186,12 @@ static void failures(const evaluation *j, char *text, size_t size)
                "formulations violate the interface requirements");
     count_part(text, size, &parts, j->unexpected, "verdict differs from the expected one",
                "verdicts differ from the expected ones");
-    count_part(text, size, &parts, count_undecided(j), "is undecided", "are undecided");
+    const int undecided_ones = count_undecided(j);
+    if (undecided_ones > 0 && j->unexpected == 1)
+        snprintf(text + strlen(text), size - strlen(text), " (undecided)");
+    else if (undecided_ones > 0)
+        snprintf(text + strlen(text), size - strlen(text), " (%d of them undecided)",
+                 undecided_ones);
     count_part(text, size, &parts, j->regressions, "result is worse than in the previous run",
                "results are worse than in the previous run");
     count_part(text, size, &parts, j->disagreements, "value differs from its stored value",

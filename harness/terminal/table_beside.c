@@ -144,17 +144,27 @@ static void write_meshes(FILE *to, const block *b)
     }
 }
 
+/* Describes a verdict with its word. A verdict without a reference value has no word. */
+static void describe(const verdict *v, double least_order, char *text, size_t size)
+{
+    char sentence[2 * FAULT_TEXT];
+    const char *word = v->kind == VERDICT_NO_TRUTH ? "" : verdict_name(v->kind);
+    sentence_of_verdict(v, least_order, sentence, sizeof sentence);
+    const int named = strstr(sentence, word) != NULL;
+    snprintf(text, size, "%s%s%s", named ? "" : word, named ? "" : ": ", sentence);
+}
+
 /* Describes the limits that do not pass. */
 static void write_sentences(FILE *to, const block *b)
 {
     for (int i = 0; i < b->count; i++) {
-        char text[2 * FAULT_TEXT];
+        char text[2 * FAULT_TEXT + 64];
         const beside_column *c = &b->list[i];
         if (c->shown.kind == VERDICT_PASS || c->shown.kind == VERDICT_OTHER_MODEL)
             continue; /* other models are listed at the end */
         if (c->shown.kind == VERDICT_NO_TRUTH && (c->row != NULL || !b->known))
             continue; /* the heading states the common verdict */
-        sentence_of_verdict(&c->shown, b->q->least_order, text, sizeof text);
+        describe(&c->shown, b->q->least_order, text, sizeof text);
         paragraph_write(to, fprintf(to, "  %s: ", c->one->formulation.key), 4, text);
     }
 }
@@ -221,7 +231,7 @@ static int write_heading(FILE *to, const sweep *s, const truths *t, int quantity
     else
         write_why(to, at, s, t, quantity);
     if (q->prediction.source != NULL)
-        fprintf(to, "  prediction %.8g %s (%s, analytic)\n", q->prediction.value, q->unit,
+        fprintf(to, "  estimate %.8g %s (%s, analytic)\n", q->prediction.value, q->unit,
                 q->prediction.source);
     return line[0] != '\0';
 }
@@ -303,7 +313,7 @@ enum { CONVERGENCE_DIGITS = 10, VALUE = 20 };
 static void prediction_line(FILE *to, const scene_quantity *q, const truth *row)
 {
     char source[FAULT_TEXT];
-    int column = fprintf(to, "  prediction");
+    int column = fprintf(to, "  %-10s", "estimate");
     table_digits(to, VALUE - 4, q->prediction.value, CONVERGENCE_DIGITS);
     table_percent(to, row != NULL ? verdict_error(q, q->prediction.value, row->value) : NAN);
     snprintf(source, sizeof source, "%s, analytic", q->prediction.source);
@@ -332,9 +342,9 @@ static void mesh_line(FILE *to, const series *one, int mesh, int quantity, const
 
 static void limit_line(FILE *to, const verdict *v, const scene_quantity *q, const truth *row)
 {
-    char sentence[2 * FAULT_TEXT], limit[ROUNDING_TEXT], uncertainty[ROUNDING_TEXT],
+    char sentence[2 * FAULT_TEXT + 64], limit[ROUNDING_TEXT], uncertainty[ROUNDING_TEXT],
         known[ROUNDING_TEXT] = "", order[ROUNDING_TEXT];
-    sentence_of_verdict(v, q->least_order, sentence, sizeof sentence);
+    describe(v, q->least_order, sentence, sizeof sentence);
     rounding_known(v->fit.limit, v->fit.limit_uncertainty, limit);
     rounding_digits(v->fit.limit_uncertainty, 2, uncertainty);
     rounding_digits(v->fit.order, 3, order);

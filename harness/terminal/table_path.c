@@ -67,6 +67,14 @@ static void matrix(FILE *to, const double value[36], const char *const row[6],
     }
 }
 
+static int has_gaps(const double value[36])
+{
+    for (int i = 0; i < 36; i++)
+        if (!isfinite(value[i]))
+            return 1;
+    return 0;
+}
+
 void table_path_matrices(FILE *to, const scene *s, const solve_result *r)
 {
     static const char *const motion[] = {"ux", "uy", "uz", "thx", "thy", "thz"};
@@ -76,9 +84,12 @@ void table_path_matrices(FILE *to, const scene *s, const solve_result *r)
         if (m->stations == 0)
             continue;
         const size_t last = 36 * (size_t)(m->stations - 1);
-        fprintf(to, "compliance of %s at path %g, %s moments, in SI units\n",
+        fprintf(to, "compliance of %s at path %g, %s moments, in SI units\n%s",
                 scene_called(s, SCENE_NODES, m->node).text, m->path[m->stations - 1],
-                scene_moments_name(m->moments));
+                scene_moments_name(m->moments),
+                has_gaps(m->compliance + last)
+                    ? "    -: no quantity uses this column, so it is not computed\n"
+                    : "");
         matrix(to, m->compliance + last, motion, load);
         if (!isfinite(m->stiffness[last]))
             continue;

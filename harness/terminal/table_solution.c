@@ -24,7 +24,7 @@ static void predictions(FILE *to, const sweep_point *p, const truths *t)
         char name[SCENE_NAME + 16];
         if (q->prediction.source == NULL)
             continue;
-        snprintf(name, sizeof name, "prediction %s", q->name);
+        snprintf(name, sizeof name, "estimate %s", q->name);
         const int column = fprintf(to, "%-*s ", NAME, name) + VALUE + UNIT + 1 + 12 + 2;
         table_digits(to, VALUE, q->prediction.value, DIGITS);
         fprintf(to, " %-*s", UNIT, q->unit);

@@ -334,7 +334,7 @@ class Screen(ProgramTest):
 
     def test_source_of_a_prediction(self):
         text = self.answered("solve", "sheet_cantilever", "-f", "sheet_third", "-n", "1").stdout
-        self.assertRegex(text, r"(?m)^prediction C_xx .* %  N Eq\. 54, analytic$")
+        self.assertRegex(text, r"(?m)^estimate C_xx .* %  N Eq\. 54, analytic$")
 
     def without_a_rule(self):
         path = self.folder / "t.h5"

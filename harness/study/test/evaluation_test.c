@@ -371,12 +371,12 @@ static void needs_scatter(void)
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 0.01 : -0.01);
     bench_expect(&b, VERDICT_UNDECIDED, 1, "alternating values");
-    bench_expect_words(
-        &b, "undecided: error of the limit -0.333 %, uncertainty 2.0 % (oscillating, 5 meshes)");
+    bench_expect_words(&b, "undecided: error of the limit -0.333 %, uncertainty 2.0 % "
+                           "(oscillating, 5 meshes); use finer meshes");
     b.p.scene.quantity[0].near_zero = 5;
     bench_expect(&b, VERDICT_UNDECIDED, 1, "of a reference value below what counts as near zero");
     bench_expect_words(&b, "undecided: error of the limit -0.2 %, uncertainty 0.060 in the unit of "
-                           "the quantity (oscillating, 5 meshes)");
+                           "the quantity (oscillating, 5 meshes); use finer meshes");
     b.p.scene.quantity[0].near_zero = 0;
     for (int i = 0; i < MESHES; i++)
         b.quantity[i].value = 3 + (i % 2 ? 1e-6 : -1e-6);
@@ -396,7 +396,8 @@ static void needs_scatter(void)
     b.one.meshes = 1;
     b.quantity[0].value = 3;
     bench_expect(&b, VERDICT_UNDECIDED, 1, "one mesh shows no limit, even if it is right");
-    bench_expect_words(&b, "undecided: one mesh does not determine a limit");
+    bench_expect_words(&b,
+                       "undecided: one mesh does not determine a limit; use at least four meshes");
     b.one.meshes = MESHES;
     bench_fill(&b, 3 * (1 + 1e-9), 1e-7, 1);
     b.row[0].uncertainty = 4e-9;
