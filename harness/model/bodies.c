@@ -1,4 +1,3 @@
-/* Springs, dashpots and rigid bodies at nodes, and foundations of members. */
 #include "harness/model/model_impl.h"
 
 #include <float.h>
@@ -39,7 +38,6 @@ static mesh_discrete *add_spring(model *m, const scene_spring *spring)
     return d;
 }
 
-/* Returns the number of vertices of all members that have a foundation. */
 static int founded_vertices(const model *m)
 {
     int count = 0;
@@ -62,8 +60,6 @@ static void add_founded(const double foundation[6], double length, const double 
                         length * foundation[3 * block + k] * R[3 * i + k] * R[3 * j + k];
 }
 
-/* Creates the springs of the foundation of a member. Their weights are those of lumped masses
- * (mesh.c). */
 static status found_member(model *m, int member, scene_spring *spring, int *used, fault *f)
 {
     const scene_member *sm = &m->scene->member[member];
@@ -134,7 +130,6 @@ status discrete_build(model *m, fault *f)
     return found_members(m, f);
 }
 
-/* Strains and stresses of a spring in a state, and their derivatives. */
 typedef struct spring_state {
     double e[SPRING_STRAINS], sigma[SPRING_STRAINS], S[SPRING_STRAINS * SPRING_STRAINS],
         J[SPRING_STRAINS * X], H[X * X];
@@ -159,7 +154,6 @@ static void damp(const scene_spring *p, const double rate[], double sigma[])
         sigma[k] += more[k];
 }
 
-/* Evaluates a spring in a state. r NULL: the rates are zero. */
 static void spring_at(const model *m, const model_state *s, const mesh_discrete *d,
                       const spring_rates *r, spring_state *out)
 {
@@ -210,7 +204,6 @@ static void evaluate(const model *m, const model_state *s, const mesh_discrete *
         force[k] = -force[k];
 }
 
-/* Like evaluate, but in the coordinates that remain after the elimination. */
 static void eliminated(const model *m, const model_state *s, const mesh_discrete *d,
                        const element_rotating_frame *frame, const spring_rates *r, int material,
                        double force[], double K[])

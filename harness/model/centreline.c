@@ -41,7 +41,6 @@ int centreline_points(const model *m, int first[])
     return count;
 }
 
-/* An element, with the frames of its nodes and the external forces on the nodes. */
 typedef struct span {
     int nodes;
     const double *place; /* positions of the nodes */
@@ -69,8 +68,6 @@ static void span_of(const model *m, const model_state *s, int element, span *out
     dense_add_transpose_mul(m->mesh.coordinates, m->mesh.strains, 1, J, sigma, out->force);
 }
 
-/* Computes the position and the direction of the cubic between node k and the next node, at t = 0
- * .. 1. */
 static void cubic(const span *e, int k, double t, double r[3], double direction[3])
 {
     const double *p = e->x[k].r, *q = e->x[k + 1].r, u = 1 - t,
@@ -101,8 +98,6 @@ static void orientation(const span *e, int k, double t, const double direction[3
     rotation_compose(step, q, q);
 }
 
-/* Computes the resultants on the part of the member before the point, from the forces on the nodes
- * after the point. */
 static void resultants(const span *e, int k, double t, centreline_point *p)
 {
     double force[3] = {0}, moment[3] = {0}, R[9];
@@ -154,8 +149,6 @@ void centreline_nodes(const model *m, const model_state *s, double out[])
         kinematics_position(m, s, i, out + 3 * i);
 }
 
-/* Computes the increment of a node. If all member ends at the node are released, no element
- * contains the vertex of the node. */
 static void increment_of_node(const model *m, const model_state *s, int node, const double x[],
                               double out[])
 {
@@ -169,7 +162,6 @@ static void increment_of_node(const model *m, const model_state *s, int node, co
     }
 }
 
-/* Computes the increments of the frames of all vertices: translations and spatial rotations. */
 static void increments_of(const model *m, const model_state *s, const double x[], double out[])
 {
     for (int i = 0; i < m->mesh.elements; i++) {
@@ -190,8 +182,7 @@ void centreline_increments(const model *m, const double x[], double out[])
         increment_of_node(m, m->rest, i, x, out);
 }
 
-/* Returns a scale that makes a mode visible. The largest translation or the largest rotation
- * reaches its limit, and neither exceeds it. */
+/* Returns a scale that makes a mode visible. */
 static double visible_scale(const model *m, const double increment[])
 {
     double scale = INFINITY;
@@ -234,9 +225,6 @@ status centreline_displaced(const model *m, const model_state *from, const doubl
     return STATUS_OK;
 }
 
-/* Distance between two states of a model, which the arc length uses. */
-
-/* Returns the number of bodies that have a coordinate, or 1 if there are none. */
 static int moving_bodies(const model *m)
 {
     int count = 0;

@@ -1,4 +1,3 @@
-/* Numbers the unknown and the prescribed coordinates. All other scalars are eliminated. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>
@@ -26,7 +25,6 @@ status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     return STATUS_OK;
 }
 
-/* Returns 1 if the component is a motion out of the plane to which the scene is restricted. */
 static int leaves_plane(const model *m, int vertex, int component)
 {
     const int normal = scene_normal(m->scene), turn = component - SCENE_RX;
@@ -71,8 +69,6 @@ static int conditioned_by(const model *m, int vertex, int component, int known)
     return NONE;
 }
 
-/* Marks the bodies of vertices to which elements or springs are connected. The coordinates of other
- * vertices would cause zero rows in the stiffness matrix. */
 static void mark_used(const model *m, char *used)
 {
     for (int i = 0; i < m->mesh.elements; i++)
@@ -83,7 +79,6 @@ static void mark_used(const model *m, char *used)
             used[m->mesh.vertex[m->mesh.discrete[i].el.vertex[k]].body] = 1;
 }
 
-/* Numbers the coordinates of a released end: first the displacements, then the rotations. */
 static void number_release(model *m, int index)
 {
     mesh_vertex *v = &m->mesh.vertex[index];
@@ -94,14 +89,10 @@ static void number_release(model *m, int index)
     }
 }
 
-/* Numbers of fixed coordinates, of coordinates that are fixed because they leave the plane, of
- * unconnected vertices, and of coordinates that constraints determine. */
 typedef struct coordinates_tally {
     int held, across, unused, tied;
 } coordinates_tally;
 
-/* Returns 1 if the rotation of a node is an angle because a constraint makes it a multiple of
- * another rotation (mesh.c). */
 static int is_stretched(const model *m, int index)
 {
     int tied = 0;
@@ -148,8 +139,7 @@ static void number_vertex(model *m, int index, int pass, int used, coordinates_t
     }
 }
 
-/* Gives dependent coordinates the index of the coordinate that determines them. An angle with a
- * ratio is the first angle of its node. */
+/* Gives dependent coordinates the index of the coordinate that determines them. */
 static void share_coordinates(model *m)
 {
     for (int i = 0; i < m->scene->nodes; i++)
@@ -203,9 +193,7 @@ int coordinates_held_turn(const model *m, int node)
     return count == 1 ? held : NONE;
 }
 
-/* Adds the coordinates of a released end after all others, rotations first. The position of a ball
- * joint depends on the rotation of its body only in two cases: the end is eccentric to the body, or
- * the first angle of the body moves the body on an arm. */
+/* Adds the coordinates of a released end after all others, rotations first. */
 static void index_release(const model *m, int node, mesh_element *el)
 {
     const mesh_vertex *v = &m->mesh.vertex[el->vertex[node]];
@@ -220,8 +208,6 @@ static void index_release(const model *m, int node, mesh_element *el)
             el->index[NODE_COORDINATES * node + c] = NONE;
 }
 
-/* Lists the global coordinates of an element's coordinates, after the elimination of released ends,
- * rigid offsets and sequences. */
 static void index_element(model *m, mesh_element *el)
 {
     el->plain = 1;
@@ -256,7 +242,6 @@ static int fixed_warps(const model *m, int *absent)
     return fixed;
 }
 
-/* Returns the number of additional unknowns at ends of members that are fixed at zero. */
 static int fixed_scalars(const model *m)
 {
     int fixed = 0;

@@ -8,7 +8,6 @@
 #include "cases/scene/scene.h"
 #include "elements/section/section.h"
 
-/* A position on a member at which two pieces meet. */
 typedef struct division_cut {
     int member;
     double place;
@@ -22,7 +21,6 @@ static int in_order(const void *a, const void *b)
     return (p->place > q->place) - (p->place < q->place);
 }
 
-/* Lists all cuts due to loads, in order, and returns their number. */
 static int list_cuts(const scene *s, division_cut out[])
 {
     int count = 0;
@@ -36,8 +34,8 @@ static int list_cuts(const scene *s, division_cut out[])
     return count;
 }
 
-/* Sets place[*pieces + 1], the ends of the pieces of a member, from its cuts. Omits cuts that would
- * make a piece shorter than DIVISION_LEAST. Returns the number of cuts of the member. */
+/* Sets place[*pieces + 1], the ends of the pieces of a member, from its cuts. Returns the number of
+ * cuts of the member. */
 static int place_pieces(int member, const division_cut cuts[], int count, double place[],
                         int *pieces)
 {
@@ -170,10 +168,8 @@ void division_words(const scene *s, int elements, char *text, size_t room)
     division_free(&d);
 }
 
-/* A transition from one section of the scene to another in `steps` steps. The sections of the steps
- * start at m->section[first]. */
 typedef struct taper {
-    int p, q, steps, even, first; /* even 1: the steps have equal lengths */
+    int p, q, steps, even, first;
 } taper;
 
 status profile_scene(model *m, fault *f)

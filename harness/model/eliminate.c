@@ -70,8 +70,6 @@ static void sequence_matrix(int n, int at, int angles, double b[3][3], const dou
         }
 }
 
-/* Adds the terms of the first angle, which also moves the body on its arm. F NULL: there is no
- * force. */
 static void swing_matrix(const model *m, const model_state *s, int body, int n, int at,
                          const double F[3], double K[])
 {

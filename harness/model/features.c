@@ -1,4 +1,3 @@
-/* Features of formulations that a scene requires. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>
@@ -40,8 +39,6 @@ static unsigned needs_of_analyses(const scene *s)
     return needs;
 }
 
-/* Returns the FEATURE bits that the quantities require. Stresses of fibres exert a torque if the
- * fibres are inclined because of twist. */
 unsigned features_of_quantities(const scene *s)
 {
     unsigned needs = 0;
@@ -52,8 +49,6 @@ unsigned features_of_quantities(const scene *s)
     return needs;
 }
 
-/* Returns 1 if the inertia depends on the formulation. A motion with lumped mass uses the mass of
- * the section, which is the same for all formulations. */
 static int elements_have_mass(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -83,8 +78,6 @@ static unsigned needs_of_stresses(const section *c, unsigned needs)
         return 0;
     if (hypot(c->wagner_y, c->wagner_z) > zero * c->Ip * arm)
         out |= FEATURE_WAGNER_MOMENTS;
-    /* The Wagner torque is cubic in the twist rate, so it vanishes for small motions about the
-     * undeformed state. */
     if ((needs & FEATURE_LARGE) && fabs(c->wagner_torque) > zero * c->Ip * arm * arm)
         out |= FEATURE_WAGNER_TORQUE;
     return out;
@@ -100,8 +93,6 @@ static unsigned needs_of_constants(const section *c, unsigned needs)
     return out | (needs & FEATURE_MASS && c->density > 0 ? FEATURE_ROTARY_INERTIA : 0);
 }
 
-/* Returns the physics that section matrices contain. They include shear, but not warping, trapeze
- * and Wagner effects. */
 static unsigned needs_of_matrices(const scene *s, const section *c, unsigned needs, unsigned omits)
 {
     const unsigned rotary = needs & FEATURE_MASS ? FEATURE_ROTARY_INERTIA & ~omits : 0;
@@ -114,7 +105,6 @@ static int is_sheared(unsigned needs)
     return (needs & FEATURE_SHEAR) && (needs & (FEATURE_GEOMETRIC | FEATURE_LARGE));
 }
 
-/* Returns the features that the scene needs if this physics is omitted. */
 static unsigned needed_without(const scene *s, unsigned omits)
 {
     unsigned needs = s->demands | needs_of_analyses(s) | (features_of_quantities(s) & ~omits),
@@ -262,8 +252,6 @@ status features_of_section(const model *m, int index, unsigned *features, fault 
     return STATUS_OK;
 }
 
-/* Returns 1 if a section is given by matrices, but the type computes inertia itself and supports
- * only sections given by constants. */
 static int knows_constants_only(const scene *s, const element_type *type)
 {
     int matrices = 0;

@@ -1,5 +1,3 @@
-/* Lines of members with the initial shape of imperfections. imperfect_shape.c creates this shape.
- * */
 #include "harness/model/model_impl.h"
 
 #include <string.h>

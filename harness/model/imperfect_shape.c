@@ -28,8 +28,7 @@ static void rotate(const double q[4], double v[3])
     rotation_apply(q, before, v);
 }
 
-/* Moves the nodes by increment[nodes x 6]. Rotates bodies, offsets of member ends and points of
- * loads with their nodes. */
+/* Moves the nodes by increment[nodes x 6]. */
 static void move_nodes(const double increment[], model_imperfect *p)
 {
     scene *s = &p->own;
@@ -62,7 +61,6 @@ static void add_shifts(const scene *s, scene_node node[])
     }
 }
 
-/* Computes the points of a member from the increments of the vertices of its mesh. */
 static void fill_member(const model *m, int member, const double increment[], int vertex[],
                         model_imperfect *p)
 {
@@ -97,7 +95,7 @@ static status fill(const model *m, const double x[], model_imperfect *p, fault *
         add_shifts(s, p->lines.node);
         add_shifts(s, p->own.node);
         for (int i = 0; i < s->imperfections; i++)
-            p->own.imperfection[i].nodes = 0; /* the nodes already include these shifts */
+            p->own.imperfection[i].nodes = 0;
         for (int i = 0; i < s->members; i++)
             fill_member(m, i, increment, vertex, p);
         move_nodes(increment, p);

@@ -141,7 +141,6 @@ void kinematics_turn_matrix(const mesh_vertex *v, int n, int at, double K[])
     }
 }
 
-/* Computes the increments of the frame of a body: translation and spatial rotation. */
 static void body_increment(const model *m, const model_state *s, int body, const double dx[],
                            double out[6])
 {
@@ -254,9 +253,7 @@ static double chord_cosine(const model *m, const model_state *s, const mesh_elem
     return vec3_dot(d, axis) / vec3_norm(d);
 }
 
-/* Returns the cosine of half the angle between the ends of an element. The cosine is negative if
- * the angle exceeds half a revolution, because quaternions distinguish angles up to two
- * revolutions. chords 1: also considers the angles between the chord and the x axes of the ends. */
+/* Returns the cosine of half the angle between the ends of an element. */
 static double half_cosine(const model *m, const model_state *s, const mesh_element *el, int chords)
 {
     double turn = 0, least = 1;
@@ -445,7 +442,6 @@ status kinematics_nodes_alloc(const model *m, const model_state *from, model_sta
     return STATUS_OK;
 }
 
-/* Sets the histories of a new, undeformed state. The first such state is m->rest. */
 static void begin_history(const model *m, model_state *s)
 {
     const size_t each = (size_t)m->mesh.history;

@@ -15,8 +15,7 @@ static int has_unsymmetric(const model *m, int damped)
 }
 
 /* Returns 0 if there are dead moments about fixed axes (loads or reactions), follower loads,
- * unsymmetric springs or dashpots, or forces with a history. Both triangles of tangents are then
- * stored, because their symmetry depends on the state. */
+ * unsymmetric springs or dashpots, or forces with a history. */
 int assemble_symmetric(const model *m)
 {
     int whole = has_unsymmetric(m, 1) || model_absolute(m);
@@ -60,8 +59,6 @@ static size_t collect_of(const mesh_element *el, const mesh_pattern *p, size_t c
     return count;
 }
 
-/* Collects the pairs of the coordinates of two nodes. Returns `count` plus their number. row NULL:
- * only counts the pairs. */
 static size_t collect_nodes(const model *m, const mesh_pattern *p, const int node[2], size_t count,
                             int row[], int column[])
 {
@@ -82,8 +79,6 @@ static size_t collect_nodes(const model *m, const mesh_pattern *p, const int nod
     return count;
 }
 
-/* Collects two kinds of pairs: nodes that a tension load connects, and coordinates of a load with
- * the coordinates that the load measures. */
 static size_t collect_loads(const model *m, const mesh_pattern *p, size_t count, int row[],
                             int column[])
 {
@@ -103,7 +98,7 @@ static size_t collect_loads(const model *m, const mesh_pattern *p, size_t count,
 }
 
 /* Returns the number of pairs of coordinates that elements, springs, bodies and loads couple,
- * including repetitions. Stores their rows and columns in row[] and column[], which may be NULL. */
+ * including repetitions. */
 static size_t collect(const model *m, const mesh_pattern *p, int row[], int column[])
 {
     size_t count = 0;
@@ -124,15 +119,12 @@ static void begin_lists(size_t pairs, const int index[], int n, int begin[])
         begin[i + 1] += begin[i];
 }
 
-/* Input of compress: pairs in any order, and a list of the pairs sorted by rows. */
 typedef struct pairs {
     size_t count;
     int *row, *column, *by_row;
     int *begin, *end; /* [n + 1] starts of the lists of rows; ends of lists so far */
 } pairs;
 
-/* Sorts columns after the pairs have been sorted by rows, so the rows of each column are in
- * ascending order. Removes duplicates. */
 static void sort_pairs(const pairs *all, sparse *out)
 {
     const int n = out->n;
@@ -176,8 +168,6 @@ static status compress(const model *m, mesh_pattern *p, fault *f)
                 : fault_memory(f, "the matrix of a model with %d coordinates", p->matrix.n);
 }
 
-/* Lists the positions of the stored entries of an element's matrix in entry[columns^2], and returns
- * their number. */
 static int entries_of(const mesh_element *el, const mesh_pattern *p, mesh_entry entry[])
 {
     const sparse *a = &p->matrix;
@@ -196,7 +186,7 @@ static int entries_of(const mesh_element *el, const mesh_pattern *p, mesh_entry 
 }
 
 /* Returns the layout with these entries if it is among the last layouts that were stored, otherwise
- * NONE. Elements along a member have the same layout, except at its ends. */
+ * NONE. */
 static int find_layout(const mesh_pattern *p, int entries, const mesh_entry entry[])
 {
     const int looked_at = 16;
@@ -286,7 +276,7 @@ static status make(const model *m, assemble_patterns *all, int which, const spar
     const status outcome = fill_pattern(m, p, f);
     p->made = outcome == STATUS_OK;
     if (!p->made)
-        pattern_free(p); /* the next analysis then tries again */
+        pattern_free(p);
     return outcome;
 }
 

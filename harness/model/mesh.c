@@ -13,7 +13,6 @@
 #include "elements/math/scalar.h"
 #include "elements/shared/masses.h"
 
-/* Adds the axis of the next angle of a sequence. The length of `axis` has no effect. */
 static void add_axis(const double axis[3], mesh_vertex *v)
 {
     const double length = vec3_norm(axis);
@@ -78,7 +77,6 @@ static void stretch_axes(const model *m, int node, mesh_vertex *v)
     }
 }
 
-/* Returns 1 if a constraint contains a translation of the node. */
 static int is_tied(const model *m, int node)
 {
     int tied = 0;
@@ -136,8 +134,6 @@ static int same_vector(const double a[3], const double b[3])
     return a[0] == b[0] && a[1] == b[1] && a[2] == b[2];
 }
 
-/* Computes the mass matrix of the motions inside elements if there is a modal or harmonic analysis.
- * */
 static status set_inner(const model *m, const element_request *request, mesh_kind *k, fault *f)
 {
     int modal = 0;
@@ -154,8 +150,6 @@ static status set_inner(const model *m, const element_request *request, mesh_kin
     return STATUS_OK;
 }
 
-/* The unstressed state of an element: its strains from the scene, and the stress-free elongation
- * and curvatures of its kind (`free`). */
 typedef struct unstressed {
     double strain[3], free[3];
 } unstressed;
@@ -172,8 +166,6 @@ static status unstressed_of(const model *m, int member, int profile, double leng
     return scene_member_elongation(m->scene, member, length, &out->free[0], f);
 }
 
-/* Finds the kind of an element with this section, length and curvature, or creates a new kind.
- * rounding [m]: tolerance of the length. */
 static status kind_of(model *m, const unstressed *own, int profile, double length, double rounding,
                       const double curvature[3], int *out, fault *f)
 {
@@ -208,8 +200,6 @@ static status kind_of(model *m, const unstressed *own, int profile, double lengt
     return m->mesh.type->prepare(&request, k->data, f);
 }
 
-/* Computes the arc of an element and, if every element has a separate section, the axes of its
- * section. */
 static status arc_of_element(const model *m, int member, int profile, const member_arc *along,
                              member_arc *out, fault *f)
 {
@@ -219,8 +209,6 @@ static status arc_of_element(const model *m, int member, int profile, const memb
     return member_arc_of(imperfect_lines(m), member, m->section[profile].axes_angle, out, f);
 }
 
-/* Stores triad[nodes] and returns the address of the stored triads. If they are equal to those of
- * the previous element, they are shared. */
 static mesh_triad *keep_triads(model *m, mesh_triad triad[])
 {
     const size_t size = (size_t)m->mesh.nodes * sizeof *triad;
@@ -256,8 +244,6 @@ static member_arc arc_of_bow(const member_arc *a, const double ends[2], const do
     return out;
 }
 
-/* Sets the positions and triads of the vertices of an element along an arc. Warping is set later.
- * */
 static status add_element(model *m, const member_arc *along, int member, int number,
                           int inner_vertex, fault *f)
 {
@@ -306,8 +292,6 @@ static status add_element(model *m, const member_arc *along, int member, int num
             memcpy(first, position, sizeof first);
         if (k < last || curved)
             continue;
-        /* The element is straight, or its curvature is not uniform. It has a single triad along the
-         * chord. */
         const double y_start[3] = {triad[0][1], triad[0][4], triad[0][7]};
         double y[3];
         for (int i = 0; i < 3; i++) {
@@ -375,9 +359,7 @@ static void add_warps(model *m, int *named)
     const int last = m->mesh.nodes - 1;
     for (int member = 0; member < m->scene->members; member++) {
         const scene_member *sm = &m->scene->member[member];
-        const int profile =
-            /* warping is the same as for the other elements (division.c) */
-            profile_at(m, member, 0);
+        const int profile = profile_at(m, member, 0);
         unsigned features;
         features_of_section(m, profile, &features, NULL);
         const int warps = (features & FEATURE_WARPING) != 0 && m->scene->plane == SCENE_SPACE,
@@ -389,8 +371,7 @@ static void add_warps(model *m, int *named)
                           at_end = i + 1 == m->mesh.first_element[member + 1] && k == last;
                 if (!warps)
                     el->warp[k] = NONE;
-                else if (nothing_warps) /* the amplitude is kept even if no section warps: if it is
-                                         * not shared, it has no effect */
+                else if (nothing_warps)
                     el->warp[k] = m->mesh.warps++;
                 else if (at_start || at_end)
                     el->warp[k] = end_warp(m, at_start ? sm->warp_p : sm->warp_q, named);
@@ -419,9 +400,6 @@ static int same_axes(const mesh_triad a, const mesh_triad b)
     return apart <= rounding;
 }
 
-/* Sets the additional unknowns of node k of an element at an end of a member. named: for each
- * warping amplitude that ends share, the element and the node of the first of these ends, or NONE.
- */
 static void end_scalars(model *m, int element, int k, int warping, int (*named)[2])
 {
     mesh_element *el = &m->mesh.element[element];
@@ -443,7 +421,6 @@ static void end_scalars(model *m, int element, int k, int warping, int (*named)[
     }
 }
 
-/* Adds the additional unknowns of the elements (element_type.scalars). */
 static void add_scalars(model *m, int (*named)[2])
 {
     const int last = m->mesh.nodes - 1;
@@ -462,10 +439,8 @@ static void add_scalars(model *m, int (*named)[2])
     }
 }
 
-/* Returns the weight of a node near the end of n equal lengths. For n > 1, the weighted sums
- * integrate cubics exactly. In slender bending, lumped masses with these weights therefore have the
- * same order of convergence as distributed masses. The rules are Gregory's for n >= 6 and the
- * closed Newton-Cotes rules for n < 6. */
+/* Returns the weight of a node near the end of n equal lengths. The rules are Gregory's for n >= 6
+ * and the closed Newton-Cotes rules for n < 6. */
 static double weight_of(int n, int node)
 {
     static const double closed[][3] = {{0.5, 0, 0},
@@ -488,10 +463,9 @@ static void set_end(mesh_element *el, int end, int n, int i, double beyond, doub
     el->couple[end] = length * length / 2 - first;
 }
 
-/* Sets the shares of `count` consecutive elements of the same kind. */
 static void set_shares(mesh_element *el, int count)
 {
-    double beyond = 0, first = 0; /* weights of the nodes beyond, and their moment about node i */
+    double beyond = 0, first = 0;
     for (int i = count - 1; i >= 0; i--) {
         beyond += weight_of(count, i + 1);
         first += beyond;
@@ -500,9 +474,6 @@ static void set_shares(mesh_element *el, int count)
     }
 }
 
-/* Returns 1 if two consecutive elements of a member have equal length, section and mass. The
- * lengths of elements along a bow differ because of its slope. This difference is smaller than the
- * error of the weights. */
 static int runs_on(const model *m, int first, int next)
 {
     const mesh_element *a = &m->mesh.element[first], *b = &m->mesh.element[next];

@@ -1,4 +1,3 @@
-/* Describes the physics that a scene requires and a formulation does not support. */
 #include "harness/model/model_impl.h"
 
 #include <math.h>
@@ -12,7 +11,7 @@
 /* Largest share of shear in a deflection that may be neglected. A length l whose ends do not rotate
  * deflects by F l^3/(12 EI) in bending and by F l/(kGA) in shear. Their ratio is Phi = 12 EI/(kGA
  * l^2). The ratio is a quarter of Phi for a cantilever, and about n^2 Phi for bending in n
- * half-waves. Above this limit, neglecting shear changes the model instead of approximating it. */
+ * half-waves. */
 static const double largest_phi = 0.01;
 
 typedef struct box {
@@ -40,7 +39,7 @@ static int shares_section(const scene_member *a, const scene_member *b)
 
 /* Returns the diagonal [m] of the box around a member and the connected members with the same
  * section, because several short members may describe one beam. reached[nodes] must be zero on
- * entry. The entries of the nodes that are reached are set to 1. */
+ * entry. */
 static double extent_of(const scene *s, int member, char *reached)
 {
     const scene_member *first = &s->member[member];
@@ -60,7 +59,6 @@ static double extent_of(const scene *s, int member, char *reached)
     return vec3_norm(size);
 }
 
-/* Returns the largest Phi for bending along y. */
 static double phi_along_y(const scene *s)
 {
     double largest = 0;
@@ -72,7 +70,7 @@ static double phi_along_y(const scene *s)
             section c;
             if (scene_constants(s, end[k], &c, NULL) == STATUS_OK)
                 largest = fmax(largest, 12 * c.young * c.Iz * c.F[0] / (c.shear_modulus * l * l));
-        } /* model_alloc reports the reason why a section is invalid */
+        }
         free(reached);
     }
     return largest;
@@ -91,7 +89,6 @@ int lacks_of(const scene *s, const element_type *type, char *words, int size)
     return phi > largest_phi ? 2 : 1;
 }
 
-/* Returns 1 if off-diagonal shear flexibilities exceed the rounding errors of the diagonal. */
 static int is_coupled(const section *c)
 {
     static const int row[3] = {0, 0, 1}, column[3] = {1, 2, 2};
@@ -111,8 +108,6 @@ const char *missing_in_section(const element_type *type, const section *c, int c
     return NULL;
 }
 
-/* Returns 1 if warping causes shear strains in a section of the scene, which the type does not
- * have. */
 static int omits_shear_of_warping(const scene *s, const element_type *type)
 {
     const unsigned both = FEATURE_SHEAR | FEATURE_WARPING;
@@ -163,8 +158,6 @@ static int strains_lack(const scene *s, const element_type *type, char *words, i
     return 1;
 }
 
-/* Names the missing physics. FEATURE_CURVATURE is called initial strain, because straight elements
- * can model curved members, but not the initial strains of members. */
 static void words_of(unsigned missing, char *words, int size)
 {
     const int used = feature_words(missing & ~(unsigned)FEATURE_CURVATURE, words, size);
@@ -189,8 +182,6 @@ int missing_words(const scene *s, const element_type *type, char *words, int siz
     return 0;
 }
 
-/* Returns the features that are not essential. Loads and supports have the same meaning if these
- * features are omitted. */
 static unsigned can_be_omitted(const scene *s)
 {
     const unsigned physics = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |
@@ -211,7 +202,6 @@ int missing_refused(const scene *s, const element_type *type, char *words, int s
     return mass_lacks(s, type, words, size) || strains_lack(s, type, words, size);
 }
 
-/* Returns the physics that must be omitted because sections exceed the limits of the type. */
 static unsigned omits_of_sections(const scene *s, const element_type *type)
 {
     const int warps = (features_needed(s) & FEATURE_WARPING) != 0;
@@ -296,8 +286,6 @@ static int is_heavy(const scene *s)
     return heavy;
 }
 
-/* Names the loads along members that are lumped together with the mass of a motion
- * (newton/loads.c). */
 static const char *requirement_of(const scene *s, const scene_motion *how)
 {
     int weight = 0, other = 0;
@@ -312,7 +300,6 @@ static const char *requirement_of(const scene *s, const scene_motion *how)
     return weight ? " and weight" : "";
 }
 
-/* Returns 1 if an analysis other than a motion has lumped masses. */
 static int is_lumped(const scene *s, const scene_analysis *a)
 {
     return s->lumped && (a->kind == SCENE_MODAL || a->kind == SCENE_HARMONIC ||
@@ -378,7 +365,7 @@ enum { HELD, SHARED, FREE, STATES };
 enum { ENDS_MOST_NAMES = 8 };
 
 typedef struct ends_tally {
-    int of[STATES], all; /* numbers of ends of members that warp, in each state and in all */
+    int of[STATES], all;
 } ends_tally;
 
 typedef struct held_ends {
@@ -429,8 +416,6 @@ static void add(ends_words *w, const char *text)
     w->names++;
 }
 
-/* Adds the name of a node to the text if all member ends at the node have this state. Otherwise
- * adds the name of each end with this state. */
 static void add_node(const held_ends *e, int node, int state, ends_words *out)
 {
     const scene *s = e->scene;

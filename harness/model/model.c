@@ -9,8 +9,7 @@
 #include "elements/shared/masses.h"
 #include "harness/formulations/formulations.h"
 
-/* Returns 1 if the type computes the nodal forces of loads along members. If the scene has a
- * motion, these loads use the displacement field of the mass instead. */
+/* Returns 1 if the type computes the nodal forces of loads along members. */
 static int takes_loads(const model *m)
 {
     int along = 0, moves = 0;
@@ -111,7 +110,6 @@ static status note_dashpots(model *m, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if an analysis uses the stiffness of springs in the undeformed state. */
 static int is_at_rest(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++) {
@@ -146,8 +144,6 @@ static status note_asymmetry(model *m, int spring, const char *of, double asymme
                : STATUS_OK;
 }
 
-/* Adds lines about matrices that are replaced by their symmetric part, about free rotations without
- * stiffness, and about dashpots that no analysis uses. */
 static status note_means(model *m, fault *f)
 {
     const scene *s = m->scene;

@@ -32,15 +32,14 @@ typedef struct model_request {
     const element_type *type;
     const double *options; /* values of the formulation's options; NULL: their defaults */
     int elements;          /* number of elements per piece of a member */
-    int keep_all;          /* 1: no coordinates are eliminated (same results at a higher cost) */
+    int keep_all;
     /* physics of the scene that is omitted in addition to the physics that the type does not
      * support */
     unsigned omit;
 } model_request;
 
-/* Creates the model. Physics of the scene that the formulation does not support is omitted;
- * model_left_out lists it. REFUSED: no problem remains that can be solved, for the reason in
- * missing_refused. */
+/* Creates the model; model_left_out lists the physics that it omits. REFUSED: no problem remains
+ * that can be solved; the message gives the reason. */
 status model_alloc(const model_request *, model **, fault *);
 void model_free(model *);
 
@@ -48,8 +47,7 @@ void model_free(model *);
  * shifted, and bodies and offsets are rotated with them, and the shifts of members between nodes.
  * */
 typedef struct model_imperfect model_imperfect;
-/* Creates the initial shape. x[free + driven]: sum of the modes of the perfect model. Imperfections
- * that shift nodes are added as if the nodes had been given at the shifted positions. */
+/* Creates the initial shape. x[free + driven]: sum of the modes of the perfect model. */
 status model_imperfect_alloc(const model *perfect, const double x[], model_imperfect **, fault *);
 void model_imperfect_free(model_imperfect *);
 /* Creates the model with this shape, which must outlive the model. */
@@ -93,7 +91,7 @@ int model_left_out(const model *, const char *const **lines);
  * (element_type.trouble); NULL: the results are valid. */
 const char *model_trouble(const model *);
 
-/* Everything that changes along a path. A copy of the state allows a rejected step to be undone. */
+/* Everything that changes along a path. */
 typedef struct model_state model_state;
 
 const char *model_formulation(const model *);
@@ -113,7 +111,6 @@ int model_stresses(const model *);
 /* Returns the section constants that the model uses for a section of the scene. */
 const section *model_section(const model *, int index);
 
-/* Patterns of a model that are in use. */
 typedef struct assemble_patterns assemble_patterns;
 status assemble_patterns_alloc(assemble_patterns **, fault *);
 void assemble_patterns_free(assemble_patterns *);
@@ -142,9 +139,8 @@ int assemble_symmetric(const model *);
 status assemble_pattern_in_time(const model *, assemble_patterns *, const sparse **out, fault *f);
 
 /* Centre lines of all members in a state, for pictures and other programs. Between two vertices of
- * the mesh, the line is a cubic whose tangents are the x axes of the vertices. The line does not
- * depend on the displacement field of the formulation. Resultants are in equilibrium with the
- * element's nodal forces J^T sigma. */
+ * the mesh, the line is a cubic whose tangents are the x axes of the vertices. Resultants are in
+ * equilibrium with the element's nodal forces J^T sigma. */
 
 typedef struct centreline_point {
     double r[3]; /* position [m] */
@@ -168,12 +164,8 @@ void centreline_nodes(const model *m, const model_state *s, double out[]);
 status centreline_displaced(const model *m, const model_state *from, const double x[],
                             const double sigma[], double *scale, model_state **out, fault *f);
 
-/* How the members of a scene are divided into elements.
- *
- * The mesh has a node where a load starts, ends or acts within a member, because an element cannot
- * represent the slope discontinuity or jump of resultants at such a point. These nodes divide the
- * member into pieces. Each piece has the requested number of elements of equal length. A mesh with
- * twice this number contains all nodes of the coarser mesh. */
+/* How the members of a scene are divided into elements. These nodes divide the member into pieces.
+ * Each piece has the requested number of elements of equal length. */
 
 typedef struct division {
     int *first; /* [members + 1] number of pieces of all previous members */
@@ -183,8 +175,8 @@ typedef struct division {
     int *each; /* [members] elements per piece */
 } division;
 
-/* Smallest length of a piece, relative to its member. A shorter piece becomes part of an element.
- * */
+/* Smallest length of a piece, relative to its member.
+ *  */
 #define DIVISION_LEAST 1e-3
 
 /* Returns the position along the member of a point x in [0, 1] of an element. The second function
@@ -196,8 +188,7 @@ double division_inside(const division *, int member, int number, double place);
  * the element towards its start. */
 int division_at(const division *, int member, double place, int before, double *x);
 
-/* The mesh of a model: elements, vertices and their connections. It does not change after
- * model_alloc. */
+/* The mesh of a model: elements, vertices and their connections. */
 
 /* Largest number of coordinates of an element, for its nodes and released ends. */
 enum {
@@ -308,8 +299,7 @@ typedef struct mesh_kind {
     double *inner; /* field_inner if frequencies are requested; NULL: the type computes its mass */
 } mesh_kind;
 
-/* Data that the inline functions below read. This structure is the first member of every model.
- * Only harness/model sets its members. */
+/* Data that the inline functions below read. */
 typedef struct model_mesh {
     const element_type *type;                                /* completed by adapters_complete */
     int nodes, coordinates, strains, inner, memory, history; /* numbers per element */
@@ -399,12 +389,10 @@ static inline int model_takes_loads(const model *m)
 {
     return model_mesh_of(m)->takes;
 }
-/* Returns 1 if elements have strains without stress (free_strain_subtract). */
 static inline int model_frees(const model *m)
 {
     return model_mesh_of(m)->frees;
 }
-/* Returns the number of doubles of an element in a linear_memory (harness/newton/newton.h). */
 static inline int model_work_size(const model *m)
 {
     return model_mesh_of(m)->work_size;
@@ -578,7 +566,6 @@ void discrete_inertia(const model *, const model_state *, const element_rotating
 void discrete_material_product(const model *, const model_state *, const double x[], double y[]);
 void discrete_geometric(const model *, const model_state *, const element_rotating_frame *,
                         sparse *out);
-/* Returns a bound of the rounding error of x^T K x for the material part K. */
 double discrete_material_rounding(const model *, const model_state *, const double x[]);
 /* Functions for dashpots, in this order: deformations d[6 x springs] of all springs; their rates
  * for increments dx[free + driven] per unit time; dissipated power [W]; dashpot forces, added to
@@ -626,7 +613,6 @@ void eliminate_forces(const model *m, const model_state *s, const mesh_element *
 void eliminate_matrix(const model *m, const model_state *s, const mesh_element *el,
                       const double force[], double K[]);
 
-/* An entry of an element's matrix that a pattern stores. */
 typedef struct mesh_entry {
     short local; /* row * columns + column in the element's matrix */
     short column;
@@ -639,7 +625,6 @@ typedef struct mesh_layout {
     mesh_entry *entry; /* [entries] */
 } mesh_layout;
 
-/* Pattern with the position of each entry of every element. */
 typedef struct mesh_pattern {
     int made;
     sparse matrix;
@@ -707,7 +692,7 @@ status features_of_section(const model *m, int section, unsigned *features, faul
 
 status kinematics_state_alloc(const model *, model_state **, fault *); /* undeformed, path = 0 */
 /* Creates a state that contains only the path and the members that kinematics_component and
- * kinematics_driver_value need. No other function may be called with this state. */
+ * kinematics_driver_value need. */
 status kinematics_nodes_alloc(const model *, const model_state *from, model_state **, fault *);
 void kinematics_state_free(model_state *);
 const model_state *kinematics_rest(const model *);
@@ -722,8 +707,7 @@ const double *kinematics_strains(const model_state *); /* [elements x strains] *
  * function is for tests in other folders, which have no access to the members of a state. */
 void kinematics_frame(const model *, const model_state *, int node, double r[3], double q[4]);
 /* Returns the displacement [m] or rotation-vector component [rad] of a node of the scene relative
- * to the undeformed state. Full revolutions along the path are included. NaN: the vector has lost
- * its direction at a full revolution. */
+ * to the undeformed state. NaN: the vector has lost its direction at a full revolution. */
 double kinematics_component(const model *, const model_state *, int node, int component);
 /* Like kinematics_component, but relative to the axes of another node `from`: change of the
  * position [m], or relative rotation vector [rad]. */
@@ -741,8 +725,6 @@ double kinematics_largest_rise(const model *, int *element_index);
 
 /* Returns the index of a coordinate of a node; -1: the coordinate is fixed or dependent. */
 int kinematics_coordinate(const model *, int node, int component);
-/* Largest number of coordinates on which a vertex depends: coordinates of a body and of a released
- * end. */
 enum { KINEMATICS_MOST = 6 + SCENE_RELEASED };
 /* Computes the Jacobian T[6 x m] (row-major) of the six spatial increments of a vertex with respect
  * to the m coordinates on which it depends. index[m]: indices of these coordinates. Returns m <=
@@ -806,9 +788,7 @@ double metric_distance(const model *, const model_state *, const model_state *,
  * states. */
 double metric_turn_between(const model *, const model_state *, const model_state *);
 
-/* Physics that a scene requires and a formulation does not support. There are three kinds: physics
- * that can be omitted, physics whose absence leads to a different model, and physics whose absence
- * prevents a solution. */
+/* Physics that a scene requires and a formulation does not support. */
 
 /* Physics that can be omitted and has no FEATURE_* bit. */
 enum {
@@ -830,11 +810,9 @@ unsigned missing_omits(const scene *, const element_type *);
 void missing_omit_words(unsigned omits, char words[OMIT_WORDS]);
 
 /* Names the features that the scene requires and that the type supports in one direction only
- * (element_lack). Returns 0: there are no such features; 1: the features are negligible, and are
- * printed but not rejected; 2: missing_words also names the features. */
+ * (element_lack). Returns 0: there are no such features; 1: they are negligible; 2: missing_words
+ * also names them. */
 int lacks_of(const scene *, const element_type *, char *words, int size);
-
-/* Members of the state of a model, for functions that advance it. */
 
 struct model_state {
     double path;
@@ -900,10 +878,7 @@ int profile_at(const model *m, int member, int number);
  * R and r are the frame of the node's body, rho is the vector from the body to the node, and a, d
  * are the axes of the undeformed member at the end. Then R_end = R exp(a_1 t_1) exp(a_2 t_2), r_end
  * = r + R rho + R_end (sum d_i s_i). Three released rotations have no order: R_end is free, with
- * spatial increments. The coordinates t, s of the end follow those of the element's nodes. The
- * chain rule transforms forces and matrices of the element to all of these coordinates, including
- * the second derivatives of the frame: 1/2 b_i x b_j for two rotations, where rotation i precedes
- * j. Rotations of the body come first, and displacements come after the rotations of the end. */
+ * spatial increments. The coordinates t, s of the end follow those of the element's nodes. */
 
 /* Returns the released end at this vertex; NULL: none. */
 static inline const mesh_release *release_of(const model *m, int vertex)
@@ -953,29 +928,22 @@ void spring_slopes(const model *, const model_state *, int spring, double S[36])
 /* Computes the deformation d of a spring in the axes of p: R_p^T (r_q - r_p) minus its initial
  * value [m], and the rotation vector of R_p^T R_q [rad]. If q is the only node, p is the ground. In
  * x[nodes], R is the rotation relative to the undeformed state. Output: out->e[6], out->J[6 x 7
- * nodes], and out->H[7 nodes x 7 nodes] for the stresses out->s[6], in the exponential chart, as
- * for strains of elements. near: tracked rotation vector, which distinguishes several revolutions;
- * NULL: the rotation is less than half a revolution. The transverse derivatives of the vector are
- * unbounded at a full revolution, and are kept constant within 1e-3 rad of it. The moment remains
- * exact if it is along the rotation vector. */
+ * nodes], and out->H[7 nodes x 7 nodes] for the stresses out->s[6], in the exponential chart. near:
+ * tracked rotation vector, which distinguishes several revolutions; NULL: the rotation is less than
+ * half a revolution. */
 void spring_strain(int nodes, const node_state x[], const double near[3], strain_output *out);
 
 /* Checks if the supports hold all parts of a structure. A rigid motion of a part has six
- * components: the displacement of an origin, and the rotation times the size of the model. The
- * motions that supports prevent are represented by sums of their squares. */
+ * components: the displacement of an origin, and the rotation times the size of the model. */
 
 /* Returns 1 if a part of the undeformed structure can move in spite of the supports. *node: a node
  * of this part. motion: a rigid motion that the supports allow, scaled arbitrarily (displacement of
  * the node [m], rotation [rad]). Prescribed coordinates count as fixed. */
 int supports_loose_part(const model *, int *node, double motion[6]);
 
-/* Smallest relative eigenvalue of the sum of squares for which a part counts as held. Fixed points
- * whose distance is below the square root of this value times the length count as one point. */
+/* Smallest relative eigenvalue of the sum of squares for which a part counts as held. */
 extern const double supports_loose;
 
-/* Finds the parts that elements, springs and bodies connect. part[vertices]: a representative
- * vertex of each part, for supports_root. apart 1: released ends are not connected to their nodes.
- * */
 void supports_join(const model *, int apart, int part[]);
 int supports_root(const int part[], int vertex);
 /* Returns the vertex that rigidly moves this vertex. */
@@ -990,9 +958,6 @@ void supports_prevented(const model *, int node, const double origin[3], double 
 void supports_add_springs(const model *, const int part[], int root, const double origin[3],
                           double sum[36]);
 
-/* Rotations beyond half a revolution. An orientation repeats after a revolution, but the rotation
- * vector does not. */
-
 /* Message for a rotation vector that is NaN: its direction is not known. */
 extern const char turns_lost[];
 
@@ -1001,16 +966,13 @@ const double *turns_of_node(const model_state *, int node);
 const double *turns_of_spring(const model *, const model_state *, int spring);
 
 /* Relative rotation vectors depend on the quantities of a run. These functions store them for a
- * continued motion: their number, and the two nodes and the three components [5] of each vector. A
- * vector that is not restored starts within half a revolution, from the orientations of its nodes.
- * */
+ * continued motion: their number, and the two nodes and the three components [5] of each vector.
+ *  */
 int turns_between_count(const model *);
 void turns_put_between(const model *, const model_state *, double out[]);
 void turns_take_between(const model *, int count, const double in[], model_state *);
 
-/* Returns 1 if a vector of more than half a revolution has changed its direction. Near a full
- * revolution, such a change takes a very short time. At the full revolution, rounding errors decide
- * the result. */
+/* Returns 1 if a vector of more than half a revolution has changed its direction. */
 int turns_swung(const double from[3], const double to[3]);
 /* Returns 1 if the angle `size` is within `near` [rad] of one or more full revolutions. */
 int turns_full(double size, double near);

@@ -22,8 +22,6 @@ status discrete_build(model *, fault *);
 void body_inertia(const scene_body *b, const node_state *x, const element_rotating_frame *frame,
                   inertia_output *out);
 
-/* Features that the scene requires, and descriptions of unsupported features and of exceeded
- * limits. */
 /* Returns 1 if elements of the type have distributed mass in this motion. */
 int features_spreads(const scene *, int analysis, const element_type *, const double options[]);
 
@@ -38,28 +36,23 @@ const char *missing_in_section(const element_type *, const section *, int cells,
 
 /* Sections of the elements. The sections of the scene come first, followed by one section for each
  * element of tapered members, which is evaluated at the middle of the element. Tapered members with
- * the same end sections and the same number of equal elements share these sections. The elements
- * are prismatic, so the error is of second order in their length for every formulation. */
+ * the same end sections and the same number of equal elements share these sections. */
 
 status profile_scene(model *m, fault *f);
-/* Computes the sections of all elements of tapered members. Later calls do not change m->section.
- * *sections: number of sections. */
+/* Computes the sections of all elements of tapered members. *sections: number of sections. */
 status profile_members(model *m, int *sections, fault *f);
 
 int release_count(const scene *);
 /* Creates the vertices of released ends, and assigns them to the elements. */
 status release_build(model *, fault *);
 
-/* Adds to d[6] the motion of the end relative to its node due to the increment dx of its released
- * coordinates. */
 void release_add_local(const model *, const model_state *, int vertex, const double dx[],
                        double d[6]);
 /* Transforms T[6 x count] of the node to the T of the end. The columns of released coordinates
  * start at `own`. */
 void release_jacobian(const model *, const model_state *, int vertex, int count, int own,
                       double T[]);
-/* Sets the positions and orientations of released ends. The positions and orientations of all nodes
- * must already be set. */
+/* Sets the positions and orientations of released ends. */
 void release_follow(const model *, model_state *);
 
 /* Transforms force[6] from the frame of the end to the frame of its node. own[]: forces on the
@@ -75,8 +68,7 @@ void release_matrix(const model *, const model_state *, int vertex, int n, int a
  * (relative between their ends), and relative vectors between nodes that quantities use. */
 status turns_build(model *, fault *);
 
-/* Updates the rotation vectors of a state after a change of orientations. On entry, state.turn
- * contains their previous values. */
+/* Updates the rotation vectors of a state after a change of orientations. */
 void turns_follow(const model *, model_state *);
 /* Returns the rotation vector between two nodes; NULL: no quantity needs it. */
 const double *turns_between(const model *, const model_state *, int from, int node);
@@ -90,9 +82,9 @@ typedef struct mesh_turn {
 struct model {
     model_mesh mesh; /* public part; must be the first member */
     const scene *scene;
-    const model_imperfect *imperfect; /* NULL: perfect */
-    const element_type *given;        /* type before it is completed */
-    element_type completed; /* copy of the type to which adapters have added missing functions */
+    const model_imperfect *imperfect;
+    const element_type *given; /* type before it is completed */
+    element_type completed;    /* copy of the type to which adapters have added missing functions */
     double options[ELEMENT_MAX_OPTIONS];
     int keep_all;
     unsigned features, omits; /* supported features, and omitted physics of the scene */
@@ -100,8 +92,8 @@ struct model {
     int *profile;             /* [members] index of the section of the first element */
     mesh_triad *triad;        /* [triads] with capacity for all nodes of all elements */
     int triads;
-    int *kind_of_section; /* [sections] first kind of element with this section; NONE: there is none
-                           */
+    int *kind_of_section;  /* [sections] first kind of element (model.h) with this section; NONE:
+                              there is none */
     scene_spring *founded; /* springs of foundations at the vertices of their members */
     mesh_turn *turn;       /* [turns] in the order of model_turns */
     double size;           /* length of the longest member [m] */
@@ -127,10 +119,8 @@ struct model_imperfect {
 /* Creates a model. imperfect: shape for the requested scene, which must outlive the model; NULL:
  * perfect. */
 status model_alloc_imperfect(const model_request *, const model_imperfect *, model **, fault *);
-/* Returns the scene that defines the lines of members from which modes deviate. */
 const scene *imperfect_lines(const model *);
-/* Moves a point of the line of a member, and rotates its triad, by the imperfection at `place`. Has
- * no effect in a perfect model. */
+/* Moves a point of the line of a member, and rotates its triad, by the imperfection at `place`. */
 void imperfect_move(const model *, int member, double place, double position[3], double R[9]);
 /* Computes the rotation of the imperfection at place[1] minus that at place[0] of a member [rad].
  */
@@ -150,7 +140,6 @@ status coordinates_number(model *m, fault *f);
 status coordinates_note_left_out(model *m, fault *f, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* Text that is truncated to its capacity (coordinates.c). */
 typedef struct model_words {
     char *text;
     size_t room, used;

@@ -126,7 +126,6 @@ void member_arc_at(const member_arc *a, double s, double position[3], double R[9
 
 enum { BALL = 3 }; /* three rotations without order */
 
-/* Returns 1 if this end of a member has a separate vertex. */
 static int is_own(const scene_member *m, int end)
 {
     return m->release[end].count > 0 || scene_is_beside(m, end);

@@ -25,7 +25,6 @@ static void inertia_now(const double given[6], const double R[9], double I[9])
             I[3 * i + j] = vec3_dot(&half[3 * i], &R[3 * j]);
 }
 
-/* Fills A[7 x 7] with the diagonal blocks for translations and rotations. */
 static void put_blocks(const double translation[9], const double rotation[9], double A[N * N])
 {
     memset(A, 0, N * N * sizeof *A);
@@ -42,7 +41,6 @@ static void mass_matrix(double mass, const double I[9], double M[N * N])
     put_blocks(translation, I, M);
 }
 
-/* Fills A with v~, the cross-product matrix of v. */
 static void cross_matrix(const double v[3], double A[9])
 {
     const double all[9] = {0, -v[2], v[1], v[2], 0, -v[0], -v[1], v[0], 0};

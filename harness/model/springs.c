@@ -55,8 +55,7 @@ status turns_build(model *m, fault *f)
 }
 
 /* Returns 1 if a rotation vector keeps the direction of `before`. more: the part of the rotation
- * beyond full revolutions. If `more` is small and parallel to `before` up to rounding, the
- * direction is kept. */
+ * beyond full revolutions. */
 static int keeps_direction(const double more[3], const double before[3], double length)
 {
     const double near = 1e-3, round_off = 1e-8;
@@ -65,15 +64,14 @@ static int keeps_direction(const double more[3], const double before[3], double 
     return vec3_norm(more) < near && vec3_norm(aside) < round_off * length;
 }
 
-/* Returns the rotation vector [rad] closest to `before` among all vectors of q and of -q. At a full
- * revolution, the vector has no direction, so the direction of `before` is used. */
+/* Returns the rotation vector [rad] closest to `before` among all vectors of q and of -q. */
 static void turns_continue(const double q[4], const double before[3], double out[3])
 {
     const double sine = vec3_norm(q + 1), length = vec3_norm(before);
     double along[3] = {0};
     rotation_log(q, out);
     if (q[0] > 0 && length < PI / 2)
-        return; /* less than half a revolution, so no other vector is closer */
+        return;
     if (length > PI && keeps_direction(out, before, length)) {
         const int odd = q[0] < 0;
         const double turns = 2 * round((length / (2 * PI) - odd) / 2) + odd;
@@ -168,7 +166,6 @@ void turns_put_between(const model *m, const model_state *s, double out[])
     }
 }
 
-/* Starts the relative vector as if both nodes had rotated about the same axis. */
 static void begin_between(const model *m, model_state *s, int i)
 {
     const mesh_turn *t = &m->turn[i];
@@ -302,8 +299,6 @@ static void coefficient(double x, double *c, double *slope)
     *slope = (-g_x - *c) / x;
 }
 
-/* Computes the rotation vector, B, and the symmetric part of the contribution of s to the second
- * derivatives. */
 static void rotation_part(const double R[9], const double near[3], const double s[3],
                           double theta[3], double B[9], double second[9])
 {
@@ -353,7 +348,6 @@ static void add_block(int n, int row, int column, double sign, const double P[9]
             A[n * (row + i) + column + j] += sign * vec3_dot(&half[3 * i], &P[3 * j]);
 }
 
-/* Adds sign X P^T to J[6 x n] at (row, column). */
 static void add_columns(int n, int row, int column, double sign, const double P[9],
                         const double X[9], double J[])
 {

@@ -13,8 +13,7 @@ enum { N = 6, ALL = 0x3f };
  * smaller than this are treated as dependent. */
 static const double round_off = 1e-12;
 
-/* Removes the component along the `count` orthonormal vectors from the column. A second pass
- * ensures orthogonality. */
+/* Removes the component along the `count` orthonormal vectors from the column. */
 static void deflate(int n, int count, double (*basis)[N], double column[])
 {
     for (int pass = 0; pass < 2; pass++)
@@ -167,9 +166,6 @@ void movable_prescribed(int columns, const double *T, const double m[3], double 
         deflate(3, rank, basis, out);
 }
 
-/* Finds parts of the structure that the supports do not hold. Only the supports decide if connected
- * parts can move rigidly. Stiffness is irrelevant. */
-
 enum { SUPPORTS_N = 6 };
 
 const double supports_loose = 1e-14;
@@ -299,7 +295,7 @@ static int has_elements(const model *m, const int part[], int root)
 int supports_loose_part(const model *m, int *node, double motion[6])
 {
     int *part = malloc((size_t)m->mesh.vertices * sizeof *part), found = 0;
-    if (part == NULL || m->mesh.tie != NULL) { /* linkage.c examines parts that constraints join */
+    if (part == NULL || m->mesh.tie != NULL) {
         free(part);
         return 0;
     }

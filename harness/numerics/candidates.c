@@ -106,7 +106,6 @@ double candidates_least(int n, double scale)
 
 int candidates_is_rounding(const candidates *p, double energy, const double x[])
 {
-    /* an element contributes through all eliminations of its coordinates */
     const double sure = 128;
     const eigen_problem *e = p->problem;
     return e->A_rounding != NULL && fabs(energy) <= sure * e->A_rounding(e->context, x);
@@ -136,8 +135,7 @@ status candidates_refine(candidates *p, int count, fault *f)
                : fault_set(f, STATUS_FAULT, "out of memory for refined solutions");
 }
 
-/* Adds K^-1 (s A x - K y) to y, where K y is computed from the elements. Each call multiplies the
- * residual by about the relative error of the assembled K. */
+/* Adds K^-1 (s A x - K y) to y, where K y is computed from the elements. */
 static void refine(candidates *p, const double x[], double y[])
 {
     const eigen_problem *e = p->problem;
@@ -208,7 +206,6 @@ static void add_next(candidates *p, double least)
     sort_last(p);
 }
 
-/* Adds vectors. x may contain the vectors of the candidates. */
 static void add_all(candidates *p, int count, const double x[], double least)
 {
     const size_t n = (size_t)p->n;
@@ -278,10 +275,8 @@ void candidates_evaluate(candidates *p, int i, double *residual, double *error)
  * - sign A/s. The count is correct if the distance of s from every eigenvalue exceeds the effect of
  * rounding in the matrices. */
 
-static const double close =
-    1e-9; /* relative distance below which eigenvalues are not distinguished */
+static const double close = 1e-9;
 
-/* Number of unknowns above which memory is freed and not kept for reuse. */
 enum { LARGE = 20000 };
 
 void candidates_count_rest(candidates *p)
@@ -321,22 +316,17 @@ static int above_cluster(const candidates *p, int wanted, double *top)
     return q;
 }
 
-/* Counts with the inertia of the matrices at a value between two eigenvalues. */
 status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_result *work,
                                 fault *f)
 {
     static const double place[] = {0.5, 0.35, 0.65};
     double low;
     const int q = above_cluster(p, wanted, &low);
-    /* The value is immediately above the cluster, because a larger value could hide missing
-     * eigenvalues below it. */
     const double distinguishable = 2 * close + 32 * p->noise[q], near = 1e-2;
     const double high = q > 0 ? fmin(p->matrix_mu[q - 1], low * (1 + fmax(near, distinguishable)))
                               : low * (1 + distinguishable);
     int above = 0;
     *missing = -1;
-    /* A count that does not match is repeated at another value, because the factorisation does not
-     * pivot. */
     for (int i = 0; i < 3; i++) {
         const status outcome =
             candidates_count_above(p, low + place[i] * (high - low), &above, work, f);
@@ -354,8 +344,6 @@ status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_r
                          q);
     return STATUS_OK;
 }
-
-/* Projections of Y = K^-1 s A X need no product with K, because Y^T K Y = Y^T s A X. */
 
 static void signed_product(const candidates *p, const double x[], double Ax[])
 {

@@ -61,8 +61,7 @@ static status run_lanczos(candidates *p, int wanted, double least, long *solutio
 }
 
 /* Sets *exist to the number of existing eigenvalues. They are counted above smaller and smaller
- * values until their number is at least `enough`. At very small values, where K is small compared
- * with A/s, the count may fail because of missing pivoting. The last valid count is then used. */
+ * values until their number is at least `enough`. */
 static status count_existing(candidates *p, int enough, double scale, double least, int *exist,
                              eigen_result *r, fault *f)
 {
@@ -80,7 +79,6 @@ static status count_existing(candidates *p, int enough, double scale, double lea
     return STATUS_OK;
 }
 
-/* Solves for both sides from all eigenvectors. NULL: the side is not requested. */
 static status solve_densely(candidates *up, candidates *down, const int wanted[2], eigen_result *r,
                             fault *f)
 {
@@ -89,8 +87,6 @@ static status solve_densely(candidates *up, candidates *down, const int wanted[2
     return eigen_dense_add((candidates *[]){up, down}, wanted, f);
 }
 
-/* Adds candidates until the inertia proves that no eigenvalue above the last requested eigenvalue
- * is missing. */
 static status fill(candidates *p, int wanted, double scale, double least, eigen_result *r, fault *f)
 {
     int exist;
@@ -112,8 +108,6 @@ static status fill(candidates *p, int wanted, double scale, double least, eigen_
     return STATUS_OK;
 }
 
-/* Removes the last candidates until the inertia proves that no eigenvalue above the remaining ones
- * is missing. */
 static status keep_first(candidates *p, eigen_result *r, fault *f)
 {
     int missing = 1;
@@ -126,8 +120,6 @@ static status keep_first(candidates *p, eigen_result *r, fault *f)
     return STATUS_OK;
 }
 
-/* Solves for one side (0: most positive) by iteration. If the iteration ends early and the problem
- * is small, solves with dense matrices. */
 static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, eigen_result *r,
                          fault *f)
 {
@@ -151,8 +143,7 @@ static status one_sparse(candidates *p, int side, int wanted, eigen_side *out, e
 }
 
 /* Removes values that are rounding errors of A. If a value is a rounding error, all smaller values
- * are also rounding errors. Tests the largest value, and all values that are small compared with
- * it. */
+ * are also rounding errors. */
 static void drop_rounding(candidates *p, eigen_side *out)
 {
     const double uncertain_below = 1e-6;
@@ -165,7 +156,6 @@ static void drop_rounding(candidates *p, eigen_side *out)
         }
 }
 
-/* Computes the residuals and errors of the first `count` candidates. Returns the largest error. */
 static double evaluate(candidates *p, int count, eigen_side *out, long *solutions)
 {
     double largest = 0;
@@ -181,8 +171,7 @@ static double evaluate(candidates *p, int count, eigen_side *out, long *solution
 static status improve(candidates *p, int count, eigen_side *out, eigen_result *r, fault *f)
 {
     enum { SWEEPS = 3 };
-    const double acceptable =
-        1e-6; /* the error of an eigenvalue is about the square of this value */
+    const double acceptable = 1e-6;
     const double good = 1e-8;
     if (p->problem->K_product == NULL || candidates_departure(p, count) <= acceptable) {
         evaluate(p, count, out, &r->solutions);
@@ -197,7 +186,6 @@ static status improve(candidates *p, int count, eigen_side *out, eigen_result *r
     return STATUS_OK;
 }
 
-/* Replaces values without significant digits by NaN. */
 static void drop_lost(candidates *p, int count, eigen_side *out)
 {
     const double noticeable = 1e-9;
@@ -252,7 +240,6 @@ static status find(const eigen_problem *e, candidates *up, candidates *down, eig
     return one_sparse(down, 1, e->smallest, &r->negative, r, f);
 }
 
-/* Solves for both sides. The caller eigen_solve() frees the candidates, even after a failure. */
 static status solve(const eigen_problem *e, candidates *up, candidates *down, eigen_result *r,
                     fault *f)
 {
@@ -340,8 +327,6 @@ static status solve_dense(const eigen_problem *e, double mu[], double x[], fault
                                  n, info);
 }
 
-/* Takes the candidates of one or both sides from all eigenvectors. side[i] NULL: not requested.
- * mu[n], x[n x n]. */
 static status take_dense(candidates *const side[2], const int wanted[2], double mu[], double x[],
                          fault *f)
 {
@@ -351,7 +336,7 @@ static status take_dense(candidates *const side[2], const int wanted[2], double 
     const double least = candidates_least(any->n, fmax(fabs(mu[0]), fabs(mu[n - 1])));
     for (int i = 0; i < 2; i++) {
         const size_t count = (size_t)(wanted[i] < any->n ? wanted[i] : any->n);
-        if (side[i] != NULL) /* the most positive values come last */
+        if (side[i] != NULL)
             TRY(candidates_add(side[i], (int)count, i == 0 ? x + (n - count) * n : x, least, f));
     }
     return STATUS_OK;

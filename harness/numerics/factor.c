@@ -1,9 +1,7 @@
 /* LDL^T for symmetric and LU for unsymmetric matrices. A check shows if a small pivot is only a
  * rounding error. With x = A^-1 e_i and y = A^-T e_k, the number x_k = y^T A x is a sum of terms
  * y_i a_ij x_j. Rounding of A changes x_k by about eps times the square root of the sum of the
- * squares of these terms. If this change is as large as x_k, A is singular to working precision.
- * The size of a pivot alone does not show this: for the matrix of a free beam with 80 elements,
- * rounding leaves a last pivot of about 1e4 eps times its diagonal entry (measured). */
+ * squares of these terms. If this change is as large as x_k, A is singular to working precision. */
 #include "harness/numerics/numerics_impl.h"
 
 #include <float.h>
@@ -23,12 +21,11 @@ static status factor_unsymmetric_numeric(factor_unsymmetric *fu, const sparse *a
 
 struct matrix_factor {
     int n;
-    factor_operator by;              /* operator; functions NULL: there is no operator */
-    factor_symmetric *symmetric;     /* LDL^T; a matrix with by_numbers has both factors */
-    factor_unsymmetric *unsymmetric; /* KLU; both NULL: there are no unknowns */
-    by_numbers *whole; /* upper triangle of a matrix with by_numbers; otherwise NULL */
-    int upper;         /* 1: the last values were factored by `symmetric` */
-    /* of_upper: entries and flops of `symmetric` if both factors exist */
+    factor_operator by;
+    factor_symmetric *symmetric; /* LDL^T; a matrix with by_numbers has both factors */
+    factor_unsymmetric *unsymmetric;
+    by_numbers *whole;
+    int upper;
     factor_counts counts, of_upper;
     double *residual, *other; /* [n] work space; `other` is only for unsymmetric matrices */
 };
@@ -118,8 +115,7 @@ static double lost_part(matrix_factor *fa, const sparse *a, int row, int column)
         unit_vector(fa->n, column, y);
         factor_unsymmetric_solve_transposed(fa->unsymmetric, y);
     }
-    const double scale =
-        fabs(x[column]); /* sum of absolute values, because a sum of squares of x may overflow */
+    const double scale = fabs(x[column]);
     for (int j = 0; j < fa->n; j++)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
             const double term = y[a->row[k]] / scale * a->value[k] * x[j];
@@ -128,8 +124,6 @@ static double lost_part(matrix_factor *fa, const sparse *a, int row, int column)
     return DBL_EPSILON * sqrt(sum);
 }
 
-/* Selects LDL^T if the values of a matrix of which all entries are stored are symmetric. *a then
- * becomes its upper triangle. */
 static status choose(matrix_factor *fa, const sparse **a, fault *f)
 {
     const factor_counts before = fa->counts;
@@ -335,7 +329,7 @@ struct factor_unsymmetric {
     klu_common common;
     klu_symbolic *symbolic;
     klu_numeric *numeric;
-    double *largest; /* [n] largest entry of every column of the scaled matrix */
+    double *largest;
 };
 
 /* The pivot order is reused as long as the entries of U are below this factor times the entries of
@@ -390,8 +384,7 @@ static status factor_anew(factor_unsymmetric *fu, const sparse *a, factor_counts
     if (fu->numeric == NULL)
         return fu->common.status == KLU_SINGULAR ? STATUS_SINGULAR : STATUS_FAULT;
     klu_flops(fu->symbolic, fu->numeric, &fu->common);
-    counts->entries = (long)fu->numeric->lnz + fu->numeric->unz -
-                      fu->n; /* lnz and unz both include the diagonal */
+    counts->entries = (long)fu->numeric->lnz + fu->numeric->unz - fu->n;
     counts->flops = fu->common.flops;
     return STATUS_OK;
 }

@@ -15,8 +15,8 @@
 
 struct factor_symmetric {
     int n;
-    int lent;             /* 1: another factor owns `integers`, L_row, groups and rest */
-    int *integers;        /* a single allocation for the next nine arrays */
+    int lent;
+    int *integers;
     int *order, *inverse; /* [n] P: C(i, j) = A(order[i], order[j]); inverse of this permutation */
     /* [n + 1] and [entries] upper triangle of C; `row` contains positions in L after its columns
      * are known */
@@ -24,16 +24,14 @@ struct factor_symmetric {
     int *source; /* [entries] position in A of each entry of C */
     int *L_column;
     int *parent, *in_column, *mark; /* [n] elimination tree, and work space of LDL */
-    double *D;                /* [n] D is the start of a single allocation for these three arrays */
+    double *D;
     double *diagonal, *terms; /* [n] |a_kk|, and |a_kk| + sum_j l_kj^2 |d_j| */
-    double *rest;             /* work space of triangular_rows and of solutions */
+    double *rest;
     triangular_groups groups;
     int *L_row;
     double *L_value;
 };
 
-/* Allocates D, diagonal and terms. This function and the functions below return 0 if out of memory.
- * */
 static int lay_out_numbers(factor_symmetric *fs, size_t n)
 {
     fs->D = malloc((3 * n + 1) * sizeof *fs->D);
@@ -76,7 +74,6 @@ static int min_int(int a, int b)
     return a < b ? a : b;
 }
 
-/* Computes the upper triangle of C = P A P^T, and the positions of its entries in A. */
 static void permute(const sparse *a, factor_symmetric *fs)
 {
     const int n = a->n;
@@ -97,7 +94,6 @@ static void permute(const sparse *a, factor_symmetric *fs)
         }
 }
 
-/* Computes the elimination tree, the fill and the groups of rows, and allocates L. */
 static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
 {
     const int n = fs->n;
@@ -175,7 +171,6 @@ void factor_symmetric_free(factor_symmetric *fs)
     free(fs);
 }
 
-/* Returns the largest entry in row and column k of C. */
 static double largest_entry(const factor_symmetric *fs, const double a[], int k)
 {
     double largest = 0;

@@ -206,9 +206,6 @@ static double share(const motion_estimate *e, int k)
     return creal(sum * conj(sum));
 }
 
-/* Returns twice the missing part of the vector, relative to the eigenvalue. The missing part has
- * components along other modes that were found, and along modes that were not found, whose lowest
- * frequency is known. */
 static double missed(motion_estimate *e, int i, double complex lambda, double own)
 {
     const double size = cabs(lambda);
@@ -229,8 +226,7 @@ static double missed(motion_estimate *e, int i, double complex lambda, double ow
     return 2 * sum;
 }
 
-/* Returns a bound of the rounding error of x^H (K + lambda^2 M + lambda G) x. Each entry of the
- * matrices results from only a few operations. */
+/* Returns a bound of the rounding error of x^H (K + lambda^2 M + lambda G) x. */
 static double rounding(const motion_estimate *e, double size, const double re[], const double im[])
 {
     const double operations = 4;
@@ -300,8 +296,6 @@ static void fill(const sparse *K, const sparse *M, const sparse *G, double omega
         }
 }
 
-/* Counts the negative eigenvalues. The caller gyroscopic_count() frees *doubled and *factors, even
- * after a failure. */
 static status count(const sparse *K, const sparse *M, const sparse *G, double omega,
                     sparse *doubled, matrix_factor **factors, int *below, fault *f)
 {

@@ -12,8 +12,7 @@ enum { SPARE = 3, MAX_PASSES = 30, MAX_STARTS = 4, ROOM_PER_MODE = 16 };
 /* limits of residuals relative to x^H K x; the relative error of a frequency is the square of the
  * residual */
 static const double good_residual = 1e-8, acceptable_residual = 1e-5;
-/* A pair need not converge if rounding changes its residual by more than this limit. Its mass is
- * then a rounding error of the largest mass. */
+/* A pair need not converge if rounding changes its residual by more than this limit. */
 static const double no_digits = 1e-7;
 /* K counts as nearly singular if the smallest eigenvalue of (K, M) is below near_zero times the
  * other eigenvalues, or below near_zero times the square of the rate of G. The shift is then
@@ -26,13 +25,13 @@ static const double far = 1e3;
 typedef struct gyroscopic_solver {
     const gyroscopic_problem *p;
     gyroscopic_result *out;
-    double shift; /* [1/s^2] shift in S = K + shift M */
-    double least; /* [1/s^2] lower bound of the shift */
+    double shift;
+    double least;
     double nearest,
-        furthest;    /* smallest and largest magnitudes of the eigenvalues of (K, M) at the start */
-    double softest;  /* smallest eigenvalue of (S, M) */
-    int all_known;   /* 1: the start found all modes that it searched for */
-    const sparse *S; /* points to K or to `shifted` */
+        furthest; /* smallest and largest magnitudes of the eigenvalues of (K, M) at the start */
+    double softest;
+    int all_known;
+    const sparse *S;
     sparse shifted;
     subspace basis;
     ritz pairs;
@@ -80,8 +79,6 @@ static void clear(const gyroscopic_solver *s)
     memset(s->im, 0, (size_t)s->basis.n * sizeof *s->im);
 }
 
-/* Replaces `half`, the real or the imaginary part of a residual, by S^-1 half. Returns the product
- * of both. */
 static double solve_half(gyroscopic_solver *s, double half[])
 {
     memcpy(s->work, half, (size_t)s->basis.n * sizeof *half);
@@ -90,8 +87,6 @@ static double solve_half(gyroscopic_solver *s, double half[])
     return fmax(0, dense_dot(s->basis.n, s->work, half));
 }
 
-/* Returns the size of the residual of pair i. If the residual is large, S^-1 times the residual
- * extends the basis. */
 static double improve(gyroscopic_solver *s, int i, int *grown)
 {
     const double complex lambda = s->pairs.lambda[i],
@@ -119,8 +114,6 @@ static double noise(const gyroscopic_solver *s, int i)
     return size * size * mass * DBL_EPSILON;
 }
 
-/* Extends the basis until `wanted` Ritz pairs have converged. If pairs have too little mass to be
- * accurate, the search ends when the basis no longer improves. */
 static status iterate(gyroscopic_solver *s, int wanted, fault *f)
 {
     for (int pass = 0;; pass++) {
@@ -150,8 +143,6 @@ static status iterate(gyroscopic_solver *s, int wanted, fault *f)
     }
 }
 
-/* Starts the basis with the first `count` modes for G = 0. It includes modes whose eigenvalue is
- * lost in rounding, because the basis improves them. */
 static status start(gyroscopic_solver *s, int count, fault *f)
 {
     eigen_result e = {0};
@@ -181,8 +172,6 @@ static int unaccounted(const gyroscopic_solver *s)
            gyroscopic_index_of(&s->pairs, &s->basis, s->shift, s->found).negative;
 }
 
-/* Checks the first `last` pairs for an indefinite K, by a count below the gap that follows them. If
- * the count fails, does not set *number. */
 static status prove(gyroscopic_solver *s, int last, status counted, int below, int *number)
 {
     const gyroscopic_index found = gyroscopic_index_of(&s->pairs, &s->basis, s->shift, last);
@@ -194,8 +183,8 @@ static status prove(gyroscopic_solver *s, int last, status counted, int below, i
     return counted == STATUS_FAULT ? counted : STATUS_OK;
 }
 
-/* Returns the largest relative change of x^H S x, over the pairs found, due to the assembly of S.
- * The frequencies of the matrix, which are counted, differ by half of this change. */
+/* Returns the largest relative change of x^H S x, over the pairs found, due to the assembly of
+ * S. */
 static double departure(gyroscopic_solver *s)
 {
     double largest = 0;
@@ -211,8 +200,6 @@ static double departure(gyroscopic_solver *s)
     return largest;
 }
 
-/* Sets *number to the number of frequencies below the first gap after those found, minus the number
- * of frequencies found. There is no gap between equal frequencies. */
 static status missing(gyroscopic_solver *s, int wanted, int *number, fault *f)
 {
     const double gap = fmax(1e-6, 4 * departure(s));
@@ -253,8 +240,6 @@ static double rate_of_turning(const sparse *G, const sparse *M)
     return rate;
 }
 
-/* Finds a shift for which K + shift M is positive definite: increases an initial shift in steps of
- * a factor of ten. */
 static status find_shift(gyroscopic_solver *s, fault *f)
 {
     const sparse *K = s->p->K, *M = s->p->M;
@@ -296,7 +281,6 @@ static double shift_after(const gyroscopic_solver *s, status started)
     return nearly ? away_from_zero * scale : 0;
 }
 
-/* Starts the basis. If necessary, starts it again with another shift. */
 static status begin(gyroscopic_solver *s, int count, fault *f)
 {
     const status outcome = start(s, count, f);
@@ -310,7 +294,6 @@ static status begin(gyroscopic_solver *s, int count, fault *f)
     return start(s, count, f);
 }
 
-/* Multiplies the vector by the phase for which its real part is largest. */
 static void turn_phase(const gyroscopic_solver *s)
 {
     double complex square = 0;
@@ -324,7 +307,6 @@ static void turn_phase(const gyroscopic_solver *s)
     }
 }
 
-/* Stores pair i in the result. Its vector is in re and im. */
 static void take_pair(gyroscopic_solver *s, int i, motion_estimate *e)
 {
     gyroscopic_result *r = s->out;
@@ -383,7 +365,6 @@ static status find(gyroscopic_solver *s, fault *f)
     return store_results(s, f);
 }
 
-/* Finds the modes. The caller gyroscopic_solve() frees *s, even after a failure. */
 static status solve(gyroscopic_solver *s, fault *f)
 {
     const gyroscopic_problem *p = s->p;

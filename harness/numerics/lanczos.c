@@ -1,6 +1,5 @@
 /* OP = K^-1 s A is symmetric in the inner product of K (ARPACK mode 2). The projection I - X X^T K
- * removes known eigenvectors X. A single starting vector gives only one copy of a repeated
- * eigenvalue. Further runs give the other copies one by one. */
+ * removes known eigenvectors X. */
 #include "harness/numerics/numerics_impl.h"
 
 #include <arpack/arpack.h>
@@ -80,8 +79,7 @@ static void deflate(int n, int known, const double *dual, const double *measured
     }
 }
 
-/* Computes y = OP x. As mode 2 requires, x becomes K y = s A x. The components along X are removed
- * from both. */
+/* Computes y = OP x. The components along X are removed from both. */
 static void apply(const lanczos_problem *p, double x[], double y[])
 {
     const int n = p->K->n;
@@ -93,7 +91,6 @@ static void apply(const lanczos_problem *p, double x[], double y[])
     deflate(n, p->known, p->X, x, p->KX, x);
 }
 
-/* Returns ARPACK's status. 0 means that all requested values converged. */
 static int iterate(const lanczos_problem *p, lanczos_workspace *w, long *solutions)
 {
     int ido = 0, info = 1;
@@ -115,8 +112,6 @@ static int iterate(const lanczos_problem *p, lanczos_workspace *w, long *solutio
     }
 }
 
-/* Reverses the order of the values, because ARPACK's values are ascending and mu[] is descending.
- * */
 static void reverse(size_t n, int count, double x[])
 {
     for (int low = 0, high = count - 1; low < high; low++, high--)
@@ -127,8 +122,6 @@ static void reverse(size_t n, int count, double x[])
         }
 }
 
-/* Copies ARPACK's values and vectors, with the largest value first. *x: the basis, shortened to
- * these vectors. */
 static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, double mu[],
                            double **x, fault *f)
 {
@@ -149,7 +142,6 @@ static status take_vectors(lanczos_workspace *w, int n, int wanted, int found, d
     return STATUS_OK;
 }
 
-/* Runs the iteration. The caller lanczos_largest() frees *w, even after a failure. */
 static status solve(const lanczos_problem *p, lanczos_workspace *w, int wanted, int *found,
                     double mu[], double **x, long *solutions, fault *f)
 {

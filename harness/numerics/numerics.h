@@ -9,16 +9,13 @@
 /* Sparse matrices in compressed columns, and their direct factorisation. Of a symmetric matrix,
  * only the upper triangle (row <= column) is stored; of any other matrix, all entries are stored.
  * If by_numbers is 1, all entries are stored, and the matrix is factored as symmetric if its values
- * are symmetric. The pattern does not change. Values are added by position, so assembly needs no
- * search. */
+ * are symmetric. */
 
 typedef struct sparse {
     int n, symmetric;
     int *column;   /* [n + 1] */
     int *row;      /* [column[n]] rows, in ascending order within each column */
     double *value; /* [column[n]] */
-    /* 1: all entries are stored, and the matrix is factored as symmetric if its values are
-     * symmetric */
     int by_numbers;
 } sparse;
 
@@ -35,11 +32,10 @@ int sparse_position(const sparse *a, int row, int column);
 double sparse_diagonal(const sparse *a, int j);
 void sparse_mul(const sparse *a, const double x[], double y[]);            /* y = A x */
 void sparse_mul_transposed(const sparse *a, const double x[], double y[]); /* y = A^T x */
-/* Returns the change of x^T A y if all terms are rounded in the same direction. A is symmetric, or
+/* Returns eps times the sum of the absolute values of the terms of x^T A y. A is symmetric, or
  * skew-symmetric with its upper triangle stored. */
 double sparse_rounding(const sparse *a, const double x[], const double y[]);
 
-/* Upper triangle of a matrix of which all entries are stored, and a test for symmetry. */
 typedef struct by_numbers by_numbers;
 
 status by_numbers_alloc(const sparse *pattern, by_numbers **out, fault *f);
@@ -67,11 +63,11 @@ typedef struct factor_counts {
 #define FACTOR_SYMMETRIC_WITHIN 1e-11
 /* Makes a symbolic analysis, once, with an order that reduces fill-in (AMD). A symmetric matrix is
  * factored as LDL^T without pivoting; the signs of D give the inertia. An unsymmetric matrix is
- * factored by KLU. A matrix with by_numbers is factored by KLU or as LDL^T of its upper triangle.
- * The LDL^T is then bit-for-bit that of a matrix of which only this triangle is stored. */
+ * factored by KLU. A matrix with by_numbers is factored by KLU or as LDL^T of its upper
+ * triangle. */
 status factor_alloc(const sparse *pattern, matrix_factor **out, fault *f);
 /* Like factor_alloc, for a matrix with the same pattern as `of`. A symmetric matrix uses the order
- * of `of`, which must outlive the new factor. The two must not be factored at the same time. */
+ * of `of`, which must outlive the new factor. */
 status factor_alloc_like(const matrix_factor *of, const sparse *pattern, matrix_factor **out,
                          fault *f);
 void factor_free(matrix_factor *fa);
@@ -91,7 +87,6 @@ void factor_solve_many(matrix_factor *fa, int columns, int stride, double x[]);
 void factor_solve_transposed(matrix_factor *fa, double x[]); /* solves A^T x = b in place */
 factor_counts factor_count(const matrix_factor *fa);
 
-/* A solver that another module provides. */
 typedef struct factor_operator {
     void *context;
     void (*solve)(void *context, int transposed, double x[]);
@@ -102,8 +97,7 @@ typedef struct factor_operator {
  * factor_solve_transposed and factor_count call the operator, and no matrix is factored. */
 status factor_of(const factor_operator *, matrix_factor **out, fault *f);
 /* Returns an estimate of the 1-norm condition number of the factored matrix a, with rows and
- * columns scaled by the square root of its diagonal. Hager's estimate is a lower bound that is
- * accurate within a small factor. NAN: out of memory. */
+ * columns scaled by the square root of its diagonal. NAN: out of memory. */
 double factor_condition(matrix_factor *fa, const sparse *a);
 
 /* A few eigenpairs of A x = mu K x with K symmetric positive definite and A symmetric, which may be
@@ -157,23 +151,20 @@ typedef struct eigen_result {
     int n;
     eigen_side positive, negative;
     long solutions, factorisations;
-    double
-        dense_operations; /* sum of n^3 over the eigenvalue problems solved with dense matrices */
+    double dense_operations; /* sum of n^3 over eigenvalue problems of size n solved with dense
+                                matrices */
 } eigen_result;
 
 /* Solves the problem. REFUSED: K is not positive definite. NOT_CONVERGED: one of the sides did not
- * converge; the values found on both sides are kept. A value counts as zero and is not returned if
- * it is within the rounding error of the largest value or of its quadratic form. In large problems,
- * values below 1e-9 of the largest value are also not returned. `error` gives the accuracy of a
- * value. A value without significant digits is replaced by NaN, and the outcome is then
- * NOT_CONVERGED. */
+ * converge; the values found on both sides are kept. A value is not returned if it is within the
+ * rounding error of the largest value or of its quadratic form or, in large problems, below 1e-9 of
+ * the largest value. */
 status eigen_solve(const eigen_problem *problem, eigen_result *out, fault *f);
 void eigen_free(eigen_result *r);
 
 /* Returns the wall-clock time [s] from an arbitrary origin. */
 double clock_wall_seconds(void);
 
-/* Sets a file descriptor that becomes readable when this thread must stop; 0: none. */
 void stop_observe(int descriptor);
 /* Returns FAULT if this thread must stop. Iterations and steps of motions call this function. */
 status stop_check(fault *f);
@@ -192,12 +183,9 @@ double clock_processor_seconds(void);
  * replaces it in the basis and the general projected problem is solved. A growing mode then has a
  * lambda with positive real part; numerics_impl.h explains what the count proves in this case.
  *
- * Massless coordinates have no frequency. Because of coordinates with very little mass (frequencies
- * above about 1e4 times those of the heavy parts), the search may end before all requested modes
- * are found.
+ * Massless coordinates have no frequency.
  *
- * The assembly of K loses digits of soft motions. Therefore the orthonormal basis and all residuals
- * use K_product, which keeps these digits; the factors of the matrix only improve the vectors. */
+ * The assembly of K loses digits of soft motions. */
 
 typedef struct gyroscopic_problem {
     /* K and M have the same symmetric pattern; the upper triangle of G is stored */
@@ -224,16 +212,14 @@ typedef struct gyroscopic_result {
      * modes with negative energy, are missing */
     int unproven;
     long solutions, factorisations;
-    double
-        dense_operations; /* sum of n^3 over the eigenvalue problems solved with dense matrices */
+    double dense_operations; /* sum of n^3 over eigenvalue problems of size n solved with dense
+                                matrices */
 } gyroscopic_result;
 
 status gyroscopic_solve(const gyroscopic_problem *, gyroscopic_result *, fault *);
 void gyroscopic_free(gyroscopic_result *);
 
-/* Checks the available memory before a problem is solved. Some systems grant memory that they do
- * not have, and later end this or another program without a message. This section also contains
- * lists that grow. */
+/* Checks the available memory before a problem is solved. */
 
 /* Checks the memory. REFUSED: `what` needs more memory than the machine has. bytes: lower bound of
  * the required memory. */
@@ -245,8 +231,7 @@ status memory_append(void *list, int *count, const void *entry, size_t size, con
 
 /* Processor time of a solution, divided into the parts of a Newton iteration and the remaining
  * time. If several threads share the elements, the time is that of the leading thread, including
- * the time in which it waits. The clock is read only on request and only inside an iteration. The
- * time for the readings, 0.4 us each, belongs to no part. */
+ * the time in which it waits. */
 
 typedef enum newton_phase {
     PHASE_ELEMENTS,
@@ -265,8 +250,8 @@ typedef struct phases {
     double seconds[PHASES];
 } phases;
 
-/* Sets all parts to zero and measures the duration of a reading, which is the shortest of several.
- * */
+/* Sets all parts to zero and measures the duration of a reading, which is the shortest of
+ * several. */
 static inline void phases_request(phases *p, int wanted)
 {
     enum { FEW = 50 };
@@ -318,8 +303,7 @@ static inline const char *phase_name(newton_phase k)
     return name[k];
 }
 
-/* Threads that share a loop. Each thread takes one range of consecutive indices, so results do not
- * depend on the number of threads. */
+/* Threads that share a loop. */
 
 typedef struct thread_pool thread_pool;
 typedef void thread_pool_work(void *context, int first, int end); /* [first, end) */
@@ -339,15 +323,13 @@ void thread_pool_free(thread_pool *t);
  * calling thread is used. */
 void thread_pool_run(thread_pool *t, int count, thread_pool_work *work, void *context);
 /* Fills and uses the pieces [0, pieces). Any free thread fills the next piece, at most a few pieces
- * ahead. The caller uses the pieces in order, and also fills pieces. The slots fit into the cache,
- * and the order of sums does not change. slot: less than THREAD_POOL_SLOTS; 0 if t is NULL. */
+ * ahead. The caller uses the pieces in order, and also fills pieces. */
 void thread_pool_relay(thread_pool *t, int pieces, thread_pool_fill *fill, thread_pool_take *take,
                        void *context);
 
 typedef enum matrix_kind { MATRIX_GENERAL, MATRIX_SYMMETRIC, MATRIX_SKEW } matrix_kind;
 
-/* Nonzero entries. Of symmetric and skew-symmetric matrices, only entries on and below the diagonal
- * are listed. */
+/* Nonzero entries. */
 typedef struct triplets {
     matrix_kind kind;
     int rows, columns, entries;
@@ -409,8 +391,8 @@ typedef struct state_space {
     double *A, *B, *C, *D;
 } state_space;
 
-/* Computes the state-space form. The caller frees *out, even after a failure. REFUSED: an output,
- * the masses or the stiffnesses do not allow a state-space form. */
+/* Computes the state-space form. The caller frees *out, even after a failure. REFUSED: there is no
+ * state-space form; the message gives the reason. */
 status state_space_of(const second_order *, state_space *out, fault *);
 void state_space_free(state_space *);
 
@@ -423,7 +405,6 @@ typedef struct state_space_loop {
     double times, proportional, derivative, integral;
 } state_space_loop;
 
-/* Closes the loops, and keeps only the first `outputs` outputs. */
 status state_space_close(state_space *, int inputs, int outputs, int loops,
                          const state_space_loop[], fault *);
 

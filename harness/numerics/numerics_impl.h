@@ -28,8 +28,6 @@ typedef struct candidates {
 
 status candidates_alloc(candidates *p, const eigen_problem *problem, double sign, fault *f);
 void candidates_free(candidates *p);
-/* Returns a lower estimate of the largest |mu|, from a few powers of K^-1 A; 0: A contains only
- * rounding errors. */
 double candidates_scale(candidates *p, long *solutions);
 /* Returns 1 if x^T A x could be as large as `energy` because of rounding alone. */
 int candidates_is_rounding(const candidates *p, double energy, const double x[]);
@@ -39,8 +37,7 @@ double candidates_departure(const candidates *p, int count);
 /* Makes all later solutions K^-1 A x use K_product, with iterative refinement until the current
  * departure is reduced by a factor of 1e-6. */
 status candidates_refine(candidates *p, int count, fault *f);
-/* Returns the threshold below which values are rounding errors of the largest value `scale`. In a
- * slender structure with n unknowns, n^(3/2) rounding errors add up. */
+/* Returns the threshold below which values are rounding errors of the largest value `scale`. */
 double candidates_least(int n, double scale);
 /* Adds the vectors x[count x n], which may have any norm. Omits vectors with mu <= least. */
 status candidates_add(candidates *p, int count, const double x[], double least, fault *f);
@@ -48,8 +45,7 @@ status candidates_add(candidates *p, int count, const double x[], double least, 
 status candidates_take(candidates *p, int count, double *x, double least, fault *f);
 /* Returns K times each candidate, [count x n], which the caller frees; NULL: out of memory. */
 double *candidates_products(const candidates *p);
-/* Computes the residual of candidate i and the estimated error of its mu, both relative to mu. This
- * needs one solution. */
+/* Computes the residual of candidate i and the estimated error of its mu, both relative to mu. */
 void candidates_evaluate(candidates *p, int i, double *residual, double *error);
 
 /* Sets *missing to the number of eigenvalues that are missing among the candidates and are clearly
@@ -57,13 +53,10 @@ void candidates_evaluate(candidates *p, int i, double *residual, double *error);
  * NOT_CONVERGED: the inertia counts fewer eigenvalues than were found, or cannot be computed. */
 status candidates_count_missing(candidates *p, int wanted, int *missing, eigen_result *work,
                                 fault *f);
-/* Frees the memory used for counting if it is large. The next count allocates it again. */
+/* Frees the memory used for counting if it is large. */
 void candidates_count_rest(candidates *p);
 /* Sets *above to the number of eigenvalues larger than s > 0. */
 status candidates_count_above(candidates *p, double s, int *above, eigen_result *work, fault *f);
-
-/* Growing real basis V of a quadratic eigenvalue problem, which is orthonormal with respect to K +
- * shift M, and the projected matrices. */
 
 typedef struct subspace {
     eigen_product *S; /* computes y = S x, where S = K + shift M is positive definite */
@@ -80,9 +73,6 @@ void subspace_free(subspace *b);
 /* Adds the component of x that is orthogonal to the basis. Returns 1 if this component is not zero
  * and the basis was not full. */
 int subspace_add(subspace *b, const double x[]);
-
-/* Approximate eigenpairs of (lambda^2 M + lambda G + K) x = 0 in a subspace, from dense problems of
- * twice its size (LAPACK). */
 
 typedef struct ritz {
     int room, count,
@@ -103,8 +93,7 @@ static const double ritz_imaginary = 1e-7;
 
 status ritz_alloc(ritz *r, int room, const subspace *b, fault *f);
 void ritz_free(ritz *r);
-/* Solves with S = K. The problem is Hermitian, and every lambda is imaginary. Only values with a
- * positive imaginary part are returned. */
+/* Solves with S = K. Only values with a positive imaginary part are returned. */
 status ritz_hermitian(const subspace *b, ritz *r, fault *f);
 /* Solves with S = K + shift M. */
 status ritz_general(const subspace *b, double shift, ritz *r, fault *f);
@@ -154,15 +143,15 @@ void factor_symmetric_free(factor_symmetric *fs);
  * sum. */
 status factor_symmetric_numeric(factor_symmetric *fs, const sparse *a, factor_counts *counts,
                                 int *weakest, double *ratio);
-/* Solves in place for `columns` right-hand sides. Their starts are `stride` numbers apart. */
+/* Solves in place for `columns` right-hand sides. */
 void factor_symmetric_solve(factor_symmetric *fs, int columns, int stride, double x[]);
 
-/* LU of a sparse unsymmetric matrix with partial pivoting (SuiteSparse KLU). */
+/* LU of a sparse unsymmetric matrix (SuiteSparse KLU). */
 
 typedef struct factor_unsymmetric factor_unsymmetric;
 
 void factor_unsymmetric_free(factor_unsymmetric *fu);
-/* Solves in place for `columns` right-hand sides. Their starts are `stride` numbers apart. */
+/* Solves in place for `columns` right-hand sides. */
 void factor_unsymmetric_solve(factor_unsymmetric *fu, int columns, int stride, double x[]);
 void factor_unsymmetric_solve_transposed(factor_unsymmetric *fu, double x[]);
 
@@ -179,9 +168,9 @@ status gyroscopic_count(const sparse *K, const sparse *M, const sparse *G, doubl
  * belongs to a mode, so negative(K) = real + 2 complex + 2 opposed. The three numbers on the right
  * count the real lambda > 0, the lambda = a + i b with a, b > 0, and the frequencies with a
  * negative energy x^H (K + omega^2 M) x (T. Kapitula, P. Kevrekidis, B. Sandstede, Physica D 195
- * (2004) 263-282). If the modes explain all negative eigenvalues, none is missing. The number of
- * negative eigenvalues of K - omega^2 M + i omega G is then that of K, plus one for each frequency
- * with positive energy below omega, minus one for each opposed frequency below omega. */
+ * (2004) 263-282). The number of negative eigenvalues of K - omega^2 M + i omega G is then that of
+ * K, plus one for each frequency with positive energy below omega, minus one for each opposed
+ * frequency below omega. */
 
 typedef struct gyroscopic_index {
     int negative; /* number of negative eigenvalues of K that the modes explain */
@@ -216,14 +205,12 @@ status lanczos_largest(const lanczos_problem *p, int wanted, int *found, double 
                        long *solutions, fault *f);
 
 /* Replaces the candidates by Ritz vectors of K^-1 A times the candidates, computed with refined
- * solutions (candidates_refine). Components outside the span of the candidates are reduced by the
- * ratio of their mu to that of the candidate. This needs one refined solution per candidate. */
+ * solutions (candidates_refine). */
 status polish(candidates *p, long *solutions, fault *f);
 
-/* Computes the values of L and D in P A P^T = L D L^T, row by row. Consecutive rows with entries in
- * the same columns are computed together, one in each lane. Consecutive columns with the same
- * pattern are subtracted together. The terms of every number are summed in the order of the
- * columns, so all numbers agree bitwise with those of SuiteSparse's ldl_numeric. */
+/* Computes the values of L and D in P A P^T = L D L^T, row by row. The terms of every number are
+ * summed in the order of the columns, so all numbers agree bitwise with those of SuiteSparse's
+ * ldl_numeric. */
 
 enum { TRIANGULAR_LANES = 4, TRIANGULAR_RUN = 7 };
 
@@ -256,7 +243,7 @@ static inline int triangular_column_of(int place)
 }
 
 /* Computes the rows. Returns 0 if a pivot is zero; this row and the following rows are then not
- * computed. The second function is for processors with AVX2 (elements/math/real.h). */
+ * computed. */
 int triangular_rows_factor_plain(const triangular_rows *, const double a[]);
 int triangular_rows_factor_avx2(const triangular_rows *, const double a[]);
 
@@ -286,9 +273,7 @@ int triangular_groups_find(const triangular_pattern *, int L_row[], triangular_g
 void triangular_groups_place(const triangular_groups *, const int column[], int row[]);
 void triangular_groups_free(triangular_groups *);
 
-/* Solves P^T L D L^T P x = b for one or several right-hand sides. Terms are summed in the order of
- * SuiteSparse's ldl_lsolve and ldl_ltsolve, so the bits do not depend on the number of right-hand
- * sides that are solved together. */
+/* Solves P^T L D L^T P x = b for one or several right-hand sides. */
 
 enum { TRIANGULAR_TOGETHER = 4 };
 
@@ -306,8 +291,7 @@ typedef struct triangular_factors {
 } triangular_factors;
 
 /* Solves in place. x: `columns` right-hand sides of length n, whose starts are `stride` numbers
- * apart. work: [TRIANGULAR_TOGETHER n]. The second function is for processors with AVX2
- * (elements/math/real.h). */
+ * apart. work: [TRIANGULAR_TOGETHER n]. */
 void triangular_solve_plain(const triangular_factors *, int columns, int stride, double x[],
                             double work[]);
 void triangular_solve_avx2(const triangular_factors *, int columns, int stride, double x[],

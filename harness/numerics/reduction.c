@@ -17,12 +17,11 @@ static status no_memory(fault *f)
     return fault_set(f, STATUS_FAULT, "out of memory for a reduced model");
 }
 
-/* A basis under construction. The columns of V follow one another. */
 typedef struct reduction {
     const second_order *m;
-    int inner, edge; /* numbers of coordinates outside and in the interface */
-    int *of;         /* [n] coordinates, inner coordinates first */
-    double *K;       /* [inner^2] symmetric stiffness, which becomes its Cholesky factor */
+    int inner, edge;
+    int *of;      /* [n] coordinates, inner coordinates first */
+    double *K;    /* [inner^2] symmetric stiffness, which becomes its Cholesky factor */
     double *mode; /* [inner^2] K-orthonormal modes, by columns, with the highest frequency first */
     double *mu;   /* [inner] 1/w^2 of the modes */
     double *V;
@@ -61,8 +60,7 @@ static status decompose(reduction *b, fault *f)
 }
 
 /* Sets the number of modes. REFUSED: it exceeds the number of coordinates with mass, apart from
- * rounding errors. Modes with the same frequency are kept together: one mode of a pair has an
- * arbitrary direction, which would couple planes that are independent. */
+ * rounding errors. */
 static status take_modes(reduction *b, int modes, fault *f)
 {
     const double same = 1e-6;
@@ -81,7 +79,6 @@ static status take_modes(reduction *b, int modes, fault *f)
     return STATUS_OK;
 }
 
-/* Sets the inner coordinates of out[n] to sign K^-1 force[inner]. Overwrites `force`. */
 static void solve_inner(const reduction *b, double force[], double sign, double out[])
 {
     LAPACKE_dpotrs(LAPACK_COL_MAJOR, 'L', b->inner, 1, b->K, b->inner, force, b->inner);
@@ -89,8 +86,6 @@ static void solve_inner(const reduction *b, double force[], double sign, double 
         out[b->of[i]] = sign * force[i];
 }
 
-/* Adds the static shape of a force without the component that V already contains, unless nothing
- * remains. */
 static void add_shape(reduction *b, const double force[], double room[])
 {
     const int n = b->inner;
@@ -147,8 +142,6 @@ static void build(reduction *b, double room[])
     }
 }
 
-/* Assembles left, right [size x reduced size]. Only `right` includes the static shapes of motions.
- * */
 static void assemble(const reduction *b, double left[], double right[])
 {
     const second_order *m = b->m;
@@ -289,7 +282,7 @@ status second_order_frequencies(const second_order *m, double hertz[], fault *f)
         }
     const int info =
         n == 0 ? 0 : LAPACKE_dsygv(LAPACK_COL_MAJOR, 1, 'N', 'L', m->n, M, m->n, K, m->n, mu);
-    for (size_t i = 0; i < n; i++) /* there are none if the structure is free */
+    for (size_t i = 0; i < n; i++)
         hertz[i] =
             info == 0 && mu[n - 1 - i] > 0 ? 1 / sqrt(mu[n - 1 - i]) / (2 * PI) : (double)NAN;
     free(K);

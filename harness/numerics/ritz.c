@@ -39,7 +39,7 @@ static double complex *left_coefficients(const subspace *b, const ritz *r, int i
     return r->left + (size_t)i * (size_t)b->room;
 }
 
-enum { RITZ_BEHIND = 8 /* number of columns after the end of a matrix */ };
+enum { RITZ_BEHIND = 8 };
 
 static void normalise(int k, double complex c[])
 {
@@ -81,8 +81,6 @@ static void hermitian_matrix(const subspace *b, const double R[], double complex
         }
 }
 
-/* Stores the pairs for mu[found], which is in ascending order. Skips infinite frequencies, whose
- * modes have no mass. */
 static void take_hermitian(const subspace *b, int found, const double mu[], const double complex *z,
                            ritz *r)
 {
@@ -189,8 +187,7 @@ static void insert(const subspace *b, ritz *r, double complex lambda, const doub
 
 /* Fills the column-major matrices of nu [Kp, 0; 0, 1] z = [-Gp, -R^T; R, 0] z, where nu = 1/lambda,
  * z = (x, lambda R x), Mp = R^T R and Kp = 1 - shift Mp. A massless mode is a simple eigenvalue nu
- * = 0. If lambda x replaced lambda R x, it would be a double eigenvalue, which rounding splits by
- * the square root of the rounding error. */
+ * = 0. */
 static void general_matrices(const subspace *b, double shift, const double R[], double A[],
                              double B[])
 {

@@ -232,7 +232,7 @@ status triplets_of(const sparse *a, int skew, triplets *out, fault *f)
         for (int k = a->column[j]; k < a->column[j + 1]; k++) {
             if (!a->symmetric)
                 add(out, a->row[k], j, a->value[k]);
-            else if (!skew || a->row[k] != j) /* entry mirrored from the upper triangle */
+            else if (!skew || a->row[k] != j)
                 add(out, j, a->row[k], skew ? -a->value[k] : a->value[k]);
         }
     return STATUS_OK;
@@ -299,7 +299,7 @@ status memory_append(void *list, int *count, const void *entry, size_t size, con
     char *entries;
     memcpy(&entries, list, sizeof entries);
     const size_t n = (size_t)*count;
-    if ((n & (n - 1)) == 0) { /* the capacity doubles when the count is a power of two */
+    if ((n & (n - 1)) == 0) {
         char *const grown = realloc(entries, (n == 0 ? 1 : 2 * n) * size);
         if (grown == NULL)
             return fault_set(f, STATUS_FAULT, "out of memory for %s", what);

@@ -25,7 +25,7 @@ typedef struct split {
     double shift;  /* shift of the squares of frequencies */
     double *still; /* [rigid x (masses + slow + motions + inputs)] eliminated coordinates as
                       functions of the others */
-    double *row, *of_input; /* [states x states], [states x inputs] */
+    double *row, *of_input;
 } split;
 
 static status no_memory(fault *f)
@@ -115,7 +115,7 @@ static int range_of(split *s, const double A[], const double scale[], int from, 
         else
             count = 0;
         const double none = 1e-12 * (size > 0 ? mu[size - 1] : 0);
-        for (size_t k = 0; k < size && count >= 0; k++) { /* the largest eigenvalue comes first */
+        for (size_t k = 0; k < size && count >= 0; k++) {
             const size_t at = size - 1 - k;
             count += mu[at] > none && mu[at] > 0;
             for (size_t i = 0; i < n; i++) {
@@ -133,7 +133,6 @@ static int range_of(split *s, const double A[], const double scale[], int from, 
     return count;
 }
 
-/* Separates the coordinates with mass. The coordinates do not change if all have mass. */
 static status split_masses(split *s, fault *f)
 {
     const size_t n = (size_t)s->n;
@@ -155,7 +154,6 @@ static status split_masses(split *s, fault *f)
     return outcome;
 }
 
-/* Separates the coordinates with damping among those without mass. */
 static status split_dampers(split *s, fault *f)
 {
     const size_t n = (size_t)s->n, from = (size_t)s->masses;
@@ -247,7 +245,6 @@ static status decompose(split *s, double L[], double G[], double V[], int *posit
     *positive = relative(s, L, G);
     if (!*positive)
         return STATUS_OK;
-    /* G := R L^-T: the transpose of L^-1 R^T */
     memset(V, 0, p * p * sizeof *V);
     for (size_t i = 0; i < p; i++)
         for (size_t j = 0; j <= i; j++)
@@ -266,8 +263,6 @@ static status decompose(split *s, double L[], double G[], double V[], int *posit
     return STATUS_OK;
 }
 
-/* Computes the undamped modes of the coordinates with mass. If the structure is free, K is shifted
- * by the lowest square of a frequency that is not zero. */
 static status take_modes(split *s, double L[], double G[], double V[], fault *f)
 {
     const size_t n = (size_t)s->n, p = (size_t)s->masses;
@@ -329,7 +324,7 @@ static status find_modes(split *s, fault *f)
         double square = s->w[i] * s->w[i] - s->shift;
         if (fabs(square) <= 1e-9 * s->shift)
             square = 0;
-        for (size_t j = 0; j < p; j++) { /* the symmetric part is diagonal */
+        for (size_t j = 0; j < p; j++) {
             const double skew = 0.5 * (s->K[i * n + j] - s->K[j * n + i]);
             if (j > i) {
                 s->K[i * n + j] = skew;
@@ -368,8 +363,7 @@ static void force_on(const split *s, size_t r, double times, const double *slow_
         if (m->motion_of[j] >= 0)
             of_input[j] -= times * s->moved[2][r * motions + (size_t)m->motion_of[j]];
     }
-    for (size_t i = 0; i < (size_t)s->rigid;
-         i++) { /* motions and inputs also act through eliminated coordinates */
+    for (size_t i = 0; i < (size_t)s->rigid; i++) {
         const double k = times * s->K[r * n + first + i];
         for (size_t j = 0; j < motions; j++)
             to[first + j] += k * s->still[i * width + first + j];

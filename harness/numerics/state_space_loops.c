@@ -77,8 +77,6 @@ static status find_factors(closing *c, fault *f)
                       : STATUS_OK;
 }
 
-/* Returns the position of the integral of a loop, after the states and references. Integrals that
- * are not used are skipped. */
 static int position(const closing *c, int loop)
 {
     int at = c->of->states + c->loops;
@@ -87,8 +85,6 @@ static int position(const closing *c, int loop)
     return at;
 }
 
-/* Stores a row of the new state-space form. The row is given as a function of states, references,
- * all integrals and inputs. */
 static void keep_row(const closing *c, const double row[], double A[], double B[])
 {
     const size_t known = (size_t)c->of->states + (size_t)c->loops;

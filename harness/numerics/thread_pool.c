@@ -1,5 +1,3 @@
-/* Worker threads wait actively for a short time before they sleep, because the loops of an
- * iteration follow each other within microseconds. */
 #include "harness/numerics/numerics.h"
 
 #include <pthread.h>
@@ -122,7 +120,6 @@ void thread_pool_run(thread_pool *t, int count, thread_pool_work *work, void *co
     int spins = 0;
     while (atomic_load_explicit(&t->left, memory_order_acquire) > 0)
         if (++spins > SPINS)
-            /* the parts are equal, so this wait is short unless there are too few processors */
             sched_yield();
 }
 
@@ -131,11 +128,10 @@ typedef struct relay {
     thread_pool_take *take;
     void *context;
     int pieces;
-    atomic_int claimed, taken;            /* number of pieces so far */
+    atomic_int claimed, taken;
     atomic_int filled[THREAD_POOL_SLOTS]; /* index of the piece in the slot, plus one */
 } relay;
 
-/* Fills the next piece if there is one and its slot is free. Returns 1 if it was filled. */
 static int fill_next(relay *r)
 {
     int piece = atomic_load(&r->claimed);
@@ -164,7 +160,6 @@ static void follow(relay *r)
             wait_a_moment(&spins);
 }
 
-/* Uses filled pieces in order, and fills further pieces while the next piece is not ready. */
 static void lead(relay *r)
 {
     int spins = 0, wanted = 1;
@@ -177,7 +172,7 @@ static void lead(relay *r)
         } else if (!fill_next(r))
             wait_a_moment(&spins);
     }
-    atomic_store(&r->claimed, r->pieces); /* no further piece is needed */
+    atomic_store(&r->claimed, r->pieces);
 }
 
 static void relay_member(void *context, int first, int end)

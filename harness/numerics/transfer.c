@@ -49,8 +49,6 @@ static void take(const transfer *t, double complex out[])
         }
 }
 
-/* Sets the scale of each coordinate to the largest diagonal entry of D among coordinates of its
- * kind, because rounding mixes the directions of a node if its axes are skew. */
 static void scale(const transfer *t, const char kind[])
 {
     const second_order *m = t->m;

@@ -21,14 +21,12 @@ static int find_row(const triangular_pattern *of, int k)
     return top;
 }
 
-/* Returns 1 if the rows of column j are j + 1 and the rows of column j + 1. */
 static int is_nested(const triangular_pattern *of, int j)
 {
     return of->parent[j] == j + 1 &&
            of->begin[j + 1] - of->begin[j] == of->begin[j + 2] - of->begin[j + 1] + 1;
 }
 
-/* Returns the number of columns, starting with the first of `count` columns, that form a run. */
 static int run_length(const triangular_pattern *of, int count, const int column[])
 {
     const int most = count < TRIANGULAR_RUN ? count : TRIANGULAR_RUN;
@@ -39,8 +37,6 @@ static int run_length(const triangular_pattern *of, int count, const int column[
     return length;
 }
 
-/* Splits the columns into runs, which are stored in `run` unless it is NULL. Returns the number of
- * runs. */
 static int split(const triangular_pattern *of, int count, const int column[], triangular_run run[])
 {
     int runs = 0;
@@ -86,7 +82,6 @@ static void find(const triangular_pattern *of, int work[], int L_row[], triangul
     out->run_of_group[out->groups] = runs;
 }
 
-/* Finds the runs of columns. work: [n]. */
 static int find_columns(const triangular_pattern *of, int work[], triangular_groups *out)
 {
     for (int k = 0; k < of->n; k++)

@@ -6,7 +6,6 @@
 
 enum { ROWS = TRIANGULAR_LANES };
 
-/* One number per row. The addresses may be aligned only for doubles. */
 typedef double lanes
     __attribute__((vector_size(ROWS * sizeof(double)), aligned(sizeof(double)), may_alias));
 
@@ -84,8 +83,6 @@ use_run(const triangular_rows *t, triangular_run run, int rows, lanes own[ROWS])
     }
 }
 
-/* Computes the diagonal block of the rows, after all previous columns. Returns 0 if a pivot is
- * zero. */
 static inline __attribute__((always_inline)) int factor_own(const triangular_rows *t, int first,
                                                             int rows, lanes own[ROWS])
 {
