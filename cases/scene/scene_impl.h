@@ -27,6 +27,11 @@ status scene_validate_node(const scene *s, int i, fault *f);
  * with the entry and the remedy in f. */
 status scene_validate_plane(const scene *s, fault *f);
 
+/* Returns 1 if the body of the node is connected to a member or a spring. */
+int scene_is_joined(const scene *s, int node);
+/* Checks that members, springs, supports, motions or constraints carry a load at a node. */
+status scene_validate_carried(const scene *s, int load, fault *f);
+
 /* Checks the released ends of one member. Releases must not separate an end completely or leave the
  * member free to move. */
 status scene_validate_release(const scene *s, int member, fault *f);

@@ -388,7 +388,8 @@ static status check_load(const scene *s, int i, fault *f)
     TRY(check_range(s, i, f));
     TRY(check_feedback(s, i, f));
     TRY(check_tension(s, i, f));
-    return check_load_kind(s, i, f);
+    TRY(check_load_kind(s, i, f));
+    return scene_validate_carried(s, i, f);
 }
 
 static status check_numbers(const scene *s, fault *f)

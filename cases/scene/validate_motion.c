@@ -345,7 +345,13 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
                              scene_called(s, SCENE_ANALYSES, i).text, component_name[c],
                              scene_called(s, SCENE_NODES, what->node).text);
     }
-    return STATUS_OK;
+    return n == NULL || scene_is_joined(s, what->node) || scene_is_constrained(s, what->node, ~0u)
+               ? STATUS_OK
+               : fault_set(f, STATUS_REFUSED,
+                           "%s: no member, spring or constraint moves %s; join one to this node, "
+                           "or name another node",
+                           scene_called(s, SCENE_ANALYSES, i).text,
+                           scene_called(s, SCENE_NODES, what->node).text);
 }
 
 /* Checks small motions in rotating axes. Undamped modes would omit Coriolis forces. */

@@ -67,25 +67,6 @@ static int is_inertia(const double I[6])
            A[2] * A[0] - zx * zx >= -small * half && determinant >= -small * half * half;
 }
 
-static int is_at(const scene *s, int end, int body)
-{
-    return end >= 0 && end < s->nodes && (end == body || s->node[end].attached == body);
-}
-
-/* Returns 1 if the body of the node is connected to a member or a spring, or if a constraint
- * contains the node. */
-static int is_reached(const scene *s, int node)
-{
-    const int body = s->node[node].attached == SCENE_NONE ? node : s->node[node].attached;
-    for (int i = 0; i < s->members; i++)
-        if (is_at(s, s->member[i].p, body) || is_at(s, s->member[i].q, body))
-            return 1;
-    for (int i = 0; i < s->springs; i++)
-        if (is_at(s, s->spring[i].p, body) || is_at(s, s->spring[i].q, body))
-            return 1;
-    return scene_is_constrained(s, node, ~0u);
-}
-
 static status check_body(const scene *s, int i, fault *f)
 {
     const scene_node *n = &s->node[i];
@@ -100,7 +81,7 @@ static status check_body(const scene *s, int i, fault *f)
                          "%s: no body has this inertia, because a principal moment exceeds the sum "
                          "of the other two; correct the inertia",
                          scene_called(s, SCENE_NODES, i).text);
-    if (!is_reached(s, i))
+    if (!scene_is_joined(s, i) && !scene_is_constrained(s, i, ~0u))
         return fault_set(f, STATUS_REFUSED,
                          "%s: the mass is not connected; join a member or a spring to the node, or "
                          "remove the mass",
