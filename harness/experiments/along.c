@@ -14,8 +14,7 @@
 enum { SIX = 6, END = 1 };
 
 static const double L = 0.7, force = 3, moment = 2; /* [m, N/m, N m/m] */
-static const double rounding =
-    1e-8; /* allowed rounding error, relative to the value of a cantilever */
+static const double rounding = 1e-8;
 
 typedef enum support { CANTILEVER, CLAMPED, PROPPED, HINGED, SUPPORTS } support;
 static const char *const support_name[SUPPORTS] = {
@@ -48,7 +47,7 @@ static void make_scene(support of, scene *s)
     section_spec spec = section_spec_rectangle(70e3, 27e3, 0.3, 0.2);
     spec.given.Iw = 0;
     spec.shear_factor[0] = 5.0 / 6;
-    spec.shear_factor[1] = 0.4; /* the two factors differ, so exchanged factors are detected */
+    spec.shear_factor[1] = 0.4;
     scene_init(s, "along");
     const int profile = scene_add_section(s, &spec), from = scene_add_node(s, 0, 0, 0),
               to = scene_add_node(s, L, 0, 0);
@@ -96,7 +95,7 @@ static double shear_of(const formulation *chosen, const section *c, int plane)
 }
 
 /* Measures the flexibilities of one element as a cantilever. REFUSED: the element is not exact for
- * forces and moments at its end. No treatment of loads along the element can then be exact. */
+ * forces and moments at its end. */
 static status measure(const formulation *chosen, softness *out, fault *f)
 {
     double C[SIX * SIX];
@@ -129,8 +128,6 @@ static status measure(const formulation *chosen, softness *out, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the exact displacements and reactions in the axial or torsional component c due to a
- * uniform load. */
 static void exact_along(support of, double soft, double load, int c, ends *out)
 {
     const int both = held[of][END] >> c & 1;
@@ -170,7 +167,6 @@ static void exact_across(support of, const softness *soft, int k, double along, 
     end[z] = sign * (of == CLAMPED ? M : t + vt * R + root);
 }
 
-/* Computes the exact displacements and reactions. q: uniform forces [N/m] and moments [N m/m]. */
 static ends exact_ends(support of, const softness *soft, const double q[SIX])
 {
     ends out;
@@ -239,20 +235,15 @@ static void compare(const formulation *chosen, support of, const softness *soft,
     }
 }
 
-/* Checks of the function `along`. Types supply it if they include distributed loads in the
- * equilibrium of the element. */
 enum { X = ELEMENT_ALONG_COORDINATES, M = TEST_ELEMENT_STRAINS, RELAXATIONS = 40, FINER = 50 };
 
 typedef struct taken {
     const test_element *s;
     const node_state *x;
     double q[3 * ELEMENT_ALONG_POINTS];
-    /* inner unknowns of the state x, from which the iteration for a neighbouring state starts */
     double *inner;
 } taken;
 
-/* Computes the forces on the nodes with converged inner unknowns. K not NULL: also computes the
- * stiffness, and stores the inner unknowns in of->inner. */
 static status forces_under(const taken *of, const node_state x[], double F[X], double K[X * X])
 {
     const test_element *s = of->s;

@@ -81,8 +81,6 @@ static int assemble(const batch_label *b, const void *bytes, size_t size, char *
     return fclose(to) != 0 || bad ? -1 : 0;
 }
 
-/* Synchronises the folder with the disk, so its entries survive a power failure. An error is
- * ignored. */
 static void keep_names(const char *folder)
 {
     const int there = open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC);
@@ -92,8 +90,6 @@ static void keep_names(const char *folder)
     }
 }
 
-/* Writes the file under a lock, which shows other processes that the writer is running. The lock
- * ends when the file is closed or the process ends. */
 static status write_locked(const char *path, const char *bytes, size_t length, fault *f)
 {
     output file;
@@ -128,9 +124,7 @@ status batch_write(const char *folder, const batch_label *label, const void *byt
     return outcome;
 }
 
-/* Returns 1 if the writer of a temporary file has ended; the file is then not locked. The writer
- * may not have locked an empty file yet, so an empty file counts only if certainly_ended is 1 or
- * the file is older than OLD. */
+/* Returns 1 if the writer of a temporary file has ended; the file is then not locked. */
 static int is_orphan(const char *path, int certainly_ended)
 {
     enum { OLD = 60 }; /* [s] */
@@ -239,8 +233,7 @@ status batch_read_label(const char *path, batch_label *out, fault *f)
     return outcome;
 }
 
-/* Checks that exactly `size` bytes of results lie between the first and the last line. Afterwards,
- * the stream is at the first of these bytes. */
+/* Checks that exactly `size` bytes of results lie between the first and the last line. */
 static status check_size(FILE *from, const char *path, long size, fault *f)
 {
     const long begin = ftell(from);
@@ -301,7 +294,6 @@ status batch_belongs(const batch_label *b, const shard_work *w, const char *path
     return STATUS_OK;
 }
 
-/* Returns the processor time of this process and of the child processes that have ended. */
 static double processor_seconds(void)
 {
     static const int whose[] = {RUSAGE_SELF, RUSAGE_CHILDREN};

@@ -70,7 +70,6 @@ static status add(batch_store *s, const batch_label *label, const char *path, in
     return add_kind(s, &label->node, f);
 }
 
-/* Reads a file whose name is that of a batch of this work. A damaged file counts as missing. */
 static status look_inside(batch_store *s, const shard_work *w, const char *path, int batch,
                           int folder, FILE *messages, fault *f)
 {
@@ -94,7 +93,6 @@ static status look_inside(batch_store *s, const shard_work *w, const char *path,
     return outcome;
 }
 
-/* Returns REFUSED. The message describes the other work to which the batch in the file belongs. */
 static status refuse_other(const shard_work *w, const char *path, fault *f)
 {
     batch_label label;
@@ -165,7 +163,6 @@ void batch_store_free(batch_store *s)
     *s = (batch_store){.batches = 0};
 }
 
-/* Writes the ranges of missing batches. After MOST ranges, the list ends with dots. */
 static void write_ranges(FILE *to, const batch_store *s)
 {
     enum { MOST = 20 };
@@ -187,8 +184,6 @@ static void write_ranges(FILE *to, const batch_store *s)
     }
 }
 
-/* Writes the shards to which missing batches belong, if all labels give the same number of shards.
- * */
 static void write_shards(FILE *to, const batch_store *s, const shard_work *w)
 {
     int *shard = malloc(((size_t)s->batches + 1) * sizeof *shard);
@@ -383,8 +378,6 @@ static const char *answer_of(const char *name)
     return function();
 }
 
-/* Finds the name of the BLAS library. OpenBLAS has a function for this purpose. Other libraries are
- * identified by their file names. */
 static void name_blas(char *out, size_t size)
 {
     const char *config = answer_of("openblas_get_config"),

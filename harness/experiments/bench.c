@@ -10,10 +10,7 @@
 #include "harness/numerics/numerics.h"
 #include "harness/terminal/terminal.h"
 
-/* Measures the times of a sweep. floor: minimum processor time [s] of a round for one cell. At the
- * default point, the parts of an iteration are also measured, and, on one mesh of each formulation,
- * the run without elimination. At other points, long cells keep the time of their single run. dense
- * 1: the published algorithm is also timed. to: stream for the progress, or NULL. */
+/* Measures the times of a sweep. floor: minimum processor time [s] of a round for one cell. */
 static status timing_run(sweep *s, double floor, int dense, FILE *to, fault *f);
 
 enum { MOST = 64 };                        /* largest number of formulations */
@@ -29,8 +26,6 @@ static int all_formulations(formulation out[MOST])
     return count;
 }
 
-/* Excludes formulations that solve another model at the point, because their times must not be
- * ranked. */
 static void leave_out_others(sweep *s, int point)
 {
     for (int i = 0; i < s->seriess; i++) {
@@ -40,8 +35,6 @@ static void leave_out_others(sweep *s, int point)
     }
 }
 
-/* Plans a case at the given parameters, with the given formulations and meshes. The defaults are
- * all formulations, and the meshes of the case. */
 static status plan_case(const bench_request *r, const case_type *type, sweep *s, fault *f)
 {
     double parameter[CASE_MAX_PARAMETERS];
@@ -88,8 +81,6 @@ static status run(const void *requested, void *found, fault *f)
     return run_sweep(&r->cells, &b->sweep, f);
 }
 
-/* Adds the derived reference values of named cases, determines the verdicts, and measures the
- * times. */
 static status evaluate(const void *requested, void *found, fault *f)
 {
     const bench_request *r = requested;
@@ -214,8 +205,6 @@ static int at_defaults(const sweep *s, const series *one)
     return strcmp(s->point[one->point].name, "default") == 0;
 }
 
-/* Returns 1 if rounds are run for this cell. At points other than the default point, a long cell
- * keeps the time of its single run. */
 static int can_run(const sweep *s, const series *one, int mesh)
 {
     const solve_result *r = &one->cell[mesh].solve;
@@ -260,11 +249,9 @@ static double sum_of(const double part[PHASES])
     return sum;
 }
 
-/* Makes one run in which the time of each part of the iterations is measured, and keeps the times
- * of the fastest such run. Long cells have only one such run, in the last round. */
 static void read_phases(const cell_request *as_is, cell_timing *out)
 {
-    const double longest = 0.3; /* [s] longest run that is repeated in every round */
+    const double longest = 0.3;
     cell_request request = *as_is;
     cell_result cell;
     fault f = {""};
@@ -323,7 +310,6 @@ void rounds_pin(void)
     cpu_set_t only;
     CPU_ZERO(&only);
     CPU_SET(here >= 0 ? here : 0, &only);
-    /* an error is ignored: it only increases the scatter of the times */
     sched_setaffinity(0, sizeof only, &only);
 }
 
@@ -338,8 +324,6 @@ void rounds_single_thread(char **arguments)
         setenv(threads[i], "1", 1);
     }
     if (!single)
-        /* execv returns only if /proc is missing. The libraries then choose the number of
-         * threads. */
         execv("/proc/self/exe", arguments);
 }
 

@@ -1,5 +1,3 @@
-/* Guard words before and after every output. They reveal outputs that are not filled completely,
- * and changes of memory outside an output. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -21,7 +19,7 @@ static const uint64_t mark = 0x7ff4beadfacade01ULL;
 typedef struct guarded {
     const char *name;
     int size;
-    double *words; /* [GUARD + size + GUARD] */
+    double *words;
 } guarded;
 
 static double *guard(guarded *g, const char *name, int size)
@@ -41,7 +39,6 @@ static int untouched(const double *word)
     return bits == mark;
 }
 
-/* Checks an output and frees the guarded memory. must 1: the output must be filled completely. */
 static void look(guarded *g, int must, const test_element *s, check_results *c)
 {
     check_result *beside = checks_open(c, "no memory outside an output changes", 0),
@@ -255,11 +252,9 @@ void checks_bounds(const formulation *chosen, check_results *out)
     test_elements_each(chosen, out, check);
 }
 
-/* Checks for hidden states: the results of a call must depend only on its arguments. */
-
 enum { STATELESS_M = TEST_ELEMENT_STRAINS, STATELESS_N = TEST_ELEMENT_COORDINATES };
 
-static const double longer = 1.7 * 0.2385; /* [m] length of the second element */
+static const double longer = 1.7 * 0.2385;
 
 typedef struct call_account {
     status stress, inertia;
@@ -347,8 +342,7 @@ static void other_element(const test_element *s, const call_account *before, con
 }
 
 /* Prepares a longer element in the memory of the element, then prepares the element again, and
- * checks that its results are unchanged. Returns 0 if memory is exhausted or if the second
- * preparation fails. A failed preparation is recorded as a violation. */
+ * checks that its results are unchanged. */
 static int in_its_place(const test_element *s, const call_account *before, const node_state x[],
                         check_result *one)
 {
@@ -380,8 +374,6 @@ static int in_its_place(const test_element *s, const call_account *before, const
     return again;
 }
 
-/* Checks that an output requested alone has the same value as when it is requested together with
- * the others. */
 static void alone(const test_element *s, const call_account *before, const node_state x[],
                   check_result *one)
 {
@@ -397,8 +389,7 @@ static void alone(const test_element *s, const call_account *before, const node_
     s->type.stress(s->data, a.e, inner, &(stress_output){.sigma = a.sigma, .history = s->history});
     s->type.stress(s->data, a.e, inner,
                    &(stress_output){.energy = &a.energy, .history = s->history});
-    if (s->inner >
-        0) { /* not compared, because the last correction of the inner unknowns is not repeated */
+    if (s->inner > 0) {
         memcpy(a.sigma, before->sigma, sizeof a.sigma);
         memcpy(a.C, before->C, sizeof a.C);
         a.energy = before->energy;
@@ -442,7 +433,6 @@ static void make_longer(const test_element *s, const node_state x[], call_accoun
     test_element_free(&other);
 }
 
-/* Computes the results of the longer element in a new process, before any other call. */
 static void record_first_calls(const test_element *s, const node_state x[], call_account *out)
 {
     const pid_t parent = getpid();

@@ -19,10 +19,9 @@ enum {
                   are checked [ms] */
 };
 
-/* A process that runs one part of a certificate. The pipe closes when the process ends. */
 typedef struct tester {
     pid_t process;
-    int end; /* end of the pipe that is read; -1: no process is running */
+    int end;
     int late;
     double since; /* [s] time when the part started */
     certificate *of;
@@ -105,8 +104,6 @@ static status start(tester *t, certificate *of, int part, int time_limit, fault 
     return STATUS_OK;
 }
 
-/* Records that the process of a part has ended. An incomplete part is recorded as a violated
- * requirement. */
 static void handle_end(tester *t, int time_limit)
 {
     char words[100];
@@ -134,7 +131,6 @@ static void stop_late(tester *t, int time_limit)
     kill(t->process, SIGKILL);
 }
 
-/* Records that a part is not checked, because another part has exceeded the time limit. */
 static void pass_over(certificate *of, int part)
 {
     char why[CHECK_TEXT];
@@ -216,8 +212,7 @@ status certificate_find(const certificate_request *r, certificate **out, fault *
             kill(testers[i].process, SIGKILL);
             handle_end(&testers[i], 0);
         }
-    for (int i = 0; i < r->count;
-         i++) { /* the table is restored, because a part may have corrupted it */
+    for (int i = 0; i < r->count; i++) {
         all[i].chosen = r->chosen[i];
         if (r->hash != NULL)
             r->hash(r->chosen[i].type, all[i].hash);
@@ -247,8 +242,7 @@ check_outcome checks_outcome(const check_results *c)
     int held = 0;
     if (checks_counted(c, CHECK_FAILED) > 0)
         return CHECK_FAILED;
-    for (int i = 0; i < c->count;
-         i++) /* at least one requirement other than "prepare" must be satisfied */
+    for (int i = 0; i < c->count; i++)
         held |= c->check_result[i].outcome == CHECK_PASSED &&
                 strcmp(c->check_result[i].name, "prepare") != 0;
     return held ? CHECK_PASSED : CHECK_NOT_MADE;
@@ -320,8 +314,6 @@ static int nothing(const element_measure *one)
     return 1;
 }
 
-/* Writes a measurement in one line. path 1: the words of the measurement are a verdict, which is
- * always printed. */
 static void write_measure(FILE *to, const element_measure *one, int path, int verbose)
 {
     const int at = fprintf(to, "    %-*s ", MEASURE - 5, one->name);

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Certificates as tables for a publication, in CSV, Markdown or LaTeX. */
-
 enum {
     ROWS = MEASURES_MOST + 2,
     LONG = 50,
@@ -319,7 +317,7 @@ static void write_one(FILE *to, int latex, const certificate *c)
         "errors over numbers of elements, with observed and declared orders of convergence",
         ("changes due to superposed full turns and after closed cycles of deformation, 24 steps "
          "each")};
-    static paper_table t; /* too large for the stack of a thread */
+    static paper_table t;
     char words[CELL];
     write_about(to, latex, c);
     snprintf(words, sizeof words,
@@ -367,7 +365,6 @@ static void put_value(FILE *to, double value)
         fprintf(to, "%.17g", value);
 }
 
-/* Writes the first columns of a line: formulation, version, commit, hash, part and name. */
 static void csv_begin(FILE *to, const certificate *c, int part, const char *name)
 {
     const environment now = environment_now(1);

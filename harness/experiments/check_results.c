@@ -206,7 +206,7 @@ static section_spec spec_of(const beam_request *r)
     section_spec spec = section_spec_rectangle(210e9, 81e9, r->width, r->thickness);
     spec.given.Iw = 0;
     spec.shear_factor[0] = 5.0 / 6;
-    spec.shear_factor[1] = 0.4; /* different values, so exchanged factors are detected */
+    spec.shear_factor[1] = 0.4;
     if (r->profile)
         spec = i_profile();
     spec.density = 7800;
@@ -219,7 +219,6 @@ status beam_section(const beam_request *r, section *out)
     return section_compute(&spec, out, NULL);
 }
 
-/* Computes the position [m] of the point at arc length s [m] of the beam. */
 static void place(const beam_request *r, double s, double at[3])
 {
     const double radius = 2 / PI;

@@ -26,9 +26,6 @@ const checks_family checks_families[CHECKS_FAMILIES] = {
     {"history", "committing the history changes neither strains nor forces", checks_history},
 };
 
-/* Checks of invariance under rigid motions, under reversal of the node order, and under a change of
- * the unit of length. */
-
 enum { M = TEST_ELEMENT_STRAINS };
 
 static void rigid(const test_element *s, double size, const double turn[3], check_result *one)
@@ -84,9 +81,7 @@ static const char *energy_word(const test_element *s)
 }
 
 /* Checks that exchanging the nodes does not change the energy. The sections of the reversed element
- * are rotated by pi about y, and the warping amplitudes are unchanged. Additional unknowns are set
- * to zero, because their axes are not known. Curved elements are not checked, because their
- * reversal gives a different element. */
+ * are rotated by pi about y, and the warping amplitudes are unchanged. */
 static void node_order(const test_element *s, double size, check_result *one)
 {
     static const double half_turn[9] = {-1, 0, 0, 0, 1, 0, 0, 0, -1};
@@ -120,7 +115,6 @@ static void has_energy(const test_element *s, check_result *one)
         energy_word(s), s->words);
 }
 
-/* Checks the same element in m, mm and um: the energies in joules must be equal. */
 static void units(const test_element *s, check_result *one)
 {
     static const double unit[] = {1, 1e-3, 1e-6};
@@ -166,7 +160,7 @@ static void check(const test_element *s, check_results *c)
             node_order(
                 s, 0.05,
                 checks_open(c, "the energy does not change if the nodes are exchanged", 1e-9));
-        else /* relative to the energy, second-order terms are of the order of the strains */
+        else
             node_order(
                 s, 1e-5,
                 checks_open(c, "the energy does not change if the nodes are exchanged", 5e-5));
@@ -193,9 +187,6 @@ void checks_motion(const formulation *chosen, check_results *out)
         checks_not_made(out, "rigid motion changes no strain",
                         "the element provides forces with a history, which 'paths' checks");
 }
-
-/* Checks of states with NaN or Inf, which occur in diverging iterations. The element must return an
- * error status or values that are not finite. */
 
 enum { NONFINITE_M = TEST_ELEMENT_STRAINS };
 
@@ -240,8 +231,6 @@ static void corrupt(const test_element *s, double by, check_result *one)
         }
 }
 
-/* Checks that a NaN or Inf in a strain gives an error status, or an energy or stress that is not
- * finite, if the element has a stiffness for this strain. */
 static void corrupt_strains(const test_element *s, double by, check_result *one)
 {
     const double none[NONFINITE_M] = {0};

@@ -37,8 +37,6 @@ static double largest(int n, const double a[])
     return out;
 }
 
-/* Compares an entry with its finite-difference value. Both are multiplied by the unit of the
- * coordinate. size: largest entry for the same strain. */
 static void compare_J(const test_element *s, int strain, int c, double given, double found,
                       double size, check_result *one)
 {
@@ -152,15 +150,11 @@ void checks_derivatives(const formulation *chosen, check_results *out)
         checks_not_made(out, H_name, "not checked until J is correct");
 }
 
-/* Checks that many elements evaluated in one call give the same results as single calls. Elements
- * of two kinds alternate, and their states differ. */
-
 enum { MANY_M = TEST_ELEMENT_STRAINS, MANY_N = TEST_ELEMENT_COORDINATES, MANY = 5 };
 
-static const double longer = 1.7 * 0.2385; /* [m] length of an element of the second kind */
+static const double longer = 1.7 * 0.2385;
 static const char *const check_name = "many elements at once give the same results as each alone";
 
-/* Results of one element, without those that would be computed by finite differences. */
 typedef struct many_answers {
     status outcome;
     double e[MANY_M], J[MANY_M * MANY_N], H[MANY_N * MANY_N], energy, sigma[MANY_M],

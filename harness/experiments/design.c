@@ -50,7 +50,6 @@ static status check_box(const design *d, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the next point of the sequence: share[axes], with 0 <= share < 1. */
 static void next(const design *d, const design_mark *m, double share[])
 {
     if (m->quasi != NULL)
@@ -214,7 +213,6 @@ void axis_text(const sweep_axis *a, double value, char *text, int size)
     assignment_value_text(a->of, value, text, size);
 }
 
-/* Checks that the parameter may have this value, with the same messages as for --set. */
 static status check(const case_type *type, const sweep_axis *a, double value, fault *f)
 {
     const assignment_list list = parameters_list(type);
@@ -305,8 +303,6 @@ static status check_ends(const case_type *type, const sweep_axis *a, fault *f)
                          a->of->name, a->from, a->to);
     TRY(check(type, a, a->from, f));
     TRY(check(type, a, a->to, f));
-    /* an inner value is checked as well, because some parameters allow only separate values, such
-     * as 0 and 1 */
     return check(type, a, a->count > 2 || a->count == 0 ? axis_at(a, 0.5) : a->to, f);
 }
 

@@ -11,7 +11,6 @@ enum { ENERGY_M = TEST_ELEMENT_STRAINS };
 
 static const double moved_by = 0.02; /* size of the strains, in element lengths */
 
-/* State at which finite differences are computed. */
 typedef struct energy_place {
     const test_element *s;
     const double *e, *inner;
@@ -122,7 +121,6 @@ static void check_rest(const test_element *s, check_results *c)
                          i + 1, sigma[i], s->words);
 }
 
-/* Checks that G is symmetric and linear in the prestress. */
 static void check_geometric(const test_element *s, const double C[], check_results *c)
 {
     const int m = s->strains;
@@ -201,10 +199,6 @@ void checks_energy(const formulation *chosen, check_results *out)
     if (chosen->type->geometric == NULL)
         checks_not_made(out, "G is symmetric", "the element has no internal geometric stiffness");
 }
-
-/* Checks of the inertia in a rotating frame: the centrifugal force and stiffness derive from a
- * potential, and the gyroscopic matrix is skew-symmetric. For an element that rotates with the
- * frame, the kinetic energy is minus the centrifugal potential. */
 
 enum { N = TEST_ELEMENT_COORDINATES };
 
@@ -362,11 +356,9 @@ static double twisted_energy(const test_element *s, double angle)
     for (int k = 0; k < s->nodes; k++) {
         const double turn = angle * s->place[k];
         double *node = d + NODE_COORDINATES * k;
-        /* rotation about the shear centre, so there is no shear */
         node[1] = ys * (1 - cos(turn)) + zs * sin(turn);
         node[2] = zs * (1 - cos(turn)) - ys * sin(turn);
         node[3] = turn;
-        /* the element may use the sine of the twist angle as its strain */
         node[6] = sin(angle) / s->request.length;
     }
     test_element_state(s, 0, 1, straight);
@@ -375,8 +367,7 @@ static double twisted_energy(const test_element *s, double angle)
     return V;
 }
 
-/* Checks the effect of warping, which moves fibres along the beam and so changes their distances
- * from the axis of rotation. The potential of this effect is -1/2 int rho (omega a)^2 |Omega x
+/* Checks the effect of warping on the centrifugal potential: -1/2 int rho (omega a)^2 |Omega x
  * e_x|^2 dV, with the warping function omega, the warping amplitude a and the angular velocity
  * Omega. */
 static void warping(const test_element *s, check_result *one)
@@ -408,8 +399,6 @@ static void rotating_check(const test_element *s, check_results *c)
         warping(s, checks_open(c, "centrifugal energy of warping", 2e-4));
 }
 
-/* Makes all checks. To test terms separately, the checks of the rotating frame are repeated without
- * rotary inertia, without warping, and without warping and shear. */
 static void check_all(const test_element *s, check_results *c)
 {
     static const unsigned without[] = {FEATURE_ROTARY_INERTIA, FEATURE_WARPING,

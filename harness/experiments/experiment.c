@@ -140,8 +140,6 @@ static status store_found(const experiment_type *e, const void *found, const cha
     return store_write(path, e->name, c.sweep, c.evaluated, c.made, f);
 }
 
-/* Writes the files before the table, because writing the table fails if the program that reads it
- * has ended. */
 static status leave(const experiment_type *e, const experiment_output *to, const void *found,
                     fault *f)
 {

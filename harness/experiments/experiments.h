@@ -1,10 +1,5 @@
 /* experiments/: verification, sweeps, extremes, comparison of integrators, certificates of
- * elements, shards.
- *
- * Sections, in this order: against (two in alternation); batches; measures; experiment;
- * bench; checks of elements and certificates; convergence; design; extremes; integrators; sweeps
- * (ranges); shard; list; batch store; merge; meshes; tally; sweep files and tables; regressions;
- * solution; restart; runs_on; timing; verification. */
+ * elements, shards. */
 #ifndef BEAMWORK_EXPERIMENTS_H
 #define BEAMWORK_EXPERIMENTS_H
 
@@ -28,8 +23,7 @@
 #include "harness/study/study.h"
 
 /* Comparison of two formulations or programs that run alternately, so that a drift of the machine's
- * speed affects both equally. The result is that one is slower, or that the scatter is too large to
- * decide. */
+ * speed affects both equally. */
 
 typedef enum against_outcome { AGAINST_UNDECIDED, AGAINST_FASTER, AGAINST_SLOWER } against_outcome;
 
@@ -47,8 +41,7 @@ const char *against_name(against_outcome);
 
 /* Runs one lap of a program or formulation and writes its time [s] to *seconds. */
 typedef status against_lap(void *compared_run, double *seconds, fault *f);
-/* Runs as many pairs of laps as fit into `budget` [s], but at least 51 and at most 1001. The number
- * of pairs is fixed before the first measured pair. */
+/* Runs as many pairs of laps as fit into `budget` [s], but at least 51 and at most 1001. */
 status against_run(against_lap *lap, void *a, void *b, double budget, against_times *out, fault *f);
 
 typedef enum axis_kind { AXIS_LINEAR, AXIS_LOG, AXIS_LIST, AXIS_WORDS } axis_kind;
@@ -70,12 +63,10 @@ typedef struct machine {
     char blas[256]; /* BLAS library, and its kernels for this processor */
 } machine;
 
-/* Work that can be divided into batches; a verb supplies the functions. The batches depend only on
- * the request and the build, so independent processes make the same batches. */
+/* Work that can be divided into batches; a verb supplies the functions. */
 typedef struct shard_work {
     const char *verb;
-    /* The program, the request, and all other data that affect the results, in one line each. Two
-     * batches belong to the same work if all three lines are equal. */
+    /* The program, the request, and all other data that affect the results, in one line each. */
     const char *build, *request, *plan;
     const char *origin; /* JSON object with the data that merge needs to repeat the request; it is
                            not compared */
@@ -110,8 +101,7 @@ status batch_read_label(const char *path, batch_label *out, fault *f);
 void batch_label_free(batch_label *);
 
 /* Measured properties of a formulation: errors over meshes and over thicknesses, and orders of
- * convergence. The structure has a fixed size and no pointers, because it is stored in memory that
- * processes share. */
+ * convergence. Contains no pointers, because it is stored in memory that processes share. */
 
 enum { MEASURE_POINTS = 12, MEASURES_MOST = 16, MEASURE_NAME = 64, MEASURE_WORDS = 200 };
 
@@ -135,9 +125,7 @@ typedef struct measures {
     char words[MEASURE_WORDS]; /* text that applies to all measures; "": none */
 } measures;
 
-/* An experiment is planned, run and evaluated. One function then writes the results of any
- * experiment in the requested form. The results are either tables of records or the cells of a
- * sweep with their verdicts. */
+/* An experiment is planned, run and evaluated. */
 
 typedef struct experiment_cells {
     const sweep *sweep;
@@ -210,8 +198,8 @@ typedef struct bench {
 extern const experiment_type experiment_bench;
 void bench_free(bench *);
 
-/* A check of a formulation: the deviation from a requirement. The structure has a fixed size and no
- * pointers, because it is stored in memory that processes share. */
+/* A check of a formulation: the deviation from a requirement. Contains no pointers, because it is
+ * stored in memory that processes share. */
 
 enum { CHECK_NAME = 64, CHECK_TEXT = 400, CHECKS_MOST = 48 };
 
@@ -294,8 +282,6 @@ void test_element_free(test_element *s);
 /* Returns 1 if the type computes forces with a history, which need not derive from an energy. */
 int test_element_lacks_energy(const test_element *s);
 
-/* Computes the node states of the element: the undeformed state plus random numbers times `size`,
- * in units of length, radians and 1/length. */
 void test_element_state(const test_element *s, double size, unsigned seed, node_state x[]);
 /* Returns the unit of coordinate c (chart_unit). */
 double test_element_unit(const test_element *s, int c);
@@ -303,19 +289,17 @@ double test_element_unit(const test_element *s, int c);
 typedef void checks_run(const formulation *chosen, check_results *out);
 
 typedef struct checks_family {
-    const char *name, *what; /* name: one word; what: the requirement in one line */
+    const char *name, *what;
     checks_run *run;
 } checks_family;
 
 enum { CHECKS_FAMILIES = 15 };
 extern const checks_family checks_families[CHECKS_FAMILIES];
 
-/* Measurements made for every formulation, in groups. */
-
 typedef void measured_run(const formulation *chosen, check_results *, measures *out);
 
 typedef struct measured_group {
-    const char *name, *what; /* name: one word; what: an explanation of the numbers in one line */
+    const char *name, *what;
     measured_run *run;
 } measured_group;
 
@@ -323,8 +307,7 @@ enum { MEASURED_GROUPS = 4 };
 extern const measured_group measured_groups[MEASURED_GROUPS];
 
 /* Certificate of a formulation: results of the checks of the interface requirements, and measured
- * properties. Each part runs in its own process. A crash, an exceeded time limit or corrupted
- * memory is reported as the result of this part. */
+ * properties. */
 
 enum { CERTIFICATE_PARTS = CHECKS_FAMILIES + MEASURED_GROUPS };
 
@@ -368,8 +351,6 @@ typedef struct certificates {
  * frees. */
 extern const experiment_type experiment_element_test;
 
-/* Errors, orders and limits of several formulations for one case. */
-
 typedef struct convergence_request {
     const case_type *type;
     const double *parameter;
@@ -405,7 +386,6 @@ typedef enum design_kind { DESIGN_GRID, DESIGN_SOBOL, DESIGN_HALTON, DESIGN_RAND
 /* Words of the option --design, in the order of design_kind. */
 #define DESIGN_CHOICES "grid|sobol|halton|random"
 
-/* State of a sequence of points after a given number of points. */
 typedef struct design_mark {
     gsl_qrng *quasi;
     gsl_rng *random; /* generator of the sequence; one of the two members is NULL */
@@ -441,8 +421,6 @@ typedef enum outcome_kind {
     OUTCOME_KINDS
 } outcome_kind;
 
-/* Expected outcomes that are neither accurate nor under-resolved
- * (reference/extreme_findings.csv). */
 typedef struct extreme_deviation {
     char *extreme, *formulation, *quantity, *outcome,
         *proof;      /* texts; the first three may contain the wildcards * and ? */
@@ -456,7 +434,6 @@ typedef struct extreme_outcome {
     int point, series, neighbours;
     outcome_kind kind;
     double x, result, reference, error; /* the error is relative; NAN: none */
-    /* Errors on the other meshes; NAN: the error is not needed, or there is no value. */
     double neighbour_error[OUTCOME_NEIGHBOURS];
     const extreme_deviation *deviation;
     int as_expected;
@@ -499,7 +476,7 @@ typedef struct extreme_request {
 } extreme_request;
 
 /* For each extreme, a formulation must give a value with its error, or a rejection or failure with
- * a reason. A wrong value without a warning is never allowed. */
+ * a reason. */
 
 /* The request is an extreme_request. The result is an extreme_sweep, which extreme_sweep_free
  * frees. */
@@ -518,10 +495,9 @@ typedef struct integrators_method {
     int estimate; /* 1: the integrator estimates the error of every step */
 } integrators_method;
 
-/* Comparison of integrators for transient analysis: cost and accuracy. The reference uses the same
- * mesh, so all errors are due to time integration. */
+/* Comparison of integrators for transient analysis: cost and accuracy. */
 
-/* Classification of a motion. Without loads, the energy and the momenta must be conserved. */
+/* Classification of a motion. */
 typedef enum integrators_class {
     INTEGRATORS_UNCLASSIFIED, /* not classified, because loads or supports act until the end */
     INTEGRATORS_GROWS,        /* the energy grows by more than integrators_growth */
@@ -556,7 +532,6 @@ typedef struct integrators_run {
     integrators_class motion_class;
 } integrators_run;
 
-/* All motions of one structure that is computed with one mesh and formulation. */
 typedef struct integrators_group {
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
@@ -643,7 +618,7 @@ typedef struct motions {
 extern const experiment_type experiment_motion;
 void motions_free(motions *);
 
-/* Results of a sweep in columns. Batches are transferred and stored in this form. */
+/* Results of a sweep in columns. */
 
 /* Kind of reference from which an error is computed. */
 typedef enum rows_reference {
@@ -656,12 +631,11 @@ typedef enum rows_reference {
     ROWS_REFERENCES
 } rows_reference;
 
-/* Sizes of the columns, which are the same for all points. */
 typedef struct rows_shape {
     int formulations, meshes, quantities;
 } rows_shape;
 
-/* Columns of `points` points, in one memory block. The last index varies fastest. */
+/* Columns of `points` points, in one memory block. */
 typedef struct rows {
     rows_shape shape;
     int points;
@@ -683,8 +657,7 @@ typedef struct rows {
     uint8_t *status; /* [points, formulations, meshes] */
 } rows;
 
-/* A sweep over parameters. The points, formulations, meshes, quantities and batches depend only on
- * the request and the build. */
+/* A sweep over parameters. */
 
 enum { RANGES_FORMULATIONS = 64, RANGES_QUANTITIES = 64 };
 
@@ -700,7 +673,7 @@ typedef struct ranges_request {
     int formulations;
     const formulation *formulation; /* [formulations]; formulations 0: all that run the case */
     int meshes;
-    const int *mesh; /* [meshes]; meshes 0: those of the scene */
+    const int *mesh;
     const char *select;
     double tolerance;   /* relative tolerance of the errors */
     int time_limit;     /* [s] time limit of a cell; 0: none */
@@ -722,10 +695,8 @@ typedef struct parameter_ranges {
     formulation formulation[RANGES_FORMULATIONS];
     int mesh[SERIES_MAX_MESHES]; /* ascending */
     ranges_quantity quantity[RANGES_QUANTITIES];
-    char left_out[FAULT_TEXT]; /* text about formulations that run at none of the points that were
-                                  examined */
-    char omitted[SCENE_OMISSION_WORDS]; /* physics that the scene omits, at the first point that was
-                                           examined */
+    char left_out[FAULT_TEXT];
+    char omitted[SCENE_OMISSION_WORDS];
     /* assumptions on the sections (harness/records/records.h), at the first point that was
      * examined */
     char assumed[RANGES_ASSUMED];
@@ -740,8 +711,7 @@ status ranges_make(const ranges_request *request, parameter_ranges *out, fault *
 void ranges_free(parameter_ranges *);
 rows_shape ranges_shape(const parameter_ranges *);
 
-/* One shard of a work. Each batch of the shard is computed by a process, and written to a file as
- * soon as it is finished. */
+/* One shard of a work. */
 
 typedef struct shard_request {
     int index, count; /* index of the shard, starting at 0, and number of shards */
@@ -764,13 +734,9 @@ typedef struct shard_outcome {
 
 /* Reads "2/4" as index 1 and count 4. REFUSED: any other format. */
 status shard_parse(const char *text, int *index, int *count, fault *f);
-/* Computes the missing batches in decreasing order of cost. If a process ends without a result,
- * only its batch is lost. The next run of the shard computes this batch. REFUSED: the folder
- * contains batches of another work. FAULT: a disk error, a failed batch, or out of memory. The run
- * then ends, and completed batches are kept. */
+/* Computes the missing batches in decreasing order of cost. REFUSED: the folder contains batches of
+ * another work. FAULT: a disk error, a failed batch, or out of memory. */
 status shard_run(const shard_work *w, const shard_request *request, shard_outcome *out, fault *f);
-
-/* Lists in JSON, for `beamwork list --format json` and for the library. */
 
 /* Lists all cases if `cases` is 1, and all formulations with the features that they support if
  * `formulations` is 1. */
@@ -778,8 +744,6 @@ status list_json_all(FILE *to, int cases, int formulations, fault *f);
 /* Lists a case at given values of its parameters: these values, the quantities, and the
  * formulations that run the case. */
 status list_json_case(FILE *to, const case_type *type, const double value[], fault *f);
-/* Lists a formulation: its declarations, its options, its known deviations (null if `rules` is
- * NULL), and the cases that it runs. */
 status list_json_formulation(FILE *to, const formulation *chosen, const rule *rules, int count,
                              fault *f);
 
@@ -794,8 +758,6 @@ typedef struct list_subject {
 /* Finds the subject of a list. name: "cases", "formulations", or the name of a case or formulation;
  * NULL: everything. REFUSED: the name is unknown; the message suggests the most similar name. */
 status list_subject_find(const char *name, list_subject *out, fault *f);
-
-/* Existing batches of a work, in one or several folders. */
 
 typedef struct batch_store_kind {
     machine node; /* the first machine of this kind */
@@ -818,10 +780,9 @@ typedef struct batch_store {
 
 /* Reads and checks every byte of the requested batches (wanted NULL: all). If two folders contain
  * the same batch, the first folder is used. A damaged batch counts as missing and is reported to
- * the stream (may be NULL) in one line.
- * REFUSED: a batch belongs to another build, request or plan; a file has the name of a batch but is
- * not a batch; or two versions of a batch differ. FAULT: a folder cannot be read. Call
- * batch_store_free after a failure as well. */
+ * the stream (may be NULL) in one line. REFUSED: the folders do not belong to this work, or two
+ * versions of a batch differ. FAULT: a folder cannot be read. Call batch_store_free after a failure
+ * as well. */
 status batch_store_read(const shard_work *w, const char *const folder[], int folders,
                         const char *wanted, FILE *messages, batch_store *out, fault *f);
 void batch_store_free(batch_store *);
@@ -834,14 +795,11 @@ void batch_store_print_kinds(const batch_store *, FILE *to);
  * repeats the request of this batch. REFUSED: the folder has no readable batch. */
 status batch_store_first(const char *folder, batch_label *out, fault *f);
 
-/* Reads the batches of one or several folders in canonical order. Only one batch is in memory at a
- * time. */
+/* Reads the batches of one or several folders in canonical order. */
 
 /* Reads every existing batch. s: result of batch_store_read. FAULT: a batch can no longer be read.
  */
 status merge_read(const shard_work *w, const batch_store *s, fault *f);
-
-/* Numbers of elements, from the option -n. */
 
 enum { MESHES_FINEST = 10000000 };
 
@@ -849,8 +807,7 @@ enum { MESHES_FINEST = 10000000 };
  * REFUSED: an item is not an integer from 1 to MESHES_FINEST, or there are too many items. */
 status meshes_parse(const char *list, int most, int mesh[], int *count, fault *f);
 
-/* Summary of a sweep, accumulated point by point. For each formulation: the number of points within
- * the tolerance on each mesh, and the points with the largest errors. */
+/* Summary of a sweep, accumulated point by point. */
 
 enum { TALLY_WORST = 3, TALLY_COLUMNS = 10, TALLY_ROWS = 12, TALLY_SCENE = 64 };
 
@@ -862,9 +819,7 @@ typedef struct tally_worst {
     char scene[TALLY_SCENE]; /* name of the scene file of the point; empty: not stored */
 } tally_worst;
 
-/* Counts of a formulation for one quantity, or for all quantities together. In the latter case, a
- * point at which some quantity has no reference is counted in `requested` only if another quantity
- * is never within the tolerance. */
+/* Counts of a formulation for one quantity, or for all quantities together. */
 typedef struct tally_series {
     long requested; /* number of points with a reference */
     long proven;    /* number of points whose reference is a reference value */
@@ -927,8 +882,6 @@ typedef struct ranges_file {
     hid_t column[RANGES_FILE_COLUMNS];
 } ranges_file;
 
-/* A sweep as work that can be divided into batches. */
-
 typedef struct ranges_work {
     const parameter_ranges *of;
     double *cost;      /* [batches] */
@@ -939,14 +892,12 @@ typedef struct ranges_work {
     digest content;    /* digest of all values read, except times */
 } ranges_work;
 
-/* Computes the batches of a sweep, or reads the batches of shards. Then writes the summary, the
- * file and the worst points. */
+/* Computes the batches of a sweep, or reads the batches of shards. */
 
 typedef struct range_sweep_request {
     ranges_request of;
     const char *output; /* path of the HDF5 file; NULL: none */
-    int partial; /* 1: batches may be missing; the name of the output then shows that the sweep is
-                    incomplete */
+    int partial;
     int jobs, verbose, quiet;
     FILE *progress, *csv; /* NULL: none */
     /* Reads the batches; NULL: this process computes them. NO_VALUE: there is nothing to evaluate.
@@ -960,7 +911,7 @@ typedef struct range_sweep {
     truths truths; /* read before planning */
     parameter_ranges ranges;
     ranges_work work;
-    shard_work all; /* the sweep as work; the identity is set after planning */
+    shard_work all;
     const char *output;
     char partial[PATH_MAX]; /* name of the output, used if batches are missing */
     char worst[PATH_MAX];   /* folder for the scenes of the worst points; empty: none */
@@ -980,19 +931,16 @@ void ranges_identity_add(const parameter_ranges *r, digest *plan);
 /* Writes the header of the table: the numbers of points and cells, and the axes. */
 void ranges_table_head(FILE *to, const parameter_ranges *r);
 
-/* Comparison of a verification with a previous run: results that have become worse. */
-
-/* Adds three kinds of deviations to the evaluation. First, meshes whose error is larger than in the
- * previous run (by more than 2 % and RESULTS_FLOOR), or whose value or solution is now missing.
- * Second, series of the previous run that are missing although this run should contain them. Third,
- * limits at default points with a relative change above 1e-5, unless an exact reference value
- * checks them as closely. If only the short table of the previous run is known, errors are compared
- * by series. Costs are not compared. REFUSED: the two runs have nothing in common. */
+/* Adds three kinds of deviations to the evaluation: meshes whose error is larger than in the
+ * previous run (by more than 2 % and RESULTS_FLOOR), or whose value or solution is now missing;
+ * series of the previous run that are missing although this run should contain them; and limits at
+ * default points with a relative change above 1e-5, unless an exact reference value checks them as
+ * closely. If only the short table of the previous run is known, errors are compared by series.
+ * REFUSED: the two runs have nothing in common. */
 status regressions_find(const stored_results *former, const char *name, const sweep *, evaluation *,
                         fault *);
 
-/* One cell of a case. The request is completed by default choices, then solved. The command line
- * and the library use these functions. */
+/* One cell of a case. */
 
 typedef struct solution_request {
     const case_type *type;
@@ -1033,8 +981,7 @@ status solution_plan(const solution_request *, sweep *, fault *);
  * error. */
 status solution_run(const solution_request *, const solution_choice *, sweep *, fault *);
 
-/* Final states of motions in a file, from which another run continues. If the steps are the same,
- * the results are bit-for-bit identical to those of an uninterrupted run. */
+/* Final states of motions in a file, from which another run continues. */
 
 typedef struct restart {
     char formulation[FORMULATION_KEY]; /* formulation with its options */
@@ -1054,13 +1001,9 @@ status restart_write(const char *path, const solution_request *, const sweep *, 
  * restart_free after a failure as well. */
 status restart_read(const char *path, restart *, fault *);
 void restart_free(restart *);
-/* Prepares the scene for continuation: removes the stations before the stored state. REFUSED: there
- * is no later station; or the formulation, the mesh, or a part of the scene other than stations and
- * quantities differs. */
+/* Prepares the scene for continuation: removes the stations before the stored state. REFUSED: the
+ * stored state does not belong to this request, or there is no later station. */
 status restart_begin(restart *, solution_request *, scene *, fault *);
-
-/* Formulations that run a case, or cases that a formulation runs; for the others, the reasons why
- * they do not. */
 
 enum { RUNS_ON_WORDS = 200 };
 
@@ -1084,8 +1027,7 @@ void rounds_pin(void);
  * loaded. arguments: NULL-terminated. */
 void rounds_single_thread(char **arguments);
 
-/* Runs every formulation on every case and parameter point that has a reference value. Results are
- * evaluated during the run. */
+/* Runs every formulation on every case and parameter point that has a reference value. */
 
 typedef struct verification_reader {
     void *context;
@@ -1096,19 +1038,14 @@ typedef struct verification_reader {
 
 /* First checks that formulations named or loaded by the user satisfy the interface requirements.
  * Then runs a planned sweep (study.h), and evaluates the series in order, as soon as all series of
- * their point are complete. The finest meshes are run again if verdicts may depend on their
- * scatter. For scene files, agreements of formulations serve as reference values.
- * whole 1: no selection was made; ignored in an interrupted run. reader NULL: none. Call
- * evaluation_free after a failure as well. */
+ * their point are complete. Call evaluation_free after a failure as well. */
 status verification_run(const sweep_request *, int whole, const verification_reader *reader,
                         truths *, sweep *, evaluation *out, fault *);
 
-/* Runs all cells of a planned sweep, or of some series, and measures the scatter. Nothing is
- * evaluated. */
+/* Runs all cells of a planned sweep, or of some series, and measures the scatter. */
 status verification_cells(const sweep_request *, truths *, sweep *, fault *);
 
-/* Output files of a verification: HDF5, JSON, JUnit, Markdown, and proposed known deviations. The
- * output of a case is prepared as soon as the case has been evaluated. */
+/* Output files of a verification: HDF5, JSON, JUnit, Markdown, and proposed known deviations. */
 
 typedef struct verification_files {
     const char *output, *json, *junit, *markdown, *propose; /* paths, set by the caller; NULL:
@@ -1127,9 +1064,9 @@ typedef struct verification_request {
     /* [importeds] paths of stored results of other programs, to be compared */
     const char *const *imported;
     int importeds;
-    int imported_must_pass; /* 1: verdicts on imported values affect the exit status */
-    const char *former;     /* name of the file `verification.former` in messages; NULL: none */
-    const char *processor;  /* processor that computed the batches; "": this processor */
+    int imported_must_pass;
+    const char *former;    /* name of the file `verification.former` in messages; NULL: none */
+    const char *processor; /* processor that computed the batches; "": this processor */
     int exit_zero, verbose, quiet;
 } verification_request;
 
@@ -1145,7 +1082,6 @@ typedef struct verification {
     overview overview;
 } verification;
 
-/* If a run is interrupted, the names of its output files show this. */
 extern const experiment_type experiment_verify;
 void verification_free(verification *);
 

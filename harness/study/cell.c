@@ -80,7 +80,6 @@ void cell_formulation(cell_request *request, const formulation *chosen)
     request->solve.newton = formulation_newton(chosen);
 }
 
-/* Marks the solution as not converged, with the reason `trouble`, and all quantities as missing. */
 static status nothing_counts(const char *trouble, solve_result *out, fault *f)
 {
     out->status = STATUS_NOT_CONVERGED;
@@ -184,8 +183,7 @@ static unsigned absent_in_sections(const scene *s)
     return absent;
 }
 
-/* Returns 0 if a section is given by matrices, otherwise 1. Physics cannot be removed from
- * matrices, so the effect of an omission cannot be computed. */
+/* Returns 0 if a section is given by matrices, otherwise 1. */
 static int can_be_shown(const scene *s)
 {
     int can = 1;
@@ -194,8 +192,6 @@ static int can_be_shown(const scene *s)
     return can;
 }
 
-/* Among the formulations that support all physics of the scene, returns the one with the highest
- * order; NULL: none. */
 static const element_type *whole_model(const scene *s)
 {
     const element_type *best = NULL;
@@ -226,7 +222,6 @@ static status solve(const scene *s, const element_type *type, unsigned omit, int
     return cell_run(&request, out, f);
 }
 
-/* Returns the largest absolute value among the quantities with the same unit as `quantity`. */
 static double size_of_unit(const scene *s, const solve_result *r, int quantity)
 {
     double size = 0;
@@ -253,7 +248,7 @@ static double change_of_curve(const curve *a, const curve *b, double least)
         size = fmax(size, fabs(a->value[i]));
         apart = fmax(apart, fabs(b->value[i] - a->value[i]));
         if (fabs(a->x[i] - b->x[i]) > 1e-9 * fmax(fabs(a->x[i]), fabs(a->x[a->points - 1])))
-            return INFINITY; /* curves over different paths cannot be compared */
+            return INFINITY;
     }
     return relative(apart, size);
 }
@@ -272,8 +267,6 @@ static double change_of(const scene *s, const solve_result *with, const solve_re
     return relative(fabs(b->value - a->value), fmax(fabs(a->value), least));
 }
 
-/* Returns 1 if all requested quantities have a value. Otherwise returns 0, and `why` gives the
- * reason. */
 static int is_whole(const scene *s, const cell_result *c, char why[FAULT_TEXT])
 {
     if (c->solve.status != STATUS_OK || c->solve.quantities < s->quantities) {
@@ -322,8 +315,7 @@ static int agree(double coarse, double fine)
 }
 
 /* Solves on repeatedly doubled meshes until the changes on two meshes agree. The result is the
- * larger of these changes times omission_safety. A clearly significant change is used without this
- * factor, and is computed on finer meshes only if these take little time. */
+ * larger of these changes times omission_safety. */
 static void estimate(const scene *s, const element_type *type, omission *out)
 {
     enum { FINEST = 32 };

@@ -72,7 +72,6 @@ static double of_reading(const scene *s, const char *unit)
     return strcmp(unit, "rad") == 0 || strcmp(unit, "1") == 0 ? small_part : 0;
 }
 
-/* Returns the scale of a quantity according to its kind, in SI units. */
 static double physical_scale(const scene *s, const scene_quantity *q)
 {
     switch (q->what.kind) {
@@ -161,7 +160,6 @@ void change_between(const scene *s, const cell_result *before, const cell_result
         out->largest = INFINITY;
 }
 
-/* Returns 1 if the points of the curve are those of the steps, which differ between meshes. */
 static int has_own_points(const scene *s, const scene_quantity *q)
 {
     return s->analysis[q->analysis].kind == SCENE_CONTINUATION;
@@ -173,7 +171,6 @@ static const quantity_result *whole_of(const solve_result *r, int quantity)
     return q != NULL && q->status == STATUS_OK && q->curve.points > 0 ? q : NULL;
 }
 
-/* Returns the index of the point of the curve with this abscissa; -1: none. */
 static int point_at(const curve *c, double x, double size)
 {
     for (int i = 0; i < c->points; i++)

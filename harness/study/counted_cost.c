@@ -144,8 +144,6 @@ const char *reach_defect_words(verdict_kind kind)
     }
 }
 
-/* Returns 1 if the question includes the quantity. REACH_EVERY includes each quantity for which at
- * least one formulation has a reference value. */
 static int is_requested(const reach_question *q, int quantity)
 {
     int known = 0;
@@ -157,7 +155,6 @@ static int is_requested(const reach_question *q, int quantity)
     return known;
 }
 
-/* Returns the verdict on a quantity of a series; NULL: none. */
 static const verdict *verdict_on(const reach_question *q, int series_index, int quantity)
 {
     for (int i = 0; i < q->verdicts; i++)

@@ -4,13 +4,11 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reasons against a formulation, the most serious first, which are compared in this order. */
 enum { AGAINST_OMITTED, AGAINST_HERE, AGAINST_THEORY, AGAINST_ELSEWHERE, AGAINST_ORDER, REASONS };
 typedef struct standing {
     int against[REASONS];
 } standing;
 
-/* Returns 1 if the rule applies to a quantity of the scene. */
 static int holds_here(const rule *r, const scene *s, rule_subject at)
 {
     for (int q = 0; q < s->quantities; q++)
@@ -92,7 +90,6 @@ typedef struct default_choice_candidates {
     standing here[CANDIDATES];
 } default_choice_candidates;
 
-/* Returns 1 if the type is already a candidate, or if its family has enough candidates. */
 static int is_taken(const default_choice_candidates *all, const element_type *type)
 {
     int same = 0;
@@ -112,8 +109,6 @@ static int is_equal_rank(const standing *a, const standing *b)
     return 1;
 }
 
-/* Appends the best type that is not yet a candidate. Returns 0 if no other type ranks equal with
- * the first candidate. */
 static int take_next(const scene *s, const rule_subject *where, const rule *rules, int count,
                      int other, default_choice_candidates *all)
 {
@@ -123,7 +118,7 @@ static int take_next(const scene *s, const rule_subject *where, const rule *rule
     for (int i = 0; registry_formulations[i] != NULL; i++) {
         const element_type *type = registry_formulations[i];
         if (formulations_is_new(type) || type->misprint != NULL || is_taken(all, type) ||
-            !can_run(s, type, other)) /* defects of new formulations are not known */
+            !can_run(s, type, other))
             continue;
         const standing here = standing_of(s, type, where, rules, rules != NULL ? count : 0);
         if (*chosen != NULL && !is_better(&here, best))
@@ -190,16 +185,15 @@ static int met_unstable(const solve_result *r)
 typedef struct candidate_run {
     cell_request request;
     formulation chosen;
-    cell_result cell[2]; /* results of the last two meshes, stored alternately */
-    double requested;    /* relative change that counts as converged */
-    value_change last;   /* expected change from the last mesh to finer meshes */
+    cell_result cell[2];
+    double requested;  /* relative change that counts as converged */
+    value_change last; /* expected change from the last mesh to finer meshes */
     /* [quantities] earlier changes, and changes between the last two meshes */
     double *former, *raw;
     /* largest change between the last two meshes if a further change is expected; otherwise 0 */
     double slow;
-    /* number of meshes, and numbers of elements of the last two meshes */
     int tried, before, elements;
-    int unstable;      /* 1: some mesh had unstable states, which finer meshes may not have */
+    int unstable;
     double cost, next; /* [s] cost of the last mesh, and estimated cost of the next mesh */
 } candidate_run;
 
@@ -232,8 +226,6 @@ static void end(candidate_run *r)
     cell_result_free(&r->cell[1]);
 }
 
-/* Returns the number of elements of the next mesh: the meshes of the scene, then meshes with twice
- * the elements of the previous one. */
 static int next_mesh(const scene *s, const candidate_run *r)
 {
     return r->tried < s->meshes ? s->mesh[r->tried] : 2 * r->elements;
@@ -245,12 +237,9 @@ static int has_converged(const scene *s, const candidate_run *r)
     return r->last.largest <= r->requested && (sure || r->tried >= s->meshes);
 }
 
-/* Returns 1 if no further mesh is solved: all meshes of the scene have been solved, and a finer
- * mesh would cost too much, have too many elements, or cannot converge. */
 static int exhausted(const scene *s, const candidate_run *r)
 {
-    const int may_converge =
-        r->tried < 2 || isfinite(r->last.largest); /* a finer mesh can still converge */
+    const int may_converge = r->tried < 2 || isfinite(r->last.largest);
     return r->tried >= s->meshes &&
            (!may_converge || r->next > DEFAULT_CHOICE_COST || r->elements >= DEFAULT_CHOICE_FINEST);
 }
@@ -285,7 +274,7 @@ static void refine(const scene *s, candidate_run *r)
     memset(now, 0, sizeof *now);
     r->before = r->elements;
     r->request.elements = r->elements = next_mesh(s, r);
-    cell_run(&r->request, now, &f); /* a mesh that fails counts as not converged */
+    cell_run(&r->request, now, &f);
     if (r->tried > 0) {
         memcpy(r->former, r->raw, (size_t)s->quantities * sizeof *r->raw);
         change_between(s, &r->cell[(r->tried + 1) % 2], now, &r->last);
@@ -344,7 +333,6 @@ static void describe_elements(const scene *s, const candidate_run *r, char why[F
                  r->unstable ? "; coarser meshes had unstable states" : "");
 }
 
-/* Returns the candidate with the smallest change of values. Used if no candidate has converged. */
 static candidate_run *smallest_change(candidate_run of[], int count)
 {
     candidate_run *out = &of[0];
@@ -354,7 +342,6 @@ static candidate_run *smallest_change(candidate_run of[], int count)
     return out;
 }
 
-/* Stores the result of a candidate. *out takes ownership of the changes. */
 static void keep(const scene *s, candidate_run *r, default_choice *out)
 {
     out->chosen = r->chosen;
@@ -383,8 +370,6 @@ status default_choice_elements(const cell_request *request, const formulation *c
     return STATUS_OK;
 }
 
-/* Chooses the first candidate whose values converge or, if none converges, the candidate with the
- * smallest change. */
 static void choose(const scene *s, candidate_run of[], int count, default_choice *out)
 {
     candidate_run *first = run_candidates(s, of, count);

@@ -46,7 +46,7 @@ typedef struct script {
 typedef struct derive_question {
     const char *path;
     const char *case_name, *parameters; /* NULL: none */
-    FILE *input;                        /* text of a scene on standard input; NULL: none */
+    FILE *input;
 } derive_question;
 
 static status start(const derive_question *q, script *s, fault *f)
@@ -146,8 +146,6 @@ static int stop(script *s)
     return how;
 }
 
-/* Runs the script and reads the values that it writes. The caller derive_requested() stops the
- * script and frees memory, even after a failure. */
 static status derive(const derive_question *q, script *s, derived_value **out, int *count, fault *f)
 {
     char error_text[LINE] = "", more[LINE];
@@ -156,7 +154,6 @@ static status derive(const derive_question *q, script *s, derived_value **out, i
     while (fgets(more, sizeof more, s->errors) != NULL) {
         memcpy(error_text, more, sizeof error_text);
         if (*count > 0)
-            /* prints the list of everything in the scene that the program cannot compute */
             fputs(error_text, stderr);
     }
     error_text[strcspn(error_text, "\n")] = '\0';
@@ -202,8 +199,6 @@ status derive_scene(const char *path, FILE *scene_text, derived_value **out, int
     return derive_requested(&q, out, count, f);
 }
 
-/* Folder with the data of an installed copy. No other source file depends on the installation
- * prefix. */
 #ifndef BEAMWORK_DATA
 #define BEAMWORK_DATA "/usr/local/share/beamwork"
 #endif
@@ -240,8 +235,6 @@ static void program_folder(char out[PATH_MAX])
         snprintf(out, PATH_MAX, ".");
 }
 
-/* Finds the folder of the shared library that contains this code. Returns 0 if the code is part of
- * a program. */
 static int library_folder(char out[PATH_MAX])
 {
     static const char here = 0;
@@ -291,7 +284,6 @@ void data_place_modules(void)
     snprintf(both, room, "%s%s%s", given != NULL ? given : "",
              given != NULL && given[0] != '\0' ? ":" : "", path);
     setenv("PYTHONPATH", both, 1);
-    setenv("PYTHONDONTWRITEBYTECODE", "1",
-           0); /* Python must not write compiled files into an installed copy */
+    setenv("PYTHONDONTWRITEBYTECODE", "1", 0);
     free(both);
 }

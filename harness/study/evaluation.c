@@ -14,8 +14,7 @@
  * includes the whole case. */
 static int missed_rules(const sweep *s, truths *t, int whole);
 /* Counts the reference values that a complete run did not use: unmet, waiting and unread. An unread
- * value counts as met (truth.met), but is not evaluated. The reason is that a run evaluates motions
- * at few times and for few structures. `make lab L=motions` evaluates all of them. */
+ * value counts as met (truth.met), but is not evaluated. */
 static void missed_truths(const sweep *s, truths *t, evaluation *out);
 
 static int is_beyond(const rule *r, const verdict *v)
@@ -35,7 +34,7 @@ static void expect(const sweep *s, truths *t, verdict *v)
         p->type,  p->parameter,         features_needed(&p->scene), one->formulation.key,
         quantity, verdict_name(v->kind)};
     v->matches = v->kind == v->expected;
-    if (one->imported != NULL) /* known deviations apply only to formulations */
+    if (one->imported != NULL)
         return;
     for (int i = 0; i < t->rules && !v->matches; i++) {
         rule *r = &t->rule[i];
@@ -54,7 +53,6 @@ static void expect(const sweep *s, truths *t, verdict *v)
         if (v->kind == VERDICT_BIASED_AS_PREDICTED || v->kind == VERDICT_WRONG_AS_PREDICTED)
             rules_confirm_limit(r, &subject);
         if (is_beyond(r, v) && r->from == NULL && formulations_is_loaded(one->formulation.type))
-            /* built-in known deviations do not apply to loaded formulations */
             continue;
         if (is_beyond(r, v))
             snprintf(v->reason, sizeof v->reason,
@@ -84,8 +82,6 @@ static status check_cells(const sweep *s, int index, evaluation *out, fault *f)
     return STATUS_OK;
 }
 
-/* Marks the reference values of this quantity as used, including those of lower rank and of other
- * models. */
 static void mark_met(truths *t, const sweep_point *p, const formulation *chosen,
                      const char *quantity, int evaluated)
 {
@@ -121,7 +117,6 @@ static status check_units(const sweep *s, const truths *t, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if an imported series has a value of the quantity. */
 static int is_imported(const series *one, int quantity)
 {
     for (int i = 0; i < one->meshes; i++)
@@ -130,7 +125,6 @@ static int is_imported(const series *one, int quantity)
     return 0;
 }
 
-/* Returns 1 if the verdict implies that the limit is within the tolerance. */
 static int is_within(const verdict *v)
 {
     return v->kind == VERDICT_PASS || v->kind == VERDICT_BIASED ||
@@ -151,7 +145,7 @@ static void evaluate_quantity(const sweep *s, truths *t, int index, int quantity
         v->expected = v->kind;
         v->matches = 1;
     }
-    if (!gates && one->imported != NULL) { /* shown, but without effect on the exit status */
+    if (!gates && one->imported != NULL) {
         v->expected = v->kind;
         v->matches = 1;
         return;
@@ -211,8 +205,6 @@ static void evaluate_series(const sweep *s, truths *t, int index, evaluation *ou
     const sweep_point *p = &s->point[one->point];
     for (int q = 0; q < p->scene.quantities; q++) {
         const scene_quantity *quantity = &p->scene.quantity[q];
-        /* Curves are shown with their reference values, but are not evaluated. Other quantities
-         * evaluate points of curves. */
         if (one->imported != NULL && (quantity->reduction == SCENE_CURVE || !is_imported(one, q)))
             continue;
         if (quantity->reduction == SCENE_CURVE)
@@ -249,7 +241,6 @@ status evaluation_add(const sweep *s, truths *t, int series_index, evaluation *o
 
 void evaluation_end(const sweep *s, truths *t, int whole, evaluation *out)
 {
-    /* The list of known deviations is valid for the tolerances of the cases. */
     out->unobserved = s->tolerance > 0 ? 0 : missed_rules(s, t, whole);
     if (whole)
         missed_truths(s, t, out);
@@ -304,7 +295,6 @@ static int is_run(const sweep *s, const case_type *type, const element_type *ele
     return 0;
 }
 
-/* Returns 1 if the run includes a formulation with this name and options. */
 static int key_is_run(const sweep *s, const char *word)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -313,7 +303,6 @@ static int key_is_run(const sweep *s, const char *word)
     return 0;
 }
 
-/* Returns 1 if the run includes every formulation that the word of a list can match. */
 static int formulations_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;
@@ -327,7 +316,6 @@ static int formulations_are_run(const sweep *s, const char *word)
     return all && found;
 }
 
-/* Returns 1 if the run includes all points and quantities of each case that matches the word. */
 static int cases_are_run(const sweep *s, const char *word)
 {
     int all = 1, found = 0;

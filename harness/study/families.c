@@ -16,8 +16,6 @@ typedef struct families_known_limit {
     double value, uncertainty;
 } families_known_limit;
 
-/* Returns 1 if a known deviation says that the formulation has a biased or wrong limit for a
- * feature of the scene. */
 static int is_known_wrong(const truths *t, unsigned features, const char *key)
 {
     for (int i = 0; i < t->rules; i++) {
@@ -30,7 +28,6 @@ static int is_known_wrong(const truths *t, unsigned features, const char *key)
     return 0;
 }
 
-/* Returns 1 if the limit of the series may contribute to an agreement. */
 static int is_eligible(const sweep *s, const series *one, const truths *t)
 {
     const element_type *type = one->formulation.type;
@@ -124,7 +121,7 @@ static mean mean_of(const families_known_limit *all, int count, const int in[])
     double sum = 0, weights = 0, squares = 0;
     mean out;
     for (int pass = 0; pass < 2; pass++) {
-        out.value = sum / weights; /* mean, from the sums of the first pass */
+        out.value = sum / weights;
         for (int i = 0; i < count; i++) {
             const double least = 1e-15 * fabs(all[i].value) + DBL_MIN,
                          u = fmax(all[i].uncertainty, least), w = 1 / (u * u);
@@ -231,7 +228,6 @@ families_limit families_limit_of(const sweep *s, int point_index, int quantity, 
     return best;
 }
 
-/* Returns the reason why a series is excluded from an agreement; NULL: the series is included. */
 static const char *kept_out(const sweep *s, int index, int quantity, const truths *t)
 {
     const series *one = &s->series[index];
@@ -248,8 +244,6 @@ static const char *kept_out(const sweep *s, int index, int quantity, const truth
                : "without a limit on these meshes";
 }
 
-/* Returns the name of a formulation of another family that is not in the run, supports the scene,
- * and has no known deviation for it; NULL: none. */
 static const char *of_another_family(const sweep *s, int point_index, const char *family,
                                      const truths *t)
 {
@@ -378,7 +372,6 @@ static status add_truth(const sweep *s, int point_index, int quantity, const fam
     return STATUS_OK;
 }
 
-/* Returns 1 if agreements may serve as reference values at this point. */
 static int is_open(const sweep_point *p, int files_only)
 {
     return p->status == STATUS_OK && (!files_only || p->type->file != NULL);
@@ -415,7 +408,6 @@ status families_reserve(const sweep *s, int files_only, truths *t, fault *f)
     return truths_reserve(t, most, f);
 }
 
-/* The selected quantities of a point and of a series. */
 typedef struct kept {
     int point;
     char *quantity, *series;
@@ -438,8 +430,7 @@ static void drop(sweep *s, const kept *k)
 {
     scene *wanted = &s->point[k->point].scene;
     int quantities = 0, seriess = 0;
-    for (int q = 0; q < wanted->quantities;
-         q++) /* quantities that are abscissae of selected curves are also kept */
+    for (int q = 0; q < wanted->quantities; q++)
         if (k->quantity[q] && scene_abscissa_of(wanted, &wanted->quantity[q]) != SCENE_NONE)
             k->quantity[scene_abscissa_of(wanted, &wanted->quantity[q])] = 1;
     for (int q = 0; q < wanted->quantities; q++)
@@ -497,7 +488,7 @@ static status narrow(sweep *s, const char *select, kept *k, fault *f)
     TRY(select_begin(select, &words, f));
     mark(s, select, &words, k);
     TRY(narrow_check_words(&s->point[k->point], select, &words, f));
-    drop(s, k); /* omissions still depend on all quantities */
+    drop(s, k);
     const sweep_point *p = &s->point[k->point];
     return p->scene.quantities > 0 ? STATUS_OK : narrow_to_nothing(select, p->type->name, f);
 }

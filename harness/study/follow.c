@@ -9,7 +9,6 @@
 
 enum { HALVINGS = 20 };
 
-/* Adds a sample. The state takes ownership of the shapes, even after a failure. */
 static status keep_sample(follow_state *w, double value, int requested, follow_shapes *s, fault *f)
 {
     follow_curves *c = w->out;
@@ -71,8 +70,6 @@ static status try_step(follow_state *w, double target, int requested, double *le
     return STATUS_OK;
 }
 
-/* Moves from the last sample to `to` in as many steps as necessary. NOT_CONVERGED: the steps have
- * become too small. */
 static status step_to(follow_state *w, double to, fault *f)
 {
     const follow_curves *c = w->out;
@@ -158,8 +155,6 @@ static long rejected_before_steps(const solve_result *r)
     return sum;
 }
 
-/* Returns 1 if an analysis searches for a critical point beyond the end of a path. This search may
- * reject steps without an accepted step after them. */
 static int searches_beyond(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -168,7 +163,6 @@ static int searches_beyond(const scene *s)
     return 0;
 }
 
-/* Returns the index of the first step that ended without convergence; -1: none. */
 static int unfinished_step(const solve_result *r, double promised)
 {
     for (int i = 0; i < r->steps; i++)
@@ -189,8 +183,6 @@ static int is_plain(const cell_result *cell, const scene *s, newton_form newton)
     return newton == NEWTON_MIXED && cell->counters.rejected_steps == 0;
 }
 
-/* Returns the largest number of factorisations that continuation can save: each step starts with
- * the last tangent of the previous step. */
 static long most_reused(const cell_result *cell, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -199,8 +191,6 @@ static long most_reused(const cell_result *cell, const scene *s)
     return 0;
 }
 
-/* Returns the largest number of factorisations that time steps can save, because iterations reuse
- * earlier factors. */
 static long most_stale(const cell_result *cell, const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -209,8 +199,6 @@ static long most_stale(const cell_result *cell, const scene *s)
     return 0;
 }
 
-/* Returns the name of the first count that is smaller than the iterations require; NULL: none. In a
- * plain solution, counts must equal the required numbers. */
 static const char *wrong_count(const cell_result *cell, long reused, long stale, int plain)
 {
     const counters *c = &cell->counters;
@@ -310,9 +298,6 @@ status agreements_add(const sweep *s, const truths *t, int index, evaluation *ou
     }
     return STATUS_OK;
 }
-
-/* Counts how often limits agree with an exact reference value to within the uncertainty of the
- * limit. */
 
 /* Returns the row for the case and the formulation of the series, and adds it if necessary. NULL:
  * out of memory. */

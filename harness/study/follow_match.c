@@ -52,7 +52,6 @@ static status first(const state_matrices *s, follow_shapes *out, double work[])
     return STATUS_OK;
 }
 
-/* Sets the shapes to the first `modes` modes of a state, normalised to unit mass. */
 static status follow_match_first(const state_matrices *s, int modes, follow_shapes *out, fault *f)
 {
     double *work = malloc(((size_t)s->M.rows + 1) * sizeof *work);
@@ -76,7 +75,7 @@ static int group_end(const state_matrices *s, int j)
 typedef struct match_workspace {
     double *mode, *product; /* [modes x rows] */
     double *share;          /* [modes] contribution of each mode to the followed shape */
-    int *taken; /* [modes] number of followed modes in the group that starts with this mode */
+    int *taken;
 } match_workspace;
 
 /* Among the groups of equal frequencies, finds the group whose modes span the largest part of shape
@@ -154,8 +153,6 @@ status follow_match_next(const follow_shapes *before, const state_matrices *s, f
     return outcome;
 }
 
-/* Finds the first modal analysis, and returns the number of quantities that are frequencies of this
- * analysis; 0: none. */
 static int count_wanted(const scene *s, int *analysis)
 {
     int count = 0;
@@ -242,14 +239,13 @@ static double difference_of(const follow_sample *s, const int mode[2])
     return s->frequency[mode[0]] - s->frequency[mode[1]];
 }
 
-/* Returns the difference between the two frequencies, relative to their mean. */
 static double gap_of(const follow_sample *s, const int mode[2])
 {
     return 2 * fabs(difference_of(s, mode)) / (s->frequency[mode[0]] + s->frequency[mode[1]]);
 }
 
 /* Finds the crossing between samples a and b, where the frequency differences have opposite signs,
- * by the Illinois variant of regula falsi. Stops if *least falls below follow_sure. */
+ * by the Illinois variant of regula falsi. */
 static status find_crossing(follow_state *w, int a, int b, follow_event *e, double *least, fault *f)
 {
     const follow_sample *s = w->out->sample;
@@ -266,7 +262,7 @@ static status find_crossing(follow_state *w, int a, int b, follow_event *e, doub
         TRY(difference_at(w, a, next, e->mode, &here, &e->frequency, least, f));
         if (*least < follow_sure || fabs(here) <= equal * e->frequency || change <= exact * width)
             return STATUS_OK;
-        const int side = (here > 0) == (d[1] > 0); /* end of the interval that is replaced */
+        const int side = (here > 0) == (d[1] > 0);
         x[side] = next;
         d[side] = here;
         d[!side] /= kept == !side ? 2 : 1;
@@ -301,8 +297,6 @@ status follow_events_step(follow_state *w, double *least, fault *f)
     return STATUS_OK;
 }
 
-/* Adds the veerings of two modes: samples at which the gap between their frequencies has a
- * minimum. */
 static status find_veerings(follow_state *w, const int mode[2], fault *f)
 {
     const follow_sample *s = w->out->sample;
@@ -319,8 +313,6 @@ static status find_veerings(follow_state *w, const int mode[2], fault *f)
     return STATUS_OK;
 }
 
-/* Adds the crossings of two modes that are at samples. Crossings between samples are found by
- * follow_events_step. */
 static status find_crossings(follow_state *w, const int mode[2], fault *f)
 {
     const follow_sample *s = w->out->sample;

@@ -31,7 +31,6 @@ static const double safety_small = 1.25, safety_large = 3;
 static const double end_factor =
     4; /* uncertainty of a value without extrapolation, as a multiple of the scatter */
 
-/* The selected meshes, the coarsest first, and values derived from them. */
 typedef struct meshes {
     int count;
     double n[LIMIT_MESHES], f[LIMIT_MESHES];
@@ -59,8 +58,6 @@ static int coarser_than(const limit_sequence *s, double fine)
     return best;
 }
 
-/* Selects meshes, starting with the finest. Each further mesh is coarser than the previous one by
- * at least the factor least_refinement. */
 static void thin(const limit_sequence *s, meshes *m)
 {
     int kept[LIMIT_MESHES];
@@ -110,8 +107,6 @@ static double refinement(const meshes *m, int before_last)
     return m->n[i] / m->n[i - 1];
 }
 
-/* For fewer than three meshes, sets the limit to the last value. With two meshes, the uncertainty
- * follows from an assumed order. */
 static void few(const meshes *m, mesh_limit *out)
 {
     out->kind = LIMIT_NOT_YET;
@@ -139,7 +134,6 @@ static int at_noise(const limit_sequence *s, const meshes *m, mesh_limit *out)
     return 1;
 }
 
-/* Returns the limit from meshes first, first + 1 and first + 2, with the order observed on them. */
 static double own_limit(const meshes *m, int first)
 {
     return richardson_limit(m->n + first, m->f + first, m->order[first]);
@@ -155,13 +149,10 @@ static double change_of_limit(const limit_sequence *s, const meshes *m, int k, d
     *factor = safety_small;
     if (k > 1 && is_good(m->order[k - 2], s)) {
         const double before = fabs(own_limit(m, k - 1) - own_limit(m, k - 2));
-        /* The limits do not converge, possibly because of scatter. */
         if (!measured && change > before / pow(R, remaining_order)) {
             change = fmax(change, before);
             *factor = safety_large;
         }
-        /* A small change may be accidental. An order above the highest possible order shows another
-         * error term, which makes such accidents likely. */
         const double next =
             m->order[k] <= 1.1 * s->highest_order ? m->order[k] + 2 : s->nominal_order;
         change = fmax(change, before / pow(R, next));
@@ -177,11 +168,9 @@ static int turns(double a, double b, double c)
     return (a - b) * (b - c) < 0 && fmin(fabs(a - b), fabs(b - c)) > scatter;
 }
 
-/* If two orders agree, sets the limit and returns 1. The change of the limit then bounds the
- * remaining error. */
 static int asymptotic(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
-    const int k = m->count - 3; /* start of the last three meshes */
+    const int k = m->count - 3;
     if (m->count < 4 || !is_good(m->order[k], s) || !is_good(m->order[k - 1], s))
         return 0;
     const double p = m->order[k], apart = fabs(p - m->order[k - 1]);
@@ -216,13 +205,11 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
     if (k == 0) {
         q = fmin(p, nominal);
         rest = fmax(a, b * pow(R, -nominal));
-        /* the order increases towards the declared order */
     } else if (before >= least_seen_order && before <= p && p <= 1.1 * nominal) {
         q = p;
         rest = a;
         factor = p >= 0.9 * nominal ? safety_small : safety_large;
-    } else { /* an order that is too high indicates that the error will change its sign, so the
-                order is extrapolated downwards */
+    } else {
         q = fmax(fmin(fmin(p, highest), fmin(before, 2 * before - p)), fmin(remaining_order, p));
         rest = fmax(a, b * pow(R, -fmax(before, q)));
     }
@@ -235,8 +222,7 @@ static int drifting(const limit_sequence *s, const meshes *m, mesh_limit *out)
 }
 
 /* Sets the limit to the last value, if no plausible order was observed. The uncertainty follows
- * from the largest of the last three changes, each reduced according to the nominal order. It is
- * larger if the changes increase. */
+ * from the largest of the last three changes, each reduced according to the nominal order. */
 static void disorderly(const limit_sequence *s, const meshes *m, mesh_limit *out)
 {
     const int last = m->count - 1;

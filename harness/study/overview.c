@@ -115,7 +115,6 @@ static overview_cell *cell_of(const sweep *s, const overview *o, int series_inde
     return &o->cell[row * o->columns + column_of(o, name_of(one, o->joined))];
 }
 
-/* Adds a mark. A more severe mark replaces a less severe mark. */
 static void add(overview_cell *to, overview_mark mark, int unexpected)
 {
     const int rank = OVERVIEW_MARKS * unexpected + (int)mark;
@@ -170,7 +169,6 @@ const overview_cell *overview_at(const overview *o, int row, int column)
     return &o->cell[row * o->columns + column];
 }
 
-/* Returns 1 if the row contains only passes and runs that are not evaluated. */
 static int overview_passes(const overview *o, int row)
 {
     int passes = 1;

@@ -38,8 +38,8 @@ static int list_has_formulation(const char *list, const char *key)
 }
 
 typedef struct rules_term {
-    unsigned feature; /* bit of the feature; 0: the term compares a parameter */
-    int negated;      /* 1: "not" precedes the feature */
+    unsigned feature;
+    int negated;
     char parameter[WORD], sign[3], values[WORD];
 } rules_term;
 

@@ -22,8 +22,6 @@ static void report(progress *p, const workload *w, int last)
     progress_show(p, now, w->finished, workload_share(w), what);
 }
 
-/* Handles a worker that has sent results or has ended. *running: number of workers, which is
- * updated. */
 static status attend(progress *p, workload *w, int self, worker *one, int *running, fault *f)
 {
     const int i = worker_receive(w, one);
@@ -43,8 +41,6 @@ static status attend(progress *p, workload *w, int self, worker *one, int *runni
 static int wait_for_any(const workload *w, int jobs, const worker workers[], int requested,
                         struct pollfd ends[])
 {
-    /* [ms] Interval between checks: for workers that exceed the time limit, and for workers that
-     * have ended while another process has their pipe open. */
     const int interval = workload_can_pass(w) ? 0 : w->time_limit > 0 ? 100 : 1000;
     for (int i = 0; i < jobs; i++)
         ends[i] = (struct pollfd){.fd = workers[i].from, .events = POLLIN};
@@ -69,7 +65,6 @@ static status start_all(const workload *w, cell_pool *c, fault *f)
     return STATUS_OK;
 }
 
-/* Reads from workers that have sent data, and checks the time limit of the others. */
 static status attend_all(progress *p, workload *w, cell_pool *c, const struct pollfd ends[],
                          fault *f)
 {
@@ -94,7 +89,7 @@ static status work_off(progress *p, workload *w, cell_pool *c, fault *f)
         if (c->interrupted)
             break;
         TRY(attend_all(p, w, c, ends, f));
-        if (workload_can_pass(w)) /* one series at a time, because workers are waiting */
+        if (workload_can_pass(w))
             TRY(workload_pass(w, f));
     }
     return STATUS_OK;
@@ -130,7 +125,6 @@ static int smaller(int a, int b)
     return a < b ? a : b;
 }
 
-/* Passes all remaining series to the follower. */
 static status pass_all(workload *w, fault *f)
 {
     while (workload_can_pass(w))
@@ -159,8 +153,7 @@ static status run_all(const sweep_request *request, workload *w, fault *f)
     return outcome == STATUS_OK ? pass_all(w, f) : outcome;
 }
 
-/* Cells run in separate processes even if there is only one job. A crash is then a result, and
- * results do not depend on the number of jobs. */
+/* Cells run in separate processes even if there is only one job. */
 status run_sweep(const sweep_request *request, sweep *s, fault *f)
 {
     workload w;
@@ -268,8 +261,7 @@ void interrupt_end(interrupt *out)
     struct signalfd_siginfo requested;
     if (out->descriptor < 0)
         return;
-    while (read(out->descriptor, &requested, sizeof requested) >
-           0) /* removes requests that have been handled */
+    while (read(out->descriptor, &requested, sizeof requested) > 0)
         ;
     close(out->descriptor);
     out->descriptor = -1;

@@ -4,8 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Returns the number of stations of the path of an analysis, or of the path of its base
- * analysis. */
 static double stations_of(const scene *s, const scene_analysis *a)
 {
     while (scene_path_of(a) == NULL && a->follows != SCENE_NONE)
@@ -21,8 +19,6 @@ static double steps_of(const scene_analysis *a, int steps)
     return scene_path_of(a)->stations + between - 1;
 }
 
-/* Returns the estimated number of time steps. With a tolerance, the number is a power of the
- * tolerance that was fitted to four motions; the motion itself has little effect. */
 static double motion_steps(const scene_motion *m)
 {
     static const double usual = 1e-4, steps[] = {80, 40}, power[] = {0.45, 0.3};
@@ -109,7 +105,6 @@ typedef struct expense {
     int series;
 } expense;
 
-/* Orders series by decreasing cost. Series with equal costs remain in order. */
 static int most_expensive_first(const void *left, const void *right)
 {
     const expense *a = left, *b = right;
@@ -147,8 +142,7 @@ int run_cost_order(const sweep *s, int jobs, workload_task tasks[])
 }
 
 /* The result of a cell is a tree of arrays. Records and elements are sent as they are in memory,
- * and the receiver replaces the pointers by its own. A new array in a record requires a line in the
- * tables below; a new number does not. */
+ * and the receiver replaces the pointers by its own. */
 typedef struct branch branch;
 struct branch {
     /* position of the pointer in the record, and size of an element [bytes] */
@@ -158,7 +152,7 @@ struct branch {
     size_t count, times;
     /* number of elements per unit of the product, and number of additional elements */
     size_t each, more;
-    const branch *parts; /* arrays inside each element; NULL: none */
+    const branch *parts;
 };
 
 #define CELL(member)     offsetof(cell_result, member)
@@ -243,7 +237,6 @@ static int put_parts(FILE *to, const void *record, const branch parts[])
     return 0;
 }
 
-/* Clears pointers, which are valid only in the sending process. */
 static void free_branch(void *record, const branch parts[])
 {
     for (const branch *b = parts; b->size > 0; b++)
@@ -322,11 +315,11 @@ int serialise_read(FILE *from, cell_result *cell)
         return -1;
     }
     free_branch(cell, of_cell);
-    memset(&cell->scene, 0, sizeof cell->scene); /* the point owns the scene */
+    memset(&cell->scene, 0, sizeof cell->scene);
     const int bad = get_parts(from, cell, of_cell);
     if (bad == 0)
         return 0;
     free_parts(cell, of_cell);
-    memset(cell, 0, sizeof *cell); /* removes data of an incomplete result */
+    memset(cell, 0, sizeof *cell);
     return bad;
 }

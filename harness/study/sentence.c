@@ -1,4 +1,3 @@
-/* Describes verdicts in words, with the numbers on which they depend. */
 #include "harness/study/study.h"
 
 #include <math.h>
@@ -36,7 +35,6 @@ static void uncertainty_of(const verdict *v, char text[2 * ROUNDING_TEXT])
              by_truth ? " %" : " in the unit of the quantity");
 }
 
-/* Returns what may decide the verdict, as the end of a sentence. */
 static const char *remedy(const mesh_limit *fit)
 {
     if (fit->kind == LIMIT_NOISE_DOMINATED)
@@ -152,7 +150,6 @@ void sentence_of_verdict(const verdict *v, double least_order, char *text, size_
     not_evaluated(v, text, size);
 }
 
-/* Appends a part to a string. If the string is not empty, `joint` is inserted before the part. */
 static void add_part(char *text, size_t size, int *parts, const char *joint, const char *part)
 {
     const size_t used = strlen(text);
@@ -177,8 +174,6 @@ static int count_undecided(const evaluation *j)
     return count;
 }
 
-/* Lists the numbers of all causes of failure of a run, such as unexpected verdicts and
- * regressions. */
 static void failures(const evaluation *j, char *text, size_t size)
 {
     int parts = 0;
@@ -203,9 +198,8 @@ static void failures(const evaluation *j, char *text, size_t size)
                "reference values refer to unknown names");
 }
 
-/* Numbers of expected verdicts other than pass: due to a derived limit, and due to a rule alone. */
 typedef struct known_value {
-    int derived[2]; /* numbers of derived limits: within the tolerance, outside the tolerance */
+    int derived[2];
     int by_rule;
 } known_value;
 
@@ -300,7 +294,6 @@ static int exponent_of(double value, int digits)
     return atoi(strchr(text, 'e') + 1);
 }
 
-/* Writes a number in the form "1.2e-7", with a plus sign if requested. */
 static void with_exponent(double value, int digits, int sign, char text[ROUNDING_TEXT])
 {
     char padded[ROUNDING_TEXT];
@@ -322,7 +315,7 @@ void rounding_digits(double value, int digits, char text[ROUNDING_TEXT])
         return;
     }
     const int exponent = exponent_of(value, digits), behind = digits - 1 - exponent;
-    const int widest = digits > 9 ? digits : 9; /* digits before the decimal point */
+    const int widest = digits > 9 ? digits : 9;
     if (exponent < -3 || exponent >= widest)
         with_exponent(value, digits, 0, text);
     else if (behind >= 0)

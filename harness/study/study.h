@@ -1,11 +1,4 @@
-/* study/: runs and their results, reference values, verdicts, cost coefficients, times.
- *
- * Sections, in this order: limit; cell; imported values; omission; rules (known deviations);
- * truths; sweep; verdict; evaluation; change (differences of meshes); checksum; child process;
- * columns; curve error; data files; derive; follow; glossary; handles; interrupt; equal
- * error; narrow; overview; user-defined deviations, tables and truths; plan; default choice; cost
- * of a cell; progress; proposal; reach; rounding; rounds (times); run; scene truths; sentence;
- * serialise. */
+/* study/: runs and their results, reference values, verdicts, cost coefficients, times. */
 #ifndef BEAMWORK_STUDY_H
 #define BEAMWORK_STUDY_H
 
@@ -29,11 +22,6 @@
 #include "harness/newton/newton.h"
 
 /* Limit of a sequence of values on successively finer meshes, with the uncertainty of the limit.
- *
- * The limit is Richardson's extrapolation with the observed order of the last three meshes. If two
- * observed orders agree, the uncertainty is usually 1.25 times the change of the limit due to the
- * last mesh. Otherwise the uncertainty follows from the last changes of the values, usually with a
- * factor of 3.
  * Sources: Roache, Verification and Validation in Computational Science and Engineering (1998),
  * grid convergence index and its factors 1.25 and 3; Eca and Hoekstra, J. Comput. Phys. 262 (2014)
  * 104-130, range of the data, poor orders, noise; Phillips and Roy, J. Fluids Eng. 136 (2014)
@@ -125,9 +113,6 @@ status cell_run(const cell_request *, cell_result *, fault *);
 int cell_values(const cell_result *);
 void cell_result_free(cell_result *);
 
-/* Results of another program for a case, read from a file (harness/import_export). beamwork does
- * not run such programs. */
-
 enum { IMPORTED_UNIT = 48, IMPORTED_FILE = 256, IMPORTED_WORD = 48 };
 
 /* A value of the file. `factor` converts it to the unit of the case. */
@@ -150,7 +135,7 @@ typedef struct imported {
     char model[IMPORTED_WORD];
     char convention[IMPORTED_WORD]; /* convention of moments; empty: not given */
     char version[IMPORTED_WORD];    /* version of the program; empty: not given */
-    int gates;                      /* 1: verdicts on these values affect the exit status */
+    int gates;
     int rows;
     imported_row *row;
     element_type type; /* type without functions, in place of a formulation */
@@ -159,9 +144,6 @@ typedef struct imported {
 /* Returns 1 if the values belong to the continuum model of the beams. */
 int imported_same_model(const imported *);
 void imported_free(imported *); /* may be NULL */
-
-/* Physics of a scene that a formulation omits, and the resulting change of values. If no requested
- * quantity changes, the formulation solves the same model; otherwise it solves another model. */
 
 typedef struct omission {
     unsigned what;          /* FEATURE_* and OMIT_* bits (model.h); 0: nothing */
@@ -176,19 +158,15 @@ typedef struct omission {
 } omission;
 
 /* Finds the physics of a scene that the type omits, and bounds the resulting change of values. The
- * type solves another model if the bound is large or unknown, for example because no formulation
- * includes all these physics. */
+ * type solves another model if the bound is large or unknown. */
 void omission_of(const scene *, const element_type *, omission *out);
 /* Writes "without shear; the omission changes no value by more than 2e-06", or "another model:
  * shear not modelled (changes frequency_1 by about 16 %)". */
 enum { OMISSION_TEXT = OMIT_WORDS + SCENE_NAME + FAULT_TEXT + 80 };
 void omission_words(const omission *, char text[OMISSION_TEXT]);
 
-/* The list of known deviations (reference/findings.csv): expected verdicts other than pass. Each
- * rule has one cause. */
+/* The list of known deviations (reference/findings.csv): expected verdicts other than pass. */
 
-/* Lists contain words separated by blanks. Words may contain the wildcards *, ? and [...]. A list
- * matches if one of its words matches. */
 typedef struct rule {
     char *name;         /* one word */
     char *formulations; /* list of formulations, with options ("beamw:mass=lumped") or without */
@@ -220,16 +198,12 @@ typedef struct rule_subject {
 /* Returns 1 if the list of formulations of the rule includes the formulation with this key. */
 int rules_apply_to(const rule *, const char *formulation);
 
-/* The packed reference values and known deviations (reference/pack.py). */
-
 enum { TRUTHS_VERSION = 3 };
 
 typedef struct truth {
     const case_type *type;
     double parameter[CASE_MAX_PARAMETERS];
     int any[CASE_MAX_PARAMETERS]; /* 1: the row is valid for any value of the parameter */
-    /* "": the value is that of the continuum; otherwise the formulation for which the value is
-     * valid */
     char *formulation;
     /* 0: value of the continuum, or a derived limit (kind predicted); otherwise the number of
      * elements for which the value is valid */
@@ -238,8 +212,6 @@ typedef struct truth {
     int on_curve; /* 1: the row is a point of a curve at abscissa `at` */
     double at;
     double value, uncertainty;
-    /* set by the evaluation. met 1: the quantity of the row exists. evaluated 1: at least one
-     * formulation evaluates the row */
     int met, evaluated;
 } truth;
 
@@ -248,10 +220,10 @@ typedef struct truths {
     truth *row;
     /* index (study_impl.h): for each case and quantity, the first row; for each row, the next row
      * of the same quantity */
-    int indexed, places; /* number of indexed rows, which precede all other rows */
-    int *first, *next;   /* [places], [indexed] */
-    rule *rule;          /* known deviations */
-    int unknown_cases;   /* number of cases in the file that this program does not contain */
+    int indexed, places;
+    int *first, *next; /* [places], [indexed] */
+    rule *rule;        /* known deviations */
+    int unknown_cases; /* number of cases in the file that this program does not contain */
     char unknown_case[64];
 } truths;
 
@@ -264,15 +236,10 @@ status truths_read_case(const char *path, const case_type *type, truths *out, fa
 /* Like truths_read, but reads only the known deviations and the formulations that affect the exit
  * status. */
 status truths_read_rules(const char *path, truths *out, fault *f);
-/* Adds the exact values of extremes, which are not part of a verification. After a failure, the
- * reference values are those before the call. */
 status truths_read_extremes(const char *path, truths *out, fault *f);
 /* Adds a row of zeros and returns it; NULL: out of memory. */
 truth *truths_add(truths *, fault *f);
 void truths_free(truths *t);
-
-/* All cells of a verification: a series of meshes for every case, parameter point and formulation.
- * Several processes run the cells. */
 
 enum { SERIES_MAX_MESHES = SCENE_MESHES };
 
@@ -309,8 +276,6 @@ typedef struct series {
 } series;
 
 typedef struct sweep {
-    /* selection in the request; quantities that do not match are not evaluated; NULL: all
-     * quantities are evaluated */
     const char *select;
     /* arrays of the request, not copied. cases NULL: the sweep was planned point by point. given
      * NULL: all formulations */
@@ -332,15 +297,13 @@ typedef struct sweep {
     series *series;
 } sweep;
 
-/* Callbacks of a run. The process that runs the sweep calls them between two results. */
 typedef struct sweep_follower {
     void *context;
     /* Returns 1 if the finest mesh of this complete series must be run again to measure the
      * scatter. NULL: no scatter is measured. */
     int (*needs_scatter)(void *context, const sweep *, int series_index);
     /* Called once for every series, in order. At the call, this series and all previous series are
-     * complete and their scatter has been measured. A failure ends the run. An interrupted run
-     * removes incomplete series, which changes the indices of later series. NULL: no call. */
+     * complete and their scatter has been measured. A failure ends the run. NULL: no call. */
     status (*whole)(void *context, const sweep *, int series_index, fault *);
 } sweep_follower;
 
@@ -427,18 +390,18 @@ typedef struct verdict {
      * none */
     const truth *contradicted;
     mesh_limit fit;
-    double finest; /* value on the finest mesh; NAN: none */
+    double finest;
     /* (limit - truth)/truth or, if the reference value is almost zero, relative to near_zero; NAN:
      * none */
     double error;
     /* relative difference between the limit and the derived limit or, if no limit was derived, the
      * reference value */
     double departure;
-    double model_error; /* relative difference from the reference value of another model */
+    double model_error;
     /* absolute tolerance, which includes the uncertainty of the reference value and the effect of
      * omitted physics */
     double tolerance;
-    double unmodelled; /* absolute bound of the change due to omitted physics */
+    double unmodelled;
     /* 1: the difference from the reference value is smaller than the uncertainty of the reference
      * value */
     int below_digits;
@@ -478,7 +441,6 @@ typedef struct agreement {
     int good;
 } agreement;
 
-/* A cell whose run records are inconsistent (study_impl.h). */
 typedef struct flaw {
     int series, mesh;
     char why[FAULT_TEXT];
@@ -492,7 +454,7 @@ typedef struct breach {
 
 /* A mesh or a series whose results are worse than in a previous run. */
 typedef struct regression {
-    char of[FAULT_TEXT]; /* case/parameters/formulation, and mesh */
+    char of[FAULT_TEXT];
     char why[FAULT_TEXT];
 } regression;
 
@@ -500,14 +462,11 @@ enum { COVERAGE_MESHES = 4 };
 
 /* For each formulation and case: how often limits agree with an exact reference value to within
  * their uncertainty. The limits are computed without the k finest meshes. These counts check the
- * uncertainties. A formulation with biased limits has a low coverage, although its uncertainties
- * may be correct. */
+ * uncertainties. */
 typedef struct coverage {
     const case_type *of;
     const element_type *type;
     int point; /* first point of the case in the sweep */
-    /* [k] number of series with at least three remaining meshes, and number of those whose limit is
-     * covered */
     int series[COVERAGE_MESHES], covered[COVERAGE_MESHES];
 } coverage;
 
@@ -547,8 +506,6 @@ int evaluation_needs_scatter(const sweep *s, const truths *t, int series_index);
  * run. FAULT: the unit of a reference value is not the unit of its quantity. */
 status evaluation_begin(const sweep *s, truths *t, evaluation *out, fault *f);
 status evaluation_add(const sweep *s, truths *t, int series_index, evaluation *out, fault *f);
-/* Ends an evaluation. whole 1: no selection was made. Rules that were not observed, and reference
- * values without a quantity, are then failures. */
 void evaluation_end(const sweep *s, truths *t, int whole, evaluation *out);
 /* Calls evaluation_begin, evaluation_add for every series, and evaluation_end. */
 status evaluation_make(const sweep *s, truths *t, int whole, evaluation *out, fault *f);
@@ -563,15 +520,12 @@ const char *evaluation_outcome(const evaluation *j);
 
 /* Returns the diagonal of the smallest box, along the axes, that contains all nodes [m]. */
 double change_size(const scene *);
-/* Returns the scale of a quantity [unit of the quantity]; smaller values may be rounding errors.
- * The scale is the largest of near_zero, 1e-9 times the values of the same analysis and unit, and a
- * physical scale. The latter is 1e-14 for strains, 1e-12 for rotations, and 1e-12 times the size of
- * the structure for lengths. */
+/* Returns the scale of a quantity [unit of the quantity]; smaller values may be rounding errors. */
 double change_scale(const scene *s, int quantity, const solve_result *r);
 
 /* Last line of a beamwork file, with the length and the checksum of the file. Truncated, damaged or
  * altered files are detected before the HDF5 library reads them, because this library does not
- * check the contents. Version 1.10 reads past its buffers in damaged files. */
+ * check the contents. */
 
 enum { CHECKSUM_LENGTH = 40 }; /* "beamwork-seal %016zx %08x\n" */
 
@@ -626,8 +580,6 @@ int columns_length(hid_t group, const char *column);
  * contains the strings that have been read. */
 status columns_read(const table_columns *r, const columns_field *field, void *base, size_t stride);
 
-/* Difference between two curves of a quantity, from two meshes or two formulations. */
-
 /* Returns the largest difference over the common points, relative to the largest magnitude of the
  * second curve. NAN: there are no common points, or a curve does not reach the end. at: point with
  * the largest difference (may be NULL). Points of a path with given stations are matched by number,
@@ -650,11 +602,8 @@ int data_place(const char *name, char path[PATH_MAX]);
  * data_place. */
 void data_place_truths(char path[PATH_MAX]);
 /* Makes beamwork_element.py available to Python processes that are started later, by appending its
- * folder to PYTHONPATH if the folder exists. Prevents Python from writing compiled files. */
+ * folder to PYTHONPATH if the folder exists. */
 void data_place_modules(void);
-
-/* Reference values at new parameter points. The programs of reference/derive compute them on
- * demand; they share no code with this program. */
 
 typedef struct derived_value {
     char quantity[SCENE_NAME], unit[16], convention[96], source[96];
@@ -691,18 +640,13 @@ void families_why(FILE *to, const sweep *s, int point_index, int quantity, const
 status families_add_truths(const sweep *s, int files_only, truths *t, fault *f);
 /* Like families_add_truths, for one point. Call when all series of the point are complete. */
 status families_add_point(const sweep *s, int point_index, int files_only, truths *t, fault *f);
-/* Allocates memory for all rows that may be added. Verdicts point to rows, so rows must not
- * move. */
 status families_reserve(const sweep *s, int files_only, truths *t, fault *f);
 
 /* Follows modes over a parameter of a case.
  *
  * Modes at neighbouring parameter values are matched by the modal assurance criterion with the mass
  * matrix M at the new value, (v^T M w)^2/((v^T M v)(w^T M w)), which is 1 for equal shapes. If a
- * match is below 0.9, the step is halved. Shapes of equal frequencies are not unique, so the
- * previous shape is projected onto the space that they span. Frequencies of followed modes may
- * cross. They may also veer: they approach each other and separate again, while the modes exchange
- * their shapes. */
+ * match is below 0.9, the step is halved. Frequencies of followed modes may cross. */
 
 typedef struct follow_request {
     /* the case and its parameters; follow_run sets the analyses to be solved */
@@ -713,7 +657,7 @@ typedef struct follow_request {
 } follow_request;
 
 typedef struct follow_sample {
-    double value;  /* value of the parameter */
+    double value;
     int requested; /* 1: the value was requested; 0: it was added between two requested values */
     double *frequency; /* [modes] [Hz] */
     double *match;     /* [modes] match with the previous sample; 1 for the first sample */
@@ -780,9 +724,6 @@ static inline void handles_close(int count, const hid_t handle[])
             H5Idec_ref(handle[i]);
 }
 
-/* Makes requests to stop (Ctrl-C, SIGTERM, SIGHUP) available on a file descriptor, so that a
- * process can wait for them and for its workers at the same time. */
-
 typedef struct interrupt {
     int descriptor;  /* file descriptor that becomes readable when a request arrives; -1: none */
     sigset_t before; /* signal mask that interrupt_end restores */
@@ -814,11 +755,10 @@ equal_error equal_error_at(const sweep *s, const truths *t, double level);
 int equal_error_met(const equal_error *);
 
 /* At the last point of a planned sweep, keeps the quantities and formulations that are part of a
- * selected combination (formulations/formulations.h). Call before the run. select NULL: all.
- * REFUSED: the selection is malformed, has a word that matches no name, or selects nothing. */
+ * selected combination (formulations/formulations.h). REFUSED: the selection is malformed, has a
+ * word that matches no name, or selects nothing. */
 status narrow_to(sweep *s, const char *select, fault *f);
-/* Reports words of a selection that match nothing. The message suggests the nearest name among the
- * quantities of the point or, if none is near, among all names. REFUSED: there are such words. */
+/* Reports words of a selection that match nothing. REFUSED: there are such words. */
 status narrow_check_words(const sweep_point *p, const char *select, const select_words *words,
                           fault *f);
 /* Reports that formulation `key` does not support the physics `missing` of the case `name`. Returns
@@ -831,10 +771,7 @@ status narrow_to_nothing(const char *select, const char *name, fault *f);
 status narrow_scene(scene *, const case_type *, const double parameter[], const formulation *,
                     const char *select, fault *);
 
-int noise_cells(const sweep *s); /* returns the number of cells run to measure scatter */
-
-/* Overview of a run. For each case and formulation: the worst verdict over all parameter points,
- * and the number of quantities with this verdict. */
+int noise_cells(const sweep *s);
 
 /* Marks in increasing order of severity. */
 typedef enum overview_mark {
@@ -876,19 +813,17 @@ void overview_free(overview *);
 const overview_cell *overview_at(const overview *, int row, int column);
 /* Returns 1 if the row has an evaluated run. */
 int overview_evaluated(const overview *, int row);
-/* Returns 1 if the row is printed on a separate line. If there are many rows, cases that pass share
- * lines, so that the table fits on one screen. */
+/* Returns 1 if the row is printed on a separate line. */
 int overview_shown(const overview *, int row);
 /* Writes the mark, for example "ok", "~3" or "!#2". It is readable without colours. utf8 1: uses
  * characters outside ASCII. */
 void overview_text(const overview_cell *, int utf8, char text[OVERVIEW_TEXT]);
-/* Returns a description of the mark. */
 const char *overview_words(overview_mark mark);
 
 /* Known deviations of a user: rules in addition to the built-in list, with the same columns. */
 
-/* Adds the rules of a file to the rules of t. run: cases of the run, NULL-terminated. Errors in the
- * file are reported to `m`, and rows with errors are skipped. FAULT: the file cannot be read. */
+/* Adds the rules of a file to the rules of t. run: cases of the run, NULL-terminated. FAULT: the
+ * file cannot be read. */
 status user_deviations_read(const char *path, const case_type *const run[], truths *t, mistakes *m,
                             fault *f);
 
@@ -897,9 +832,9 @@ status user_deviations_read(const char *path, const case_type *const run[], trut
 enum { USER_TABLE_COLUMNS = 16 };
 
 typedef struct user_table_row {
-    int line;                        /* starting at 1 */
-    char *text;                      /* text of the line, into which the fields point */
-    char *field[USER_TABLE_COLUMNS]; /* trimmed, without quotes */
+    int line;
+    char *text; /* text of the line, into which the fields point */
+    char *field[USER_TABLE_COLUMNS];
 } user_table_row;
 
 typedef struct user_table {
@@ -915,33 +850,23 @@ status user_table_read(const char *path, const char *columns, user_table *out, m
                        fault *f);
 void user_table_free(user_table *);
 
-/* Reference values of a user, in addition to the packed ones, with the columns of
- * reference/tables. */
-
 /* Adds the rows of a file to the rows of t. run: cases of the run, NULL-terminated. only: the only
  * case to read; NULL: all cases. Errors in the file are reported to `m`, and rows with errors are
  * skipped. FAULT: the file cannot be read. */
 status user_truths_read(const char *path, const case_type *const run[], const case_type *only,
                         truths *t, mistakes *m, fault *f);
 
-/* Plans the default point and every point with a reference value. */
 status plan_sweep(const sweep_request *request, const truths *t, sweep *out, fault *f);
-/* Plans one point with the given formulations and meshes. */
 status plan_one(const case_type *type, const double value[], const formulation those[], int count,
                 const int mesh[], int meshes, sweep *out, fault *f);
-/* Adds a point to a sweep. The edit changes the scene of the point; NULL: no change. The members
- * `steps` and `condition` of the point may be set before the run. */
+/* Adds a point to a sweep. The edit changes the scene of the point; NULL: no change. */
 status plan_add(sweep *s, const case_type *type, const double value[], const scene_edit *edit,
                 const int mesh[], int meshes, fault *f);
-/* Adds a series to the last point, with the meshes of its scene. */
 status plan_extend(sweep *s, const formulation those[], int count, fault *f);
 
 /* Chooses a formulation that supports all features that the scene requires or, if there is none,
- * one that solves another model. Criteria, in this order: fewest omitted physics; fewest rules by
- * which the limit of a requested quantity is wrong or biased; the shear theory of the scene; fewest
- * such rules for any quantity of any case; highest order in the requested quantities; order of
- * names. rules NULL: no list of known deviations. REFUSED: no formulation can solve the scene. why:
- * reason for the choice, in one line. */
+ * one that solves another model. rules NULL: no list of known deviations. REFUSED: no formulation
+ * can solve the scene. why: reason for the choice, in one line. */
 status default_choice_formulation(const scene *, const rule_subject *where, const rule *rules,
                                   int count, formulation *out, char why[FAULT_TEXT], fault *f);
 
@@ -966,19 +891,15 @@ status default_choice_elements(const cell_request *, const formulation *chosen, 
                                default_choice *out, fault *f);
 
 /* Chooses formulation and mesh together. Candidates are the formulations that rank equal with the
- * first in default_choice_formulation: at most five, and at most two per family. In each step, the
- * mesh with the lowest counted work is solved. The first candidate that converges is chosen; if
- * none converges, the one whose values change least. request: the cell without formulation and
- * elements. */
+ * first in default_choice_formulation: at most five, and at most two per family. The first
+ * candidate that converges is chosen; if none converges, the one whose values change least.
+ * request: the cell without formulation and elements. */
 status default_choice_both(const cell_request *, const rule_subject *where, const rule *rules,
                            int count, double requested, default_choice *out, fault *f);
 
-/* Cost of a cell: sum of products of cost coefficients and counts of its work. Counts and costs are
- * equal in every run and on every machine. Formulations are ranked by cost, because measured times
- * scatter.
- * The coefficients are fitted to measured times (`make lab L=cost-coefficients`) and stored in
- * harness/study/cost_coefficients.csv, from which the build generates the table. Formulations
- * without coefficients have the common ones ("*"), which depend on the number of strains. */
+/* Cost of a cell: sum of products of cost coefficients and counts of its work. The coefficients are
+ * fitted to measured times (`make lab L=cost-coefficients`) and stored in
+ * harness/study/cost_coefficients.csv, from which the build generates the table. */
 
 /* Counted work. The names are those of the columns of the table `cells`. */
 typedef enum counted_work {
@@ -1025,7 +946,7 @@ typedef enum run_cost_kind {
     RUN_COST_loaded_buckling,
     RUN_COST_modal,
     RUN_COST_load_step,
-    RUN_COST_compliance, /* at each station */
+    RUN_COST_compliance,
     RUN_COST_continuation,
     RUN_COST_rotation_step,
     RUN_COST_rotation_station,
@@ -1066,7 +987,7 @@ typedef struct progress {
     int count;          /* number of items in the run */
     double begun;       /* [s] start, by clock_wall_seconds */
     double last;        /* [s] last output */
-    int width;          /* width of the current line in columns */
+    int width;
 } progress;
 
 /* Here and below, `now` is the current time [s] of clock_wall_seconds. */
@@ -1076,27 +997,21 @@ int progress_is_due(const progress *, double now);
 /* Prints "runs 12 of 40, 25 %, about 3 min left: WHAT". share: completed fraction of the work, 0
  * to 1. If `share` is large enough, the remaining time is estimated from it. */
 void progress_show(progress *, double now, int done, double share, const char *what);
-/* Clears the line. */
 void progress_end(progress *);
 
-/* Known deviations (reference/findings.csv) that a new formulation would need. */
-
 /* Writes CSV with the columns of the list of known deviations, including the header. There is one
- * rule for each formulation, case and verdict, with all quantities. largest_error is 4/3 of the
- * largest observed error, and the cause is a placeholder. Returns the number of rules. */
+ * rule for each formulation, case and verdict, with all quantities. Returns the number of rules. */
 int proposal_write(FILE *to, const sweep *s, const evaluation *j);
 
 /* Determines which formulations meet an error target, and on which mesh. The target is met on the
  * coarsest mesh for which the errors on this mesh and on all finer meshes are within the target.
- * Formulations are ranked by the cost of their counted work on this mesh. Formulations with a known
- * deviation in the requested quantity come last. */
+ * Formulations are ranked by the cost of their counted work on this mesh. */
 
 enum { REACH_LEVELS = 4, REACH_EVERY = -1 };
-extern const double reach_level[REACH_LEVELS]; /* 10 %, 1 %, 0.1 %, 0.01 % */
+extern const double reach_level[REACH_LEVELS];
 
 /* A formulation that meets the target. */
 typedef struct reached {
-    /* index of the series, and index of the coarsest mesh that meets the target */
     int series, mesh;
     /* [s] cost of the counted work; INFINITY: the formulation is not ranked by its work
      * (reach_unranked), and is listed after all others */
@@ -1140,8 +1055,6 @@ int reach_has_references(const reach_question *q, int series_index);
  * out of memory. */
 verdict *reach_verdicts(const sweep *s, const truths *t, int *count);
 
-/* Writes numbers with their significant digits as text. */
-
 enum { ROUNDING_TEXT = 32, ROUNDING_MOST = 11 /* largest number of digits */ };
 
 /* Writes a number with the given number of digits, or "-" if the number is not finite. The exponent
@@ -1154,9 +1067,6 @@ void rounding_known(double value, double uncertainty, char text[ROUNDING_TEXT]);
  * characters. */
 void rounding_percent(double error, char text[ROUNDING_TEXT]);
 
-/* Run time of a cell: the shortest time of several repetitions. The repetitions are made in rounds,
- * in which all cells of the comparison alternate. Differences between rounds show the scatter. */
-
 /* The times of two cells differ if all rounds of one are faster than all rounds of the other. For
  * equal distributions, the probability of this is 2 (5! 5!)/10! = 0.8 %. */
 enum { ROUNDS_COUNT = 5 };
@@ -1167,9 +1077,8 @@ typedef struct rounds_reading {
     int rounds, repeats;
 } rounds_reading;
 
-/* returns the shortest round [s]; INFINITY: the cell was never run */
 double rounds_least(const rounds_reading *);
-double rounds_most(const rounds_reading *); /* returns the longest round [s] */
+double rounds_most(const rounds_reading *);
 /* Returns -1 if every round of a is faster than every round of b, 1 if every round of a is slower,
  * and 0 otherwise. */
 int rounds_compare(const rounds_reading *a, const rounds_reading *b);
@@ -1196,14 +1105,11 @@ typedef struct cell_timing {
     dense_reference dense; /* measured on request */
 } cell_timing;
 
-/* Runs every cell of a sweep in several processes. A cell that fails or crashes counts as a result.
- * The order of results does not depend on the number of jobs. */
+/* Runs every cell of a sweep in several processes. A cell that fails or crashes counts as a
+ * result. */
 status run_sweep(const sweep_request *request, sweep *s, fault *f);
 
-/* Adds the reference values of the scene file that apply at a point of its parameters, evaluated at
- * this point. */
 status scene_truths_add(const scene_file *, const double value[], truths *t, fault *f);
-/* Like scene_truths_add, for the default point and for every point that a reference value gives. */
 status scene_truths_add_all(const scene_file *, truths *t, fault *f);
 
 /* Verdicts in words. */
@@ -1217,12 +1123,10 @@ enum { SENTENCE_OF_RUN = 1000 };
  * The text is empty if nothing was evaluated. */
 void sentence_of_run(const sweep *s, const evaluation *j, char *text, size_t size);
 
-/* Result of a cell as bytes, which are sent to the parent process. */
-
 int serialise_write(FILE *to, const cell_result *cell); /* Returns 0, or -1. */
 enum { SERIALISE_DAMAGED = -1, SERIALISE_NO_MEMORY = -2 };
 /* Reads the result of a cell. Returns 0, SERIALISE_NO_MEMORY, or SERIALISE_DAMAGED if the stream
- * has ended or is damaged. After a failure, the cell is empty. */
+ * has ended or is damaged. */
 int serialise_read(FILE *from, cell_result *cell);
 
 int truth_holds(const truth *row, const case_type *type, const double value[]);

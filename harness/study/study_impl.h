@@ -24,8 +24,8 @@ double omission_on_mesh(const scene *, unsigned what, int elements);
 
 /* Returns 1 if the lists of the rule match the subject and the condition is true. A term of the
  * condition is a feature that the scene requires ("shear", "not shear"), or compares a parameter of
- * the case ("omega>0", "load=tip|mid", "tip_deflection!=0.015"; also <, <= and >=). If the case
- * does not have the parameter, the term is false. */
+ * the case ("omega>0", "load=tip|mid", "tip_deflection!=0.015"; also <, <= and >=); it is false if
+ * the case does not have the parameter. */
 int rules_hold(const rule *, const rule_subject *);
 
 /* Returns the features that the condition of the rule contains without "not"; 0: none. */
@@ -82,9 +82,6 @@ typedef struct value_change {
 void change_between(const scene *s, const cell_result *before, const cell_result *now,
                     value_change *out);
 
-/* Locks by which several processes avoid solving the same problem: the first process solves it, and
- * the others use its results. */
-
 /* Allocates `count` locks that this process shares with all processes that it starts later; NULL:
  * out of memory. */
 task_locks *task_locks_alloc(int count);
@@ -92,21 +89,16 @@ void task_locks_free(task_locks *);
 /* Locks a problem for a task, unless it is locked. Returns the task that holds the lock. */
 int task_locks_acquire(task_locks *, const identity *, int task);
 
-/* Reads a column into out[rows] with the HDF5 memory type `type`. */
 status columns_numbers(const table_columns *r, const char *column, hid_t type, void *out);
-/* Reads fixed-length strings into out[rows], each allocated with malloc. */
 status columns_strings(const table_columns *r, const char *column, char **out);
 
-/* Tasks of a run: the cells, and tasks that arise during the run. The latter are repetitions of
- * finest meshes, which measure scatter, and cells that waited for the results of another cell that
- * failed. */
+/* Tasks of a run: the cells, and tasks that arise during the run. */
 
 typedef struct workload_task {
     int series, mesh;
     int again; /* 0: the cell; k > 0: repetition number k - 1, which solves an equivalent scene */
 } workload_task;
 
-/* Data that all processes share: the tasks, and the task of each worker. */
 typedef struct board {
     atomic_int next; /* next of the tasks that were known at the start */
     /* number of added tasks, and number of those that have been taken */
@@ -116,11 +108,9 @@ typedef struct board {
     atomic_int at[WORKERS_MOST]; /* task of each worker; -1: none */
     /* [s] time of a monotonic clock at which the task was taken */
     _Atomic double since[WORKERS_MOST];
-    /* added tasks; ~task: it must be solved even if another cell has the same results */
     atomic_int added[];
 } board;
 
-/* State of a series: cells remain, scatter remains, complete. */
 enum series_state { SERIES_CELLS, SERIES_NOISE, SERIES_WHOLE };
 
 typedef struct workload {
@@ -157,54 +147,34 @@ int workload_take(const workload *, int self, int *alone);
 /* Returns the edit of the point or, for a repetition, the edit that gives the equivalent scene. */
 scene_edit workload_edit(const workload *, int task);
 
-/* Returns the address of the result of a task. */
 cell_result *workload_cell(const workload *, int task);
-/* Records that a task is finished, with a result or a failure. */
 void workload_done(workload *, int task);
-/* Records that a task has the same results as another task. */
 void workload_same(workload *, int task, int same);
-/* Returns the completed fraction of the known work, from 0 to 1, weighted by the cost of the
- * cells. */
 double workload_share(const workload *);
 
 /* Returns 1 if the next series is complete, so that it can be passed to the follower. */
 int workload_can_pass(const workload *);
-/* Passes the next series to the follower. */
 status workload_pass(workload *, fault *);
 /* Removes incomplete series. */
 void workload_keep_whole(workload *);
 
 /* Estimated cost of cells. Coefficients for the steps of the analyses are fitted to counted work
- * (`make lab L=run-cost`, harness/study/run_cost.csv). The estimates determine the order of work,
- * batches and shards. They do not affect results. */
+ * (`make lab L=run-cost`, harness/study/run_cost.csv). */
 
 /* Counts the items of cost of a cell of the scene. steps: number of load steps between stations; 0:
  * as in the scene. */
 void run_cost_count(const scene *s, int steps, double times[RUN_COST_KINDS]);
-/* Orders all cells of a sweep: tasks[sweep_cells]. Cells of expensive series come first, in
- * decreasing order of cost, so that only small cells remain at the end. The other cells follow in
- * the order of the series, so that series are completed one after the other. The finest mesh of a
- * series comes first. A series is expensive if it needs more than a hundredth of the work of one
- * process. Returns 0, or -1 if out of memory. */
+/* Orders all cells of a sweep: tasks[sweep_cells]. Returns 0, or -1 if out of memory. */
 int run_cost_order(const sweep *s, int jobs, workload_task tasks[]);
 
 /* Cross-formulation agreement, for structures without a reference value: the limit on which
- * formulations of different families agree. Types of one family share code or theory, so their
- * agreement proves little. All families may have the same error, so an agreement is for information
- * and never affects the exit status. A formulation is excluded if it has a known deviation for a
- * feature of the scene (a rule with this feature in its condition), or if it is marked `misprint`.
+ * formulations of different families agree.
  *
  * Each formulation has a limit L with uncertainty U. Two limits agree if |L1 - L2| + U1 + U2 is
  * within FAMILIES_APART of their size and, for stability, if they belong to the same shear theory
  * (where this matters). The centre is the limit that agrees with limits of the largest number of
- * families, at least two. If equally many families agree on another limit, the agreement is marked
- * as disputed.
- * The reference is the mean of the limits that agree with the centre, weighted by 1/U^2. Limits are
- * excluded from the mean until all others agree with it within the uncertainties; the excluded
- * limits are reported. The uncertainty is the larger of the uncertainty of the mean and the
- * weighted spread. If the remaining limits belong to fewer than two families, the reference is the
- * centre. Its uncertainty is then at least the distance from the nearest limit of another family
- * plus both uncertainties. */
+ * families, at least two. The reference is the mean, weighted by 1/U^2, of limits that agree with
+ * the centre. */
 
 /* Largest relative distance between limits that agree: half of one per cent. */
 #define FAMILIES_APART 5e-3
@@ -227,9 +197,7 @@ typedef struct families_limit {
 families_limit families_limit_of(const sweep *s, int point_index, int quantity, const truths *);
 
 /* Scatter of the values on the finest mesh: the cell is solved again for two equivalent scenes,
- * which differ only by rounding. One has a unit of length that is not a power of two. The other has
- * the nodes of members in reverse order or, if the formulation depends on this order, another unit
- * of length. Stations that only curves need are omitted. */
+ * which differ only by rounding. */
 enum { NOISE_REPETITIONS = 2 };
 
 /* If values still change on the finest mesh of the scene, the number of elements is doubled
@@ -264,8 +232,7 @@ const truth *truth_agreed(const truths *t, const case_type *type, const double v
 const truth *truth_predicted(const truths *t, const case_type *type, const double value[],
                              const char *quantity, const char *key);
 
-/* Processes that run the cells of a sweep. Every worker ends with the process that started it. Each
- * worker enforces the time limit of its cell. */
+/* Processes that run the cells of a sweep. */
 
 typedef struct worker {
     pid_t process;
@@ -273,7 +240,7 @@ typedef struct worker {
     int from;
     int stopped; /* 1: stopped by the parent after the time limit */
     int damaged; /* 1: the worker has written invalid output */
-    char *bytes; /* incomplete part of the output */
+    char *bytes;
     size_t count, room;
 } worker;
 
@@ -282,8 +249,7 @@ status worker_start(const workload *, int self, worker *, fault *);
  * memory for the results; the worker continues. */
 enum { WORKER_ENDED = -1, WORKER_NOTHING = -2, WORKER_NO_MEMORY = -3 };
 /* Reads available results, or references to equal results, without waiting. Returns the task of the
- * last result; WORKER_NOTHING: no result is complete yet. A worker that writes other data is
- * killed. */
+ * last result; WORKER_NOTHING: no result is complete yet. */
 int worker_receive(workload *, worker *);
 /* Handles a worker that has ended. If this happened during a task, records that its cell has
  * failed. Returns 1 if the worker must be replaced. */
@@ -334,9 +300,8 @@ typedef struct follow_state {
 status follow_solve(follow_state *, double value, const follow_shapes *before, follow_shapes *out,
                     double *least, fault *);
 
-/* Adds the crossings in the last step. *least: worst match. Modes that veer within the step seem to
- * cross. At the apparent crossing, however, their shapes do not match those of the previous sample.
- * *least then falls below follow_sure, and the caller must halve the step. */
+/* Adds the crossings in the last step. *least: worst match; below follow_sure, the caller must
+ * halve the step. */
 status follow_events_step(follow_state *, double *least, fault *);
 /* Adds crossings at samples, and veerings, in the order of the parameter values. */
 status follow_events_rest(follow_state *, fault *);
@@ -353,8 +318,7 @@ const char *user_names_near_case(const case_type *const run[], const char *name,
 const char *user_names_near_formulation(const char *name, char text[FAULT_TEXT]);
 const char *user_names_near_quantity(const scene *s, const char *name, char text[FAULT_TEXT]);
 
-/* Checks the consistency of the records of a run, without reference values. Inconsistent records
- * are an error of the program. */
+/* Checks the consistency of the records of a run, without reference values. */
 
 /* Returns 1 if the counts, steps and corrections of a cell are consistent with each other and with
  * properties of every solution. Otherwise returns 0, and `why` describes the contradiction. newton:
@@ -362,9 +326,7 @@ const char *user_names_near_quantity(const scene *s, const char *name, char text
 int record_is_consistent(const cell_result *cell, const scene *s, newton_form newton,
                          char why[FAULT_TEXT]);
 
-/* Indexes all existing rows by case and quantity, because each verdict needs thousands of look-ups.
- * truths_read calls this function. Rows that are added later are found by a slower search. FAULT:
- * out of memory; rows are still found. */
+/* Indexes all existing rows by case and quantity. FAULT: out of memory; rows are still found. */
 status truth_index_make(truths *t, fault *f);
 void truth_index_free(truths *t);
 

@@ -205,8 +205,6 @@ static status add_series(sweep *s, int index, const formulation *chosen, const t
     return STATUS_OK;
 }
 
-/* Copies the omission from a formulation that omits the same physics at the same point. If there is
- * none, computes the omission. */
 static void find_omission(const sweep *s, int index)
 {
     series *one = &s->series[index];
@@ -220,8 +218,6 @@ static void find_omission(const sweep *s, int index)
     omission_of(here, one->formulation.type, &one->without);
 }
 
-/* Computes the omissions of the series of a point again, because the quantities of the point have
- * changed. */
 static void plan_omissions(sweep *s, int point_index)
 {
     const sweep_point *p = &s->point[point_index];
@@ -231,7 +227,7 @@ static void plan_omissions(sweep *s, int point_index)
             find_omission(s, i);
 }
 
-/* Largest number of formulations at a point. Further formulations are ignored. */
+/* Largest number of formulations at a point. */
 enum { MOST_FORMULATIONS = 64 };
 typedef struct chosen_cells {
     int count;
@@ -255,7 +251,6 @@ static void choose_options(const element_type *type, chosen_cells *out)
     }
 }
 
-/* Adds the formulations with the options for which the point has a discrete reference value. */
 static void choose_stored(const truths *t, const sweep_point *p, chosen_cells *out)
 {
     for (int i = 0; i < t->rows && out->count < MOST_FORMULATIONS; i++) {
@@ -278,8 +273,7 @@ static void choose_all(const truths *t, const sweep_point *p, chosen_cells *out)
     choose_stored(t, p, out);
 }
 
-/* Returns 1 if at least one quantity of the series is selected. Records all words of the selection
- * that match. requested[quantities or 1]: set to 1 for selected quantities. */
+/* Returns 1 if at least one quantity of the series is selected. */
 static int is_selected(const sweep *s, const sweep_point *p, const formulation *one,
                        select_words *words, char requested[])
 {
@@ -295,8 +289,6 @@ static int is_selected(const sweep *s, const sweep_point *p, const formulation *
     return selected;
 }
 
-/* Plans the formulations at a point: those requested (or all), and those with options for which the
- * point has a discrete reference value. */
 static status plan_series(const sweep_request *request, const truths *t, sweep *s, int index,
                           select_words *words, char requested[], fault *f)
 {
@@ -328,8 +320,6 @@ static status plan_point(const sweep_request *request, const truths *t, sweep *s
     if (requested == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for a selection");
     const status outcome = plan_series(request, t, s, index, words, requested, f);
-    /* Omissions depend on all quantities. A selection therefore does not change which formulations
-     * solve another model. */
     plan_omissions(s, index);
     drop_quantities(&s->point[index].scene, requested);
     free(requested);

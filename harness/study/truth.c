@@ -1,4 +1,3 @@
-/* Finds the reference values for a point, a formulation and a quantity. */
 #include "harness/study/study_impl.h"
 
 #include <assert.h>
@@ -13,8 +12,7 @@ const char truth_kinds[] =
     "exact|predicted|independent|consensus|agreement|published|reconstructed|experiment|"
     "unrepeatable";
 
-/* Returns 1 if the row also holds for other values of the parameter. Results with lumped and
- * consistent mass have the same limit; only their discrete values differ. */
+/* Returns 1 if the row also holds for other values of the parameter. */
 static int may_differ(const truth *row, const parameter_type *p)
 {
     return row->formulation[0] == '\0' && case_is_mass(p);
@@ -31,7 +29,6 @@ static int same_point(const truth *row, const case_type *type, const double valu
     return 1;
 }
 
-/* Returns 1 if the pattern matches the key of a formulation, or its name without options. */
 static int is_of_formulation(const char *pattern, const char *key)
 {
     char bare[64];
@@ -121,7 +118,6 @@ static int frame_motion_of(const truths *t, const case_type *type, const char *q
     return at;
 }
 
-/* Searches without the index, from row i on. */
 static int walk(const truths *t, const case_type *type, const char *quantity, int i)
 {
     while (i < t->rows && !is_of(&t->row[i], type, quantity))
@@ -143,8 +139,6 @@ int truth_index_next(const truths *t, int i)
     return walk(t, row->type, row->quantity, i < t->indexed ? t->indexed : i + 1);
 }
 
-/* Fills the index from the last row to the first, so that each entry links to the next row of the
- * same quantity. */
 static void chain(truths *t)
 {
     for (int k = 0; k < t->places; k++)
@@ -183,8 +177,6 @@ void truth_index_free(truths *t)
     t->indexed = t->places = 0;
 }
 
-/* Reads the parameters of a row. Checks that their meaning has not changed since the table was
- * packed. */
 static status check_row(const table_columns *r, const case_type *type, int i, const char *text,
                         uint64_t hash, parameters_words *before, double value[], int any[])
 {
@@ -200,7 +192,6 @@ static status check_row(const table_columns *r, const case_type *type, int i, co
     return STATUS_OK;
 }
 
-/* Conventions for a moment on a rotating node, and for the order of prescribed rotations. */
 static const char conventions[] =
     "vector|RyRzRx|spatial|spatial vector|spatial RyRzRx|semitangential|semitangential vector|"
     "semitangential RyRzRx|symmetrised|symmetrised vector|symmetrised RyRzRx";
@@ -244,7 +235,6 @@ const char *truth_rows_wrong(const truth *row)
     return is_known_or_empty(row->convention, conventions) ? NULL : "convention";
 }
 
-/* Columns of a table that are not members of a row. */
 typedef struct loose_columns {
     char **parameters;
     uint64_t *hash;
@@ -271,7 +261,6 @@ static status read_columns(const table_columns *r, loose_columns *loose, truth *
     return columns_strings(r, "parameters", loose->parameters);
 }
 
-/* Returns 1 if row i repeats the parameters of the previous row. */
 static int is_of_same_point(const loose_columns *loose, int i)
 {
     return i > 0 && loose->hash[i] == loose->hash[i - 1] &&

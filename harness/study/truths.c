@@ -65,8 +65,6 @@ static status read_cases(const char *path, hid_t all, const case_type *only, tru
     return STATUS_OK;
 }
 
-/* Counts the tables of cases that the program does not contain, and records the name of the first
- * one, so that unused tables are reported. */
 static void find_unknown_cases(hid_t all, truths *out)
 {
     char name[64];
@@ -82,7 +80,7 @@ static void find_unknown_cases(hid_t all, truths *out)
 }
 
 typedef struct truths_wanted {
-    const char *group; /* group that contains one table per case; NULL: none */
+    const char *group;
     const case_type *only;
     int rules;
 } truths_wanted;
@@ -102,7 +100,6 @@ static status read_tables(const char *path, hid_t file, const truths_wanted *wha
     return outcome;
 }
 
-/* Reads the tables. The caller read_file() closes *file, even after a failure. */
 static status read_open(const char *path, const truths_wanted *what, hid_t *file, truths *out,
                         fault *f)
 {
@@ -170,7 +167,6 @@ void truths_free(truths *t)
     memset(t, 0, sizeof *t);
 }
 
-/* Checks the version of the file. FAULT: the file is not a beamwork file of this version. */
 static status check_schema(hid_t file, const char *path, fault *f)
 {
     char name[64] = "";
@@ -298,7 +294,6 @@ static status read_all(table_columns *c, glossary_entry **out)
     return STATUS_OK;
 }
 
-/* Reads the glossary. The caller glossary_read() closes *file, even after a failure. */
 static status glossary_read_open(const char *path, hid_t *file, glossary *out, fault *f)
 {
     table_columns c = {.path = path, .name = "glossary", .f = f};

@@ -34,7 +34,7 @@ typedef struct deviations_reader {
     truths *t;
     mistakes *m;
     const user_table_row *row;
-    int good; /* 1: no error has been found in the current row */
+    int good;
 } deviations_reader;
 
 #define WRONG(r, column, ...)                                                                      \
@@ -80,7 +80,6 @@ static int case_has(const deviations_reader *r, const case_type *type, const cha
     return user_names_quantity(defaults, quantity) != NULL;
 }
 
-/* Checks that a case of the rule has the quantity. Otherwise the rule would never apply. */
 static void check_quantity(deviations_reader *r, const char *word)
 {
     char near[FAULT_TEXT] = "", pattern[RULES_WORD];
@@ -110,7 +109,6 @@ static const char *verdict_at(const void *context, int i)
     return i < VERDICT_KINDS ? verdict_name((verdict_kind)i) : NULL;
 }
 
-/* Checks a list of verdicts, such as "wrong limit|undecided". */
 static void check_verdicts(deviations_reader *r)
 {
     char word[RULES_WORD], near[FAULT_TEXT];
@@ -357,8 +355,6 @@ const char *user_names_near_quantity(const scene *s, const char *name, char text
                            "; 'beamwork list CASE' shows the quantities", text);
 }
 
-/* Returns 1 if all quotation marks are closed in the line. Otherwise the field would continue on
- * the next line. */
 static int quotes_are_even(const char *line)
 {
     int quotes = 0;
@@ -401,7 +397,6 @@ static int count_columns(const char *columns)
     return count;
 }
 
-/* Reads the lines of a table. The caller user_table_read() frees *line, even after a failure. */
 static status read_lines(FILE *from, const char *columns, char **line, user_table *out, mistakes *m,
                          fault *f)
 {

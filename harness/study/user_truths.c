@@ -66,7 +66,6 @@ static void take_elements(truths_reader *r, int *out)
         *out = (int)count;
 }
 
-/* Checks that the scene with these parameters has the quantity in this unit. */
 static void check_quantity(truths_reader *r, const case_type *type, const double value[])
 {
     char near[FAULT_TEXT];
@@ -111,8 +110,7 @@ static int same_point(const truth *a, const truth *b)
     return 1;
 }
 
-/* Returns an existing reference value for the same quantity; NULL: none. Two reference values are
- * an error, because only one would be used. */
+/* Returns an existing reference value for the same quantity; NULL: none. */
 static const truth *known(const truths *t, const truth *row)
 {
     for (int i = 0; i < t->rows; i++) {
@@ -127,7 +125,6 @@ static const truth *known(const truths *t, const truth *row)
     return NULL;
 }
 
-/* Converts the row to a reference value and checks it. The strings of the row are not copied. */
 static void take_row(truths_reader *r, const case_type *type, truth *out)
 {
     char *const *field = r->row->field;

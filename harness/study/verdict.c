@@ -53,7 +53,7 @@ double verdict_error(const scene_quantity *q, double value, double truth_value)
 typedef struct verdict_history {
     int n[SERIES_MAX_MESHES];
     double value[SERIES_MAX_MESHES]; /* NAN: none */
-    status failure;                  /* status of the finest mesh */
+    status failure;
     const char *reason;
 } verdict_history;
 
@@ -108,23 +108,20 @@ mesh_limit verdict_limit(const sweep *s, int series_index, int quantity, int lef
     const verdict_history h = history_of(one, quantity);
     const element_order order =
         element_order_in(one->formulation.type, verdict_analysis(here, q), one->formulation.option);
-    const limit_sequence sequence = {.count = verdict_meshes(one, quantity) - left_out,
-                                     .n = h.n,
-                                     .value = h.value,
-                                     .noise = one->noise != NULL ? one->noise[quantity] : NAN,
-                                     .nominal_order = fmax(1, ceil(q->least_order)),
-                                     .highest_order =
-                                         scene_tapers(here) && order.highest > 2
-                                             ? 2 /* higher orders require prismatic members */
-                                             : order.highest,
-                                     .near_zero = q->near_zero};
+    const limit_sequence sequence = {
+        .count = verdict_meshes(one, quantity) - left_out,
+        .n = h.n,
+        .value = h.value,
+        .noise = one->noise != NULL ? one->noise[quantity] : NAN,
+        .nominal_order = fmax(1, ceil(q->least_order)),
+        .highest_order = scene_tapers(here) && order.highest > 2 ? 2 : order.highest,
+        .near_zero = q->near_zero};
     return limit_of(&sequence);
 }
 
-/* Returns 1 if the order is known and too low. Two low orders may agree by accident, if error terms
- * have opposite signs or if elements are as long as a boundary layer. With five or more meshes, the
- * previous order must therefore also be below the nominal order, and the three orders must be
- * monotonic. Changes below the uncertainty of the reference value are ignored. */
+/* Returns 1 if the order is known and too low. With five or more meshes, the previous order must
+ * therefore also be below the nominal order, and the three orders must be monotonic. Changes below
+ * the uncertainty of the reference value are ignored. */
 static int order_is_low(const scene_quantity *q, const verdict *v)
 {
     const double least = q->least_order - order_slack, nominal = ceil(q->least_order);
@@ -143,8 +140,6 @@ static int is_predicted(const verdict *v)
     return apart <= many_times * v->fit.limit_uncertainty + v->predicted->uncertainty;
 }
 
-/* Returns the verdict with respect to the reference value. Only a limit that differs from an exact
- * reference value can be biased. */
 static verdict_kind compare(const scene_quantity *q, const verdict *v)
 {
     const double error = fabs(v->fit.limit - v->truth->value),
@@ -206,7 +201,6 @@ static void find_truths(const sweep *s, const truths *t, verdict *v)
         v->model_truth = truth_agreed(t, p->type, p->parameter, name);
     const int foreign = one->imported != NULL && !imported_same_model(one->imported);
     if ((foreign || one->without.other) && v->truth != NULL) {
-        /* shown as a difference between models, regardless of the source of the reference value */
         v->model_truth = v->truth;
         v->truth = NULL;
     }
@@ -241,7 +235,6 @@ static void describe_other_model(const series *one, verdict *v)
     snprintf(v->reason, sizeof v->reason, "%.*s", (int)sizeof v->reason - 1, words);
 }
 
-/* Returns 1 and sets the verdict if the series cannot be compared with a reference value. */
 static int is_inapplicable(const sweep *s, verdict *v)
 {
     const series *one = &s->series[v->series];
@@ -324,8 +317,6 @@ static const char *quantity_of(const sweep *s, const verdict *v)
     return s->point[series_of(s, v)->point].scene.quantity[v->quantity].name;
 }
 
-/* Returns 1 if one proposed rule covers both verdicts, because they have the same case, formulation
- * and kind. */
 static int same_rule(const sweep *s, const verdict *a, const verdict *b)
 {
     return a->needs_deviation && b->needs_deviation && a->kind == b->kind &&
@@ -333,8 +324,6 @@ static int same_rule(const sweep *s, const verdict *a, const verdict *b)
            strcmp(series_of(s, a)->formulation.key, series_of(s, b)->formulation.key) == 0;
 }
 
-/* Returns the index of the first verdict with the same rule. quantity 1: the quantity must also be
- * the same. */
 static int first_of(const sweep *s, const evaluation *j, int index, int quantity)
 {
     const verdict *v = &j->verdict[index];

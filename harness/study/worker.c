@@ -19,8 +19,6 @@ typedef struct requested {
     int task, same;
 } requested;
 
-/* Adds the inputs of a cell that are not part of the model, such as the case, its parameters, the
- * options of the solution, and the number of quantities. */
 static void add_request(identity *out, const workload *w, const requested *a)
 {
     const sweep_point *p = &w->s->point[w->s->series[w->tasks[a->task].series].point];
@@ -61,8 +59,6 @@ static int is_known(void *context, const model *m)
     return a->same >= 0;
 }
 
-/* Solves the equivalent scene of a repetition, for its values only. If this scene is invalid, there
- * is no result. */
 static void run_again(const workload *w, const requested *a, cell_request *request,
                       cell_result *out)
 {
@@ -101,7 +97,7 @@ static int run_task(const workload *w, int i, int alone, cell_result *out)
 }
 
 typedef struct heading {
-    int task, same; /* same: task with the same results; -1: results follow */
+    int task, same;
     size_t bytes;
 } heading;
 
@@ -208,8 +204,7 @@ static int take_result(workload *w, const heading *head, char *bytes)
     return bad;
 }
 
-/* Returns 1 if the header is that of an unfinished task. A worker with corrupted memory may write
- * any bytes. */
+/* Returns 1 if the header is that of an unfinished task. */
 static int is_heading(const workload *w, const heading *head)
 {
     enum { LARGEST = 1 << 30 }; /* [bytes] */
@@ -217,7 +212,6 @@ static int is_heading(const workload *w, const heading *head)
            head->bytes <= LARGEST && (head->same >= 0 ? head->bytes == 0 : head->bytes > 0);
 }
 
-/* Marks the output of the worker as damaged and kills the worker, which closes the pipe. */
 static int corrupted(worker *from)
 {
     from->damaged = 1;
@@ -225,7 +219,7 @@ static int corrupted(worker *from)
     return WORKER_ENDED;
 }
 
-/* Reads all complete results. Returns the same values as worker_receive. */
+/* Reads all complete results. */
 static int take_whole(workload *w, worker *from)
 {
     size_t at = 0;
@@ -251,7 +245,6 @@ static int take_whole(workload *w, worker *from)
 int worker_receive(workload *w, worker *from)
 {
     ssize_t got;
-    /* after the worker has ended, no more data will arrive */
     const int ended = child_has_ended(from->process);
     if (grow(from) != 0)
         return WORKER_NO_MEMORY;
@@ -281,7 +274,7 @@ int worker_handle_end(workload *w, int self, worker *dead)
     if (w->together && !dead->stopped && !dead->damaged && WIFSIGNALED(how) &&
         WTERMSIG(how) == SIGKILL)
         kill(getpid(), SIGKILL);
-    sem_post(&w->board->changed); /* replaces a wake-up signal that the worker may have received */
+    sem_post(&w->board->changed);
     if (i < 0 || w->done[i])
         return dead->stopped || i >= 0;
     solve_result *r = &workload_cell(w, i)->solve;

@@ -7,7 +7,6 @@
 
 #include "harness/numerics/numerics.h"
 
-/* Returns the edit that produces equivalent scene number `repetition`. */
 static scene_edit noise_words(const formulation *, int repetition);
 /* Sets series.noise to twice the larger of the differences between the repetitions and the value on
  * the finest mesh, relative to the value or to near_zero. If the formulation uses finite
@@ -42,8 +41,6 @@ static void list_tasks(workload *w)
     w->board->ended = w->due == 0;
 }
 
-/* Allocates a board for the largest number of tasks that may be added: one for each repetition, and
- * one for each separate solution. */
 static board *alloc_board(int all, size_t *size)
 {
     *size = sizeof(board) + 2 * ((size_t)all + 1) * sizeof(atomic_int);
@@ -103,9 +100,8 @@ void workload_end(workload *w)
     free(w->after);
 }
 
-/* Takes task i if the counter is still n, and increases the counter. Before that, the worker
- * records the task as its own, so that the task is not lost if the worker ends. Returns 0 if
- * another worker has taken the task. */
+/* Takes task i if the counter is still n, and increases the counter. Returns 0 if another worker
+ * has taken the task. */
 static int take(board *b, int self, atomic_int *counter, int n, int i)
 {
     b->since[self] = clock_wall_seconds();
@@ -215,8 +211,6 @@ static int copy(const cell_result *from, cell_result *to)
     return bad;
 }
 
-/* Copies the results of another task, which is complete. A failed solution is repeated for each
- * task, because the messages differ. */
 static void finish(workload *w, int i, int same)
 {
     if (workload_cell(w, same)->solve.status == STATUS_OK &&
@@ -252,7 +246,7 @@ double workload_share(const workload *w)
     for (int i = 0; i < w->all; i++) {
         const workload_task *t = &w->tasks[i];
         if (t->again > 0 && w->state[t->series] != SERIES_NOISE && !w->done[i])
-            continue; /* the repetition is not requested, or not now */
+            continue;
         const double cost = run_cost_of_cell(w->s, t->series, t->mesh);
         all += cost;
         done += w->done[i] ? cost : 0;
@@ -352,11 +346,11 @@ int noise_cells(const sweep *s)
 /* Lock of a problem; key 0: the entry is free. */
 typedef struct task_lock {
     _Atomic uint64_t key, check;
-    atomic_int task; /* task + 1; 0: not written yet */
+    atomic_int task;
 } task_lock;
 
 struct task_locks {
-    size_t size; /* size of the shared memory [bytes] */
+    size_t size;
     uint64_t places;
     task_lock place[];
 };
