@@ -15,8 +15,6 @@
 /* Compares the times [s] of `pairs` pairs of laps. */
 against_times against_evaluate(int pairs, const double a[], const double b[]);
 
-/* A varied parameter of a case, and its values. */
-
 enum { AXIS_MOST_VALUES = 1000001 };
 
 /* Reads a varied parameter. Formats: "NAME=A..B/N" (N equal parts, ends included),
@@ -70,9 +68,8 @@ void measures_point(element_measure *one, double at, double error);
 int measures_wrong_limits(const measures *m);
 
 /* Returns the check with the given name, and adds it if necessary. allowed: largest allowed
- * deviation. A new check passes until a larger deviation is added. */
+ * deviation. */
 check_result *checks_open(check_results *c, const char *name, double allowed);
-/* Records that a requirement is not checked, and the reason. */
 void checks_not_made(check_results *c, const char *name, const char *why);
 /* Adds a comparison with its deviation; NaN counts as the largest deviation. */
 void checks_deviation(check_result *one, double departure, const char *format, ...)
@@ -81,7 +78,6 @@ void checks_deviation(check_result *one, double departure, const char *format, .
  * error. */
 void checks_require(check_result *one, int holds, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
-/* Describes the next call or check, for reports of crashes. */
 void checks_current(check_results *c, const char *format, ...)
     __attribute__((format(printf, 2, 3)));
 /* Returns the difference relative to `size`; 0 if the difference is 0, even if `size` is 0. */
@@ -93,8 +89,6 @@ static inline double checks_relative(double apart, double size)
 int checks_counted(const check_results *c, check_outcome outcome);
 int checks_compared(const check_results *c);
 
-/* Computes a section. Lengths are in units of `unit` metres, forces in newtons, and masses in
- * kilograms. */
 status profiles_section(profiles_form form, double unit, section *out, fault *f);
 
 /* Returns the features for a straight element: all features of the type, except `without`. */
@@ -107,7 +101,6 @@ void test_element_numbers(int count, unsigned seed, double out[]);
 void test_element_rigid_motion(const test_element *s, const double turn[3], const node_state x[],
                                node_state out[]);
 
-/* State at which finite differences are computed. */
 typedef struct test_element_stencil {
     const test_element *s;
     const node_state *x;
@@ -124,22 +117,16 @@ void test_element_rest(const test_element *s, double inner[]);
 status test_element_converged(const test_element *s, const double e[], double inner[],
                               stress_output *out);
 
-/* Checks that the damping matrix is symmetric and dissipates energy. Does nothing if the type has
- * no function `damping`. */
+/* Checks that the damping matrix is symmetric and dissipates energy. */
 void own_damping_check(const test_element *s, const double C[], check_results *c);
 /* Checks the function `line`: the motion of the sections, and the equilibrium between nodal forces
- * and loads along the element. Does nothing if the type has no such function. */
+ * and loads along the element. */
 void own_line_check(const test_element *s, check_results *c);
 
 /* Returns a description such as "rotation about y of node 2". */
 const char *test_element_coordinate(const test_element *s, int c, char words[TEST_ELEMENT_WORDS]);
 
-/* Families of checks, one for each group of requirements of element.h. Each family checks all test
- * elements that the formulation supports, and adds its results. */
-
-checks_run checks_declared; /* the declarations are consistent */
-/* the type supports each declared feature, subsets of them, and the combinations that cases
- * require */
+checks_run checks_declared;
 checks_run checks_features;
 checks_run checks_derivatives; /* J and H are the derivatives of the strains */
 checks_run checks_energy; /* stress, stiffness and geometric stiffness derive from the energy */
@@ -148,7 +135,7 @@ checks_run checks_force;  /* force and stiffness derive from the energy (types d
 checks_run checks_motion;
 checks_run checks_stateless; /* equal calls give equal results, independent of earlier calls */
 checks_run checks_many;      /* one call for many elements gives the same results as single calls */
-checks_run checks_bounds;    /* outputs are filled completely, and no other memory is changed */
+checks_run checks_bounds;
 checks_run checks_nonfinite; /* NaN and Inf in the input are reported */
 checks_run checks_mass; /* the mass matrix is symmetric and positive definite, and gives the mass of
                            the beam */
@@ -171,7 +158,7 @@ int certificate_compared(const certificate *);
 /* Returns the first failed check; NULL: none. */
 const check_result *certificate_broken(const certificate *);
 
-/* Divides work into batches and assigns batches to shards. The result depends only on the costs. */
+/* Divides work into batches and assigns batches to shards. */
 
 /* Assigns each batch to a shard: shard[batches] contains numbers from 0 to shards - 1. In
  * decreasing order of cost, each batch goes to the shard with the lowest cost so far. Returns 0, or
@@ -181,13 +168,11 @@ int batches_assign(int batches, const double cost[], int shards, int shard[]);
  * their order. */
 void batches_order(int batches, const double cost[], int order[]);
 
-/* Smallest stride, and largest number of stored states, each of which has a few kilobytes. */
 enum { DESIGN_STRIDE = 16384, DESIGN_MARKS = 1024, DESIGN_MOST_POINTS = 1000000000 };
 
 /* Makes a design. points: ignored for grids. In a grid, the last axis varies fastest. As in GSL,
- * the Sobol and Halton sequences start with the point after the origin.
- * REFUSED: there are too many points or axes; an axis of a grid is not divided; or an axis of
- * another design is divided. */
+ * the Sobol and Halton sequences start with the point after the origin. REFUSED: the message gives
+ * the reason. */
 status design_make(design_kind kind, int axes, const sweep_axis list[], long points,
                    unsigned long seed, design *out, fault *f);
 void design_free(design *);
@@ -210,16 +195,11 @@ status extreme_plan(const extreme_request *request, extreme_sweep *out, fault *f
 
 void extreme_table(FILE *to, const void *found); /* found: an extreme_sweep */
 
-/* Lists of steps and tolerances in an option. */
-
 typedef struct integrators_list {
     int count;
     double value[INTEGRATORS_LIST_MOST];
 } integrators_list;
 
-/* Reads "0.1,0.05" or "0.1..0.0125". In the second form, the first number is divided by `ratio`
- * repeatedly until the last number is reached. All numbers must be positive. option: name of the
- * option, for messages. */
 status integrators_list_read(const char *option, const char *text, double ratio,
                              integrators_list *out, fault *f);
 
@@ -254,7 +234,6 @@ status integrators_verdict_plan(const char *path, integrators *, integrators_ver
 void integrators_verdict_reach(const integrators *, integrators_verdicts *);
 void integrators_verdict_free(integrators_verdicts *);
 
-/* Status of a cell: a value of `status`, or one of these values. */
 enum {
     ROWS_NOT_OFFERED = STATUS_NO_VALUE + 1,
     ROWS_NO_SCENE,
@@ -283,8 +262,7 @@ enum { SHARD_MOST_JOBS = 64, SHARD_MOST = 100000 };
 /* Writes the path of a batch that exists. */
 status batch_store_path(const batch_store *, int batch, char out[PATH_MAX], fault *f);
 
-/* Adds the results of the points from number `first` on. Every point must be added exactly once, in
- * the order of the points. */
+/* Adds the results of the points from number `first` on. */
 status tally_add(tally *, long first, const rows *, fault *f);
 /* Returns the counts of a quantity. quantity: its index, or the number of quantities for the counts
  * of all quantities together. */
@@ -294,24 +272,17 @@ const tally_place *tally_at(const tally *, int formulation, int quantity, int li
  * axis. */
 double tally_edge(const tally *, int axis_index, int place);
 
-/* A sweep in a group of a results file. The group is written batch by batch, and only one batch is
- * in memory at a time. */
+/* A sweep in a group of a results file. */
 
 /* Adds the results of the points from number `first` on. */
 status ranges_file_add(ranges_file *, long first, const rows *, fault *f);
 
-/* Run times of the cells of a completed sweep. In each round, every cell of a parameter point is
- * run. */
-
 /* Runs one round: runs the cell at least once, and again until `floor` [s] of processor time are
- * used. Cells that fail are also timed. */
+ * used. */
 void rounds_run(const cell_request *request, double floor, rounds_reading *out);
-/* Runs one round of the published algorithm for the cell with the result `cell`. Does nothing if
- * the problem is linear or too large. */
+/* Runs one round of the published algorithm for the cell with the result `cell`. */
 void dense_reference_round(const cell_request *own, const cell_result *cell, double floor,
                            dense_reference *out);
-
-/* A beam that is fixed at its start and loaded at its end. */
 
 typedef enum beam_analysis { BEAM_LINEAR, BEAM_LARGE, BEAM_BUCKLING, BEAM_VIBRATION } beam_analysis;
 
@@ -348,7 +319,7 @@ int beam_point(const beam_request *, double at, double exact, element_measure *o
  * CHECK_PASSED if a requirement other than "prepare" is satisfied, and otherwise CHECK_NOT_MADE. */
 check_outcome checks_outcome(const check_results *);
 
-/* Text output of certificates. Each certificate fits on one screen. */
+/* Text output of certificates. */
 
 #define CERTIFICATE_EXACT 1e-9
 
@@ -360,41 +331,27 @@ void certificate_paper(FILE *to, int latex, const certificate *all, int count);
 /* Writes one line for each check and each measured error. */
 void certificate_csv(FILE *to, const certificate *all, int count);
 
-/* Expected outcomes of a sweep of extremes (reference/extreme_findings.csv), and their counts. */
-
 /* Sets `deviation` and `as_expected` of every outcome, and the counts. whole 1: no selection was
  * made; a known deviation that is not observed is then a failure. */
 void extreme_expect(extreme_sweep *s, int whole);
 
-/* Classifies an outcome on the first mesh: accurate, a failure, or wrong. A wrong outcome may be
- * reclassified when other meshes have been computed. */
+/* Classifies an outcome on the first mesh: accurate, a failure, or wrong. */
 status extreme_evaluate_first(const extreme_sweep *s, const truths *t, extreme_outcome *o,
                               fault *f);
-/* Classifies a wrong outcome as under-resolved if the error decreases towards the finest mesh with
- * an order of at least 0.5, as a discretisation error does. */
 void extreme_evaluate_neighbours(const extreme_sweep *s, const truths *t, extreme_outcome *o);
 
-/* Record types of extremes, of outcomes, and of the counts of a formulation. */
-
 extern const record_type record_extremes_all, record_extreme, record_outcome, record_extreme_count;
-extern const record_type *const extreme_records[]; /* all record types except the first;
-                                                      NULL-terminated */
+extern const record_type *const extreme_records[];
 void extreme_gather(const void *found, const record_type *type, subjects *out);
-
-/* Reference values of one point of a sweep. */
 
 typedef struct known_truths {
     truths stored, derived;
-    int borrowed; /* 1: the rows of `stored` belong to the request */
+    int borrowed;
 } known_truths;
 
-/* Finds the stored reference values of the point. If a requested quantity has none and
- * --compute-references was given, a program of reference/derive computes them. If this program
- * fails, they are missing. FAULT: out of memory. */
+/* Finds the stored reference values of the point. FAULT: out of memory. */
 status known_at(const parameter_ranges *r, const sweep_point *p, known_truths *out, fault *f);
 void known_free(known_truths *);
-
-/* A process that computes batches one after the other, and sends a message after each batch. */
 
 typedef struct batch_queue {
     atomic_int next;                /* next entry of `list` to be computed */
@@ -410,7 +367,7 @@ typedef struct batch_worker {
     machine here;
 } batch_worker;
 
-/* Message about a batch. The message is small enough to be written to a pipe in a single write. */
+/* Message about a batch. */
 typedef struct batch_report {
     int batch;
     status status;
@@ -421,9 +378,8 @@ typedef struct batch_report {
 /* Computes batches until none is left or a batch fails. to: pipe for the messages. */
 _Noreturn void batch_worker_run(const batch_worker *, int self, int to);
 
-/* Returns the largest distance between two motions over all stations, nodes and centre lines. The
- * distance is the difference of positions relative to the size of the structure or, if larger, the
- * angle between sections [rad]. NAN: a motion failed, or a station is missing. */
+/* Returns the largest distance between two motions over all stations, nodes and centre lines. NAN:
+ * a motion failed, or a station is missing. */
 double integrators_distance(const cell_result *, const cell_result *other, int analysis);
 /* Returns the difference between two values of a quantity, relative to the value of `other` or to
  * near_zero. NAN: a value is missing. */
@@ -436,7 +392,7 @@ double integrators_distance_of(const scene_quantity *, const quantity_result *,
  * the classification. E: energy; E0: energy after the loads have ended. */
 void integrators_drift(const integrators *, integrators_run *);
 
-/* Runs all planned motions and evaluates them. A motion that fails counts as a result. */
+/* Runs all planned motions and evaluates them. */
 status integrators_evaluate(integrators *, const sweep_request *, fault *);
 
 /* Observed orders of an integrator, from runs with repeatedly halved steps. */
@@ -470,15 +426,13 @@ int integrators_order_is_stopped(const integrators_group *);
 
 /* Returns the runs of the integrator whose first run has number `first`. */
 integrators_ladder integrators_order_of(const integrators *, int first);
-/* Returns 1 if the relative error of a quantity does not decrease with the step size. An example is
- * a force that depends on unresolved frequencies. */
+/* Returns 1 if the relative error of a quantity does not decrease with the step size. */
 int integrators_order_stagnates(const integrators *, const integrators_ladder *, int quantity);
 /* Sets the order of each run that has a previous run with a larger step, from the errors of these
  * two runs. */
 void integrators_order_fill(integrators *);
 const char *integrators_order_name(integrators_order_kind);
 
-/* Request for the runs of one structure. */
 typedef struct integrators_plan_request {
     const case_type *type;
     const double *parameter;
@@ -486,9 +440,9 @@ typedef struct integrators_plan_request {
     int elements; /* 0: as in the second mesh of the case, or 4 if it has fewer meshes */
     int methods;
     const integrators_method *method;
-    integrators_list steps, tolerances; /* count 0: none */
-    int errors;                         /* 1: errors are computed, which requires a reference */
-    int whole; /* 1: a step without a solution ends the motion; 0: such a step is halved */
+    integrators_list steps, tolerances;
+    int errors; /* 1: errors are computed, which requires a reference */
+    int whole;  /* 1: a step without a solution ends the motion; 0: such a step is halved */
 } integrators_plan_request;
 
 /* Sets a missing number of elements. If neither steps nor tolerances are given, sets steps from the
@@ -511,30 +465,21 @@ typedef struct integrators_reach {
     double cost;
 } integrators_reach;
 
-/* Finds the run of an integrator in a group for an error level, and the cost at this level. */
 integrators_reach integrators_reach_of(const integrators *, int group, const char *method,
                                        double level);
-/* Lists the names of the integrators of all groups without repetition, and returns their number. */
 enum { INTEGRATORS_METHODS_MOST = 32 };
 int integrators_reach_methods(const integrators *, const char *name[INTEGRATORS_METHODS_MOST]);
 
-/* Records of motions and their evaluation. */
-
 extern const record_type record_integrators_all, record_integrators_run;
-extern const record_type *const integrators_records[]; /* all record types except the first;
-                                                   NULL-terminated */
+extern const record_type *const integrators_records[];
 
 /* Prints the verdicts on motions. runs 1: also prints a line for each motion. */
 void integrators_table(FILE *to, const integrators *, const integrators_verdicts *, int runs);
 
-/* Data that the group of a sweep contains once. */
-
-/* Writes the request. Call before any point is written. */
+/* Writes the request. */
 void ranges_file_request(record_file *, hid_t at, const parameter_ranges *, const char *plan);
-/* Writes the worst points. Call after all points have been written. */
+/* Writes the worst points. */
 void ranges_file_worst(record_file *, hid_t at, const parameter_ranges *, const tally *);
-
-/* Parameters of a point of a sweep. */
 
 /* Computes the values of all parameters from the values on the axes. */
 void ranges_points_values(const parameter_ranges *, const double at[],
@@ -543,28 +488,21 @@ void ranges_points_values(const parameter_ranges *, const double at[],
  * reproduce the values. */
 void ranges_points_text(const parameter_ranges *, const double at[], char *text, int size);
 
-/* Internals of the table of a sweep. */
-
 enum { RANGES_TABLE_NAME = 24, RANGES_TABLE_COLUMN = 7, RANGES_TABLE_LINE = 1024 };
 
-/* Returns the name of a quantity; "all quantities" if q is the number of quantities. */
 static inline const char *ranges_table_name(const parameter_ranges *r, int q)
 {
     return q < r->quantities ? r->quantity[q].name : "all quantities";
 }
 
-/* Writes the kinds of references, and the points without a scene (ranges_request.c). */
 void ranges_table_known(FILE *to, const tally *t);
 /* Writes the smallest number of elements as a map over one or two axes (ranges_request.c). every 1:
  * writes another map for each quantity. */
 void ranges_table_map(FILE *to, const tally *t, int every);
 
 /* Reference of a quantity at a point: a stored reference value, a reference value computed by a
- * program of reference/derive, or a limit of the meshes of a formulation with the same physics.
- * Of these limits, the one with the smallest uncertainty U is used. Its uncertainty is U or, if
- * larger, the part of its difference from another limit that exceeds the uncertainty of that limit.
- * An uncertainty above half of the tolerance is too large. A reference value is then ignored. A
- * limit then counts as disputed or, if U itself is too large, as unknown. */
+ * program of reference/derive, or a limit of the meshes of a formulation with the same physics. Of
+ * these limits, the one with the smallest uncertainty is used. */
 
 typedef struct point_reference {
     rows_reference kind;
@@ -576,18 +514,14 @@ typedef struct point_reference {
 point_reference reference_of(const sweep *s, int series_index, int quantity, const truths *stored,
                              const truths *derived, double tolerance);
 
-/* Elements of a formulation under test. The default element has every feature that the formulation
- * supports. The other elements vary the section, the choices of the options, and the initial
- * curvature. */
+/* Elements of a formulation under test. */
 
 typedef void test_elements_check(const test_element *s, check_results *c);
-/* Calls `check` for every test element. The formulation must accept the default element (check
- * "prepare"). Another element that it rejects with a reason is skipped. */
+/* Calls `check` for every test element. */
 void test_elements_each(const formulation *chosen, check_results *c, test_elements_check *check);
 
 /* Sets `formulations`, `meshes`, `quantities`, `left_out` and `point_cost` from the scenes of the
- * first point, the last point and some points between. REFUSED: no scene can be built at these
- * points; no formulation runs; or the selection has an unknown word or selects nothing. */
+ * first point, the last point and some points between. REFUSED: the message gives the reason. */
 status survey(parameter_ranges *r, fault *f);
 
 /* Allocates the data for the batches of a sweep. FAULT: out of memory. ranges_work_free frees the
@@ -608,14 +542,9 @@ status ranges_file_open(const char *path, const parameter_ranges *r, const char 
 status ranges_file_close(ranges_file *, const tally *, const char *content, status written,
                          fault *f);
 /* Writes the scenes of the worst points to a new folder as "point_12.yaml", each point once, and
- * stores their names in the tally. Points whose scene cannot be written as a scene file are
- * omitted. FAULT: a disk error, or out of memory; no file remains. */
+ * stores their names in the tally. FAULT: a disk error, or out of memory; no file remains. */
 status worst_write(const char *folder, tally *t, fault *f);
-/* Writes the table within PARAGRAPH_WIDTH. It contains the kinds of references and, for each mesh,
- * quantity and formulation, the percentage of points within the tolerance. For one or two axes, it
- * contains a map of the smallest sufficient number of elements; every 1: also for each quantity. At
- * the end are the worst points with their values, and a command that shows one of them. folder:
- * folder with the scenes of these points; "": none. */
+/* Writes the table within PARAGRAPH_WIDTH. */
 void ranges_table(FILE *to, const tally *t, int every, const char *folder, fault *f);
 
 #endif

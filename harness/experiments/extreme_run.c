@@ -6,8 +6,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Reads the known deviations of extremes, which the file of packed reference values at `path`
- * contains. */
 static status extreme_expect_read(const char *path, extreme_sweep *out, fault *f);
 
 enum {
@@ -15,8 +13,6 @@ enum {
 }; /* with this number of elements or more, the neighbouring meshes are coarser; with fewer
       elements, they are finer */
 
-/* Adds a series with the neighbouring meshes for the cell of the outcome, unless this series
- * exists. */
 static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
 {
     const series *one = &s->first.series[o->series];
@@ -37,7 +33,6 @@ static status refine(extreme_sweep *s, extreme_outcome *o, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if the outcome may be under-resolved. */
 static int is_open(const extreme_outcome *o)
 {
     return o->kind == OUTCOME_WRONG && isfinite(o->error);
@@ -90,8 +85,6 @@ static status run(const void *requested, void *found, fault *f)
     return s->outcomes > 0 ? run_cells(requested, &s->first, f) : STATUS_OK;
 }
 
-/* Evaluates all outcomes. If an outcome may be under-resolved, it is also computed on other
- * meshes. */
 static status evaluate(const void *requested, void *found, fault *f)
 {
     const extreme_request *request = requested;
@@ -178,8 +171,6 @@ static void count_cell(outcome_kind worst, extreme_count *c)
     c->faults += worst == OUTCOME_FAULT;
 }
 
-/* Counts the cells of each formulation by their worst outcomes. The outcomes of a cell are
- * consecutive. */
 static void count_cells(extreme_sweep *s)
 {
     outcome_kind worst = OUTCOME_SKIP;
@@ -361,7 +352,6 @@ static const schema_field key_of_count[] = {
 const record_type record_extreme_count = {
     "count", "formulations", "results of a formulation", {key_of_count, fields_of_count}};
 
-/* Tables of an extreme: the values of x, and the quantities. The key is the name of the extreme. */
 static const schema_field key_of_extreme[] = {
     {"extreme", "", FIELD_TEXT, "name of the extreme", .get = get_owner, .key = KEY}, {0}};
 static const schema_field field_of_x[] = {{"x", "1", FIELD_DOUBLE, "extreme value", .get = get_x},

@@ -200,7 +200,6 @@ status extreme_evaluate_first(const extreme_sweep *s, const truths *t, extreme_o
     return STATUS_OK;
 }
 
-/* Magnitudes of the errors on the meshes that have a value, from coarse to fine. */
 typedef struct mesh_refinement {
     int count;
     double elements[OUTCOME_NEIGHBOURS + 1], size[OUTCOME_NEIGHBOURS + 1];
@@ -316,8 +315,6 @@ static void print_head(FILE *to, const extreme *e)
     fprintf(to, "%*s\n", CONDITION_WIDTH, "cond.");
 }
 
-/* Prints the errors of a formulation and quantity at all values of x, and the largest condition
- * number. */
 static void print_line(FILE *to, const extreme_sweep *s, const extreme_outcome *o)
 {
     double condition = 0;

@@ -1,5 +1,3 @@
-/* Checks that a type supports the features that it declares: each feature alone, subsets of
- * features, and the combinations that cases require. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -9,8 +7,6 @@
 #include "elements/math/rotation.h"
 #include "harness/model/model.h"
 
-/* Checks that each declared feature of the section changes a result of the element, and, for
- * warping, that a result depends on the warping amplitudes of the nodes. */
 static void effects_check(const formulation *chosen, check_results *c);
 
 typedef enum feature_outcome { FINITE, REFUSED, BAD, FEATURE_OUTCOMES } feature_outcome;
@@ -31,8 +27,6 @@ static int finite_stiffness(const test_element *s, unsigned seed)
     return 1;
 }
 
-/* Evaluates an element with exactly these features. `why` gives the reason if the type rejects
- * them. */
 static feature_outcome evaluated(const formulation *chosen, unsigned features, fault *why)
 {
     const test_element_request what = {
@@ -62,8 +56,6 @@ static void accepted(const formulation *chosen, unsigned features, const char *w
         why.text[0] != '\0' ? "rejected: " : "the stiffness is not finite", why.text);
 }
 
-/* Checks that a type accepts an element without features, and each supported feature together with
- * its prerequisites. For straight elements, it must also accept all supported features together. */
 static void single_features(const formulation *chosen, check_results *c)
 {
     static const struct {
@@ -83,7 +75,6 @@ static void single_features(const formulation *chosen, check_results *c)
     }
 }
 
-/* Checks that a type accepts the features required by the cases on which it runs. */
 static void features_of_cases(const formulation *chosen, check_results *c)
 {
     int runs = 0;
@@ -106,9 +97,6 @@ static void features_of_cases(const formulation *chosen, check_results *c)
                        "features that it supports, and only the limits that it has");
 }
 
-/* Checks subsets of the features. For each subset, the type must give a finite stiffness or a
- * reason for the rejection. At most half of the subsets may be rejected, because one feature may
- * require another. */
 static void feature_subsets(const formulation *chosen, check_results *c)
 {
     enum { OPTIONAL = 7 };
@@ -184,7 +172,6 @@ static int differ(const effects_answers *a, const effects_answers *b)
            other(EFFECTS_M * EFFECTS_M, a->C, b->C) || other(EFFECTS_M * EFFECTS_M, a->G, b->G);
 }
 
-/* An element with some features, and the same element without one of them. */
 typedef struct pair {
     test_element with, without;
 } pair;
@@ -262,11 +249,6 @@ static int anywhere(const formulation *chosen, unsigned features, unsigned bit)
 
 static void effects_check(const formulation *chosen, check_results *c)
 {
-    /* Features whose effect is checked here. FEATURE_ECCENTRIC is excluded, because elements take
-     * the shear centre from the constants of the section. FEATURE_TRAPEZE is excluded, because the
-     * trapeze effect is one of the second-order terms. A formulation that omits all these terms
-     * (beamw_first) gets the same requests as the complete formulation. Other functions check the
-     * features of the structure, the mass and the shape. */
     static const unsigned sections[] = {FEATURE_WARPING, FEATURE_SHEAR, FEATURE_WAGNER_MOMENTS,
                                         FEATURE_WAGNER_TORQUE};
     const unsigned all = test_element_features(chosen->type, 0);
@@ -282,7 +264,7 @@ static void effects_check(const formulation *chosen, check_results *c)
             checks_require(one, anywhere(chosen, all, 0) != 0,
                            "the formulation declares warping, but no result depends on the warping "
                            "amplitudes; let strains depend on them, or do not declare warping");
-        else /* shear theories are requested only together with shear */
+        else
             checks_require(
                 one,
                 anywhere(chosen, all,
@@ -293,9 +275,6 @@ static void effects_check(const formulation *chosen, check_results *c)
                 feature_name(bit));
     }
 }
-
-/* Checks that the mass matrix is symmetric and positive definite, has the mass and the moments of
- * inertia of the beam, and rotates with the element. */
 
 enum { MASS_N = TEST_ELEMENT_COORDINATES };
 

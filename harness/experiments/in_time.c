@@ -32,7 +32,6 @@ static int momenta_at(const void *context, int i, double si, int j, double sj, d
     return (int)outcome;
 }
 
-/* Computes by finite differences the forces required by a motion without accelerations. */
 static void by_differences(const moving_place *m, const double M[], double h[])
 {
     const test_element *s = m->at.s;
@@ -72,8 +71,7 @@ static void compare(const test_element *s, const double found[], const double ri
             i + 1, test_element_coordinate(s, i, where), found[i], right[i], what, s->words);
 }
 
-/* Checks that C is the derivative of the inertia forces with respect to the rates. The forces are
- * quadratic in the rates, so central differences are exact. */
+/* Checks that C is the derivative of the inertia forces with respect to the rates. */
 static void check_rates(const test_element *s, const node_state x[], const double rate[],
                         const double C[], double size, check_result *one)
 {
@@ -128,7 +126,7 @@ static void check_turned(const test_element *s, const node_state x[], const iner
 static void check_one(const test_element *s, check_results *c)
 {
     const int n = s->coordinates;
-    if (n > 2 * NODE_COORDINATES) /* only elements with two nodes are checked */
+    if (n > 2 * NODE_COORDINATES)
         return;
     node_state x[ELEMENT_MAX_NODES];
     double numbers[2 * N], rate[N], acceleration[N], M[N * N], C[N * N], h[N], taken[N], right[N];
@@ -167,9 +165,6 @@ static void check_one(const test_element *s, check_results *c)
                  checks_open(c, "inertia forces rotate with the element", 1e-11));
 }
 
-/* Runs the checks, then repeats them without rotary inertia, so that only the twist has a moment of
- * inertia. If the section is given by matrices or the type has no rotary inertia, the checks are
- * not repeated. */
 static void check(const test_element *s, check_results *c)
 {
     test_element_request what = s->made;

@@ -33,7 +33,6 @@ const cell_result *integrators_cell_of(const integrators *p, int index)
     return &p->sweep.series[index].cell[0];
 }
 
-/* Steps of the motion of a run, and the initial state. */
 typedef struct track {
     int count;
     const motion_record *record;
@@ -54,9 +53,7 @@ static double balance_at(const track *t, int i, scene_balance what)
     return t->record[i].at.balance[what];
 }
 
-/* Returns the index of the first step that ends after all loads have ended. At the end of the
- * loads, accelerations and coordinates without mass are computed again, so the end of the previous
- * step does not count. */
+/* Returns the index of the first step that ends after all loads have ended. */
 static int first_alone(const track *t, double from)
 {
     int i = 0;
@@ -65,8 +62,6 @@ static int first_alone(const track *t, double from)
     return i;
 }
 
-/* Computes the energies relative to the energy of step `first`. The run may have stopped before the
- * last step. */
 static void take_energy(const track *t, int first, integrators_run *r)
 {
     const double before = balance_at(t, first, SCENE_ENERGY);
@@ -231,8 +226,6 @@ int integrators_order_is_stopped(const integrators_group *g)
 
 const double integrators_levels[INTEGRATORS_LEVELS] = {1e-2, 1e-4, 1e-6};
 
-/* Returns 1 if both runs use the same integrator, both with steps or both with tolerances, and a is
- * the coarser run. */
 static int is_coarser(const integrators_run *a, const integrators_run *b)
 {
     return a->group == b->group && strcmp(a->method.name, b->method.name) == 0 &&
@@ -348,7 +341,6 @@ static void print_run(FILE *to, const integrators_run *r)
     fputc('\n', to);
 }
 
-/* Prints the reasons why runs ended early. Consecutive equal reasons are printed once. */
 static void print_reasons(FILE *to, const integrators *p, const integrators_group *g)
 {
     const char *last = "";
@@ -411,7 +403,6 @@ static void print_standing(FILE *to, const integrators *p, const integrators_gro
     }
 }
 
-/* Prints up to three integrators that reach the error `level` at the lowest cost. */
 static void print_level(FILE *to, const integrators *p, int group, double level)
 {
     const char *name[INTEGRATORS_METHODS_MOST];

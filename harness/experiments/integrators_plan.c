@@ -58,8 +58,6 @@ status integrators_plan_default(integrators_plan_request *r, fault *f)
     return outcome;
 }
 
-/* Sets the stations: the multiples of `spacing` before the end, and the end. All runs have a step
- * that ends at each station. */
 static status stations_of(double spacing, double end, scene_path *out, fault *f)
 {
     const int before = (int)ceil(end / spacing * (1 - same)) - 1;
@@ -80,8 +78,7 @@ static status set_motion(integrators *p, const integrators_group *g, const integ
     sweep_point *at = &p->sweep.point[p->sweep.points - 1];
     scene_motion *how = &at->scene.analysis[g->analysis].of.motion;
     how->scheme = r->method.scheme;
-    if (how->mass == SCENE_MASS_USUAL) /* all runs have the same mass, so errors are due only to
-                                          time integration */
+    if (how->mass == SCENE_MASS_USUAL)
         how->mass = SCENE_LUMPED;
     how->alpha = r->method.alpha;
     how->step = r->step;
@@ -114,8 +111,7 @@ static status add_motion(integrators *p, const integrators_group *g,
     return STATUS_OK;
 }
 
-/* Returns the spacing of the stations [s], at which errors are examined. The spacing is a multiple
- * of the coarsest step, because the steps of all runs must end at the stations. */
+/* Returns the spacing of the stations [s], at which errors are examined. */
 static double spacing_of(const integrators_group *g, const integrators_plan_request *q)
 {
     const double coarsest = q->steps.count > 0 ? q->steps.value[0] : g->step,
@@ -147,8 +143,7 @@ static status add_run(integrators *p, const integrators_plan_request *q,
     return STATUS_OK;
 }
 
-/* Adds the energy at all stations as a quantity. A step of the reference then ends at each station,
- * so energies are not interpolated. */
+/* Adds the energy at all stations as a quantity. */
 static void read_exactly(scene *s, int analysis)
 {
     scene_set_curve(scene_add_quantity(s, "energy at all stations", "J", analysis,
@@ -337,9 +332,7 @@ static const char *positive(const char *at, double *out)
     const char *end;
     if (!number_read(at, &end, out) || *out <= 0)
         return NULL;
-    return *end == '.' && end[-1] == '.'
-               ? end - 1
-               : end; /* in "1..2", the first of the two points is not a decimal point */
+    return *end == '.' && end[-1] == '.' ? end - 1 : end;
 }
 
 static status read_range(const char *option, const char *text, double from, double to, double ratio,

@@ -158,7 +158,6 @@ static void get_nominal(const subject *s, field_value *out)
     schema_set_number(out, ((const integrators_ladder *)s->record)->method->order);
 }
 
-/* Returns the names of the quantities whose errors do not decrease with the step size. */
 static void get_standing(const subject *s, field_value *out)
 {
     size_t used = 0;
@@ -188,7 +187,6 @@ static const schema_field fields_of_ladder[] = {
 static const record_type record_integrators_ladder = {
     "order", "orders", "an integrator with successively halved steps", {KEYS, fields_of_ladder}};
 
-/* An error level, an integrator, and the run with which the integrator reaches the level. */
 typedef struct record_reached {
     double error;
     const char *integrator;
@@ -394,7 +392,6 @@ static status plan_axis(const motion_request *r, motions *m, const integrators_p
     return STATUS_OK;
 }
 
-/* Plans all values of the varied parameter, or a single point if no parameter is varied. */
 static status plan_points(const motion_request *r, motions *m, integrators_plan_request *q,
                           fault *f)
 {

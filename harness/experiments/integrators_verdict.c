@@ -122,7 +122,6 @@ enum { CRITERION, CASE, PARAMETERS, FORMULATION, ELEMENTS, INTEGRATOR, STEPS, EX
 static const char *const criterion_names[INTEGRATORS_CRITERIA] = {"order", "energy", "momentum",
                                                                   "tolerance", "fate"};
 
-/* The motions that a row of the table requires, before rows are combined into groups. */
 typedef struct planned {
     integrators_plan_request request;
     double parameter[CASE_MAX_PARAMETERS];
@@ -188,7 +187,7 @@ static status read_row(const user_table_row *row, integrators_verdict *v, planne
 }
 
 /* Returns 1 if two rows can share their runs and their reference because they have the same
- * structure, mesh, and steps or tolerances. Such rows are consecutive in the table. */
+ * structure, mesh, and steps or tolerances. */
 static int is_same(const integrators_verdict *a, const integrators_verdict *b)
 {
     return (a->kind == INTEGRATORS_CLASS) == (b->kind == INTEGRATORS_CLASS) &&
@@ -206,7 +205,6 @@ static int known_method(const planned *p, const integrators_method list[], int c
     return -1;
 }
 
-/* Plans the rows [first, end) as a group. */
 static status plan_block(integrators *p, integrators_verdicts *all, planned row[], int first,
                          int end, fault *f)
 {
@@ -230,7 +228,6 @@ static status plan_block(integrators *p, integrators_verdicts *all, planned row[
     return STATUS_OK;
 }
 
-/* Returns the status `outcome` for an invalid row. The message contains the line of the row. */
 static status refuse(const char *path, const user_table_row *row, status outcome, const fault *why,
                      fault *f)
 {
@@ -331,7 +328,6 @@ static status errors_of(const integrators *p, const integrators_group *g, integr
     return STATUS_OK;
 }
 
-/* Returns the end time of the last accepted step [s]; 0: there is none. */
 static double last_station(const solve_result *r)
 {
     return r->steps > 0 ? r->step[r->steps - 1].path : 0;

@@ -181,7 +181,6 @@ status list_json_formulation(FILE *to, const formulation *chosen, const rule *ru
     return json_finish(root, to, f);
 }
 
-/* Returns name number i; NULL after the last name. */
 static const char *name_at(const void *context, int i)
 {
     static const char *const words[] = {"cases", "formulations"};

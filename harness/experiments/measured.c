@@ -36,8 +36,6 @@ static double exact_of(const beam_request *r, const section *c)
     return 1 / (3 * EI) + shear;
 }
 
-/* Sets `locks` if the error of the thin structure is much larger than that of the thick
- * structure. */
 static void conclude(element_measure *one)
 {
     const double thick = fabs(one->error[0]), thin = fabs(one->error[one->points - 1]);
@@ -67,7 +65,6 @@ static void over_thickness(beam_request *r, const char *name, measures *out)
     conclude(one);
 }
 
-/* Returns FEATURE_SHEAR if the type supports shear along y, otherwise 0. */
 static unsigned shear_of(const element_type *t)
 {
     return t->lacks & LACKS_SHEAR_Y ? 0 : t->offers & FEATURE_SHEAR;
@@ -102,14 +99,13 @@ static const double fraction[IRREGULAR] = {0.13, 0.37, 0.19, 0.31};
 
 typedef struct state {
     const char *name;
-    double thickness, width; /* [m], for a length of 1 m */
+    double thickness, width;
     int profile;
     unsigned needs;
     beam_analysis analysis;
     scene_load_kind load;
     int direction, component;
-    const char
-        *reason; /* probable reason if more elements do not reduce the error of a linear state */
+    const char *reason;
 } state;
 
 static const state states[] = {
@@ -148,7 +144,7 @@ static double states_exact_of(const state *s, const section *c, double load)
 }
 
 /* Sets wrong_limit if the error with four elements exceeds 1e-6 and half of the error with one
- * element. Such an error is due to the section or the element, not to the mesh. */
+ * element. */
 static void states_conclude(const state *s, element_measure *one)
 {
     const double coarse = fabs(one->error[0]), fine = fabs(one->error[1]);
@@ -192,7 +188,6 @@ static void measure_state(const formulation *chosen, const state *s, measures *o
         states_conclude(s, one);
 }
 
-/* Concludes that units are wrong if all linear states deviate by the same power of a thousand. */
 static void compare_units(measures *out)
 {
     double times = NAN;
@@ -214,8 +209,6 @@ static void compare_units(measures *out)
              fmax(times, 1 / times), times > 1 ? "soft" : "stiff");
 }
 
-/* Reports wrong limits as violated requirements: one for each linear state, or a single one for
- * wrong units. */
 static void hold_limits(check_results *c, const measures *m)
 {
     if (m->words[0] != '\0') {
@@ -242,15 +235,8 @@ void measured_states(const formulation *chosen, check_results *c, measures *out)
     hold_limits(c, out);
 }
 
-/* Observed and declared orders of convergence in the number of elements. */
-
-enum {
-    MESHES = 6,
-    MESHES_Z = 4 /* number of meshes with displacements along z, for which the order should be the
-                    same as along y */
-};
-static const double noise =
-    1e-8; /* smaller errors are not used: they may be due to the finite thickness of the beam */
+enum { MESHES = 6, MESHES_Z = 4 };
+static const double noise = 1e-8;
 
 typedef struct orders_question {
     const char *name;
@@ -316,7 +302,6 @@ static int informative_points(const element_measure *one)
     return last;
 }
 
-/* Requires that the observed order is at least the declared minimum. */
 static void hold_against_declared(const orders_question *q, int last, const element_measure *one,
                                   check_results *c)
 {

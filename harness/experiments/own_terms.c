@@ -1,4 +1,3 @@
-/* Checks of optional terms of a formulation: its damping, and the motion of its sections. */
 #include <math.h>
 #include <string.h>
 
@@ -132,8 +131,7 @@ static void check_jacobian(const line_place *p, check_result *one)
         const double unit = test_element_unit(s, j);
         double turn[3] = {0};
         stencil_first(motion_at, p, VALUES, j, change);
-        for (int k = 0; k < 3; k++) { /* rotation: half the sum of the vector products of the axes
-                                         and their changes */
+        for (int k = 0; k < 3; k++) {
             const double axis[3] = {now.R[k], now.R[3 + k], now.R[6 + k]},
                          moved[3] = {change[3 + k], change[6 + k], change[9 + k]};
             double part[3];
@@ -156,8 +154,7 @@ static void check_jacobian(const line_place *p, check_result *one)
     }
 }
 
-/* Checks H. Adding half of the moments on the nodes converts the derivative with respect to spatial
- * increments to the exponential chart. */
+/* Checks H. */
 static void check_second(const line_place *p, check_result *one)
 {
     const test_element *s = p->at.s;

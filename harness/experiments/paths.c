@@ -1,5 +1,3 @@
-/* Checks of element histories, and measurements along paths: superposed rigid rotations of many
- * turns, and closed cycles of deformation. */
 #include "harness/experiments/experiments_impl.h"
 
 #include <math.h>
@@ -18,7 +16,6 @@ static const char *const check_continuation = "commit does not change the strain
                          *const check_repetition = "a second commit changes nothing",
                          *const check_same = "commit gives bit-for-bit equal values again";
 
-/* A committed state, and the history before and after the call of `commit`. */
 typedef struct committed {
     node_state x[ELEMENT_MAX_NODES];
     double before[ADAPTERS_MOST_HISTORY], after[ADAPTERS_MOST_HISTORY];
@@ -127,18 +124,14 @@ void checks_history(const formulation *chosen, check_results *out)
 }
 
 /* STEPS: steps of each turn and each cycle. marks: numbers of cycles after which values are
- * measured. turned, moved: amplitudes of the rotations of nodes [rad] and of other coordinates. The
- * rotations remain below the declared limits. */
+ * measured. turned, moved: amplitudes of the rotations of nodes [rad] and of other coordinates. */
 enum { STEPS = 24, MARKS = 3 };
 static const int marks[MARKS] = {1, 10, 100};
 static const double turned = 0.3, moved = 0.05;
 static const double exact = 1e-9;
 
-/* What is compared along a path. A type that computes strains: these. A type that computes forces
- * with a history: the forces. Any other type: the energy. */
 enum { COMPARES_STRAINS, COMPARES_FORCES, COMPARES_ENERGY };
 
-/* An element that follows a path, with the history and the last results. */
 typedef struct walker {
     const test_element *s;
     double history[ADAPTERS_MOST_HISTORY];
@@ -193,7 +186,6 @@ static int matters(const test_element *s, int k)
     return is;
 }
 
-/* Computes the strains and, if `forces` is 1, the forces of a type that computes strains. */
 static status walker_strains(walker *w, const node_state x[], int forces)
 {
     const test_element *s = w->s;
@@ -213,8 +205,6 @@ static status walker_strains(walker *w, const node_state x[], int forces)
     return STATUS_OK;
 }
 
-/* Evaluates the element in step k of its path, and commits the state. forces 1: also computes the
- * forces. */
 static status walker_step(walker *w, int k, const node_state x[], int forces)
 {
     const test_element *s = w->s;
@@ -234,7 +224,6 @@ static status walker_step(walker *w, int k, const node_state x[], int forces)
     return STATUS_OK;
 }
 
-/* Applies the inverse rotation to the forces of an element that was rotated. */
 static void turn_back(const test_element *s, const double turn[3], double force[N])
 {
     double q[4], R[9];
@@ -246,8 +235,6 @@ static void turn_back(const test_element *s, const double turn[3], double force[
     }
 }
 
-/* Returns the largest difference between the results of two elements, one of which has been
- * rotated. */
 static double difference(const walker *at, const walker *there, const double turn[3])
 {
     const test_element *s = at->s;
@@ -272,8 +259,6 @@ static void conclude(element_measure *one, const char *holds, const char *fails)
     snprintf(one->words, sizeof one->words, "%s", worst <= exact ? holds : fails);
 }
 
-/* Follows closed cycles with and without a superposed rotation of the whole element, and compares
- * the results. */
 static void superposed(const test_element *s, measures *out)
 {
     static const double axis[3] = {0.36, 0.48, 0.8};
@@ -307,7 +292,6 @@ static void superposed(const test_element *s, measures *out)
     conclude(one, "objective", "not objective");
 }
 
-/* Follows closed cycles, and compares the states at their ends with the undeformed state. */
 static void cycles(const test_element *s, measures *out)
 {
     walker at;
@@ -341,8 +325,6 @@ static void cycles(const test_element *s, measures *out)
     conclude(forces, "path-independent", "path-dependent");
 }
 
-/* Checks that errors after superposed rotations and closed cycles are at most `exact`, unless the
- * formulation declares LIMIT_NOT_OBJECTIVE or LIMIT_PATH_DEPENDENT. */
 static void hold_against_declared(const formulation *chosen, const measures *out, check_results *c)
 {
     static const struct {

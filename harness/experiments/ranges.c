@@ -10,16 +10,13 @@
  * unit, value, reference, reference_kind, error, status, cost, seconds, not_modelled. Missing
  * values are empty. */
 static void ranges_csv_head(FILE *to, const parameter_ranges *r);
-/* Writes the results of a batch of points. first: index of the first point. FAULT: out of
- * memory. */
 static status ranges_csv_add(FILE *to, const parameter_ranges *r, long first, const rows *,
                              fault *f);
 
 static const double batch_cost = 0.5; /* [s] largest estimated cost of a batch */
 enum { MOST_POINTS_IN_BATCH = 8192, MOST_BATCHES = 100000000 };
 
-/* Adds a varied parameter. REFUSED: the text is invalid, the parameter is given twice, or there are
- * too many varied parameters. */
+/* Adds a varied parameter. */
 static status add_axis(parameter_ranges *r, const char *text, fault *f)
 {
     if (r->design.axes == CASE_MAX_PARAMETERS)
@@ -50,7 +47,7 @@ static status read_axes(parameter_ranges *r, fault *f)
     const int axes = r->design.axes;
     const status outcome = design_make(r->request.design, axes, r->axis, r->request.points,
                                        r->request.seed, &r->design, f);
-    r->design.axes = axes; /* set again, so that the caller frees the axes */
+    r->design.axes = axes;
     return outcome;
 }
 
@@ -93,7 +90,6 @@ rows_shape ranges_shape(const parameter_ranges *r)
     return (rows_shape){r->formulations, r->meshes, r->quantities};
 }
 
-/* Sets *first to the first point of a batch, and returns the number of points. */
 static int ranges_batch(const parameter_ranges *r, int batch, long *first)
 {
     *first = batch * r->points_in_batch;
@@ -211,8 +207,6 @@ static int is_known(const point_reference *r)
     return r->kind != ROWS_NONE && r->kind != ROWS_DISPUTED;
 }
 
-/* Computes the errors of one quantity at one point. The stored reference is that of the first
- * formulation that has one. */
 static void fill_quantity(const making *m, int at, int q, const known_truths *k)
 {
     const sweep_point *p = &m->s->point[at];
@@ -264,9 +258,6 @@ static status solve(const parameter_ranges *r, int batch, sweep *s, rows *out, f
     return STATUS_OK;
 }
 
-/* Computes all points of a batch and stores them in rows, which the caller frees, even after a
- * failure. A point, cell or reference value that fails counts as a result. FAULT: out of memory, or
- * a failed process. */
 static status ranges_solve(const parameter_ranges *r, int batch, rows *out, fault *f)
 {
     sweep s = {.values_only = 1};
@@ -385,8 +376,6 @@ static void put(FILE *to, double value)
     fputc(',', to);
 }
 
-/* Writes the lines of a cell, one for each quantity. The formulation is quoted, because its options
- * are separated by commas. */
 static void put_cell(FILE *to, const parameter_ranges *r, const rows *w, const char *where, int at,
                      int which, int mesh)
 {

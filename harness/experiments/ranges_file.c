@@ -92,7 +92,6 @@ static hid_t make_column(ranges_file *file, const file_column *c)
     return set;
 }
 
-/* Writes the names that `of` returns for the numbers 0 to count - 1, one in each line. */
 static void put_names(record_file *r, hid_t set, const char *name, const char *(*of)(int),
                       int count)
 {
@@ -110,7 +109,6 @@ static const char *name_of_bit(int bit)
     return words;
 }
 
-/* Writes the words of an axis. The file stores the values of this axis as indices of words. */
 static void put_words(record_file *r, hid_t points, const sweep_axis *a)
 {
     char *text = NULL;

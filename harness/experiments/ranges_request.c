@@ -5,7 +5,6 @@
 
 enum { TEXT = 64, LONG_TEXT = 128 };
 
-/* Rows of two tables: the axes, and the worst points. */
 typedef struct axis_row {
     char name[TEXT], unit[16], kind[8], scale[8];
     int count;
@@ -157,8 +156,6 @@ void ranges_points_text(const parameter_ranges *r, const double at[], char *text
 
 enum { LAST_KNOWN = 2 };
 
-/* Writes the formulations to which the reference does not apply at some points, with the numbers of
- * these points. */
 static void describe_unmeasured(const tally *t, int q, char *text, size_t size)
 {
     enum { NAMED = 3 };
@@ -314,7 +311,6 @@ static void write_fields(FILE *to, const tally *t, const char *label, int which,
     fputc('\n', to);
 }
 
-/* Prints a map over two axes or a line over one axis for each formulation. */
 static void write_maps_of(FILE *to, const tally *t, int q)
 {
     const parameter_ranges *r = t->of;

@@ -91,12 +91,10 @@ static status place_output(const range_sweep_request *r, range_sweep *s, fault *
     return check_folder(s->worst, f);
 }
 
-/* Locks the folder until this process ends. A second run with the same output is then rejected. */
 static status hold_batches(const char *folder, fault *f)
 {
     struct stat there = {.st_nlink = 0};
-    while (there.st_nlink ==
-           0) { /* repeated if the previous owner of the lock has removed the folder */
+    while (there.st_nlink == 0) {
         const int made = mkdir(folder, 0777),
                   held = made == 0 || errno == EEXIST
                              ? open(folder, O_RDONLY | O_DIRECTORY | O_CLOEXEC)
@@ -118,8 +116,6 @@ static status hold_batches(const char *folder, fault *f)
     return STATUS_OK;
 }
 
-/* Chooses the folder for the batches of an incomplete sweep: a folder next to the output, or a
- * temporary folder. */
 static status place_batches(const char *path, char folder[PATH_MAX], fault *f)
 {
     if (path != NULL) {
@@ -163,8 +159,6 @@ static status run(const void *requested, void *found, fault *f)
     return shard_run(&s->all, &request, &done, f);
 }
 
-/* Starts the summary and the file. Every batch that is read is added to both, and only one batch is
- * in memory at a time. */
 static status begin(range_sweep *s, fault *f)
 {
     TRY(tally_alloc(&s->ranges, &s->tally, f));
@@ -177,8 +171,6 @@ static status begin(range_sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Writes the scenes of the worst points and closes the file. If `taken` is not OK, the file is
- * removed. */
 static status end(range_sweep *s, status taken, fault *f)
 {
     char content[DIGEST_TEXT];
@@ -242,7 +234,6 @@ static status evaluate(const void *requested, void *found, fault *f)
     return outcome == STATUS_NO_VALUE ? STATUS_OK : outcome;
 }
 
-/* Writes the table. The CSV values and the file were written while the batches were read. */
 static status write_form(FILE *to, const char *format, const void *found, fault *f)
 {
     const range_sweep *s = found;

@@ -94,8 +94,7 @@ static void write_line(FILE *to, const tally *t, int which, int q)
         const int cell = which * r->meshes + mesh;
         const double cost = t->cost[cell] / (double)(t->ran[cell] > 0 ? t->ran[cell] : 1);
         fprintf(to, "   n = %-6d", s->everywhere);
-        if (isfinite(cost)) /* work that includes finite differences or another process has no known
-                               cost */
+        if (isfinite(cost))
             fprintf(to, " %.2g ms", 1e3 * cost);
     }
     fprintf(to, s->requested < t->points ? ", %ld points\n" : "\n", s->requested);
@@ -116,8 +115,6 @@ static void write_shares(FILE *to, const tally *t, int q)
         write_line(to, t, i, q);
 }
 
-/* Prints the smallest number of elements for which a formulation is within the tolerance at all
- * points. */
 static void write_least(FILE *to, const tally *t, int which, int q, int width)
 {
     const tally_series *s = tally_of(t, which, q);
@@ -133,7 +130,6 @@ static void write_least(FILE *to, const tally *t, int which, int q, int width)
         fprintf(to, "%*d", width, s->everywhere);
 }
 
-/* Prints the sufficient numbers of elements, with up to BESIDE formulations per line. */
 static void write_leasts(FILE *to, const tally *t)
 {
     enum { BESIDE = 3, WIDTH = 24 };
@@ -178,8 +174,6 @@ static void write_all_shares(FILE *to, const tally *t, int every)
     }
 }
 
-/* Prints the formulations that solve another model at some points, with the physics that they
- * omit. */
 static void write_others(FILE *to, const tally *t)
 {
     for (int i = 0; i < t->of->formulations; i++) {

@@ -10,13 +10,10 @@
  * errors of some series by up to 1.2 %. */
 static const double LARGER = 0.02;
 
-/* Allowed relative change of a limit, unless an exact reference value checks the limit as closely.
- * With 1e-5, an error of 1e-3 in a stiffness is detected if it changes the limit, relatively, by at
- * least a hundredth of this error. */
+/* Allowed relative change of a limit, unless an exact reference value checks the limit as
+ * closely. */
 static const double MOVED = 1e-5;
 
-/* Writes the run to a temporary file and reads it again, so that both runs are compared in the same
- * form. */
 static status read_back(const sweep *s, const evaluation *j, stored_results *out, fault *f)
 {
     const char *folder = getenv("TMPDIR");
@@ -37,8 +34,6 @@ static status read_back(const sweep *s, const evaluation *j, stored_results *out
     return outcome;
 }
 
-/* Adds a regression for a line of the comparison, such as "worse NAME n=4: WHY". Lines of other
- * kinds are ignored. */
 static status add_line(const char *line, evaluation *j, fault *f)
 {
     static const comparison_kind counted[] = {CHANGE_WORSE, CHANGE_MISSING};

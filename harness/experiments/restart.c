@@ -347,15 +347,12 @@ static status restart_text(const scene *s, char **out, fault *f)
                      "express this scene; remove --save-state and --restart");
 }
 
-/* Skips leading spaces and returns the length of the line. */
 static int line_of(const char **text)
 {
     *text += strspn(*text, " ");
     return (int)strcspn(*text, "\n");
 }
 
-/* Numbers of characters that are reported: before a difference, and from each of the different
- * lines. */
 enum { BEFORE = 30, EXCERPT = 70 };
 static int excerpt_length(int length)
 {

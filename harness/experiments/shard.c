@@ -84,7 +84,6 @@ static void print_lost(const worker_pool *c, int batch, int how)
                 batch + 1, WIFSIGNALED(how) ? words : "ended before the batch was complete");
 }
 
-/* Deletes the incomplete files of a batch. batch -1: there are none. */
 static void clean(const worker_pool *c, int batch, int ended)
 {
     char stem[BATCH_STEM], name[BATCH_NAME];
@@ -207,7 +206,6 @@ static status make_list(worker_pool *c, char mine[], fault *f)
     return outcome;
 }
 
-/* Runs the missing batches of the shard. The caller shard_run() frees *c, even after a failure. */
 static status run(worker_pool *c, int shard[], char mine[], fault *f)
 {
     const shard_work *w = c->todo.w;

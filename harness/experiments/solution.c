@@ -25,8 +25,6 @@ void solution_choice_free(solution_choice *why)
     why->change = NULL;
 }
 
-/* Copies the chosen formulation and number of elements to the request, and the reasons and changes
- * to `why`. */
 static void take(solution_request *r, default_choice *p, solution_choice *why)
 {
     r->formulation = p->chosen;
@@ -38,8 +36,6 @@ static void take(solution_request *r, default_choice *p, solution_choice *why)
     p->change = NULL;
 }
 
-/* Chooses the formulation and the number of elements. The caller solution_choose() frees the scene,
- * even after a failure. */
 static status choose(solution_request *r, const rule *rules, int count, int elements, scene *s,
                      solution_choice *why, fault *f)
 {
@@ -84,8 +80,7 @@ status solution_plan(const solution_request *r, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Stores the relative changes that were found while the mesh was chosen. Returns the status of the
- * solution, or NOT_CONVERGED if the requested error was not reached. */
+/* Stores the relative changes that were found while the mesh was chosen. */
 static status report_change(const solution_request *r, const solution_choice *why,
                             solve_result *out, fault *f)
 {
@@ -109,7 +104,6 @@ status solution_run(const solution_request *r, const solution_choice *why, sweep
     request.solve.systems = r->systems;
     request.solve.reduce = r->reduce;
     request.solve.keep_ends = r->keep_ends;
-    /* analyses are also run if only shapes, matrices or final states are needed */
     request.solve.all_analyses = r->shapes > 0 || r->systems || r->keep_ends;
     request.solve.checks_flutter = 1;
     request.solve.restarts = r->restarts;
@@ -226,7 +220,6 @@ static status find_stored(const parameter_ranges *r, const sweep_point *p, known
         return STATUS_OK;
     if (scene_truths_add(q->file, p->parameter, &out->stored, &why) == STATUS_OK)
         return STATUS_OK;
-    /* an expression has no value at this point, so the reference values of the file are not used */
     truths_free(&out->stored);
     out->stored = (truths){0};
     return STATUS_OK;
@@ -293,7 +286,7 @@ static status derive(const parameter_ranges *r, const sweep_point *p, known_trut
     fault why;
     parameters_source_text(p->type, p->parameter, text, sizeof text);
     if (case_omits_nothing(p->type, p->parameter))
-        return STATUS_OK; /* the program computes values for the model of the original source */
+        return STATUS_OK;
     const status outcome =
         r->request.file != NULL
             ? ask_scene(r->request.derive, p, &value, &count, &why)

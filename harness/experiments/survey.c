@@ -44,7 +44,6 @@ static status add_quantity(parameter_ranges *r, const scene_quantity *q, fault *
     return STATUS_OK;
 }
 
-/* Records the selected quantities of a series, and whether the series runs. */
 static status look_at(parameter_ranges *r, const sweep *s, int index, survey_selected *w, fault *f)
 {
     const series *one = &s->series[index];
@@ -68,8 +67,7 @@ static status look_at(parameter_ranges *r, const sweep *s, int index, survey_sel
     return STATUS_OK;
 }
 
-/* Removes formulations that cannot run or have no selected quantity. REFUSED: the user named a
- * formulation that cannot run, or no formulation or quantity remains. */
+/* Removes formulations that cannot run or have no selected quantity. */
 static status keep_running(parameter_ranges *r, const survey_selected *w, fault *f)
 {
     int kept = 0, used = 0;
@@ -130,8 +128,6 @@ static status evaluate(parameter_ranges *r, const sweep *s, fault *f)
     return keep_running(r, &w, f);
 }
 
-/* Lists the requested formulations or, if none was requested, all formulations. Formulations that
- * do not run are removed later. */
 static void take_formulations(parameter_ranges *r)
 {
     const ranges_request *q = &r->request;
@@ -147,7 +143,6 @@ static void take_formulations(parameter_ranges *r)
  * reference value for a case; computing a reference value for a scene */
 static const double scene_cost = 5e-5, derive_cost = 0.5, derive_scene_cost = 4;
 
-/* Returns the estimated time [s] for the scenes and all cells. */
 static double cost_of(const sweep *s)
 {
     double all = scene_cost * s->points;
@@ -180,7 +175,6 @@ status survey(parameter_ranges *r, fault *f)
     return outcome;
 }
 
-/* Rounds a value to 15 significant digits, as in the tables of reference values. */
 static double to_15_digits(double value)
 {
     char text[32];

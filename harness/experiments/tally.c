@@ -17,7 +17,6 @@ static int places_of(const parameter_ranges *r, int index, int most)
     const sweep_axis *a = &r->axis[index];
     if (a->count > 0)
         return least_of(a->count, most);
-    /* each field then contains a few points */
     const double fields =
         r->design.axes > 1 ? sqrt((double)r->design.points / 4) : (double)r->design.points / 2;
     return least_of((long)fmax(1, fields), most);
@@ -99,18 +98,15 @@ static int frame_motion_of(const tally *t, int axis_index, double value)
     return low;
 }
 
-/* Result of one formulation and quantity at one point. */
 typedef struct seen {
     int requested; /* 1: the point has a reference */
     int proven;    /* 1: the reference is a stored or computed reference value, not a limit */
     int open;      /* 1: there is a value without a reference */
-    int other;     /* 1: the formulation solves another model */
-    int least;     /* number of elements of the coarsest mesh within the tolerance; 0: none */
+    int other;
+    int least; /* number of elements of the coarsest mesh within the tolerance; 0: none */
     char within[SERIES_MAX_MESHES];
 } seen;
 
-/* Examines the values of a formulation for a quantity. A value without an error has no reference,
- * for example because the value belongs to another theory. */
 static seen look_at(const tally *t, const rows *w, int here, int which, int quantity)
 {
     const int kind = w->kind[rows_quantity(w, here, quantity)];
@@ -170,9 +166,6 @@ static void join(const tally *t, seen *all, const seen *one)
         all->least = one->least;
 }
 
-/* Completes the result for all quantities together. A point at which some quantity has no reference
- * counts only if another quantity is never within the tolerance. The point is then outside the
- * tolerance on all meshes. */
 static void close_counts(seen *all)
 {
     if (!all->open)
@@ -204,8 +197,6 @@ static void keep_worst(tally *t, int which, const tally_worst *one)
     list[at] = *one;
 }
 
-/* Finds the worst result on the finest mesh at the point: no solution, or the largest error of all
- * quantities. */
 static void look_for_worst(tally *t, const rows *w, int here, long index, int which)
 {
     const int finest = t->of->meshes - 1;
@@ -297,8 +288,6 @@ status tally_add(tally *t, long first, const rows *w, fault *f)
     return outcome;
 }
 
-/* Sets the pointers of the columns, with the widest numbers first in the block. Returns the size of
- * the block [bytes]. */
 static size_t lay_out(rows *r)
 {
     const size_t points = (size_t)r->points, f = (size_t)r->shape.formulations,

@@ -226,13 +226,12 @@ static void describe(const test_element_request *what, const formulation *chosen
 typedef struct way {
     const formulation *chosen;
     test_element_request made;
-    int usual; /* 1: the type must accept the element */
+    int usual;
 } way;
 
 static const char failure[] = "the functions return results";
 
-/* Returns 1 if the element gives results. If not, only this failure is reported, because it causes
- * all other deviations. */
+/* Returns 1 if the element gives results. */
 static int returns_values(const test_element *s, check_results *c)
 {
     node_state x[ELEMENT_MAX_NODES];
@@ -333,8 +332,6 @@ void test_elements_each(const formulation *chosen, check_results *c, test_elemen
         other_choices(chosen, i, c, check);
 }
 
-/* Checks of types that compute the forces on their nodes or only an energy. */
-
 enum { N = TEST_ELEMENT_COORDINATES };
 
 static const char *const F_name = "F is the gradient of the energy",
@@ -407,7 +404,7 @@ static void check_stiffness(const test_element_stencil *at, const double K[], ch
         stencil_first(force_at, at, n, j, column[j]);
         size = fmax(size, fabs(K[j * n + j]) * unit * unit);
     }
-    const double opposite = test_element_lacks_energy(s) ? 0 : 0.5; /* part of the opposite entry */
+    const double opposite = test_element_lacks_energy(s) ? 0 : 0.5;
     for (int i = 0; i < n; i++)
         for (int j = 0; j < (opposite > 0 ? i + 1 : n); j++) {
             const double ui = test_element_unit(s, i), uj = test_element_unit(s, j);
@@ -483,7 +480,7 @@ static void check(const test_element *s, check_results *c)
                    status_name(outcome), s->words);
     if (outcome != STATUS_OK)
         return;
-    if (!test_element_lacks_energy(s)) /* with a history, see 'paths' */
+    if (!test_element_lacks_energy(s))
         check_carried(s, x, energy, checks_open(c, check_same, 1e-9));
     else
         energy = works(s, F, work);

@@ -37,7 +37,7 @@ static void store_results(evaluation_run *v, const sweep *s, int series_index)
     v->reader->evaluated(v->reader->context, type);
 }
 
-/* Evaluates the series before index `end`. All points of these series must be complete. */
+/* Evaluates the series before index `end`. */
 static status evaluate_to(evaluation_run *v, const sweep *s, int end, fault *f)
 {
     int of = -1;
@@ -51,14 +51,11 @@ static status evaluate_to(evaluation_run *v, const sweep *s, int end, fault *f)
     return STATUS_OK;
 }
 
-/* Evaluates the series of a point together, because the agreement of formulations depends on all of
- * them. */
 static status whole(void *context, const sweep *s, int series_index, fault *f)
 {
     evaluation_run *v = context;
     const int here = s->series[series_index].point;
     if (v->evaluated < series_index && s->series[v->evaluated].point != here)
-        /* the remaining series of the previous point are not run */
         TRY(evaluate_to(v, s, series_index, f));
     if (series_index + 1 < s->seriess && s->series[series_index + 1].point == here)
         return STATUS_OK;
@@ -69,7 +66,6 @@ static status whole(void *context, const sweep *s, int series_index, fault *f)
 
 enum { MOST_OWN = 64 };
 
-/* Lists without repetition the formulations that the user named or loaded. */
 static int find_own(const sweep *s, formulation out[MOST_OWN])
 {
     int count = 0;
@@ -96,8 +92,6 @@ static status add_breach(const certificate *c, evaluation *out, fault *f)
     return memory_append(&out->breach, &out->breaches, &one, sizeof one, "broken contracts", f);
 }
 
-/* Before any cell is run, checks that the formulations named or loaded by the user satisfy the
- * interface requirements. The results of other formulations would be meaningless. */
 static status hold_contracts(const sweep *s, int jobs, int time_limit, evaluation *out, fault *f)
 {
     formulation own[MOST_OWN];
@@ -244,7 +238,6 @@ static status write_texts(verification_files *to, const overview *o, const envir
     return to->propose != NULL ? write_proposal(to, f) : STATUS_OK;
 }
 
-/* Completes the store, and closes it even after a failure. */
 static status write_store(verification_files *to, const environment *e, fault *f)
 {
     char where[PATH_MAX];
@@ -276,8 +269,6 @@ static void files_drop(verification_files *to)
     to->open = 0;
 }
 
-/* Adds the results of another program to the comparison. Reports its series that match no point of
- * this run. */
 static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
 {
     import_left left;
@@ -300,7 +291,6 @@ static status add_imported(const char *path, int must_pass, sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* Returns 1 if a verdict on results of another program affects the exit status. */
 static int imported_was_evaluated(const sweep *s, const evaluation *j)
 {
     for (int i = 0; i < j->verdicts; i++) {
@@ -348,8 +338,6 @@ static status evaluate(const void *requested, void *found, fault *f)
     return overview_make(&v->sweep, &v->evaluation, &v->overview, f);
 }
 
-/* Returns 1 if all limits are printed: with --verbose, with -k, or if the overview has a single
- * row. */
 static int shows_limits(const verification *v)
 {
     return v->requested->verbose || v->requested->cells.select != NULL || v->overview.rows == 1;
@@ -379,7 +367,6 @@ static void print(FILE *to, const verification *v)
     table_run_end(to, look, sentence);
 }
 
-/* Completes the files, whose parts for evaluated cases were prepared during the run. */
 static status write_form(FILE *to, const char *format, const void *found, fault *f)
 {
     const verification *v = found;
