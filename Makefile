@@ -135,13 +135,14 @@ PEERS ?=
 PEER_CASES ?= elastica bend_45 roll_up shear_elastica sheet_cantilever,warping=0,trapeze=0,shear_factor=0.8333333333333334
 PEERS_VENV := build/peers-venv
 PEERS_PYTHON ?= $(PYTHON)
+peers_file = $(BUILD)/peers/$(firstword $(subst $(comma), ,$(case)))
 beamwork_peers = PYTHONDONTWRITEBYTECODE=1 PYTHONPATH=harness/library/python BEAMWORK=$(abspath $(PROGRAM)) BEAMWORK_LIBRARY=$(abspath $(BUILD))/libbeamwork.so.0 $(PYTHON) -m beamwork.peers
 comma := ,
-peers: all library ## install other programs in build/peers-venv and solve cases with them: build/peers/CASE.csv, for 'beamwork import'
+peers: all library ## install other programs in build/peers-venv, and compare them with the formulations on cases: build/peers/CASE.txt; CASE.json for the report, CASE.csv for 'beamwork import'
 	@test -x $(PEERS_VENV)/bin/python || $(PEERS_PYTHON) -m venv $(PEERS_VENV)
 	@mkdir -p $(BUILD)/peers && $(beamwork_peers) --requirements $(if $(PEERS),--peers "$(PEERS)") >$(BUILD)/peers/requirements.txt
 	@$(PEERS_VENV)/bin/python -m pip install -q -r $(BUILD)/peers/requirements.txt
-	@$(foreach case,$(PEER_CASES),$(beamwork_peers) $(subst $(comma), --set=,$(case)) $(if $(PEERS),--peers "$(PEERS)") -o $(BUILD)/peers/$(firstword $(subst $(comma), ,$(case))).csv &&) echo "results: $(BUILD)/peers"
+	@$(foreach case,$(PEER_CASES),$(beamwork_peers) $(subst $(comma), --set=,$(case)) $(if $(PEERS),--peers "$(PEERS)") -o $(peers_file).csv -o $(peers_file).json >$(peers_file).txt &&) echo "results: $(BUILD)/peers"
 
 docs: all library needs-docs ## build the documentation as a site that opens from disk, build/docs/index.html, with verdicts of the last verify
 	@rm -rf $(BUILD)/docs $(BUILD)/docs_trees
