@@ -166,11 +166,13 @@ class State:
 
 @dataclasses.dataclass
 class Answer:
-    """The states at the stations of an analysis (linear: one), critical factors or frequencies [Hz] in ascending order.
-    iterations: number of equation systems solved."""
+    """The states at the stations of an analysis (linear: one), critical factors or frequencies [Hz] in ascending order,
+    with a zero for each rigid-body motion. families: of the modes, from _modes.py; may be empty. iterations: number of
+    equation systems solved."""
     states: Sequence[State] = ()
     factors: Sequence[float] = ()
     frequencies: Sequence[float] = ()
+    families: Sequence[str] = ()
     iterations: int = 0
 
 

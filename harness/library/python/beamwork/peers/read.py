@@ -15,7 +15,7 @@ _KNOWN = {
     "": {"beamwork", "name", "summary", "source", "sections", "nodes", "members", "loads", "motions", "analyses",
          "quantities", "omit", "shear_theory", "meshes"},
 }  # keys that every driver supports; others are in Element.keys
-_ANALYSIS: dict[str, set[str]] = {"linear": set(), "static": {"stations", "steps"}, "buckling": set(), "modal": set(),
+_ANALYSIS: dict[str, set[str]] = {"linear": set(), "static": {"stations", "steps"}, "buckling": {"wanted"}, "modal": {"wanted"},
              "compliance": {"about", "node", "moments", "released"}}
 _QUANTITY = {"displacement": {"node", "component"}, "reaction": {"node", "component"},
              "compliance": {"row", "column"}, "stiffness": {"component"}, "critical_factor": {"which"},
@@ -28,7 +28,8 @@ def _section(name: str, raw: Mapping[str, Any], physics: frozenset[str]) -> Sect
     rotary = density if "rotary inertia" in physics else 0.0
     mass, inertia = density * raw["A"], (density * raw["Ip"], rotary * raw["Iy"], rotary * raw["Iz"])
     if "mass" in raw:
-        mass, inertia = raw["mass"][0][0], (raw["mass"][3][3], raw["mass"][4][4], raw["mass"][5][5])
+        own = [raw["mass"][i][i] if i == 3 or "rotary inertia" in physics else 0.0 for i in (3, 4, 5)]
+        mass, inertia = raw["mass"][0][0], (own[0], own[1], own[2])
     GA = tuple(G / f if f > 0 else math.inf for f in F)
     return Section(name, raw, E * raw["A"], (GA[0], GA[1]), G * raw["It"], E * raw["Iy"], E * raw["Iz"], mass, inertia)
 
@@ -102,13 +103,13 @@ def refusal(scene: Scene, element: Element, q: Quantity) -> str:
     for key in analysis.raw:
         if key not in _ANALYSIS.get(analysis.kind, set()) and f"{analysis.kind}.{key}" not in element.keys:
             return f"{key}: the driver does not read this key of {analysis.name}"
+    if analysis.about is not None and scene.analyses[analysis.about].kind != "static":
+        return f"about: drivers have no {analysis.kind} analysis about a {scene.analyses[analysis.about].kind} one"
     if q.kind not in _QUANTITY or set(q.raw) - _QUANTITY[q.kind] - {"analysis", "take", "at"}:
         return f"{q.kind}: no driver computes this quantity"
     if q.raw.get("take", "last") not in ("last", "curve", "max", "min") or ("take" in q.raw and "factor" not in q.x and
                                                                            q.raw["take"] == "curve"):
         return f"take: no driver computes '{q.raw['take']}'"
-    if q.raw.get("family", "any") != "any":
-        return f"family: drivers do not select modes of the family '{q.raw['family']}'"
     if q.kind in ("compliance", "stiffness") and analysis.raw.get("moments", "spatial") != "spatial":
         return "moments: drivers use the spatial convention only"
     return ""
@@ -127,10 +128,18 @@ def _state_values(q: Quantity, answer: Answer) -> list[float]:
     return entries if q.kind == "compliance" else [1 / c for c in entries]
 
 
+def _of_family(family: str, answer: Answer) -> list[float]:
+    if family == "any":
+        return list(answer.frequencies)
+    if len(answer.families) < len(answer.frequencies):
+        raise Refused(f"family: the driver does not find the modes of the family '{family}'")
+    return [f for f, own in zip(answer.frequencies, answer.families) if own == family or (family == "not_axial" and own != "axial")]
+
+
 def value_of(scene: Scene, q: Quantity, answer: Answer) -> float | list[list[float]]:
     """Returns the value of a quantity, or for a curve the list of [x, value]."""
     if q.kind in ("critical_factor", "frequency"):
-        found = list(answer.factors if q.kind == "critical_factor" else answer.frequencies)
+        found = list(answer.factors if q.kind == "critical_factor" else _of_family(q.raw.get("family", "any"), answer))
         which = int(q.raw.get("which", 0))
         if which >= len(found):
             raise Refused(f"{q.kind}: the driver found only {len(found)} values")

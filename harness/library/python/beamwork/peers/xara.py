@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from typing import Any
 
+from ._modes import diagonal_inertia, require_plain_mass, rigid_motions
 from .data import COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, Model, Refused, Scene, State
 
 NAME, PROGRAM, LICENCE = "xara", "xara", "BSD-2-Clause"
@@ -46,7 +47,7 @@ ELEMENTS = {
         "ForceFrame: force interpolation, corotational (Corotational02), lumped mass; with shear,"
         " Engesser's theory",
         order=1,
-        offers=_OFFERS | {"mass"},
+        offers=_OFFERS | {"mass", "rotary inertia"},
         analyses=_STATICS | {"modal"},
         keys=_KEYS,
     ),
@@ -428,5 +429,12 @@ class Frame(Model):
         asked = [
             int(q.raw.get("which", 0)) for q in self.scene.quantities if q.analysis == analysis.name
         ]
-        squares = self._new().eigen(max(asked, default=0) + 1)
+        require_plain_mass(self.scene)
+        rigid = rigid_motions(self.scene, self.mesh)
+        if rigid:
+            raise Refused("modal: the eigenvalue solver of xara requires supports that hold the structure")
+        model = self._new()
+        for number, inertia in diagonal_inertia(self.mesh, lambda s: s.rho_I, PROGRAM).items():
+            model.mass(number, (0.0, 0.0, 0.0, *inertia))
+        squares = model.eigen(max(asked, default=0) + 1)
         return Answer(frequencies=[math.sqrt(w) / (2 * math.pi) for w in squares if w > 0])

@@ -1,0 +1,160 @@
+"""Requirements on the modes of every driver of another program. Programs that are not installed are skipped by name."""
+import math
+
+import numpy as np
+
+from harness.library.python.test.module import bw
+from harness.library.python.test.peers_test import TILT, PeerTest, peers
+
+YOUNG, SHEAR, DENSITY, AREA = 2e11, 8e10, 8000.0, 1e-2
+
+
+def bar(element, turn=np.eye(3), reverse=False, hold="all", about=False, **section):
+    """Returns a bar of 1 m along x before it is turned, with its modes. section: constants that differ."""
+    made = bw.Scene("modes")
+    shear = {"D": [AREA, 0, 0, 0, AREA, 0, 0, 0, 1]} if "shear" in element.offers else {}
+    constants = {"A": AREA, "Iy": 4e-5, "Iz": 1e-5, "It": 2e-5, "Ip": 5e-5, "Iw": 0, **shear, **section}
+    made.sections["bar"] = {"constants": constants, "young": YOUNG, "shear_modulus": SHEAR, "density": DENSITY}
+    made.nodes["a"], made.nodes["b"] = {"at": [0, 0, 0]}, {"at": turn @ np.array([1, 0, 0])}
+    made.nodes["b" if reverse else "a"].update({"hold": hold} if hold else {})
+    made.members["bar"] = {"from_": "b" if reverse else "a", "to": "a" if reverse else "b", "section": "bar",
+                           "y": turn @ np.array([0, 1, 0]), "warping": "free"}
+    if "plane only" in element.summary:
+        made.plane = "xy"
+    if about:
+        made.nodes["b"]["hold"] = ["uy", "uz", "rx", "ry", "rz"]
+        made.loads["pull"] = {"force": turn @ np.array([about, 0, 0]), "on": "b"}
+        made.analyses["pulled"] = {"static": {"stations": [1]}}
+    made.analyses["modes"] = {"modal": {"about": "pulled"} if about else {}}
+    for i in range(8):
+        made.quantities[f"f_{i}"] = {"frequency": {"analysis": "modes", "which": i}, "unit": "Hz"}
+    made.omit = ["trapeze", "wagner_moments", "wagner_torque"] + ([] if shear else ["shear"])
+    return made
+
+
+class Modes(PeerTest):
+
+    def each(self, check):
+        for peer in peers.names():
+            for name, element in peers.load(peer).ELEMENTS.items():
+                if "modal" in element.analyses:
+                    with self.subTest(peer=peer, element=name):
+                        check(peer, name, element)
+
+    def solved(self, peer, name, made, n=32, refused=""):
+        """Returns the values. refused: part of a permitted refusal, for which the test is skipped."""
+        found = peers.solve(self.data(made), peer, name, [n], rounds=1)
+        if found.missing:
+            self.skipTest(found.missing)
+        run = found.runs[0]
+        if "refusal" in run and ("ANCF beam couples" in run["refusal"] or (refused and refused in run["refusal"])):
+            self.skipTest(run["refusal"])
+        self.assertIn("values", run, run)
+        self.assertEqual(run["refused"], {})
+        return list(run["values"].values())
+
+    def ours(self, made):
+        place = self.folder / "ours.yaml"
+        made.write(place)
+        return [q["value"] for q in self.record("solve", "--scene", place, "-f", "collocation", "-n", 16)["quantities"]]
+
+    def test_cantilever(self):
+        """Frequencies of bending with shear and rotary inertia, of torsion and of extension must be those of ours, whose
+        limits tests compare with closed forms. The torsional one is sqrt(G It/(rho Ip))/(4 L)."""
+        def check(peer, name, element):
+            ratio = 1.0 if peer == "kratos" else 0.5
+            made = bar(element, Ip=5e-5 / ratio) if "plane only" not in element.summary else bar(element)
+            got = self.solved(peer, name, made, refused="always")
+            np.testing.assert_allclose(got, self.ours(made), rtol=2.5e-2)
+            if "plane only" not in element.summary:
+                torsion = math.sqrt(SHEAR * 2e-5 / (DENSITY * 5e-5 / ratio)) / 4
+                self.assertLess(min(abs(f / torsion - 1) for f in got), 1e-3)
+        self.each(check)
+
+    def test_free(self):
+        """A free structure has a zero frequency for each rigid-body motion, then the elastic frequencies."""
+        def check(peer, name, element):
+            made = bar(element, hold="")
+            got = self.solved(peer, name, made, refused="supports that hold")
+            rigid = 3 if made.plane else 6
+            self.assertEqual(got[:rigid + 1].count(0), rigid)
+            np.testing.assert_allclose(got, self.ours(made), rtol=2.5e-2, atol=1e-9)
+        self.each(check)
+
+    def test_pinned(self):
+        """A bar that may turn about its end has three zero frequencies."""
+        def check(peer, name, element):
+            made = bar(element, hold=["ux", "uy", "uz"])
+            got = self.solved(peer, name, made, refused="supports that hold")
+            self.assertEqual(got.count(0), 1 if made.plane else 3)
+            np.testing.assert_allclose(got, self.ours(made), rtol=2.5e-2, atol=1e-9)
+        self.each(check)
+
+    def test_direction(self):
+        """A rotation of the scene, or another order of nodes, must not change the frequencies."""
+        def check(peer, name, element):
+            want = self.solved(peer, name, bar(element), 8)
+            turns = TILT if not bar(element).plane else (np.array([[0.6, -0.8, 0], [0.8, 0.6, 0], [0, 0, 1]]), )
+            for turn, reverse in [(np.array(turn), False) for turn in turns] + [(np.eye(3), True)]:
+                with self.subTest(turn=turn.tolist()):
+                    got = self.solved(peer, name, bar(element, turn, reverse), 8, refused="about global axes only")
+                    np.testing.assert_allclose(got, want, rtol=1e-6)
+        self.each(check)
+
+    def test_loaded(self):
+        """A clamped bar under tension T: 2 a b (1 - cosh a cos b) + (a^2 - b^2) sinh a sin b = 0 with a^2, b^2 =
+        sqrt((T/2 EI)^2 + rho A w^2/EI) +- T/2 EI."""
+        pull, stiffness = 8e6, YOUNG * 1e-5
+
+        def boundary(f):
+            half = pull / 2 / stiffness
+            root = math.sqrt(half**2 + DENSITY * AREA * (2 * math.pi * f)**2 / stiffness)
+            a, b = math.sqrt(root + half), math.sqrt(root - half)
+            return 2 * a * b * (1 - math.cosh(a) * math.cos(b)) + (a * a - b * b) * math.sinh(a) * math.sin(b)
+
+        low, high = 500.0, 1000.0
+        self.assertLess(boundary(low) * boundary(high), 0)
+        for _ in range(60):
+            middle = (low + high) / 2
+            low, high = (middle, high) if boundary(low) * boundary(middle) > 0 else (low, middle)
+
+        def check(peer, name, element):
+            if "modal.about" not in element.keys:
+                return
+            made = bar(element, about=pull, D=[10, 0, 0, 0, 10, 0, 0, 0, 1]) if "shear" in element.offers else bar(element, about=pull)
+            made.omit = [*made.omit, "rotary_inertia"]
+            got = self.solved(peer, name, made, refused="that the scene omits")
+            self.assertLess(abs(got[0] / low - 1), 5e-3, (got, low))
+        self.each(check)
+
+    def test_families(self):
+        """Modes of a family are counted apart, also if frequencies are equal."""
+        def check(peer, name, element):
+            if made_plane := "plane only" in element.summary:
+                families = {"bending_y": math.nan, "axial": 1250}
+            else:
+                families = {"bending_y": math.nan, "bending_z": math.nan, "axial": 1250, "torsion": math.sqrt(SHEAR / DENSITY / 2) / 4}
+            made = bar(element, Iy=1e-5, Iz=1e-5, It=1e-5, Ip=2e-5)
+            made.quantities = {key: {"frequency": {"analysis": "modes", "family": key}, "unit": "Hz"} for key in families}
+            data = self.data(made)
+            found = peers.solve(data, peer, name, [32], rounds=1)
+            if found.missing:
+                self.skipTest(found.missing)
+            run = found.runs[0]
+            if "refused" not in run or "does not find the modes of the family" in str(run["refused"]):
+                self.skipTest(str(run))
+            for (key, want), got, ours in zip(families.items(), run["values"].values(), self.ours(made)):
+                self.assertLess(abs(got / (ours if math.isnan(want) else want) - 1), 1e-2, key)
+            self.assertTrue(made_plane or abs(run["values"]["bending_y"] / run["values"]["bending_z"] - 1) < 1e-6)
+        self.each(check)
+
+    def test_no_mass(self):
+        """A structure without mass has no frequencies."""
+        def check(peer, name, element):
+            data = self.data(bar(element))
+            data["sections"][0]["density"] = 0
+            found = peers.solve(data, peer, name, [4], rounds=1)
+            if found.missing:
+                self.skipTest(found.missing)
+            self.assertNotIn("f_0", found.runs[0].get("values", {}), found.runs[0])
+        self.each(check)
