@@ -371,6 +371,7 @@ typedef struct defaults {
     chosen_formulations *chosen;
     mesh_list *meshes;
     const truths_options *truths;
+    const truths *known; /* reference values that were read already; NULL: none */
 } defaults;
 
 /* Chooses a missing -f or -n, or both, for a cell of the case with its parameters. note: one line

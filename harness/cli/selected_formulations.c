@@ -115,11 +115,11 @@ static status choose(const defaults *d, int elements, char note[DEFAULTS_NOTE],
 {
     truths deviations = {0};
     solution_request wanted = defaults_request(d);
-    if (d->chosen->formulations == 0)
+    if (d->chosen->formulations == 0 && d->known == NULL)
         truths_read_rules(user_tables_packed(d->truths), &deviations,
                           NULL); /* the file may be missing */
-    const status outcome =
-        solution_choose(&wanted, deviations.rule, deviations.rules, elements, why, f);
+    const truths *t = d->known != NULL ? d->known : &deviations;
+    const status outcome = solution_choose(&wanted, t->rule, t->rules, elements, why, f);
     truths_free(&deviations);
     TRY(outcome);
     take(d, &wanted, why, note);

@@ -304,7 +304,8 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
         TRY(known);
     if (r->restart != NULL)
         TRY(take_restart(r, &w->from, f));
-    const defaults missing = defaults_of(r, type);
+    defaults missing = defaults_of(r, type);
+    missing.known = &w->t;
     TRY(defaults_fill(&missing, w->note, &w->why, f));
     w->what = defaults_request(&missing);
     TRY(solution_plan(&w->what, &w->s, f));

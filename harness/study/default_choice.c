@@ -53,9 +53,10 @@ static standing standing_of(const scene *s, const element_type *type, const rule
     rule_subject at = *where;
     at.formulation = type->name;
     for (int i = 0; i < count; i++) {
-        const int defect = verdict_explains_defect(&rules[i]);
-        out.against[AGAINST_HERE] += defect && holds_here(&rules[i], s, at);
-        out.against[AGAINST_ELSEWHERE] += defect && rules_apply_to(&rules[i], type->name);
+        if (!verdict_explains_defect(&rules[i]) || !rules_apply_to(&rules[i], type->name))
+            continue;
+        out.against[AGAINST_HERE] += holds_here(&rules[i], s, at);
+        out.against[AGAINST_ELSEWHERE]++;
     }
     out.against[AGAINST_THEORY] =
         (features_needed(s) & theories) != (features_needed_of(s, type) & theories);

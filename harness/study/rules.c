@@ -16,16 +16,22 @@ enum { WORD = RULES_WORD };
 static const char *next_word(const char *text, const char *separators, char word[WORD])
 {
     text += strspn(text, separators);
-    const size_t length = strcspn(text, separators);
-    snprintf(word, WORD, "%.*s", (int)length, text);
+    const size_t length = strcspn(text, separators), kept = length < WORD ? length : WORD - 1;
+    memcpy(word, text, kept);
+    word[kept] = '\0';
     return length > 0 ? text + length : NULL;
+}
+
+static int matches(const char *word, const char *text)
+{
+    return strpbrk(word, "*?[\\") == NULL ? strcmp(word, text) == 0 : fnmatch(word, text, 0) == 0;
 }
 
 static int list_has(const char *list, const char *text)
 {
     char word[WORD];
     while ((list = next_word(list, " ", word)) != NULL)
-        if (fnmatch(word, text, 0) == 0)
+        if (matches(word, text))
             return 1;
     return 0;
 }

@@ -86,22 +86,27 @@ flags=$2
 libraries="$(pkg-config --libs gsl lapacke hdf5 arpack jansson yaml-0.1 zlib) -lklu -lbtf -lcolamd -lldl -lamd -lsuitesparseconfig -llapack -lblas -lpthread -lm"
 mkdir -p "$(dirname "$flags")"
 
-# The shared HDF5 library of Debian loads thirty other libraries (curl, Kerberos, ...), which takes longer than most solutions.
-# If the static library links without them, the program uses it. Returns 0 if it links.
-archive_links() {
-    printf '%s\n' '#include <hdf5.h>' 'int main(void) {' \
-        'hid_t made = H5Pcreate(H5P_DATASET_CREATE), file = H5Fopen("", H5F_ACC_RDONLY, H5P_DEFAULT);' \
-        'return H5Pset_deflate(made, 1) < 0 || H5Dread(file, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, 0) < 0; }' |
-        ${CC:-cc} $(pkg-config --cflags hdf5) -xc - -o "$flags.trial" $(from_archive "$(pkg-config --libs hdf5 zlib)") -lm 2>/dev/null
+# Shared libraries that take longer to load than most solutions: HDF5 of Debian loads thirty others (curl, Kerberos, ...), and LAPACKE
+# resolves thousands of symbols. The program uses their static libraries if these link without other libraries.
+from_archive() { echo "$1 " | sed "s/ -l$2 / $3 /"; }
+links() { # LIBRARIES; the source is standard input
+    ${CC:-cc} $(pkg-config --cflags hdf5 lapacke) -xc - -o "$flags.trial" $1 2>/dev/null
     linked=$?
     rm -f "$flags.trial"
     return $linked
 }
-from_archive() { echo "$1 " | sed 's/ -lhdf5 / -l:libhdf5.a -lsz -ldl /'; }
 
 program=$libraries
-if archive_links; then
-    program=$(from_archive "$libraries")
+trial=$(from_archive "$(pkg-config --libs hdf5 zlib)" hdf5 "-l:libhdf5.a -lsz -ldl")
+if printf '%s\n' '#include <hdf5.h>' 'int main(void) {' \
+    'hid_t made = H5Pcreate(H5P_DATASET_CREATE), file = H5Fopen("", H5F_ACC_RDONLY, H5P_DEFAULT);' \
+    'return H5Pset_deflate(made, 1) < 0 || H5Dread(file, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, 0) < 0; }' |
+    links "$trial -lm"; then
+    program=$(from_archive "$program" hdf5 "-l:libhdf5.a -lsz -ldl")
+fi
+if printf '%s\n' '#include <lapacke.h>' 'int main(void) { lapack_int pivot; double one = 1;' \
+    'return LAPACKE_dgesv(LAPACK_COL_MAJOR, 1, 1, &one, 1, &pivot, &one, 1); }' | links "-l:liblapacke.a -llapack -lblas -lm"; then
+    program=$(from_archive "$program" lapacke "-l:liblapacke.a")
 fi
 {
     echo "DEP_CFLAGS := $(pkg-config --cflags gsl lapacke hdf5 arpack jansson yaml-0.1 zlib | sed 's/-I/-isystem /g') -isystem /usr/include/suitesparse"
