@@ -215,7 +215,8 @@ def write_columns(group, rows, columns):
             group.create_dataset(name, data=numpy.array(values, dtype=kind))
         else:
             encoded = [v.encode() for v in values]
-            group.create_dataset(name, data=numpy.array(encoded, dtype=f"S{max([1] + [len(v) for v in encoded])}"))
+            data = numpy.array(encoded, dtype=f"S{max([1] + [len(v) for v in encoded])}")
+            group.create_dataset(name, data=data, compression="gzip" if data.nbytes > 2048 else None)
 
 
 def seal(path):
