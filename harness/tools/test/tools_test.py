@@ -41,6 +41,12 @@ class Loading(unittest.TestCase):
         for name in ("libhdf5", "libcurl", "libkrb5"):
             self.assertNotIn(name, loaded)
 
+    def test_no_lapacke(self):
+        linked = pathlib.Path(PROGRAM).with_name("program_libraries").read_text(encoding="ascii")
+        if linked.startswith("shared") or "liblapacke.a" not in linked:
+            self.skipTest("needs LAPACKE as an archive")
+        self.assertNotIn("liblapacke", run(PROGRAM, program="ldd").stdout)
+
 
 class Dependencies(Folder):
     def setUp(self):
