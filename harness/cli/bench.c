@@ -1,5 +1,3 @@
-/* Verb bench: measures error and run time for every formulation and mesh of the cases. The times
- * are measured in rounds on one processor. */
 #include <stdio.h>
 #include <unistd.h>
 
@@ -98,7 +96,8 @@ const verb verb_bench = {
     "FORMULATION runs two formulations alternately until the difference of their times is "
     "significant or the comparison stays undecided. For each error, a formulation uses the "
     "coarsest mesh of the case that is within the error, together with all finer meshes, in all "
-    "quantities (-k selects); -n gives the meshes instead. --against PROGRAM times the same run with another "
+    "quantities (-k selects); -n gives the meshes instead. --against PROGRAM times the same run "
+    "with another "
     "build of beamwork.",
     "beamwork bench spherical_joint -f sheet_third -f collocation -n 1,2\n"
     "beamwork bench c_column -f collocation --against beamw_consistent --error 1%,0.1%\n"

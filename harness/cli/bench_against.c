@@ -1,5 +1,3 @@
-/* bench --against: times two cells that run alternately. The second cell has another formulation
- * (at equal errors or on given meshes) or another build of the program. */
 #include "harness/cli/cli_impl.h"
 
 #include <math.h>
@@ -14,7 +12,6 @@
 
 enum { LEVELS = 8, LINE = 1000, NAMED = 2 * FORMULATION_KEY };
 
-/* Formulations A and B on all meshes of the case, and the requested error targets. */
 typedef struct error_comparison {
     sweep s; /* sweep with two series, A and B */
     truths t;
@@ -24,7 +21,6 @@ typedef struct error_comparison {
     char note[DEFAULTS_NOTE];
 } error_comparison;
 
-/* Meshes on which both formulations are within an error target, and the times on these meshes. */
 typedef struct mesh_pair {
     equal_error at;
     int measured;
@@ -32,7 +28,6 @@ typedef struct mesh_pair {
     against_times times;
 } mesh_pair;
 
-/* Measures a pair of meshes, unless a previous target led to the same pair. */
 static status measure(const error_comparison *d, const bench_options *r, const mesh_pair *former,
                       int formers, mesh_pair *m, fault *f)
 {
@@ -169,8 +164,6 @@ static void show_json(const error_comparison *d, const mesh_pair m[])
     json_decref(root);
 }
 
-/* Chooses the requested error targets or, if none was requested, those of reach_level that both
- * formulations meet. Returns their number. */
 static int choose_levels(error_comparison *d, mesh_pair m[LEVELS])
 {
     for (int i = 0; i < REACH_LEVELS && d->requested == 0; i++) {
@@ -230,7 +223,6 @@ static status check_models(const sweep *s, fault *f)
     return STATUS_OK;
 }
 
-/* The caller against_error() frees *d, even after a failure. */
 static status compare_at_errors(error_comparison *d, bench_options *r, const case_type *type,
                                 fault *f)
 {
@@ -251,12 +243,9 @@ static status compare_at_errors(error_comparison *d, bench_options *r, const cas
     return compare(d, r, f);
 }
 
-/* Compares two formulations at equal errors. For each error target, finds the smallest number of
- * elements of each formulation with which all requested quantities meet the target (study/study.h).
- * The two cells with these numbers are then timed alternately.
- * The targets are those of --error, or those of reach_level that both formulations meet. The
- * quantities are those of -k, or all for which both have a reference value or an agreement.
- * REFUSED: one formulation does not run, there is no reference value, or no target is met. */
+/* Compares two formulations at equal errors. The targets are those of --error, or those of
+ * reach_level that both formulations meet. The quantities are those of -k, or all for which both
+ * have a reference value or an agreement. REFUSED: the message gives the reason. */
 static status against_error(bench_options *r, const case_type *type, fault *f)
 {
     error_comparison d = {.levels = 0};
@@ -281,8 +270,6 @@ static void show_pair(const bench_options *r, const sweep_point *p, const compar
     json_decref(root);
 }
 
-/* Returns the parameter point at which both cells are run. The caller frees the scene of the
- * point. */
 static sweep_point point_of(const bench_options *r, const case_type *type, const scene *s)
 {
     sweep_point p = {.type = type, .scene = *s, .status = STATUS_OK};
@@ -290,8 +277,6 @@ static sweep_point point_of(const bench_options *r, const case_type *type, const
     return p;
 }
 
-/* Compares this program with another build on the same mesh. Both run as separate processes, so
- * that they start in the same way. The caller against_meshes() frees the scene. */
 static status against_program(const bench_options *r, const case_type *type, scene *s, fault *f)
 {
     compared_run a, b;
@@ -305,7 +290,6 @@ static status against_program(const bench_options *r, const case_type *type, sce
     return STATUS_OK;
 }
 
-/* Compares two formulations on the given meshes. The caller against_meshes() frees the scene. */
 static status compare_formulations(const bench_options *r, const case_type *type, scene *s,
                                    fault *f)
 {

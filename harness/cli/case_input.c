@@ -83,7 +83,6 @@ status user_tables_deviations(const text_list *tables, const case_type *const ru
     return STATUS_OK;
 }
 
-/* Prints all errors, one in each line, or as JSON if this is the output format. */
 static void report_mistakes(const command_line *l, const mistakes *m, status outcome,
                             const fault *f)
 {
@@ -97,7 +96,6 @@ static void report_mistakes(const command_line *l, const mistakes *m, status out
         message_fail(STATUS_FAULT, unwritten.text);
 }
 
-/* Prints the keys `omit` and `shear_theory` that replace the key `needs` of earlier versions. */
 static void report_needs(const char *path, const case_type *type)
 {
     double value[CASE_MAX_PARAMETERS];
@@ -158,7 +156,6 @@ const case_type *case_input_scene(case_options *r)
         message_fail(STATUS_REFUSED, "a case and --scene were given; give only one of them");
         return NULL;
     }
-    /* parameters set on the command line replace the default values */
     const int code = read_by(r->set.count > 0 ? scene_file_read_form : scene_file_read, r->line,
                              r->scene_path, &r->scene);
     if (code == EXIT_AS_EXPECTED)
@@ -256,7 +253,7 @@ static status add_truths(const case_options *r, const truths_options *of, truths
                             : r->line->arguments == 1 ? case_find(r->name, f)
                                                       : NULL;
     if (r->scene != NULL)
-        truths_read_rules(packed, t, NULL); /* a scene does not require the packed file */
+        truths_read_rules(packed, t, NULL);
     if (r->scene != NULL)
         TRY(scene_truths_add(r->scene, r->parameter, t, f));
     else

@@ -34,7 +34,6 @@ static void add_quantity(digest *to, const quantity_result *q)
     add_numbers(to, q->curve.value, q->curve.points);
 }
 
-/* Adds the results of a cell to the digest: values, statuses and counted work, but no times. */
 static void add_cell(digest *to, const cell_result *cell)
 {
     const solve_result *r = &cell->solve;
@@ -139,10 +138,9 @@ void cells_keep(sweep *s, const char keep[])
  * this bound is not below batch_least or above batch_most [s]. */
 static const double batch_most = 0.5, batch_least = 0.02, batch_share = 1.0 / 32;
 
-/* The sweep, divided into batches. An item is a series that is run. */
 typedef struct cut {
     const sweep_request *request;
-    truths *t; /* reference values, which determine whether scatter is measured */
+    truths *t;
     sweep *s;
     int items;
     int *begin;   /* [items + 1] first series of each item, followed by the number of series */
@@ -158,8 +156,7 @@ static void add_item(cut *c, int index, double cost)
     c->each[c->items++] = cost;
 }
 
-/* Sets from_to to the range of series of a batch, from_to[0] to from_to[1] - 1. It may include
- * series that are not run. */
+/* Sets from_to to the range of series of a batch, from_to[0] to from_to[1] - 1. */
 static void series_of(const cut *c, int batch, int from_to[2])
 {
     from_to[0] = c->begin[c->first[batch]];
@@ -172,7 +169,6 @@ static status compute(void *context, int batch, FILE *to, digest *content, fault
     int range[2];
     series_of(c, batch, range);
     sweep part = *c->s;
-    /* the batch runs in a separate process that ignores interrupts */
     sweep_request alone = *c->request;
     alone.jobs = alone.together = 1;
     alone.interruptible = 0;
@@ -258,8 +254,6 @@ static status leave_out(const cut *c, const spread_end *end, fault *f)
     return STATUS_OK;
 }
 
-/* Computes the shard or reads the batches. The caller verification_work_run() frees *c, even after
- * a failure. */
 static status spread(cut *c, const shard_options *r, identity_texts *texts, spread_end *out,
                      fault *f)
 {

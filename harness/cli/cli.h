@@ -13,8 +13,7 @@
 #include "harness/study/study.h"
 
 /* Verbs, their options, and command lines. A verb has its own options, groups of options that it
- * shares with other verbs, and a request struct. Each group is declared below, next to the
- * functions that use it. */
+ * shares with other verbs, and a request struct. */
 
 /* Largest number of arguments of a verb, and of values of a repeated option; largest number of
  * options on a command line. */
@@ -37,7 +36,7 @@ enum {
 };
 
 /* An option and the member that it sets: int for a switch (1) or a number, text_list for an option
- * that may be repeated, const char * for other options. A reader may store another type. */
+ * that may be repeated, const char * for other options. */
 struct verb_option {
     const char *name;
     char letter; /* 0: no letter */
@@ -74,7 +73,7 @@ typedef struct command_line {
     int givens;
 } command_line;
 
-/* Options that several verbs share. Function pointers may be NULL. */
+/* Options that several verbs share. */
 typedef struct option_group {
     const verb_option *options;                 /* ends with name NULL */
     void (*begin)(void *group, command_line *); /* sets defaults that are not zero; NULL: none */
@@ -88,8 +87,7 @@ typedef struct verb_group {
     size_t member; /* offset of the group in the request */
 } verb_group;
 
-/* Initial values of a verb_group. The file of each verb defines IN(at): ".member = offsetof(...,
- * at)". */
+/* Initial values of a verb_group. */
 #define SHARED(name, at) {&options_##name, IN(at)}
 
 struct verb {
@@ -138,7 +136,6 @@ const char *given_value(const command_line *, const char *name);
  * after it; NULL: there is none. */
 const given_option *given_next(const command_line *, unsigned traits, int *i);
 
-/* Values of an option that may be repeated. */
 typedef struct text_list {
     int count;
     const char *text[COMMAND_MOST_WORDS];
@@ -180,8 +177,6 @@ typedef struct solver_options {
 } solver_options;
 extern const option_group options_solver;
 
-/* Case of a run (built-in case or scene file), its parameters, and reference values. */
-
 typedef struct truths_options {
     const char *packed; /* file of --truths FILE; NULL: not given */
     text_list own;      /* --truths FILE.csv */
@@ -197,8 +192,7 @@ const char *user_tables_packed(const truths_options *);
  * file:line:column, and the number of errors. */
 status user_tables_truths(const truths_options *, const case_type *const run[],
                           const case_type *only, truths *t, fault *f);
-/* Adds the known deviations in the tables. If there is a table, verdicts on new formulations affect
- * the exit status. */
+/* Adds the known deviations in the tables. */
 status user_tables_deviations(const text_list *tables, const case_type *const run[], truths *t,
                               fault *f);
 
@@ -237,8 +231,7 @@ void case_input_report_units(const scene_file *, const double parameter[]);
 void case_input_report_analysis(const case_options *, const scene *s);
 
 /* Solves the case on the meshes (none: those of the case) with other programs, "NAME" or
- * "NAME:ELEMENT" separated by commas, and writes their results as an import to the file `to`.
- * Refusals are printed. *found: 0 if there are no results. */
+ * "NAME:ELEMENT" separated by commas, and writes their results as an import to the file `to`. */
 status peers_solve(const case_options *, const case_type *, const mesh_list *, const char *peers,
                    const char *to, int *found, fault *f);
 
@@ -277,11 +270,9 @@ enum {
     EXIT_INTERRUPTED = 5 /* interrupted, or parts are missing */
 };
 
-/* Parses a command line. request: memory of verb->request bytes. After an error, prints messages
- * and ends the program with EXIT_REFUSED. */
+/* Parses a command line. request: memory of verb->request bytes. */
 void command_parse(const verb *, const verb *const *verbs, int count, char **arguments,
                    command_line *line, void *request);
-/* Parses the command line, runs the verb and returns the exit status. arguments[0]: the verb. */
 int command_run(const verb *, const verb *const *verbs, int count, char **arguments);
 
 /* Writes the help page of a verb within PARAGRAPH_WIDTH columns: usage, description, options,
@@ -310,15 +301,12 @@ _Noreturn void message_refuse(const char *text);
  * status for it. */
 int message_exit(status s, const fault *f);
 
-/* Abnormal ends: signals, crashes, and libraries that call exit(). */
 /* Protects against errors of a formulation that was loaded into this process. If it crashes or
  * exceeds `seconds` (0: no limit), the program ends with one line that contains its name. Does
  * nothing for built-in formulations. */
 void formulation_start_guard(const formulation *chosen, int seconds);
-/* Prepares for abnormal ends. Call once, before any file is opened. Closed standard streams are
- * opened on /dev/null without write permission, so that no other file gets their descriptors. After
- * a crash or a signal that ends the program (SIGTERM, SIGHUP, SIGINT), incomplete output files are
- * deleted. A crash, or a call of exit() by a library or an element, is reported in one line. */
+/* Prepares for abnormal ends. A crash, or a call of exit() by a library or an element, is reported
+ * in one line. */
 void ending_begin(void);
 
 /* Runs `beamwork VERB ...`, `beamwork help [VERB]`, --help and --version. Returns the exit status.
@@ -341,9 +329,6 @@ void offer_text(const offer *o, const char *text, const char *summary);
 /* Writes the completions. word[count]: words after the verb up to the cursor; the last word, which
  * may be empty, is completed. */
 void completion_write(FILE *to, const verb *v, int count, char *const *word);
-
-/* Formulations of a command line: those that -f names and those that --element loads. An --element
- * may come after the -f that names its formulation. */
 
 enum { COMMAND_MAX_FORMULATIONS = 64 };
 

@@ -53,8 +53,7 @@ typedef struct compared_run {
     int repeats;                                /* number of solutions in each lap */
     double slowdown; /* delay that is added to a lap, as a fraction of its time */
     int counts;
-    const schema_field
-        *counted[SCHEMA_MOST_FIELDS]; /* fields of a cell that describe its size and work */
+    const schema_field *counted[SCHEMA_MOST_FIELDS];
     double count[SCHEMA_MOST_FIELDS];
 } compared_run;
 
@@ -63,11 +62,8 @@ defaults compared_run_defaults(bench_options *r, const case_type *type);
 /* Prepares a cell of the scene in this process. The result contains a pointer to the scene. */
 void compared_run_here(compared_run *, const bench_options *r, const scene *s,
                        const formulation *chosen, int elements);
-/* Prepares the cell of the request for another program. The structure contains pointers to its
- * members, so it must not be copied. */
+/* Prepares the cell of the request for another program. */
 void compared_run_elsewhere(compared_run *, const bench_options *r, const char *program);
-/* Runs both cells alternately on one processor for a few seconds, and compares their counts of
- * work. */
 status compared_run_measure(compared_run *a, compared_run *b, against_times *out, fault *f);
 /* compared_run_show prints both times, which cell is faster, and the difference of work.
  * compared_run_json returns these data as JSON, which the caller owns. */
@@ -84,13 +80,12 @@ typedef struct manual_row {
 
 /* Text about the program for the manual. Rows end with name NULL. */
 typedef struct manual_program {
-    const char *summary, *question; /* one line each */
-    const verb *const *verbs;       /* all verbs, NULL-terminated */
+    const char *summary, *question;
+    const verb *const *verbs; /* all verbs, NULL-terminated */
     const manual_row *examples, *statuses;
     const char *of_compare; /* exit statuses of `compare`, which are those of diff */
 } manual_program;
 
-/* A table of a results file. */
 typedef struct results_record {
     char place[64]; /* path that precedes the name of the table */
     const record_type *type;
@@ -116,7 +111,7 @@ void manual_write_scene(FILE *to);
 /* Writes beamwork-results(5), the page on the contents of results files. */
 void manual_write_results(FILE *to, const verb *const *verbs);
 
-/* Pages in mdoc(7). The text is escaped, so that no formatter interprets it. */
+/* Pages in mdoc(7). */
 /* Writes running text in lines. The words do not change, so that hyphens, quotation marks and '^'
  * can be copied. */
 void roff_text(FILE *to, const char *text);
@@ -128,14 +123,12 @@ typedef struct roff_reference {
 } roff_reference;
 void roff_see(FILE *to, const roff_reference list[], int count);
 
-/* Work of a verb: it is computed as a shard, or its results are read from batches. */
-
 typedef struct spread_end {
-    int ended; /* 1: there are no results to evaluate */
-    int code;  /* exit status, if `ended` is 1 */
+    int ended;
+    int code; /* exit status, if `ended` is 1 */
     int batches;
-    char *taken;         /* [batches] batches that a merge has read; spread_free frees this array */
-    char processor[128]; /* processor that computed the batches; empty: not merged */
+    char *taken; /* [batches] batches that a merge has read; spread_free frees this array */
+    char processor[128];
 } spread_end;
 
 typedef struct shard_options {
@@ -151,7 +144,6 @@ extern const option_group options_shards; /* all options except jobs and quiet *
 /* Sets *requested to 1 if --into, --shard or --from was given. REFUSED: the combination of options
  * is invalid. */
 status shards_requested(const shard_options *, int *requested, fault *f);
-/* Computes the shard and reports the outcome, or reads the batches. */
 status spread_work(const shard_options *, const shard_work *w, spread_end *out, fault *f);
 void spread_free(spread_end *);
 
@@ -163,19 +155,15 @@ typedef struct identity_texts {
 } identity_texts;
 
 /* Collects the version, commit and digest of the program, the command line as text, and a digest of
- * every file that affects results. The caller adds the plan of the work to this digest. FAULT: a
- * file cannot be read. */
+ * every file that affects results. FAULT: a file cannot be read. */
 status identity_make(const command_line *, identity_texts *out, digest *plan, fault *f);
-/* Adds the points, formulations and meshes of a sweep to the digest. */
 void identity_add_sweep(digest *plan, const sweep *s);
-/* Sets the identity of a work. The texts must outlive the work. Nothing may be added to the plan
- * afterwards. */
+/* Sets the identity of a work. */
 void identity_set(identity_texts *texts, const digest *plan, shard_work *w);
 void identity_free(identity_texts *);
 
 /* Computes a shard of a planned sweep, or reads the cells of --from. With --partial, missing cells
- * are removed and count as unfinished. A batch contains consecutive series, with the cells that
- * measure their scatter. */
+ * are removed and count as unfinished. */
 status verification_work_run(const shard_options *, const sweep_request *, truths *, sweep *,
                              spread_end *, fault *);
 

@@ -7,7 +7,7 @@
 
 typedef struct compare_request {
     const char *output, *select, *threshold, *experiment;
-    int hash; /* 1: the hashes of stored runs are printed */
+    int hash;
 } compare_request;
 
 /* Exit statuses, as for diff. */
@@ -43,7 +43,6 @@ static void print_sums(const comparison *c)
     putchar('\n');
 }
 
-/* Prints a line for each group of series that are in only one run and do not count as changes. */
 static void print_left(const command_line *l, const stored_results *run[2], const comparison *c)
 {
     const char *const path[] = {l->argument[0], l->argument[1]};
@@ -97,8 +96,6 @@ static int compare(const command_line *l, const compare_request *r, const stored
     return trouble(f);
 }
 
-/* Checks that a sweep is compared with another sweep. A single sweep is rejected, because there is
- * no short table of a sweep. */
 static status check_sweeps(const command_line *l, const stored_results *before,
                            const stored_results *after, fault *f)
 {

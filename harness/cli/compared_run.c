@@ -16,7 +16,6 @@
 enum { MOST_REPEATS = 10000, NAME = 40 };
 static const double budget_seconds = 3, lap_seconds = 0.002;
 
-/* Selects the dimensionless numbers in the record of a cell: they describe its size and work. */
 static void set_counted(compared_run *c)
 {
     const schema_field *list[SCHEMA_MOST_FIELDS];
@@ -50,7 +49,7 @@ static status lap_here(compared_run *c, double *seconds, fault *f)
             return outcome;
     }
     const double end = start + (1 + c->slowdown) * (clock_processor_seconds() - start);
-    do /* waits actively until the additional time has passed */
+    do
         *seconds = clock_processor_seconds() - start;
     while (start + *seconds < end);
     return STATUS_OK;
@@ -82,8 +81,7 @@ static status lap_elsewhere(compared_run *c, double *seconds, fault *f)
         dup2(ends[1], STDOUT_FILENO);
         close(ends[0]);
         close(ends[1]);
-        char *argument[CONTESTANT_ARGUMENTS] = {
-            NULL}; /* execv requires strings that are not const */
+        char *argument[CONTESTANT_ARGUMENTS] = {NULL};
         for (int i = 0; c->argument[i] != NULL; i++)
             argument[i] = strdup(c->argument[i]);
         execv(c->program, argument);
@@ -111,12 +109,11 @@ static status lap(void *what, double *seconds, fault *f)
     return c->program != NULL ? lap_elsewhere(c, seconds, f) : lap_here(c, seconds, f);
 }
 
-/* Chooses the number of solutions in a lap, so that a lap is long enough for the clock. */
 static status set_repeats(compared_run *a, compared_run *b, fault *f)
 {
     double first = 0, second = 0;
     a->repeats = b->repeats = 1;
-    for (int i = 0; i < 2; i++) { /* the first lap is a warm-up */
+    for (int i = 0; i < 2; i++) {
         TRY(lap(a, &first, f));
         TRY(lap(b, &second, f));
     }
@@ -181,8 +178,6 @@ status compared_run_measure(compared_run *a, compared_run *b, against_times *out
     return against_run(lap, a, b, budget_seconds, out, f);
 }
 
-/* Prints the name of a cell and the time of one solution. A long name is printed on a separate
- * line. */
 static void show_one(char letter, const compared_run *c, double seconds)
 {
     int at = printf("%c  ", letter);
@@ -236,8 +231,6 @@ void compared_run_unranked(const compared_run *a, const compared_run *b)
     }
 }
 
-/* For a formulation that runs in this process, describes the physics of the scene that it omits;
- * "": none. */
 static void lacking(const compared_run *c, char words[OMIT_WORDS])
 {
     words[0] = '\0';

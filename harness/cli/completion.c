@@ -1,5 +1,3 @@
-/* Completion of a command line for shells: fixed words, names in the program, and values that
- * depend on the words before the cursor. */
 #include "harness/cli/cli.h"
 
 #include <string.h>
@@ -51,7 +49,6 @@ static void names_formulations(const offer *o)
         offer_text(o, formulations_at(i)->name, formulations_at(i)->summary);
 }
 
-/* Offers "NAME=" for a parameter or, after "NAME=", the choices of the parameter. */
 static void offer_assignment(const offer *o, const parameter_type *p)
 {
     char name[100];
@@ -102,7 +99,6 @@ static void names_parameters(const offer *o, const case_type *type)
         offer_assignment(o, p);
 }
 
-/* Offers "NAME=" for the parameters of the case that are numbers. */
 static void names_numbers(const offer *o, const case_type *type)
 {
     const parameter_type *p;
@@ -111,7 +107,6 @@ static void names_numbers(const offer *o, const case_type *type)
             offer_assignment(o, p);
 }
 
-/* If the term starts with the typed words, offers its next word. */
 static void offer_term(const offer *o, const char *typed, const char *term, const char *summary)
 {
     const size_t length = strlen(typed);
@@ -132,8 +127,6 @@ static void offer_terms(const offer *o, const char *typed, const glossary *g)
     }
 }
 
-/* Offers the terms of `beamwork explain`. typed: words before the cursor, joined; they may be the
- * start of a term with several words. */
 static void names_words(const offer *o, const char *typed)
 {
     const truths_options usual = {.packed = NULL};
@@ -159,10 +152,10 @@ typedef struct completion_reading {
     const verb *verb;
     const verb_option *open; /* option whose value is at the cursor; NULL: none */
     int only_arguments;      /* "--" was given */
-    const char *last;        /* last argument; NULL: none yet */
+    const char *last;
     int arguments;
     const char *scene; /* value of --scene */
-    char typed[TYPED]; /* arguments, each followed by a blank */
+    char typed[TYPED];
 } completion_reading;
 
 static void keep_value(completion_reading *r, const verb_option *o, const char *value)
@@ -204,7 +197,6 @@ static void read_word(completion_reading *r, const char *word)
     }
 }
 
-/* Offers terms. The words of a term may be one argument or several. */
 static void offer_words(const offer *o, const completion_reading *r)
 {
     const offer word = offer_behind(o, " ");
@@ -214,8 +206,6 @@ static void offer_words(const offer *o, const completion_reading *r)
     names_words(&word, typed);
 }
 
-/* Offers values for one part of a description. Words in upper case are kinds of arguments; other
- * words are offered as they are. Of "exec:COMMAND", only "exec:" is offered. */
 static void offer_part(const offer *o, const completion_reading *r, const char *part)
 {
     char word[40];
@@ -236,8 +226,6 @@ static void offer_part(const offer *o, const completion_reading *r, const char *
     }
 }
 
-/* Offers values according to a description such as "[cases|formulations|CASE]", "FILE..." or
- * "text|json|csv". */
 static void offer_kinds(const offer *o, const completion_reading *r, const char *kinds)
 {
     static const char between[] = "[]|. ";
@@ -299,7 +287,6 @@ static void offer_options(const offer *o, const completion_reading *r)
     }
 }
 
-/* Handles "-hf" or "--formulation=", followed by the start of a value. */
 static void offer_begun_option(FILE *to, const completion_reading *r, const char *word)
 {
     const offer whole = {to, word, 0, word};

@@ -23,7 +23,6 @@ static const char *file_among(const command_line *l)
     return NULL;
 }
 
-/* Selects the named formulations or, if none is named, the loaded ones. */
 static void choose(const command_line *l, element_test_request *r)
 {
     for (int i = 0; i < l->arguments; i++)
@@ -63,7 +62,6 @@ static status read_format(const verb_option *o, void *member, const char *value,
                      value);
 }
 
-/* The caller answer() frees *c, even after a failure. */
 static status run(const command_line *l, const element_test_request *r, certificates *c, fault *f)
 {
     const certificate_request what = {.chosen = r->chosen.formulation,

@@ -1,4 +1,3 @@
-/* Verb explain: explains terms of the program and of structural mechanics. */
 #include <ctype.h>
 #include <math.h>
 #include <stdio.h>
@@ -24,7 +23,6 @@ typedef struct dictionary {
     truths deviations;
 } dictionary;
 
-/* Prints a list such as "see also: a; b". */
 static void list_further(const char *head, const char *list)
 {
     char word[GLOSSARY_WORD], line[1024] = "";
@@ -102,8 +100,7 @@ static int explain_inputs(const char *word)
     return 1;
 }
 
-/* Returns known deviation i. If its cause starts with "the same", returns the last previous one
- * whose cause does not. */
+/* Returns known deviation i. */
 static const rule *listed_before(const truths *deviations, int i)
 {
     while (i > 0 && strncmp(deviations->rule[i].cause, "the same", 8) == 0)
@@ -174,7 +171,6 @@ static int explain_quantity(const char *word)
     return found > 0;
 }
 
-/* All names that can be looked up, in lowercase letters. */
 typedef struct name_list {
     int count, size;
     char (*name)[GLOSSARY_WORD];
@@ -244,8 +240,6 @@ static int contains(const char *text, const char *word)
     return 0;
 }
 
-/* Appends to `line` the entries that contain `word` in their names (where 0) or in their text
- * (where 1). */
 static void add_related(const glossary *g, const char *word, int where, int *count, char *line,
                         size_t size)
 {
@@ -264,7 +258,6 @@ static void add_related(const glossary *g, const char *word, int where, int *cou
     }
 }
 
-/* Finds at most RELATED entries that share a word of at least four letters with `word`. */
 static void find_related(const glossary *g, const char *word, char *line, size_t size)
 {
     char all[LONGEST], *rest = NULL;
@@ -325,7 +318,6 @@ static int explain_word(const dictionary *d, const char *word)
     return found > 0 ? EXIT_AS_EXPECTED : refuse_word(d, word);
 }
 
-/* Joins all arguments, so that a term with blanks needs no quotation marks. */
 static int explain_words(const command_line *l, const dictionary *d)
 {
     char word[LONGEST] = "";

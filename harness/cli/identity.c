@@ -38,7 +38,6 @@ static void name_request(const json_t *words, char out[IDENTITY_TEXT])
         snprintf(out + KEPT, IDENTITY_TEXT - KEPT, " ... %s", hash);
 }
 
-/* Form in which file names are written: as given, as absolute path, or without the folder. */
 typedef enum path_form { PATHS_GIVEN, PATHS_ABSOLUTE, PATHS_LEAVES } path_form;
 
 static void add_path(json_t *to, const char *path, path_form form)
@@ -68,7 +67,7 @@ static void add_given(json_t *to, const given_option *g, path_form form)
 }
 
 /* Lists the arguments and options that affect results, in the fixed order of the options of the
- * verb. Excludes the destinations and formats of results, and the number of processes. */
+ * verb. */
 static json_t *words_of(const command_line *l, path_form form)
 {
     json_t *to = json_array();
@@ -80,7 +79,7 @@ static json_t *words_of(const command_line *l, path_form form)
             if (l->given[k].option == o) {
                 add_given(to, &l->given[k], form);
                 if (o->argument == NULL)
-                    break; /* repeating a switch has no effect */
+                    break;
             }
     return to;
 }
@@ -92,8 +91,6 @@ static status add_file(const void *context, const char *path, fault *f)
                : fault_set(f, STATUS_FAULT, "%.200s: cannot be read", path);
 }
 
-/* Adds the contents of the input files to the digest. Built-in reference values are included only
- * if the run has built-in cases. */
 static status add_files(digest *plan, const command_line *l, fault *f)
 {
     const truths_options usual = {.packed = NULL};

@@ -14,8 +14,6 @@ static int as_json(const import_request *r)
     return strcmp(r->format, "json") == 0;
 }
 
-/* Prints all errors of a file, one in each line, or as JSON if this is the output format. JSON is
- * printed for every file, even without errors. */
 static status print_mistakes(const import_request *r, const mistakes *m, fault *f)
 {
     if (as_json(r))
@@ -44,7 +42,6 @@ static status read_mapped(const command_line *l, const import_request *r, import
     return outcome;
 }
 
-/* Reads every file, even after errors in earlier files. */
 static status read_files(const command_line *l, const import_request *r, import_set *set, fault *f)
 {
     status outcome = STATUS_OK;

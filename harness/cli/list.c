@@ -1,5 +1,3 @@
-/* Verb list: lists cases and formulations. For a formulation, lists supported features, limitations
- * and known deviations. */
 #include <float.h>
 #include <stdio.h>
 #include <string.h>
@@ -124,8 +122,6 @@ static void show_rules(const formulation *chosen, const rule *rules, int count)
         printf("known deviations: none\n");
 }
 
-/* Prints the names of all entries that have the explanation of entry `first`, in one paragraph.
- * Prints nothing if a previous entry has this explanation. */
 static void show_alike(const runs_on all[], int count, int first, const char *head)
 {
     char line[LINE];
@@ -228,7 +224,6 @@ static void list_offer(const scene *s, const element_type *type)
         printf("runs\n");
 }
 
-/* Prints a parameter: name, default value, unit, and "description (range)". */
 static void list_parameter(const parameter_type *p)
 {
     char value[ASSIGNMENT_VALUE], text[400];
@@ -252,7 +247,6 @@ static void list_parameters(const case_type *type)
         list_parameter(p);
 }
 
-/* Prints the quantities of a case at its default parameters, and the formulations that run it. */
 static void list_scene(const scene *s)
 {
     printf("quantities with the default parameters (along a path: a curve)\n");
@@ -322,8 +316,6 @@ static status write_json(const list_subject *what, const truths *deviations, fau
     return list_json_all(stdout, what->cases, what->formulations, f);
 }
 
-/* Writes the subject as JSON. The file of known deviations also lists the formulations that affect
- * the exit status. */
 static int show_json(const list_request *r, const list_subject *what)
 {
     truths deviations;

@@ -1,4 +1,3 @@
-/* beamwork VERB ...: prepares the process, then runs a verb. */
 #include <gsl/gsl_errno.h>
 #include <hdf5.h>
 #include <signal.h>
@@ -26,15 +25,11 @@ static int stack_suffices(void)
     return setrlimit(RLIMIT_STACK, &stack) == 0 && stack.rlim_cur >= LEAST;
 }
 
-/* Reports that the stack is too small, and ends the process. Does not use stdio, whose buffer for
- * standard error is on the stack. */
 static _Noreturn void refuse_stack(void)
 {
     static const char text[] = "beamwork: the stack is limited to less than 1 MB; allow more with "
                                "'ulimit -s 8192'\n";
-    if (write(STDERR_FILENO, text, sizeof text - 1) < 0) {
-        /* the exit status still reports the error */
-    }
+    if (write(STDERR_FILENO, text, sizeof text - 1) < 0) {}
     _exit(EXIT_FAULT);
 }
 

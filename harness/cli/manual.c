@@ -1,4 +1,3 @@
-/* Pages of the manual in mdoc(7). */
 #include "harness/cli/cli_impl.h"
 
 #include <ctype.h>
@@ -48,7 +47,7 @@ void roff_text(FILE *to, const char *text)
         column += write_word(to, text, length);
         text += length;
         if (text[-1] == '.' && *text != '\0')
-            column = 0 * fputc('\n', to); /* a new sentence starts on a new line */
+            column = 0 * fputc('\n', to);
     }
     fputc('\n', to);
 }
@@ -250,8 +249,6 @@ static void close_to(keys *k, int depth)
         fprintf(k->to, ".El\n");
 }
 
-/* Writes a key. Each depth has its own list. A list of subordinate keys is part of the item of the
- * superior key. */
 static void write_key(void *context, int depth, const char *name, const char *form,
                       const char *text)
 {
@@ -274,7 +271,6 @@ static void write_keys(FILE *to, void list(key_list_take *, void *))
     close_to(&k, 0);
 }
 
-/* An example: a leaf spring in ten lines. */
 static const char example[] =
     "beamwork: 1\n"
     "sections:\n"

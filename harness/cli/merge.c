@@ -1,5 +1,3 @@
-/* Merges the batches of shards: repeats the command that computed the batches, which then reads
- * them. */
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,12 +8,11 @@
 
 enum { MOST = 1024 }; /* largest number of arguments */
 
-/* The command that computed the batches, to be repeated. */
 typedef struct again {
     int count;
     /* "beamwork", the verb, and the arguments, NULL-terminated */
     char *argument[MOST + 1];
-    char *owned[MOST + 1]; /* strings that this structure owns, which again_free frees */
+    char *owned[MOST + 1];
 } again;
 
 static status add(again *out, const char *text, fault *f)
@@ -77,8 +74,7 @@ static status add_all(const batch_label *label, const command_line *l, again *ou
 }
 
 /* Reads the request from the first batch of the first folder. Adds --from for all folders, and the
- * output options of the verb merge. REFUSED: there are no batches. FAULT: out of memory, or a file
- * cannot be read. Call again_free after a failure as well. */
+ * output options of the verb merge. Call again_free after a failure as well. */
 static status again_make(const command_line *l, again *out, fault *f)
 {
     batch_label label;
@@ -122,7 +118,6 @@ static int answer(const command_line *l, void *request)
     return code;
 }
 
-/* Options of the verb merge that the repeated command receives. */
 typedef struct merge_request {
     const char *output, *format;
     report_options reports;

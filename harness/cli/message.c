@@ -13,9 +13,7 @@
 
 int message_finish(int code)
 {
-    const int reported =
-        code == EXIT_REFUSED ||
-        code == EXIT_FAULT; /* messages about these statuses have already been printed */
+    const int reported = code == EXIT_REFUSED || code == EXIT_FAULT;
     fault f = {""};
     if (output_all_written(&f) == STATUS_OK || reported)
         return code;
@@ -61,7 +59,6 @@ static void write_error(const char *text)
     }
 }
 
-/* Ends the process by the given signal, which the parent process then sees as the reason. */
 static void end_by(int number)
 {
     signal(number, SIG_DFL);
@@ -98,8 +95,6 @@ static void ended(int code, void *unused)
     _exit(EXIT_FAULT);
 }
 
-/* Replaces only the default handler. A sanitizer may have set another handler, or a parent process
- * may have set the signal to be ignored. */
 static void handle_signal(int number, void (*handler)(int))
 {
     struct sigaction action, before;
@@ -123,7 +118,7 @@ void ending_begin(void)
 {
     static const int asking[] = {SIGTERM, SIGHUP, SIGINT},
                      crashing[] = {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT};
-    static char stack[1 << 16]; /* needed after a stack overflow */
+    static char stack[1 << 16];
     const stack_t other = {.ss_sp = stack, .ss_size = sizeof stack};
     program = getpid();
     fill_streams();
@@ -159,7 +154,6 @@ static void report(int which)
     _exit(EXIT_DIFFERS);
 }
 
-/* Makes signal handlers use a separate stack, so that a stack overflow is also handled. */
 static void stand_on_another_stack(void)
 {
     static char stack[1 << 16];
@@ -296,8 +290,6 @@ static status check_word(const verb *v, const verb *const *verbs, const char *wo
                : STATUS_OK;
 }
 
-/* Checks all options before any of them is used. Unknown options and missing values are reported
- * in one line, the former with the most similar name. */
 static status check_options(const verb *v, const verb *const *verbs, int count,
                             char *const argument[], fault *f)
 {
@@ -329,8 +321,6 @@ static void add_argument(command_line *l, const char *text)
     l->argument[l->arguments++] = text;
 }
 
-/* Adds an option. Lists (-f, -n, --set) and switches may be repeated; other options may be given
- * only once. */
 static void add_given(command_line *l, const verb_option *o, const char *value)
 {
     char text[160];

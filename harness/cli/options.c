@@ -11,8 +11,7 @@
 #include "harness/numerics/numerics.h"
 #include "harness/records/records.h"
 
-/* Letters of version 0.1, which the next version will not accept. If one is used, a note gives the
- * new name. */
+/* Letters of version 0.1, which the next version will not accept. */
 static const struct {
     char letter;
     const char *name;
@@ -34,8 +33,7 @@ static const struct {
               {'u', "integrator"}, {'a', "step"},           {'3', "conservation-only"},
               {'1', "expected"}};
 
-/* Names of version 0.2, which the next version will not accept. If one is used, a note gives the
- * new name. */
+/* Names of version 0.2, which the next version will not accept. */
 static const struct {
     const char *was, *name;
 } renamed[] = {{"keep-all", "all-dofs"},           {"beside", "imported"},
@@ -374,7 +372,7 @@ const option_group options_meshes = {meshes, NULL, NULL, NULL};
 const option_group options_reports = {reports, NULL, NULL, NULL};
 const option_group options_solver = {solver, NULL, NULL, NULL};
 
-enum { OUTPUTS = 7 }; /* largest number of outputs of a verb */
+enum { OUTPUTS = 7 };
 
 typedef struct named_place {
     char option[40];
@@ -406,7 +404,6 @@ static status check_pair(const named_place *a, const named_place *b, fault *f)
 
 static status find_scenes(const char *folder, glob_t *found, fault *f)
 {
-    /* characters of the folder name are escaped, so that they are not wildcards */
     char *pattern = malloc(2 * strlen(folder) + sizeof "/*.yaml"), *at = pattern;
     if (pattern == NULL)
         return fault_set(f, STATUS_FAULT, "out of memory for scene files");
@@ -445,7 +442,7 @@ static status visit_command(const char *command, file_visit *visit, const void *
     char **word;
     struct stat there;
     if (words_split(command, &word, NULL) != STATUS_OK)
-        return STATUS_OK; /* an error is reported when the file is loaded */
+        return STATUS_OK;
     status outcome = STATUS_OK;
     for (int i = 0; word[i] != NULL && outcome == STATUS_OK; i++)
         if (stat(word[i], &there) == 0 && S_ISREG(there.st_mode))
@@ -465,7 +462,6 @@ status files_named(const char *input, file_visit *visit, const void *context, fa
                : visit(context, input, f);
 }
 
-/* For verbs that read the files in their arguments: checks that no argument is an output. */
 static status check_arguments(const named_place *out, const command_line *l, fault *f)
 {
     const int read =

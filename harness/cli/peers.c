@@ -1,4 +1,3 @@
-/* Solves a case with other programs: runs the Python module beamwork.peers. */
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -43,7 +42,6 @@ static void add_meshes(peers_command *c, const mesh_list *m)
     add_made(c, text);
 }
 
-/* Adds the case, or the scene file, and the parameters that differ from their defaults. */
 static void add_case(peers_command *c, const case_options *of, const case_type *type)
 {
     char text[PARAMETERS_TEXT];
@@ -58,7 +56,6 @@ static void add_case(peers_command *c, const case_options *of, const case_type *
         }
 }
 
-/* Sets the variables by which the module finds itself, the program and the library. */
 static void set_environment(void)
 {
     char path[PATH_MAX];
@@ -79,7 +76,7 @@ static status run(const peers_command *c, int *found, fault *f)
     int how = 0;
     const pid_t child = fork();
     if (child == 0) {
-        char *word[MOST_WORDS] = {NULL}; /* execv requires strings that are not const */
+        char *word[MOST_WORDS] = {NULL};
         for (int i = 0; i < c->words; i++)
             word[i] = strdup(c->word[i]);
         set_environment();

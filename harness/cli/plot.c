@@ -1,4 +1,3 @@
-/* Verb plot: solves a scene, and draws its quantities as curves with reports/graph.py. */
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,12 +22,10 @@ typedef struct plot_request {
 enum { INSTANTS = 300, STATES = 20, COULD_NOT = 4 }; /* COULD_NOT: as in reports/graph.py */
 
 static const char python[] = "/usr/bin/python3";
-/* Starts the plotting program isolated from the environment, as beamwork-report does. */
 static const char begin_program[] =
     "import runpy, sys; sys.path.insert(0, sys.argv.pop(1)); "
     "runpy.run_module('reports.graph', run_name='__main__', alter_sys=True)";
 
-/* Returns 1 if a quantity of the analysis depends on the given stations. */
 static int takes_stations(const scene *s, int analysis)
 {
     for (int i = 0; i < s->quantities; i++)
@@ -51,8 +48,6 @@ static status divide(scene_path *path, double begin, double end, int parts, int 
     return STATUS_OK;
 }
 
-/* Adds stations. Motions get many stations, which do not change their steps. A static path with one
- * station gets more stations. */
 static status read_densely(scene *s, int analysis, fault *f)
 {
     scene_analysis *a = &s->analysis[analysis];
@@ -67,7 +62,6 @@ static status read_densely(scene *s, int analysis, fault *f)
                   path->value[path->stations - 1], INSTANTS, later, f);
 }
 
-/* Unless the scene has the phase of an amplitude, adds it, as for a Bode diagram. */
 static status add_phase(scene *s, int quantity, fault *f)
 {
     const scene_quantity *q = &s->quantity[quantity];
@@ -122,7 +116,6 @@ static int make_curve(scene *s, scene_quantity *q)
     return 0;
 }
 
-/* Removes envelopes of other quantities, because the other quantities become curves. */
 static void drop_envelopes(scene *s)
 {
     int kept = 0;
@@ -158,8 +151,6 @@ static status make_curves(scene *s, fault *f)
     return STATUS_OK;
 }
 
-/* Solves with one formulation and appends the solution. The caller draw_from() frees *s and
- * *why. */
 static status solve_one(const plot_request *r, const case_type *type, int index, sweep *s,
                         solution_choice *why, FILE *to, fault *f)
 {
@@ -180,7 +171,7 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
                               .meshes = &meshes,
                               .truths = &usual};
     TRY(defaults_fill(&missing, note, why, f));
-    solution_choice_free(why); /* the choice was made for values, not for curves */
+    solution_choice_free(why);
     const solution_request what = defaults_request(&missing);
     TRY(solution_plan(&what, s, f));
     TRY(make_curves(&s->point[0].scene, f));
@@ -194,13 +185,11 @@ static status solve_one(const plot_request *r, const case_type *type, int index,
                    : fault_set(f, STATUS_REFUSED,
                                "no quantity has a value; 'beamwork solve' prints the reasons");
     if (solved != STATUS_OK)
-        message_fail(solved, f->text); /* the solution is drawn up to this point */
+        message_fail(solved, f->text);
     fputs(ftell(to) > 0 ? "," : "[", to);
     return json_write_solution(to, s, &none, f);
 }
 
-/* Solves with all chosen formulations. If several are chosen, a formulation without a solution is
- * reported and skipped. */
 static status solve_all(const plot_request *r, const case_type *type, FILE *to, fault *f)
 {
     status outcome = STATUS_OK;
@@ -224,8 +213,6 @@ static status solve_all(const plot_request *r, const case_type *type, FILE *to, 
                            "a temporary file cannot be written; check whether the disk is full");
 }
 
-/* Replaces the child process by the plotting program. from, to: descriptors for its input and
- * output. */
 static void become(int from, int to, const char *folder, const char *form)
 {
     if (dup2(from, STDIN_FILENO) >= 0 && dup2(to, STDOUT_FILENO) >= 0)
@@ -233,7 +220,6 @@ static void become(int from, int to, const char *folder, const char *form)
     _exit(127);
 }
 
-/* Draws the solutions in the file. The plotting program prints its own messages. */
 static status draw(FILE *solutions, const char *folder, const char *form, FILE *picture, fault *f)
 {
     int how = -1;
@@ -264,7 +250,6 @@ static const char *form_of(const char *path, fault *f)
     return NULL;
 }
 
-/* Finds the folder that contains the package `reports`. */
 static status find_reports(char folder[PATH_MAX], fault *f)
 {
     char script[PATH_MAX];

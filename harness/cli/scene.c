@@ -1,4 +1,3 @@
-/* Writes scene files from any case, and describes their keys. */
 #include <limits.h>
 #include <stdio.h>
 #include <string.h>
@@ -24,8 +23,6 @@ static status describe(FILE *to, const scene_request *r, fault *f)
     return STATUS_OK;
 }
 
-/* Writes the scene, which the caller write_out() frees. type NULL: writes a description of the
- * keys. */
 static status write_to(FILE *to, const scene_request *r, const case_type *type, scene *s, fault *f)
 {
     if (type == NULL)

@@ -1,5 +1,3 @@
-/* Verb schema: describes the contents of results files from the tables with which they are
- * written. */
 #include <stdio.h>
 #include <string.h>
 

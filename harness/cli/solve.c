@@ -16,13 +16,13 @@ typedef struct solve_request {
     truths_options truths;
     solver_options solver;
     const char *select, *output, *format;
-    double error; /* 0: no error was given */
+    double error;
     int steps;
-    int shapes;           /* number of states of a path whose shapes are stored; 0: none */
-    const char *follow;   /* NAME=A..B/N: parameter over which modes are followed; NULL: none */
-    const char *matrices; /* folder for the matrices of all states */
-    int state_space;      /* 1: linear models are written as well */
-    const char *reduce;   /* also writes reduced models */
+    int shapes;         /* number of states of a path whose shapes are stored; 0: none */
+    const char *follow; /* NAME=A..B/N: parameter over which modes are followed; NULL: none */
+    const char *matrices;
+    int state_space;    /* 1: linear models are written as well */
+    const char *reduce; /* also writes reduced models */
     /* files: output for the final states of motions; state from which motions continue */
     const char *ends, *restart;
 } solve_request;
@@ -61,7 +61,6 @@ static defaults defaults_of(solve_request *r, const case_type *type)
                       .truths = &r->truths};
 }
 
-/* Writes the results. note: reasons for the default choices, which precede text output. */
 static status write_to(FILE *to, const solve_request *r, const char *note, const sweep *s,
                        const truths *t, fault *f)
 {
@@ -85,14 +84,12 @@ static status write_out(const solve_request *r, const char *note, const sweep *s
         fputs(note, stdout);
         table_solution(stdout, s, t);
         TRY(store_write_solution(r->output, s, &e, f));
-        return output_flush(f); /* the program that reads the table may have ended */
+        return output_flush(f);
     }
     TRY(output_open(r->output, &file, f));
     return output_finish(&file, write_to(file.stream, r, note, s, t, f), f);
 }
 
-/* Reports the error of the state-space form of a harmonic analysis, which omits the mass inside
- * elements. */
 static void report_close_frequencies(const scene *s, const state_matrices *m)
 {
     if (m->model.apart > 0)
@@ -126,7 +123,6 @@ static void report_reduced_transfer(const system_matrices *all, const reduced_mo
         fprintf(stderr, "; %d of %d transfer functions are zero and not counted", zeros, functions);
 }
 
-/* Reports the errors of a reduced model. */
 static void report_reduced(const scene *s, const system_matrices *all, const state_matrices *m)
 {
     const reduced_model *r = &m->reduced;
@@ -154,8 +150,6 @@ static void report_reduced(const scene *s, const system_matrices *all, const sta
     fprintf(stderr, "\n");
 }
 
-/* Reports that only the state-space forms of harmonic analyses include feedback. In other matrices,
- * loads with feedback are inputs. */
 static void report_loops(const scene *s, const system_matrices *of)
 {
     int closed = 0;
@@ -234,7 +228,6 @@ static status write_curves(const solve_request *r, const char *note, const char 
     return output_finish(&file, written, f);
 }
 
-/* Handles --follow: follows modes over a parameter instead of computing a solution. */
 static status follow_modes(solve_request *r, const case_type *type, fault *f)
 {
     char name[SCENE_NAME], note[DEFAULTS_NOTE];
@@ -261,8 +254,6 @@ static status follow_modes(solve_request *r, const case_type *type, fault *f)
     return written;
 }
 
-/* Reads the state from which a motion continues. The formulation and the number of elements of this
- * state are the defaults of -f and -n. */
 static status take_restart(solve_request *r, restart *from, fault *f)
 {
     TRY(restart_read(r->restart, from, f));
@@ -283,7 +274,6 @@ static status prepare_ends(const solve_request *r, restart *from, solution_reque
     return r->restart != NULL ? restart_begin(from, what, s, f) : STATUS_OK;
 }
 
-/* The caller answer() frees *w, even after a failure. */
 static status prepare(solve_request *r, const case_type *type, solve_work *w, fault *f)
 {
     if (r->error > 0 && (r->meshes.count > 0 || r->restart != NULL))
@@ -298,8 +288,7 @@ static status prepare(solve_request *r, const case_type *type, solve_work *w, fa
     TRY(files_check(r->of.line, r->shapes > 0, user_tables_packed(&r->truths), f));
     const status known = case_input_truths(&r->of, &r->truths, &w->t, f);
     if (known != STATUS_OK && r->truths.packed == NULL && r->of.scene == NULL)
-        fprintf(stderr, "beamwork: no reference values are used: %s\n",
-                f->text); /* a solution does not require them */
+        fprintf(stderr, "beamwork: no reference values are used: %s\n", f->text);
     else
         TRY(known);
     if (r->restart != NULL)
@@ -347,7 +336,6 @@ static int report_missing(status solved, const cell_result *cell, const fault *f
     return refused ? message_fail(STATUS_NO_VALUE, f->text) : message_exit(solved, f);
 }
 
-/* Warns if a linear displacement is larger than the structure. */
 static void report_large(const scene *s, const solve_result *r)
 {
     const double size = change_size(s);

@@ -1,4 +1,3 @@
-/* Verb sweep: runs a case over ranges of its parameters. */
 #include "harness/cli/cli_impl.h"
 
 #include <stdlib.h>
@@ -14,7 +13,7 @@ typedef struct sweep_options {
     truths_options truths;
     shard_options shards;
     const char *select, *output, *format;
-    double error;       /* 0: no error was given */
+    double error;
     text_list vary;     /* varied parameters: NAME=A..B/N, or another form */
     const char *design; /* design of the points; NULL: a grid */
     int points, seed;   /* number of points and seed, for designs other than a grid */
@@ -28,8 +27,8 @@ typedef struct sweeping {
     char script[PATH_MAX]; /* script of --compute-references */
     identity_texts texts;
     const shard_options *shards;
-    int spread;     /* 1: the sweep is computed as a shard, or read from batches */
-    spread_end end; /* outcome of the shard, or of reading */
+    int spread; /* 1: the sweep is computed as a shard, or read from batches */
+    spread_end end;
 } sweeping;
 
 static status read_design(const sweep_options *r, ranges_request *q, fault *f)
@@ -130,14 +129,13 @@ static status run(sweep_options *r, const case_type *type, sweeping *s, fault *f
     TRY(prepare(r, type, s, f));
     if (!csv && !quiet)
         ranges_table_head(stdout, &s->sweep.ranges);
-    if (r->output == NULL) /* the results follow on standard output */
+    if (r->output == NULL)
         TRY(output_flush(f));
     if (s->spread && s->requested.take == NULL)
         return spread_work(&r->shards, &s->sweep.all, &s->end, f);
     return experiment_run(&experiment_sweep, &s->requested, &to, &s->sweep, f);
 }
 
-/* Reports missing batches; repeating the command computes them. Returns the exit status. */
 static int report(const sweep_options *r, const sweeping *s)
 {
     if (s->spread)
@@ -260,7 +258,6 @@ status shards_requested(const shard_options *r, int *requested, fault *f)
                      folder);
 }
 
-/* Reports the outcome of the shard in one line. Returns the exit status. */
 static int report_shard(const shard_options *r, const shard_request *q, const shard_outcome *o)
 {
     const int left = o->mine - o->before - o->done;

@@ -17,7 +17,6 @@ typedef struct truth_request {
     const char *format;
 } truth_request;
 
-/* A reference value. Words that do not apply are empty. */
 typedef struct shown_value {
     const char *quantity, *formulation, *unit, *kind, *model, *theory, *source, *convention;
     int elements; /* number of elements for which the value holds; 0: any number */
@@ -145,8 +144,6 @@ static status show_derived(json_t *list, const case_type *type, const double par
     return outcome;
 }
 
-/* Prints all parameters of the scene, because a line without parameters would apply to any
- * values. */
 static void print_point(const case_type *type, const double parameter[])
 {
     const parameter_type *p;
@@ -165,7 +162,6 @@ static void print_point(const case_type *type, const double parameter[])
     printf("%s", parameter_at(type->parameters, 0) != NULL ? "}" : "");
 }
 
-/* Prints a derived value as a line for the key `truths` of the scene file. */
 static void print_line(const derived_value *v, const case_type *type, const double parameter[])
 {
     printf("  - {quantity: %s, value: %.17g, uncertainty: %.1e, kind: exact, source: \"%s\"",
@@ -176,8 +172,6 @@ static void print_line(const derived_value *v, const case_type *type, const doub
     printf("}\n");
 }
 
-/* Writes the scene to the file `text`, and shows the reference values that are computed from it.
- * The caller show_scene() closes the file, even after a failure. */
 static status show_scene_of(json_t *list, const case_type *type, const double parameter[],
                             FILE *text, fault *f)
 {
@@ -223,8 +217,6 @@ static status show_scene(json_t *list, const case_type *type, const double param
         why.text);
 }
 
-/* Shows the stored values. For a scene file, also shows derived values. For a built-in case, shows
- * them only if there is no stored value of the same model. */
 static status show_all(const truth_request *r, const case_type *type, const truths *t, json_t *list,
                        fault *f)
 {

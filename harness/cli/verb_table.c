@@ -110,7 +110,6 @@ static int help(void)
     return EXIT_AS_EXPECTED;
 }
 
-/* Handles `beamwork help VERB`. write: writes the help or a manual page. */
 static int help_of(const char *name, void write(FILE *, const verb *))
 {
     const verb *v = verb_find(verbs, name);
@@ -156,7 +155,6 @@ static int write_page(const char *name)
     return help_of(bare, manual_write_verb);
 }
 
-/* Offers the verbs that start with `begun`. others 1: also offers help, --help and --version. */
 static void complete_verb(const char *begun, int others)
 {
     const offer o = {stdout, begun, 0, begun};

@@ -11,20 +11,19 @@ typedef struct verify_request {
     report_options reports;
     shard_options shards;
     const char *select, *output;
-    text_list imported;     /* stored results of other programs, for comparison */
+    text_list imported;
     int imported_must_pass; /* 1: verdicts on these programs affect the exit status */
-    int exit_zero;          /* 1: verdicts do not affect the exit status */
-    double tolerance;       /* relative tolerance that replaces those of the cases */
-    const char *former;     /* results of a previous run, with which this run is compared */
-    int refine;             /* number of additional meshes, each with twice as many elements */
-    int shapes;             /* number of states of a path whose shapes are stored; 0: none */
+    int exit_zero;
+    double tolerance; /* relative tolerance that replaces those of the cases */
+    const char *former;
+    int refine; /* number of additional meshes, each with twice as many elements */
+    int shapes; /* number of states of a path whose shapes are stored; 0: none */
     /* verbose 1: every limit is printed; shards.quiet 1: only unexpected results are printed */
     int verbose;
 } verify_request;
 
 enum { PICTURED_STATES = 5 };
 
-/* Reports cells that were not run, or that there is no verdict. Returns the exit status. */
 static int report(const verify_request *r, const sweep *s, const evaluation *j, const spread_end *e)
 {
     int first = 0;
@@ -50,7 +49,6 @@ static int report(const verify_request *r, const sweep *s, const evaluation *j, 
     return r->exit_zero ? EXIT_AS_EXPECTED : code;
 }
 
-/* Prints a line for each scene file whose numbers suggest other units. */
 static void report_units(const scenes *own, const sweep *s)
 {
     for (int k = 0; k < own->count; k++)
@@ -63,8 +61,6 @@ static void report_units(const scenes *own, const sweep *s)
         }
 }
 
-/* Runs the sweep in this process, or as batches of shards. The latter are evaluated when all of
- * them exist. */
 static status compute(const verify_request *r, const scenes *own, verification_request *requested,
                       verification *v, spread_end *end, fault *f)
 {

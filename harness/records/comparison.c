@@ -6,17 +6,12 @@
 
 #include "elements/shared/choice.h"
 
-/* Counts a line and writes its start: kind, name and mesh. */
 static void comparison_lines_heading(const listing *l, comparison_kind kind);
-/* Compares sums of work over `meshes` meshes. The allowed change of a sum is the threshold times
- * the mean work of a mesh. */
+/* The allowed change of a sum is the threshold times the mean work of a mesh. */
 static void comparison_lines_work(const listing *l, const long before[RESULTS_WORKS],
                                   const long after[RESULTS_WORKS], int meshes);
-/* Writes the difference of the costs of counted work if both are known. */
 static void comparison_lines_cost(const listing *l, double before, double after);
 static void comparison_cells(const listing *l, const result_cell *a, const result_cell *b);
-/* Compares two sweeps. Writes a line for each point, formulation and mesh that exists in only one
- * of them. */
 static void comparison_sweeps(const listing *l, const char *select);
 
 const comparison_limits comparison_limits_default = {0.01, RESULTS_FLOOR, 0.02};
@@ -55,8 +50,6 @@ static int selected(const char *select, const char *name)
     return select == NULL || select_matches(select, name) > 0;
 }
 
-/* Writes a line for all meshes of a series of another program that is missing or new, with a
- * remedy. */
 static void report_foreign(const listing *l, int which, const char **last)
 {
     const char *instead = results_part_instead(which == 0 ? l->after : l->before,
@@ -178,8 +171,6 @@ int comparison_differs(const comparison *c)
     return lines > 0;
 }
 
-/* Compares two meshes of complete runs, quantity by quantity. */
-
 static const result_value *value_named(const result_cell *c, int near, const char *quantity)
 {
     if (near < c->values && strcmp(c->value[near].quantity, quantity) == 0)
@@ -190,8 +181,6 @@ static const result_value *value_named(const result_cell *c, int near, const cha
     return NULL;
 }
 
-/* Compares two values by their errors. A value without a reference value can only be reported as
- * changed. */
 static void compare_value(const listing *l, const result_value *a, const result_value *b)
 {
     const comparison_limits *m = l->limits;
@@ -242,8 +231,7 @@ static void comparison_cells(const listing *l, const result_cell *a, const resul
     comparison_lines_status(l, a->status, b->status);
     if (l->before->swept)
         comparison_lines_cost(l, a->cost, b->cost);
-    else if (!results_part_differ(l->before, l->after,
-                                  l->name)) /* the work depends on the requested quantities */
+    else if (!results_part_differ(l->before, l->after, l->name))
         comparison_lines_work(l, a->work, b->work, 1);
     compare_values(l, a, b);
 }
@@ -306,8 +294,6 @@ static void comparison_lines_cost(const listing *l, double before, double after)
     fprintf(l->to, ": cost %.4g ms -> %.4g ms (%+.1f %%)\n", milli * before, milli * after,
             100 * (after - before) / before);
 }
-
-/* Compares two series of which at least one is known only from the short table. */
 
 /* Returns the largest relative difference between a value and the same value rounded to this number
  * of digits. */
@@ -413,10 +399,10 @@ void comparison_series(const listing *l, const result_series *a, const result_se
     result_series common = {.name = NULL};
     const int same = compare_meshes(l, a, b),
               more = !same && l->after->whole && results_series_restrict(l->after, a, &common);
-    if (same || more) { /* the sums of different meshes cannot be compared */
+    if (same || more) {
         const result_series *now = same ? b : &common;
         if (results_part_differ(l->before, l->after, l->name)) {
-            l->out->partial++; /* errors and work depend on the selected quantities */
+            l->out->partial++;
         } else {
             comparison_lines_work(l, a->work, now->work, a->meshes);
             compare_errors(l, a, now);
@@ -428,11 +414,8 @@ void comparison_series(const listing *l, const result_series *a, const result_se
         compare_limits(l, a, b);
 }
 
-/* Compares two sweeps. In a sweep, all points have all formulations and meshes. */
-
 enum { REPORTED = 1 << 14, NAME = 2048 };
 
-/* Entries that exist in only one of the runs, and entries that were printed. */
 typedef struct lone {
     comparison_kind kind;
     const stored_results *other;
@@ -466,8 +449,6 @@ static void report_point(const listing *l, lone *only, int length)
     report(l, only->kind, only->where, 0);
 }
 
-/* Reports an entry that exists in only one run, for all points: case/formulation, or a mesh of the
- * case. */
 static void report_column(const listing *l, lone *only, const char *key, int elements)
 {
     const size_t used = strlen(only->reported);

@@ -5,8 +5,6 @@
 
 #include "cases/scene/scene.h"
 
-/* Writes a line for a value. For a curve, writes a line for each point, and another line with the
- * reason if the curve ends early. */
 static void write_lines(FILE *to, int parts, csv_part row[], int value)
 {
     const subject s = row[value].s;
@@ -41,8 +39,6 @@ void csv_solution(FILE *to, const sweep *s)
     gather_free(&list);
 }
 
-/* Writes a line for each quantity of each mesh, or only for quantities with a reference value.
- * `parts` records describe the quantity and its cell. */
 static void list_meshes(FILE *to, const gathering *g, int with_truth, int parts, csv_part row[])
 {
     const sweep *s = g->sweep;
@@ -183,7 +179,7 @@ typedef struct contents {
     const char *title;
     const scene *scene;
     const system_matrices *of;
-    const reduced_model *reduced; /* model whose errors are written */
+    const reduced_model *reduced;
 } contents;
 
 typedef struct titled {
@@ -231,7 +227,6 @@ static void name_state(const contents *c, const state_matrices *s, char name[NAM
         snprintf(name, NAME, "%s_station_%d", analysis.text, s->station);
 }
 
-/* Writes the name of an entry of a list of the scene, or an empty field for SCENE_NONE. */
 static void name_cell(FILE *to, const scene *s, scene_list list, int index)
 {
     if (index != SCENE_NONE)
@@ -372,7 +367,6 @@ static void write_matrix(FILE *to, const void *what)
     matrix_market_write(to, t->matrix, t->comment);
 }
 
-/* Adds a matrix, unless it has no rows or no columns. */
 static status add_matrix(const output_folder *folder, const char *state, const char *letter,
                          const triplets *t, const char *comment, fault *f)
 {
@@ -384,13 +378,11 @@ static status add_matrix(const output_folder *folder, const char *state, const c
     return output_folder_file(folder, file, write_matrix, &what, f);
 }
 
-/* Writes the unit, in parentheses if it is a product or a quotient. */
 static void write_unit(FILE *to, const char *unit)
 {
     fprintf(to, strpbrk(unit, " /") != NULL ? "(%s)" : "%s", unit);
 }
 
-/* Writes the unit of the output divided by that of the input. */
 static void write_ratio_unit(FILE *to, const contents *c, int y, int u)
 {
     const char *above = output_unit(&c->of->output[y].as),
@@ -405,7 +397,6 @@ static void write_ratio_unit(FILE *to, const contents *c, int y, int u)
     fputc('\n', to);
 }
 
-/* Writes the errors of a reduced model in natural frequencies and transfer functions. */
 static void write_errors(FILE *to, const void *what)
 {
     const contents *c = what;
@@ -417,7 +408,7 @@ static void write_errors(FILE *to, const void *what)
     for (int i = 0; m->apart != NULL && i < c->of->outputs * c->of->inputs; i++) {
         const int y = i / c->of->inputs, u = i % c->of->inputs;
         fprintf(to, "transfer function,,%d,%d,,,", y + 1, u + 1);
-        if (isnan(m->apart[i])) /* the C library prints -nan for some NAN */
+        if (isnan(m->apart[i]))
             fputs("nan", to);
         else
             fprintf(to, "%.3g", m->apart[i]);
@@ -426,8 +417,6 @@ static void write_errors(FILE *to, const void *what)
     }
 }
 
-/* Writes the title of a state with the given name. If the scene has feedback, the title says if the
- * loops are closed. */
 static void titled_state(const contents *c, const char *name, int closed, char out[TITLE])
 {
     snprintf(out, TITLE, "%.120s%s, %.90s", c->title,
@@ -437,7 +426,6 @@ static void titled_state(const contents *c, const char *name, int closed, char o
              name);
 }
 
-/* Adds the matrices of a linear model. T: reduction matrix, or NULL. */
 static status add_model(const output_folder *folder, const char *state, const linear_model *m,
                         const triplets *T, const contents *c, fault *f)
 {

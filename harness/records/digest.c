@@ -117,7 +117,7 @@ int digest_add_file(digest *d, const char *path)
     return bad ? -1 : 0;
 }
 
-enum { MOST_RANK = 8, CHUNK = 1 << 20 /* CHUNK: number of bytes of rows that are read together */ };
+enum { MOST_RANK = 8, CHUNK = 1 << 20 };
 
 typedef struct walk {
     digest d;
@@ -206,13 +206,12 @@ static void add_value(walk *w, hid_t type, const char *at)
 }
 
 typedef struct table {
-    hid_t set, space, type; /* type of the values in memory */
+    hid_t set, space, type;
     int rank;
     hsize_t size[MOST_RANK];
     size_t row; /* number of bytes per value of the first index */
 } table;
 
-/* Adds rows first to first + count - 1. */
 static void add_rows(walk *w, const table *t, char *room, hsize_t first, hsize_t count)
 {
     hsize_t start[MOST_RANK] = {first}, size[MOST_RANK];

@@ -13,7 +13,6 @@ static void get_features(const subject *s, field_value *out)
     out->text = out->room;
 }
 
-/* Gives the eliminated coordinates. Lines that do not fit are omitted. */
 static void get_left_out(const subject *s, field_value *out)
 {
     const cell_result *cell = fields_keys_cell(s);
@@ -54,7 +53,6 @@ static void get_strains(const subject *s, field_value *out)
     out->whole = size->strains + size->inner;
 }
 
-/* Gives the cost of a run. Imported runs have no counts. */
 static void get_cost(const subject *s, field_value *out)
 {
     schema_set_number(out, s->series->imported == NULL
@@ -302,7 +300,7 @@ static const rounds_reading *reading_of(const field_value *out, const cell_timin
     return out->of->offset < offsetof(cell_timing, keep_all) ? &t->as_is : &t->keep_all;
 }
 
-/* Gives a measured time; NAN: nothing was measured. The offset selects a number or a round. */
+/* Gives a measured time; NAN: nothing was measured. */
 static void get_measured(const subject *s, field_value *out)
 {
     const cell_timing *t = timing_of(s);
@@ -422,9 +420,6 @@ const record_type record_timing = {
     "timings",
     "times of a formulation on one mesh, from repeated runs",
     {keys_of_point, keys_of_series, key_of_mesh, fields_of_readings, fields_of_parts}};
-
-/* Records of results of other programs. Each value has its position in the file from which it was
- * read. */
 
 static void get_file(const subject *s, field_value *out)
 {

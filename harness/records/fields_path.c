@@ -332,8 +332,6 @@ const record_type record_matrix = {"matrix",
                                    "compliance and stiffness at a node, at a station of a path",
                                    {keys_of_point, keys_of_series, key_of_mesh, fields_of_matrix}};
 
-/* Returns the type with its declarations for the current options of the formulation. */
-
 static const element_type *type_of(const subject *s)
 {
     return s->series->formulation.type;

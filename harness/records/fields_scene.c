@@ -144,8 +144,6 @@ const record_type record_meaning = {"meaning",
                                     "description of a quantity of a point",
                                     {keys_of_point, names_of_quantity, fields_of_meaning}};
 
-/* Records of the evaluation: verdicts, and agreement with stored discrete values. */
-
 static const char *word_of_verdict(int kind)
 {
     return verdict_name((verdict_kind)kind);

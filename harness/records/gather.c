@@ -98,7 +98,6 @@ static void compare_with(const gathering *g, int series_index, subject *s)
         }
 }
 
-/* Adds the records of a mesh that form an array. */
 static void add_array(subject s, int count, const void *array, size_t size, subjects *out)
 {
     for (s.index = 0; s.index < count; s.index++) {
@@ -168,7 +167,6 @@ void gather_mesh(const gathering *g, const record_type *type, int series_index, 
         add_array(cell, 1, &cell.series->timing[mesh], 0, out);
 }
 
-/* Adds the values of another program, each with its quantity. */
 static void add_imports(subject s, const imported *found, subjects *out)
 {
     for (int i = 0; i < found->rows; i++) {
@@ -200,7 +198,6 @@ static void gather_series(const gathering *g, const record_type *type, int index
     }
 }
 
-/* Adds the points of a case that have a series. */
 static void gather_points(const gathering *g, const case_type *of, subjects *out)
 {
     const sweep *all = g->sweep;
@@ -236,7 +233,6 @@ void gather_assumptions(const sweep_point *p, subjects *out)
         gather_add(out, &s);
 }
 
-/* Adds the parameters of the first point, or the meanings or assumptions of all points. */
 static void gather_of_points(const gathering *g, const record_type *type, const case_type *of,
                              subjects *out)
 {

@@ -7,7 +7,6 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-/* Converts numbers to JSON. A missing value becomes null, because JSON has no NaN. */
 static json_t *json_record_numbers(int count, const double value[]);
 
 enum { DUMP = JSON_INDENT(1) | JSON_REAL_PRECISION(17) };
@@ -27,8 +26,6 @@ static json_t *values_of(const assignment_list *l, const double value[])
     return all;
 }
 
-/* Lists all applicable reference values of the continuum, each with the error of the quantity
- * relative to this reference value. */
 static json_t *truths_of(const subject *s, const truths *t)
 {
     const sweep_point *p = s->point;
@@ -47,7 +44,6 @@ static json_t *truths_of(const subject *s, const truths *t)
     return list;
 }
 
-/* Adds the first cell's records of one type to `root`, as a list under the name of their table. */
 static void add_list(json_t *root, const gathering *g, const record_type *type)
 {
     subjects list = {0};
@@ -74,8 +70,6 @@ static void add_quantities(json_t *root, const gathering *g)
     gather_free(&list);
 }
 
-/* Adds the points of curves. In HDF5, all curves share arrays. In JSON, each curve has a separate
- * array. */
 static void add_curves(json_t *root, const gathering *g)
 {
     subjects list = {0};
@@ -216,7 +210,6 @@ static json_t *regressions_of(const evaluation *j)
     return all;
 }
 
-/* Returns the document with an empty list of verdicts. */
 static json_t *around_verdicts(const sweep *s, const evaluation *j, const environment *e)
 {
     const gathering g = {s, j, NULL};

@@ -4,7 +4,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Lists the values of a quantity on every mesh, with the runs that computed the values. */
 static json_t *meshes_of(const gathering *g, int series_index, int quantity)
 {
     json_t *all = json_array();
@@ -42,8 +41,6 @@ static json_t *number(double x)
     return isfinite(x) ? json_real(x) : json_null();
 }
 
-/* Describes a curve by its differences: between each mesh and the finest mesh, and between the
- * finest mesh and the other formulation. */
 static json_t *curve_of(const sweep *s, const series *one, int quantity, const series *other)
 {
     const scene *what = &s->point[one->point].scene;
@@ -98,7 +95,6 @@ static char *said(void (*write)(FILE *, const sweep *, const truths *, double), 
     return NULL;
 }
 
-/* Returns the conclusion, with the same words as the last lines of the text output. */
 static json_t *sentence_of(const sweep *s, const truths *t, double level)
 {
     char *line = said(reach_line_write, s, t, level),
@@ -174,7 +170,6 @@ static void write_reached(FILE *to, const sweep *s, const reached *r)
         fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
 
-/* Writes the formulations with a verdict other than pass, in groups with the same verdict. */
 static void write_defective(FILE *to, const reach_question *q, const reached list[], int count)
 {
     for (int i = 0; i < count; i++) {
@@ -194,8 +189,6 @@ static void write_defective(FILE *to, const reach_question *q, const reached lis
     }
 }
 
-/* Writes the formulations with the lowest cost first, then the others, then the formulations with a
- * defect. */
 static void write_ranking(FILE *to, const reach_question *q, const reached list[], int count)
 {
     const int ties = reach_ties(list, count);
@@ -213,7 +206,6 @@ static void write_ranking(FILE *to, const reach_question *q, const reached list[
     write_defective(to, q, list + without_defect, count - without_defect);
 }
 
-/* Writes the formulations that use the general cost coefficients for their number of strains. */
 static void write_without_cost(FILE *to, const sweep *s, const reached list[], int count)
 {
     const char *before = "; no own cost coefficients: ";
@@ -277,7 +269,6 @@ static void write_others(FILE *to, const reach_question *q, const reached list[]
     }
 }
 
-/* Writes the other models that were solved, without repetition. */
 static void write_other_models(FILE *to, const reach_question *q)
 {
     const char *before = "; a different model, not ranked: ";
@@ -300,8 +291,8 @@ static int has_reference(const reach_question *q, int quantity)
 }
 
 /* Writes the quantities to which the answer applies: "every quantity", or the number of those with
- * a reference value and the names of the others. Curves do not count; their names follow. Returns
- * the number of quantities with a reference value. *all: the number of quantities except curves. */
+ * a reference value and the names of the others. Returns the number of quantities with a reference
+ * value. *all: the number of quantities except curves. */
 static int write_requested(FILE *to, const reach_question *q, int *all)
 {
     const char *before = " (without a reference: ";
@@ -339,8 +330,6 @@ static int write_requested(FILE *to, const reach_question *q, int *all)
     return known;
 }
 
-/* Returns 1 if the model error of the verdict is the difference from a computed solid, plate or
- * shell. */
 static int is_of_another_model(const verdict *v)
 {
     const truth *other = v->model_truth;
@@ -416,7 +405,6 @@ static void write_answer(FILE *to, const reach_question *q, reached list[])
     fputc('\n', to);
 }
 
-/* Writes the answer for all quantities with the function `write`. */
 static void reach_write(FILE *to, const sweep *s, const truths *t, double level,
                         void (*write)(FILE *, const reach_question *, reached[]))
 {

@@ -119,7 +119,6 @@ typedef struct junit_counts {
     int tests, failures, skipped;
 } junit_counts;
 
-/* Counts the entries that will be written, with the same rules as the functions that write them. */
 static junit_counts count_all(const sweep *s, const evaluation *j)
 {
     const int nothing = evaluation_exit(j) == EVALUATION_NOTHING;
@@ -213,7 +212,6 @@ static int of_section(const scene *s, assumption *a)
     return a->physics[0] != '\0';
 }
 
-/* Only the scenes of users have assumptions. The data of a built-in case come from its source. */
 int assumptions_at(const sweep_point *p, int index, assumption *out)
 {
     int found = 0;

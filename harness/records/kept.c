@@ -49,8 +49,6 @@ static int hold(int file, int kind, int most_waits)
     return 0;
 }
 
-/* Waits for another writer. The HDF5 library locks files that it writes, and cannot read locked
- * files. */
 static status await_writer(const char *path, int most_waits, fault *f)
 {
     const int file = open(path, O_RDONLY | O_CLOEXEC), held = hold(file, LOCK_SH, most_waits),
@@ -72,7 +70,6 @@ static int is_ours(hid_t file)
             strcmp(schema, SCHEMA_NAME) == 0);
 }
 
-/* Opens the existing file. *file is -1 if there is nothing to keep. */
 static status open_former(const char *path, int most_waits, hid_t *file, fault *f)
 {
     *file = -1;
@@ -115,7 +112,6 @@ static herr_t copy_attribute(hid_t from, const char *name, const H5A_info_t *unu
     return 0;
 }
 
-/* Copies the links that do not exist in the new file. */
 static void copy_links(record_file *r, hid_t from, hid_t to)
 {
     enum { NAME = 256 };
@@ -162,7 +158,6 @@ static void copy_former(record_file *r, const char *name, hid_t former)
         copy_all(r, former, r->file);
 }
 
-/* Writes the schema to a file without results of verify. */
 static void put_schema(record_file *r)
 {
     if (H5Aexists(r->file, "schema") > 0)
@@ -171,8 +166,6 @@ static void put_schema(record_file *r)
     record_count(r, r->file, "schema_version", SCHEMA_VERSION);
 }
 
-/* Merges the previous content. The new content is written to disk first, because the previous
- * content may be larger than the memory. */
 static status merge(record_file *r, const char *name, hid_t former, const char *path, fault *f)
 {
     record_file all;
@@ -213,9 +206,8 @@ static int is_there(int lock, const char *name)
            own.st_ino == there.st_ino;
 }
 
-/* Locks a separate file, because the results file itself is replaced by a new file. A lock file
- * that a killed run has left is harmless, because the lock ends with its process. Returns the
- * descriptor of the lock file, or -1 with errno set. */
+/* A lock file that a killed run has left is harmless, because the lock ends with its process.
+ * Returns the descriptor of the lock file, or -1 with errno set. */
 static int take_lock(const char *name, int most_waits)
 {
     for (;;) {
@@ -259,7 +251,7 @@ static void unlock(const char *beside, int lock)
 
 status kept_check(const char *path, fault *f)
 {
-    enum { MOST_WAITS = 100 }; /* [0.1 s] longer than the time for writing a file */
+    enum { MOST_WAITS = 100 };
     char beside[PATH_MAX];
     hid_t file;
     file_place at;

@@ -6,12 +6,9 @@
 #include "cases/scene/scene.h"
 #include "harness/model/model.h"
 
-enum {
-    MOST_ROWS = 50
-}; /* limits the length of comments on pull requests; JSON contains all rows */
+enum { MOST_ROWS = 50 };
 
-/* Writes a cell of a table. Escapes vertical bars, and replaces line ends by spaces, because both
- * would break the table. */
+/* Writes a cell of a table. */
 static void cell(FILE *to, const char *text)
 {
     for (; *text != '\0'; text++)
@@ -81,7 +78,6 @@ static void write_unexpected(FILE *to, const sweep *s, const evaluation *j)
         fprintf(to, "\n… and %d more.\n", j->unexpected - rows);
 }
 
-/* Writes a row for each formulation, with its verdicts by kind. */
 static void write_formulations(FILE *to, const sweep *s, const evaluation *j)
 {
     fprintf(to, "\n| formulation");
@@ -108,7 +104,6 @@ static void write_formulations(FILE *to, const sweep *s, const evaluation *j)
     }
 }
 
-/* Explains the marks that occur, with the worst mark first. */
 static void write_legend(FILE *to, const overview *o)
 {
     int used[OVERVIEW_MARKS] = {0}, entries = 0;
@@ -143,8 +138,6 @@ static void write_row(FILE *to, const overview *o, int row)
     fprintf(to, " |\n");
 }
 
-/* Lists the cases without a row. Cases in which values were evaluated and cases in which no value
- * was evaluated are listed separately. */
 static void write_unshown(FILE *to, const overview *o, int evaluated, const char *what)
 {
     int named = 0;
@@ -157,7 +150,6 @@ static void write_unshown(FILE *to, const overview *o, int evaluated, const char
     fputs(named > 0 ? ".\n" : "", to);
 }
 
-/* Writes a row for each case and a column for each formulation. */
 static void write_overview(FILE *to, const overview *o)
 {
     fprintf(to, "\n| case");
@@ -178,7 +170,6 @@ static void write_overview(FILE *to, const overview *o)
     write_legend(to, o);
 }
 
-/* Returns 1 if at least one mesh of a formulation was run at the point. */
 static int is_run(const sweep *s, int point)
 {
     for (int i = 0; i < s->seriess; i++)
@@ -187,8 +178,6 @@ static int is_run(const sweep *s, int point)
     return 0;
 }
 
-/* Writes the omitted physics, in one line for each case and for each point that differs from its
- * case. */
 static void write_omitted(FILE *to, const sweep *s)
 {
     int lines = 0;

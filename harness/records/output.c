@@ -11,10 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-enum {
-    MOST_TRIES = 100,
-    LEAF = 100
-}; /* LEAF: number of bytes of the given name with which a temporary name starts */
+enum { MOST_TRIES = 100, LEAF = 100 };
 
 /* Existing temporary files and folders, up to MOST_OPEN. owner: their process; 0: unused; -1: a
  * name is being written. */
@@ -67,8 +64,6 @@ static int empty_once(int folder)
     return entries;
 }
 
-/* Removes a file, or a folder with its contents. Repeats the removal, because a listing that
- * changes during the removal may omit entries. */
 static void remove_all(int at, const char *name)
 {
     if (unlinkat(at, name, 0) == 0 || errno == ENOENT)
@@ -108,7 +103,6 @@ static int output_beside(const char *path, int (*make)(const char *name), char t
             errno = ENAMETOOLONG;
             return -1;
         }
-        /* called before the file exists, because a signal may arrive at any time */
         output_register(temporary);
         const int made = make(temporary);
         if (made >= 0)
@@ -125,7 +119,6 @@ static int make_file(const char *name)
     return open(name, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0666);
 }
 
-/* Copies the permissions and, if possible, the owner of the file that is to be replaced. */
 static void keep_permissions(const file_place *to, int file)
 {
     if (to->kind == PLACE_FILE &&
@@ -137,7 +130,6 @@ static int open_stream(const file_place *to)
 {
     if (to->descriptor < 0)
         return open(to->path, O_WRONLY | O_NOCTTY | O_CLOEXEC);
-    /* preserves the order of outputs to the same file */
     fflush(to->descriptor == STDOUT_FILENO ? stdout : stderr);
     return dup(to->descriptor);
 }
@@ -272,7 +264,7 @@ status output_try(const char *path, output_form form, file_place *where, fault *
     char temporary[PATH_MAX];
     TRY(place_find(path, where, f));
     TRY(check_form(path, where, form, f));
-    if (where->kind == PLACE_STREAM) /* opening a pipe would wake its reader */
+    if (where->kind == PLACE_STREAM)
         return STATUS_OK;
     const int file = output_beside(where->path, make_file, temporary);
     if (file < 0)
@@ -325,7 +317,6 @@ static int make_folder(const char *name)
     return mkdir(name, S_IRWXU);
 }
 
-/* Creates the folder. An empty folder may already exist at its path. */
 static status create(output_folder *out, fault *f)
 {
     if (output_beside(out->to.path, make_folder, out->temporary) < 0) {

@@ -24,9 +24,6 @@ static void add_wall(outline *out, const double a[2], const double b[2], double 
     }
 }
 
-/* Adds side k of a tube that is drawn as a polygon. The corners of the side are on the circles
- * of the tube. At one end, the inner corner precedes the outer corner; at the other end, it
- * follows. */
 static void add_side(outline *out, const section_spec *spec, int k)
 {
     double(*corner)[2] = out->corner[out->walls++];
@@ -50,7 +47,7 @@ static void principal(const section *s, const double point[2], double out[2])
 /* Computes the lengths along y and z of the sides of a rectangle that represents a section. */
 static void sides_of(const section_spec *spec, const section *c, double side[2])
 {
-    const double ratio = sqrt(c->Iy / c->Iz); /* side along z / side along y */
+    const double ratio = sqrt(c->Iy / c->Iz);
     side[0] = spec->kind == SECTION_MATRICES ? sqrt(12 * c->Iz / c->A) : sqrt(c->A / ratio);
     side[1] = spec->kind == SECTION_MATRICES ? sqrt(12 * c->Iy / c->A) : sqrt(c->A * ratio);
     if (c->rectangle) {
@@ -59,7 +56,6 @@ static void sides_of(const section_spec *spec, const section *c, double side[2])
     }
 }
 
-/* Adds a rectangle whose mid-line is along y or along z. */
 static void add_rectangle(outline *out, const double side[2], int along_y)
 {
     const double to[2] = {along_y ? side[0] / 2 : 0, along_y ? 0 : side[1] / 2};
@@ -88,7 +84,7 @@ void outline_of_far_end(const section_spec *spec, const section *c, const sectio
         return;
     }
     sides_of(spec, near, side);
-    const int along_y = side[1] < side[0]; /* the mid-line is along the longer side */
+    const int along_y = side[1] < side[0];
     sides_of(spec, c, side);
     add_rectangle(out, side, along_y);
 }
@@ -109,8 +105,6 @@ void outline_between(const outline *near, const outline *far, double x, outline 
 
 enum { POLY_LINE = 4, QUAD = 9 };
 
-/* Points and cells of a picture. Each point of a centre line is followed by the points of both
- * edges of every wall of its section. */
 typedef struct grid {
     const scene *scene;
     const shapes *shapes;
@@ -118,7 +112,7 @@ typedef struct grid {
     /* [members] outlines at the far ends of tapered members; NULL: no member is tapered */
     outline *far;
     int points, cells, ids;
-    int states, *state; /* number and indices of the states that are written as time steps */
+    int states, *state;
 } grid;
 
 static const outline *outline_at(const grid *g, int member)
@@ -141,8 +135,6 @@ static void count(grid *g)
     }
 }
 
-/* Chooses the states of a motion. If there is no motion, chooses the states of a path. If there is
- * no path, chooses solutions and modes. */
 static void choose_states(grid *g)
 {
     int paths = 0, frames = 0;
@@ -295,8 +287,6 @@ static void put_offsets(record_file *r, hid_t at, const char *name, const grid *
     free(value);
 }
 
-/* Writes the time steps. The cells do not change. The points of successive states follow one
- * another. */
 static void put_steps(record_file *r, hid_t at, const grid *g)
 {
     const hid_t steps = record_group(r, at, "Steps");
@@ -348,8 +338,6 @@ static void put_grid(record_file *r, const grid *g)
     H5Gclose(at);
 }
 
-/* Creates the outlines of all sections, and outlines at the far ends of members whose section
- * varies. */
 static void make_outlines(record_file *r, grid *g)
 {
     const scene *sc = g->scene;

@@ -27,7 +27,6 @@ static status open_file(record_file *r, const char *name, hid_t access, fault *f
 
 status record_open(record_file *r, fault *f)
 {
-    /* distinguishes the names of several files in memory that are open at the same time */
     static unsigned number;
     char name[40];
     const hid_t access = H5Pcreate(H5P_FILE_ACCESS);
@@ -53,7 +52,6 @@ static status write_bytes(const char *image, size_t size, const char *path, faul
     char line[CHECKSUM_LENGTH + 1];
     TRY(output_open_whole(path, &file, f));
     checksum_write(image, size, line);
-    /* the stream stores an error until it is closed */
     fwrite(image, 1, size, file.stream);
     fputs(line, file.stream);
     return output_close(&file, f);
@@ -92,7 +90,6 @@ status record_drop(record_file *r, status outcome)
     return r->to.stream != NULL ? output_finish(&r->to, outcome, NULL) : outcome;
 }
 
-/* Appends the checksum line and renames the file. */
 static status close_on_disk(record_file *r, fault *f)
 {
     char line[CHECKSUM_LENGTH + 1];
@@ -142,7 +139,7 @@ static void put(record_file *r, hid_t at, const char *name, hid_t type, const vo
 void record_text(record_file *r, hid_t at, const char *name, const char *text)
 {
     const hid_t type = record_text_type(strlen(text));
-    put(r, at, name, type, text); /* an empty text is stored as its terminating zero */
+    put(r, at, name, type, text);
     H5Tclose(type);
 }
 
@@ -300,7 +297,6 @@ static size_t longest_text(const schema_field *which, int count, const subject r
     return longest;
 }
 
-/* Sets the columns and returns the size of a row. */
 static size_t lay_out(int fields, const schema_field *const list[], int count, const subject row[],
                       rows_column out[])
 {
@@ -314,7 +310,6 @@ static size_t lay_out(int fields, const schema_field *const list[], int count, c
     return size;
 }
 
-/* Returns the boolean type that h5py and other programs use. */
 static hid_t boolean_type(void)
 {
     const hid_t type = H5Tenum_create(H5T_NATIVE_INT8);

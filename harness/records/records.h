@@ -16,9 +16,7 @@
 #include "harness/newton/newton.h"
 #include "harness/study/study.h"
 
-/* Assumptions on the sections of a user's scene. Properties that the section data do not define are
- * set to zero, and physics that no formulation models is omitted. Text, CSV, JSON, HDF5 and the
- * report use the same list. */
+/* Assumptions on the sections of a user's scene. */
 
 typedef enum assumption_kind {
     ASSUMPTION_NOT_KNOWN,
@@ -41,9 +39,7 @@ int assumptions_at(const sweep_point *p, int index, assumption *out);
  * small, the text ends with the number of the remaining assumptions. */
 void assumptions_words(const sweep_point *p, size_t size, char out[]);
 
-/* Results of a stored run: errors and work of each cell, and a summary of each series of meshes.
- * The results are read from results.h5 or from the short table of the run, which is small enough to
- * be committed. */
+/* Results of a stored run: errors and work of each cell, and a summary of each series of meshes. */
 
 typedef enum results_work {
     WORK_ITERATIONS,
@@ -96,7 +92,6 @@ typedef struct result_error {
     char quantity[SCENE_NAME];
 } result_error;
 
-/* All meshes of a formulation at a parameter point. */
 typedef struct result_series {
     char *name;
     int meshes, limits;
@@ -114,8 +109,7 @@ typedef struct result_series {
     result_limit *limit;
 } result_series;
 
-/* Selection of a run. Series outside the selection were not requested, so they are not missing.
- * NULL: there is no selection. */
+/* Selection of a run. NULL: there is no selection. */
 typedef struct results_part {
     char *select;               /* expression of harness/formulations/formulations.h */
     char *cases, *formulations; /* one per line */
@@ -134,8 +128,8 @@ typedef struct stored_results {
     result_series *series; /* ascending by name */
 } stored_results;
 
-/* Reads an HDF5 file or a table, which are distinguished by their first bytes. FAULT: the file is
- * missing, truncated, damaged or not such a file, or contains a sweep. */
+/* Reads an HDF5 file or a table, which are distinguished by their first bytes. FAULT: the file
+ * cannot be used; the message gives the reason. */
 status results_read(const char *path, stored_results *out, fault *f);
 /* Like results_read, for the results of an experiment: "verify", "bench", or "sweep" (without
  * series); NULL: the first of these experiments in the file. */
@@ -146,9 +140,7 @@ status results_table_read(const char *path, FILE *from, stored_results *out, fau
 void results_table_write(FILE *to, const stored_results *r);
 
 /* Comparison of two stored runs. Lists the results that became worse or better, or that exist in
- * only one run. Complete runs and sweeps are compared cell by cell and quantity by quantity, other
- * runs series by series. Reference values are not used, because a previous run shows only that a
- * result has changed, not which result is right. */
+ * only one run. */
 
 typedef struct comparison_limits {
     double error; /* threshold for the relative change of an error */
@@ -171,9 +163,9 @@ typedef enum comparison_kind {
 extern const char *const comparison_kind_names[COMPARISON_KINDS];
 
 typedef struct comparison {
-    int whole;                     /* 1: cell by cell; 0: series by series */
-    int evaluated;                 /* 1: both runs contain limits */
-    int swept;                     /* 1: sweeps */
+    int whole;     /* 1: cell by cell; 0: series by series */
+    int evaluated; /* 1: both runs contain limits */
+    int swept;
     int pairs;                     /* number of cells or series that exist in both runs */
     int count[COMPARISON_KINDS];   /* number of lines of each kind */
     double work[2][RESULTS_WORKS]; /* sums over the pairs: old run, new run */
@@ -196,16 +188,14 @@ void comparison_run(FILE *to, const stored_results *before, const stored_results
                     const comparison_limits *limits, const char *select, comparison *out);
 int comparison_differs(const comparison *c);
 
-/* Results for spreadsheets, with one row per value, in full precision. Missing values are empty
- * cells. */
+/* Results for spreadsheets, with one row per value, in full precision. */
 
 void csv_solution(FILE *to, const sweep *s);
 void csv_convergence(FILE *to, const sweep *s, const truths *t);
 /* Writes the table of a benchmark. There is a row for every cell and evaluated quantity. */
 void csv_timing(FILE *to, const sweep *s, const evaluation *j);
 
-/* A schema for all records, with a table of fields for each kind of record. HDF5, JSON, CSV and
- * `beamwork schema` use this schema and the same names. A new field is one line in a table. */
+/* A schema for all records, with a table of fields for each kind of record. */
 
 enum { SCHEMA_VERSION = 3, SCHEMA_OLDEST = 2, SCHEMA_MOST_FIELDS = 96, FIELD_ROOM = 2048 };
 #define SCHEMA_NAME "beamwork-results"
@@ -239,10 +229,9 @@ typedef struct subject {
     int group; /* step of an iteration, or first point of a curve */
     const verdict *verdict;
     const truth *truth, *model_truth;
-    const void *owner; /* record that contains this record */
+    const void *owner;
 } subject;
 
-/* Parts of the context to which the offset of a field may refer. */
 typedef enum field_base {
     BASE_RECORD,
     BASE_SUBJECT,
@@ -285,7 +274,7 @@ struct schema_field {
 };
 
 #define AT(type, member) .offset = offsetof(type, member)
-/* Value of a member of the context. The second macro is for a text that is stored as a pointer. */
+/* Value of a member of the context. */
 #define OF(place, type, member)      .base = BASE_##place, .offset = offsetof(type, member)
 #define TEXT_OF(place, type, member) OF(place, type, member), .address = 1
 
@@ -315,10 +304,10 @@ const char *schema_kind_name(field_kind kind);
 void schema_set_text(field_value *out, const char *text);
 void schema_set_number(field_value *out, double number);
 
-/* Records as lines of CSV, in full precision. Missing values are empty cells. */
+/* Records as lines of CSV, in full precision. */
 
-/* Part of a line. A line consists of several records, each with a separate subject. If several
- * fields have the same name, only the first is written. Matrices are omitted. */
+/* Part of a line. If several fields have the same name, only the first is written. Matrices are
+ * omitted. */
 typedef struct csv_part {
     const record_type *type;
     subject s;
@@ -349,8 +338,6 @@ void digest_text(const digest *, char out[DIGEST_TEXT]);
 /* Adds all bytes of a file. Returns 0, or -1 if the file cannot be read. */
 int digest_add_file(digest *, const char *path);
 
-/* Identity of a record: the first fields in the tables of fields_*.c, and shared functions. */
-
 extern const schema_field keys_of_point[];  /* case and parameter point */
 extern const schema_field keys_of_series[]; /* parameters of the point, and formulation */
 extern const schema_field key_of_mesh[];    /* number of elements of each member */
@@ -369,8 +356,6 @@ void follow_record_csv(FILE *to, const char *parameter, const follow_curves *);
 /* Writes the columns of each mode, the crossings and the veerings. */
 status follow_record_json(FILE *to, const char *parameter, const follow_curves *, fault *);
 
-/* Lists of records of one kind, in the order of the series. */
-
 typedef struct held_record held_record;
 typedef struct subjects {
     int count, room;
@@ -380,7 +365,7 @@ typedef struct subjects {
 } subjects;
 
 /* A sweep, and the reference values with which its quantities are compared: those of the verdicts
- * in `evaluated` or, if this is NULL, `truths`. Both may be NULL. */
+ * in `evaluated` or, if this is NULL, `truths`. */
 typedef struct gathering {
     const sweep *sweep;
     const evaluation *evaluated;
@@ -401,7 +386,7 @@ void gather_add(subjects *list, const subject *one);
 const void *gather_keep(subjects *list, const void *record, size_t size);
 void gather_free(subjects *list);
 
-/* Writes and frees `root`. FAULT: root is NULL (out of memory), or `root` cannot be written. */
+/* Writes and frees `root`. */
 status json_finish(json_t *root, FILE *to, fault *f);
 
 /* Adds the physics that the scene of a point omits ("omitted"), and the assumptions on its sections
@@ -440,8 +425,6 @@ json_t *json_record_type(const record_type *type);
 
 void junit_write(FILE *to, const sweep *s, const evaluation *j);
 
-/* Target of a path: its kind, and a test for two paths to the same file. */
-
 typedef enum place_kind {
     PLACE_FREE, /* the file does not exist, but its folder does */
     PLACE_FILE, /* an existing regular file */
@@ -473,10 +456,6 @@ int place_same(const file_place *a, const file_place *b);
 /* Returns the part of a path after its folder. */
 const char *place_leaf(const char *path);
 
-/* Files that appear complete or not at all. They are written under a temporary name in the same
- * folder, then renamed to the target of any links. Pipes and devices are written directly, and only
- * as text. */
-
 /* A whole file must be a regular file, because it is accessed at arbitrary positions. */
 typedef enum output_form { OUTPUT_TEXT, OUTPUT_WHOLE_FILE } output_form;
 
@@ -493,14 +472,12 @@ status output_open(const char *path, output *out, fault *f);
 status output_open_whole(const char *path, output *out, fault *f);
 /* Flushes and renames the file, and reports every write error. After a failure, no file remains. */
 status output_close(output *out, fault *f);
-/* Closes the output if `written` is OK, otherwise discards it. */
 status output_finish(output *out, status written, fault *f);
 status output_flush(fault *f);
 /* Like output_flush. Also FAULT if an earlier write to standard output failed. */
 status output_all_written(fault *f);
-/* Checks an output before any computation. REFUSED: the name is invalid, or the target does not
- * support this form. FAULT: the output cannot be written. *where: location of the output, for
- * comparison with other outputs. */
+/* Checks an output before any computation. *where: location of the output, for comparison with
+ * other outputs. */
 status output_try(const char *path, output_form form, file_place *where, fault *f);
 /* Deletes incomplete temporary files and folders of this process. A signal handler may call this
  * function. */
@@ -510,11 +487,10 @@ void output_abandon(void);
 status output_partial(const char *path, char partial[PATH_MAX], fault *f);
 
 /* Writes an HDF5 file that appears complete or not at all. The file is built in memory or under a
- * temporary name, then renamed. Every call is checked. After the first failure, further calls have
- * no effect, and record_close reports the failure. */
+ * temporary name, then renamed. */
 
 typedef struct record_file {
-    hid_t file, scalar; /* scalar: shape of an attribute */
+    hid_t file, scalar;
     int bad;
     /* output of a file that is built on disk; stream NULL: the file is built in memory */
     output to;
@@ -550,9 +526,7 @@ hid_t record_text_type(size_t length);
 hid_t record_table(record_file *r, hid_t at, const char *name, hid_t type, int count,
                    const void *row);
 
-/* A results file for all experiments. Each experiment has a group below /experiments, which a later
- * run replaces completely. The verb verify writes to the root. Several runs may write to one file
- * at the same time: each run merges its results with those of the others under a lock. */
+/* A results file for all experiments. */
 
 #define KEPT_GROUPS "experiments"
 #define KEPT_SWEEP  "sweep"
@@ -566,9 +540,8 @@ hid_t kept_group(record_file *r, const char *name);
 /* Like record_close, but keeps the other experiments in the file at `path`. After FAULT, the file
  * is unchanged. */
 status kept_close(record_file *r, const char *name, const char *path, fault *f);
-/* Checks an existing file before the computation. REFUSED: the HDF5 file is damaged or contains no
- * results, so its contents would be lost, or another program has locked the file. FAULT: the file
- * cannot be locked. */
+/* Checks an existing file before the computation. REFUSED: the file is damaged, contains no
+ * results, or is locked by another program. FAULT: the file cannot be locked. */
 status kept_check(const char *path, fault *f);
 
 /* Summary of a verification as Markdown, for the description of a pull request. */
@@ -576,8 +549,7 @@ status kept_check(const char *path, fault *f);
 void markdown_write(FILE *to, const sweep *s, const evaluation *j, const overview *o,
                     const environment *e);
 
-/* A folder that appears complete or not at all. Its files are written to a temporary folder next to
- * it, which is then renamed. Existing files are never replaced. */
+/* A folder that appears complete or not at all. */
 
 typedef struct output_folder {
     file_place to;
@@ -598,10 +570,7 @@ status output_folder_finish(output_folder *, status written, fault *f);
 #define REACH_LINE_LEVEL 0.01 /* level if none is requested */
 
 /* Writes one line such as "for 1 % in every quantity: collocation n = 1 (0.3 ms), sheet_third n = 2
- * (0.4 ms): costs tie; beamw n = 8 (2 ms)". The order is that of study.h, and the times are the
- * costs of the counted work. Formulations with a defect and formulations that are not within the
- * level come last. "in 5 of 6 quantities (without a reference: frequency_1)" is added if some
- * quantities have neither a reference value nor an agreement. Curves are not counted. The line
+ * (0.4 ms): costs tie; beamw n = 8 (2 ms)". The times are the costs of the counted work. The line
  * refers to the first point. */
 void reach_line_write(FILE *to, const sweep *s, const truths *t, double level);
 /* Writes one line with the difference of the passing formulations from a solid, plate or shell.
@@ -614,8 +583,7 @@ void record_rows_alone(record_file *r, hid_t at, const record_type *type, int co
 /* Writes a record as attributes. */
 void record_fields(record_file *r, hid_t at, const record_type *type, const subject *s);
 
-/* Hash for the content of a stored run. Two runs that differ only in times, machines and versions
- * have the same hash. */
+/* Hash for the content of a stored run. */
 
 typedef struct results_hash {
     char text[DIGEST_TEXT];
@@ -627,9 +595,7 @@ typedef struct results_hash {
  * FAULT: the file is not a beamwork file. */
 status results_hash_of(const char *path, results_hash *out, fault *f);
 
-/* results.h5: all results of a sweep, for the reports. Below /cases/CASE there is a table for each
- * kind of record (record_type). Arrays contain the points of curves and the shapes. `beamwork
- * schema` describes all of them. */
+/* results.h5: all results of a sweep, for the reports. */
 
 typedef struct store {
     record_file file;
@@ -658,9 +624,9 @@ status store_write_solution(const char *path, const sweep *s, const environment 
 /* Writes the program, the commit and the time as attributes of a group. */
 void store_environment(record_file *r, hid_t at, const environment *e);
 
-/* A folder with the matrices of small motions about the states of a solution:
- *   dofs.csv meaning of each row, loads.csv meaning of each column of B, states.csv meaning of each
- * folder STATE/      K.mtx, M.mtx, where the axes turn G.mtx, where there are loads B.mtx */
+/* A folder with the matrices of small motions about the states of a solution, one folder per state.
+ * dofs.csv: meaning of each row; loads.csv: meaning of each column of B; states.csv: meaning of
+ * each folder. */
 
 /* Writes the folder, which appears complete or not at all. title: description of the solution in
  * one line, for the comments of the matrices. */

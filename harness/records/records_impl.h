@@ -15,7 +15,6 @@ result_cell *results_add(stored_results *r);
 int results_order(const result_cell *a,
                   /* compares two cells by name, then by number of elements */
                   const result_cell *b);
-/* Computes the series from the sorted cells. FAULT: out of memory. */
 status results_series_summarise(stored_results *r, fault *f);
 /* Computes the sums of a series of run r over the meshes of `to`, the same series of another run.
  * Returns 0 if r does not have all these meshes, or if out of memory. The caller frees out->mesh
@@ -25,7 +24,7 @@ int results_series_restrict(const stored_results *r, const result_series *to, re
 /* Returns 1 if the text is one of the lines. Returns 0 if `lines` is NULL. */
 int results_part_has(const char *lines, const char *text);
 /* Returns 1 if the series belongs to another program, or to an element that is not loaded. No
- * selection names such a series. A run requests the series if the run includes its case. */
+ * selection names such a series. */
 int results_part_is_foreign(const char *series);
 /* Returns the name of a formulation of another program that r contains for the same case and
  * parameters but `other` does not contain; NULL: none. */
@@ -66,9 +65,6 @@ void record_texts(record_file *r, hid_t at, const char *name, int count, const c
 
 status output_folder_below(const output_folder *, const char *name, fault *f);
 
-/* Records as rows of a typed, compressed table. Its attributes give the units and the summaries of
- * the columns. */
-
 /* Creates the table `name` below `at`. Each text column has the length of its longest text. */
 void record_rows(record_file *r, hid_t at, const char *name, int fields,
                  const schema_field *const list[], int count, const subject row[]);
@@ -76,7 +72,6 @@ void record_rows(record_file *r, hid_t at, const char *name, int fields,
 void record_rows_of_type(record_file *r, hid_t at, const record_type *type, int count,
                          const subject row[]);
 
-/* Destination of the lines, numbers of lines of each kind, and subject of the lines. */
 typedef struct listing {
     FILE *to;
     const comparison_limits *limits;
@@ -92,8 +87,6 @@ void comparison_lines_status(const listing *l, const char *before, const char *a
 
 void comparison_series(const listing *l, const result_series *a, const result_series *b);
 
-/* Outline of a section, for pictures: straight walls in the principal axes. */
-
 typedef struct outline {
     int walls;
     /* 1: the outline is an equivalent rectangle, for a section given by constants (same A and ratio
@@ -107,7 +100,7 @@ typedef struct outline {
 /* Computes the outline. c: constants of the section. */
 void outline_of(const section_spec *spec, const section *c, outline *out);
 /* Computes the outline at the far end of a tapered member. It has the same walls and corners as
- * `near`, the outline at the near end. Straight lines connect corresponding corners. */
+ * `near`, the outline at the near end. */
 void outline_of_far_end(const section_spec *spec, const section *c, const section *near,
                         outline *out);
 void outline_between(const outline *near, const outline *far, double x, outline *out);
@@ -120,18 +113,14 @@ status results_case_damaged(const char *path, const char *where, const char *wha
  * values of each point. */
 status results_sweep_read(const char *path, hid_t at, stored_results *out, fault *f);
 
-/* Short table of a run, with a row for each series. The table is small enough to be committed and
- * read in a diff. */
-
 /* Header line with the names of the columns. harness/README.md explains the columns. */
 extern const char results_table_head[];
 
-/* Number of digits that are written. Two runs cannot be compared with higher accuracy. */
+/* Number of digits that are written. */
 enum { RESULTS_ERROR_DIGITS = 6, RESULTS_LIMIT_DIGITS = 10, RESULTS_DECADES_DECIMALS = 6 };
 
 /* Centre lines and walls for ParaView and VTK: the group /VTKHDF of an HDF5 file (VTKHDF file
- * format, type UnstructuredGrid). A single state is written in version 1.0. Several states are
- * written as time steps of version 2.0. */
+ * format, type UnstructuredGrid). */
 
 void vtkhdf_write(record_file *r, const scene *sc, const shapes *s);
 

@@ -67,7 +67,6 @@ void results_free(stored_results *r)
     memset(r, 0, sizeof *r);
 }
 
-/* Adds the errors of a mesh to those of its series. */
 static void take_errors(result_series *s, const result_cell *cell)
 {
     result_error here = {0};
@@ -104,7 +103,6 @@ static int take_limits(result_series *s, const result_cell *cell)
     return 1;
 }
 
-/* Adds a cell to the series. Returns 0 if out of memory. */
 static int take_cell(result_series *s, const result_cell *cell)
 {
     result_mesh *mesh = results_add_mesh(s);
@@ -147,7 +145,6 @@ const char results_table_head[] =
     "series,meshes,iterations,evaluations,factorisations,errors,decades,least,least_elements,"
     "least_quantity,largest,largest_elements,largest_quantity,limits";
 
-/* Writes the meshes, for example "1:singular 2 4 8". A status is given if it is not ok. */
 static void write_meshes(FILE *to, const result_series *s)
 {
     for (int i = 0; i < s->meshes; i++) {
@@ -190,9 +187,6 @@ void results_table_write(FILE *to, const stored_results *r)
         fputc('\n', to);
     }
 }
-
-/* Reads the short table of a run. All its contents are checked, because the file may be truncated,
- * damaged or of another kind. */
 
 enum {
     SERIES,

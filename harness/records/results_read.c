@@ -1,4 +1,3 @@
-/* Reads stored runs. The first bytes determine the format. */
 #include "harness/records/records_impl.h"
 
 #include <errno.h>
@@ -95,8 +94,6 @@ status results_read(const char *path, stored_results *out, fault *f)
                      path);
 }
 
-/* Reads the tables of a case of results.h5 as cells. All contents are checked. */
-
 enum { NAME = 200 };
 
 status results_case_damaged(const char *path, const char *where, const char *what, fault *f)
@@ -127,7 +124,6 @@ typedef struct limit_row {
     double limit;
 } limit_row;
 
-/* Defines a text column with the name of the member. */
 #define TEXT(row, member) #member, FIELD_TEXT, offsetof(row, member), sizeof((row *)0)->member
 static const table_column point_columns[] = {{TEXT(case_point_row, point)},
                                              {TEXT(case_point_row, parameters)}};
@@ -216,8 +212,7 @@ static int is_of(const cell_row *cell, const case_value_row *value)
            strcmp(cell->point, value->point) == 0;
 }
 
-/* Reads the values of a cell, starting at row *next of the table. The values are in the order of
- * their cells. Returns 0 if out of memory. */
+/* Reads the values of a cell, starting at row *next of the table. Returns 0 if out of memory. */
 static int take_values(const case_tables *t, const cell_row *row, int *next, result_cell *cell)
 {
     int count = 0;
@@ -293,8 +288,6 @@ static int set_limit(result_cell *cell, const limit_row *limit)
     return 0;
 }
 
-/* Adds the limits at the default point to the finest cells. Cells and rows of the table are in the
- * same order. */
 static status take_limits(const char *path, const char *of, const case_tables *t,
                           result_cell cell[], fault *f)
 {
@@ -309,7 +302,6 @@ static status take_limits(const char *path, const char *of, const case_tables *t
     return STATUS_OK;
 }
 
-/* Reads the cells of a case. *t: freed by results_case_read(), even after a failure. */
 static status take_case(const char *path, hid_t at, const char *name, case_tables *t,
                         stored_results *out, fault *f)
 {
@@ -327,7 +319,6 @@ static status take_case(const char *path, hid_t at, const char *name, case_table
     return take_limits(path, name, t, out->cells > first ? &out->cell[first] : NULL, f);
 }
 
-/* Adds the cells of the case with the given name. at: group of the case. */
 static status results_case_read(const char *path, hid_t at, const char *name, stored_results *out,
                                 fault *f)
 {
@@ -337,9 +328,6 @@ static status results_case_read(const char *path, hid_t at, const char *name, st
     free_tables(&t);
     return outcome;
 }
-
-/* Reads results.h5. All its contents are checked, because the file may be truncated, damaged or of
- * another kind. */
 
 enum { HDF5_NAME = 200 };
 
@@ -398,8 +386,6 @@ typedef struct declared_row {
     signed char is_new;
 } declared_row;
 
-/* Reads the keys of formulations that do not affect the exit status. A file need not contain any.
- * */
 static status read_fresh(const char *path, hid_t file, results_part *out, fault *f)
 {
     static const table_column columns[] = {

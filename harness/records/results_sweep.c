@@ -1,4 +1,3 @@
-/* Reads a sweep as cells with the names of their points. All contents are checked. */
 #include "harness/records/records_impl.h"
 
 #include <math.h>
@@ -36,11 +35,11 @@ typedef enum sweep_column {
 
 typedef struct sweep_file {
     const char *path;
-    hid_t at; /* group of the sweep, or the file */
+    hid_t at;
     char name[NAME], fixed[PARAMETERS_TEXT], status[WORDS];
     int points, axes, quantities, formulations, meshes;
     name_row *axis, *quantity, *formulation;
-    char (*word)[WORDS]; /* [axes] words of an axis, in one line each */
+    char (*word)[WORDS];
     int *mesh;
     void *column[COLUMNS];
 } sweep_file;
@@ -216,7 +215,6 @@ static int compare_words(const void *a, const void *b)
 
 enum { WORD = NAME + ASSIGNMENT_VALUE + 1, MOST_WORDS = 2 * CASE_MAX_PARAMETERS };
 
-/* Writes "name=value" for the parameters that do not vary. */
 static int fixed_words(const sweep_file *s, char word[MOST_WORDS][WORD])
 {
     int count = 0;
@@ -232,8 +230,6 @@ static int fixed_words(const sweep_file *s, char word[MOST_WORDS][WORD])
     return count;
 }
 
-/* Writes to out[size] all parameters of a point that the file contains, in the order of their
- * names. */
 static void point_text(const sweep_file *s, int which, char *out, size_t size)
 {
     char word[MOST_WORDS][WORD];
@@ -301,8 +297,6 @@ static int add_mesh(const sweep_file *s, size_t row, int mesh, const char *text,
     return 1;
 }
 
-/* Checks the size first, because some systems grant memory that they do not have and later end the
- * program. */
 static status check_size(const sweep_file *s, fault *f)
 {
     char what[FAULT_TEXT];
@@ -379,7 +373,7 @@ static hid_t memory_type(hid_t member, const table_column *c)
         return -1;
     const hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, c->room);
-    H5Tset_cset(type, H5Tget_cset(member)); /* HDF5 does not convert between ASCII and UTF-8 */
+    H5Tset_cset(type, H5Tget_cset(member));
     return type;
 }
 

@@ -94,7 +94,7 @@ const char *schema_kind_name(field_kind kind)
     return kind < FIELD_KINDS ? name[kind] : "?";
 }
 
-enum { MOST_LINKS = 40 }; /* limit of the Linux kernel */
+enum { MOST_LINKS = 40 };
 
 const char *place_leaf(const char *path)
 {
@@ -148,7 +148,6 @@ static void set_kind(const struct stat *there, file_place *out)
         out->kind = S_ISREG(there->st_mode) && out->descriptor < 0 ? PLACE_FILE : PLACE_STREAM;
 }
 
-/* Finds the folder of out->path for a path that does not exist. */
 static status find_folder(const char *given, file_place *out, fault *f)
 {
     char folder[PATH_MAX] = ".";
@@ -213,7 +212,6 @@ int results_part_has(const char *lines, const char *text)
     return 0;
 }
 
-/* Returns the formulation part of case/parameters/formulation. */
 static const char *formulation_of(const char *series_name)
 {
     const char *slash = strrchr(series_name, '/');
@@ -277,9 +275,7 @@ int results_part_differ(const stored_results *a, const stored_results *b, const 
            omits_series(&b->part, a, series_name) || omits_series(&b->part, b, series_name);
 }
 
-/* Returns 1 if `name` is the series or, if the series has no options, a series of its case. Of a
- * series with options, only the quantities that depend on the options are evaluated, namely those
- * with limits. */
+/* Returns 1 if `name` is the series or, if the series has no options, a series of its case. */
 static int is_of_series(const char *name, const char *series_name)
 {
     return strchr(formulation_of(series_name), ':') != NULL
@@ -287,7 +283,6 @@ static int is_of_series(const char *name, const char *series_name)
                : strncmp(name, series_name, strcspn(series_name, "/") + 1) == 0;
 }
 
-/* Returns 1 if the selection includes a quantity that a run contains. */
 static int selects_any(const results_part *p, const stored_results *known, const char *series_name)
 {
     const int evaluated = strchr(formulation_of(series_name), ':') != NULL;
@@ -338,7 +333,6 @@ int results_part_needs(const stored_results *r, const stored_results *other,
         return 0;
     if (p->formulations != NULL && !results_part_has(p->formulations, key))
         return 0;
-    /* Series with options are run only on request. */
     if (strchr(key, ':') != NULL && results_part_has(other->part.formulations, key) &&
         !has_formulation(r, key))
         return 0;

@@ -71,8 +71,6 @@ static void put_points(record_file *r, hid_t at, const case_type *type, const su
     record_rows(r, at, record_point.table, count, fields, list->count, list->row);
 }
 
-/* Stores scenes. The record of a scene is its text. The text is "" for a rejected point, or for a
- * scene that a scene file cannot express. */
 static void put_scenes(record_file *r, hid_t at, subjects *list)
 {
     char **text = calloc((size_t)list->count + 1, sizeof *text);
@@ -91,8 +89,6 @@ static void put_scenes(record_file *r, hid_t at, subjects *list)
     free(text);
 }
 
-/* Stores the points of all curves in one array. The records of curves contain the index of their
- * first point. */
 static void put_curves(record_file *r, hid_t at, const subjects *list)
 {
     size_t points = 0;
@@ -112,7 +108,6 @@ static void put_curves(record_file *r, hid_t at, const subjects *list)
     free(value);
 }
 
-/* Stores one picture per point, for the first formulation with a solution. */
 static void put_pictures(record_file *r, hid_t at, const subjects *cells)
 {
     hid_t all = -1;
@@ -144,10 +139,7 @@ static void put_records(record_file *r, hid_t at, const gathering *g, const reco
         put_points(r, at, of, &list);
     else if (type == &record_scene)
         put_scenes(r, at, &list);
-    else if (!r->bad &&
-             ((type != &record_motion && type != &record_assumption) || /* few scenes have records
-                                                                         * of these kinds */
-              list.count > 0))
+    else if (!r->bad && ((type != &record_motion && type != &record_assumption) || list.count > 0))
         record_rows_of_type(r, at, type, list.count, list.row);
     if (type == &record_curve)
         put_curves(r, at, &list);
@@ -198,8 +190,6 @@ static const char *given_at(const sweep *s, int i)
     return i < s->givens ? s->given[i].key : NULL;
 }
 
-/* Stores the selection of a run. Series outside the selection were not requested, so they are not
- * missing. */
 static void put_selection(record_file *r, hid_t at, const sweep *s)
 {
     if (s->cases == NULL)
@@ -235,7 +225,6 @@ void store_case(store *to, const case_type *of)
     put_case(&to->file, to->cases, &g, of);
 }
 
-/* Stores the result of the run, with the words of its last line. */
 static void put_outcome(record_file *r, hid_t at, const sweep *s, const evaluation *j)
 {
     char sentence[SENTENCE_OF_RUN];
@@ -312,8 +301,6 @@ static void put_columns(record_file *r, hid_t at, const char *name, const shapes
     free(table);
 }
 
-/* Stores the kind, the load case or combination, the analysis, the value and the scale of every
- * state. */
 static void put_state_numbers(record_file *r, hid_t at, const scene *sc, const shapes *s)
 {
     const hsize_t size = (hsize_t)s->states;
@@ -350,8 +337,6 @@ static void put_integers(record_file *r, hid_t at, const char *name, int rows, i
     H5Dclose(record_array(r, at, name, H5T_NATIVE_INT, columns > 1 ? 2 : 1, size, value));
 }
 
-/* Stores the sections, ends and releases of the members, and the bodies and supports of the nodes.
- * */
 static void put_structure(record_file *r, hid_t at, const scene *sc)
 {
     int *member = calloc((size_t)sc->members * 3 + 1, sizeof *member),
@@ -391,7 +376,7 @@ static void put_sections(record_file *r, hid_t at, const scene *sc)
         char name[16];
         section c;
         if (scene_constants(sc, i, &c, NULL) != STATUS_OK)
-            continue; /* no run of this scene has a solution */
+            continue;
         outline_of(&sc->section[i], &c, &o);
         const hsize_t size[3] = {(hsize_t)o.walls, 4, 2};
         snprintf(name, sizeof name, "%d", i);
@@ -402,8 +387,6 @@ static void put_sections(record_file *r, hid_t at, const scene *sc)
     H5Gclose(all);
 }
 
-/* Stores the outlines at the far ends of tapered members, each with the index of its member as
- * name. */
 static void put_far_ends(record_file *r, hid_t at, const scene *sc)
 {
     if (!scene_tapers(sc))
