@@ -135,8 +135,6 @@ void absolute_strain(const element_data *d, const node_state x[], strain_output 
     }
 }
 
-/* The state of the nodes for given strains. Contains the unit quaternions of the nodes, and the
- * lengths of the quaternions that the strains contain. */
 typedef struct absolute_place {
     const element_data *data;
     const double *history;
@@ -274,11 +272,11 @@ static status stress_at(const absolute_place *at, stress_output *out)
 {
     double F[N] = {0};
     if (at->history == NULL)
-        return STATUS_FAULT; /* an element with a history cannot be evaluated without it */
+        return STATUS_FAULT;
     if (out->residual != NULL)
         *out->residual = 0;
     if (out->energy != NULL)
-        *out->energy = NAN; /* forces with a history need not derive from an energy */
+        *out->energy = NAN;
     if (out->sigma == NULL && out->C == NULL)
         return STATUS_OK;
     TRY(forces_of(at->data, at->together, at->x, &(force_output){.F = F, .history = at->history}));

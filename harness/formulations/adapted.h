@@ -15,11 +15,10 @@ struct element_data {
     int scalars;
     double length;
     double place[ELEMENT_MAX_NODES]; /* positions of the nodes, from 0 to 1 */
-    field_mass mass;                 /* used if the type has no `inertia` */
-    max_align_t own[];               /* element_data of the type */
+    field_mass mass;
+    max_align_t own[]; /* element_data of the type */
 };
 
-/* Returns the number of coordinates of the nodes. */
 static inline int adapted_coordinates(const element_data *d)
 {
     return d->nodes * (NODE_COORDINATES + d->scalars);
@@ -67,12 +66,10 @@ void relative_geometric(const element_data *d, const double sigma[], double G[])
 
 /* Strains and stresses of a type that computes forces with a history (absolute.c). The strains are
  * the motions of the nodes: for each node the displacement u, 2 l (q - q0), and l^2 a [m], where q
- * is the quaternion of the rotation of the node, and q0 its initial value. Rigid motions change
- * these strains, so forces that depend on rigid motions are functions of the strains. */
+ * is the quaternion of the rotation of the node, and q0 its initial value. */
 enum { ABSOLUTE_NODE = 8, ABSOLUTE_KEPT = 11, ABSOLUTE_NODES = 7 };
 enum { ABSOLUTE_MOST = ABSOLUTE_NODE * ABSOLUTE_NODES };
 _Static_assert((int)ABSOLUTE_MOST <= (int)ELEMENT_MAX_STRAINS, "too many strains");
-/* Returns 1 if a type is completed in this way (absolute.c). */
 int absolute_is(const element_type *given, const double options[]);
 /* Returns the function for the number of strains of an element with this number of nodes. */
 int (*absolute_strains(int nodes))(const double options[]);

@@ -129,8 +129,6 @@ static int always(const double options[])
     return 1;
 }
 
-/* Adds functions that pass on the data of the original type, which are stored after the data of the
- * adapter. */
 static void wrap(const element_type *given, element_type *out)
 {
     *out = *given;
@@ -225,7 +223,6 @@ static status check_history(const element_type *given, const double options[], f
     return STATUS_OK;
 }
 
-/* Checks that the nodes are in ascending order and have positive shares of the mass. */
 static status check_places(const element_type *given, const double options[], fault *f)
 {
     const int nodes = element_nodes(given, options);

@@ -7,7 +7,6 @@
 #include "elements/math/rotation.h"
 #include "harness/formulations/adapted.h"
 
-/* Adds weight f(point) to out. */
 static int add(stencil_function *f, const void *context, int count, int i, double si, int j,
                double sj, double weight, double out[])
 {
@@ -159,8 +158,7 @@ static int is_full(const gather *g)
     return g->failed || (size_t)g->count * g->size * sizeof *g->answer > ENOUGH;
 }
 
-/* Passes the answers to the elements. start[i]: first state of element i. An element that fails may
- * use fewer states. */
+/* Passes the answers to the elements. start[i]: first state of element i. */
 static void hand_out(gather *g, const int start[], int first, int end, gather_element *element,
                      gather_evaluate *evaluate, void *context)
 {
@@ -199,11 +197,10 @@ void gather_run(int count, int nodes, size_t size, gather_element *element,
 typedef struct difference_place {
     const element_data *data;
     const node_state *x;
-    const double *s;                /* stresses, for second derivatives */
-    const double *history;          /* history of the element; NULL: none */
-    differences_jacobian *jacobian; /* Jacobian of the strains; NULL: none */
-    gather *together; /* gathers all perturbed states; NULL: each state is evaluated when it is
-                         needed */
+    const double *s;       /* stresses, for second derivatives */
+    const double *history; /* history of the element; NULL: none */
+    differences_jacobian *jacobian;
+    gather *together;
 } difference_place;
 
 static void moved(const difference_place *at, int i, double si, int j, double sj, node_state out[])
@@ -312,8 +309,7 @@ static void curvature(const difference_place *at, double H[])
     memset(H, 0, (size_t)(n * n) * sizeof *H);
     for (int j = 0; j < n; j++) {
         stencil_first(forces_at, at, n, j, column);
-        for (int i = 0; i < n;
-             i++) { /* the symmetric part is the derivative in the exponential chart */
+        for (int i = 0; i < n; i++) {
             const double half = column[i] * per_unit(d, j) / 2;
             H[i * n + j] += half;
             H[j * n + i] += half;
@@ -353,7 +349,6 @@ static strain_output given_part(const element_data *d, const strain_output *out)
     return requested;
 }
 
-/* Computes the remaining derivatives by finite differences. */
 static void made_part(const element_data *d, const node_state x[], gather *together,
                       const strain_output *out)
 {
@@ -412,8 +407,6 @@ static void give_parts(int count, const many *all)
     }
 }
 
-/* Returns 1. If an element with a history is evaluated without its history, sets its results to NaN
- * and returns 0. No analysis uses these results. */
 static int has_history(int count, const element_data *const data[], strain_output out[])
 {
     int missing = 0;

@@ -58,7 +58,6 @@ void formulations_accept(const char *name)
         accepted[count] = t;
 }
 
-/* Returns 1 if the word is reserved and cannot be the name of a formulation. */
 static int is_reserved(const char *name)
 {
     static const char *const words[] = {"all", "cases", "formulations"};
@@ -182,7 +181,7 @@ unsigned formulation_bears_on(const formulation *chosen)
     return features;
 }
 
-/* Returns REFUSED for an unknown name. The message lists the names of loaded formulations. */
+/* Returns REFUSED for an unknown name. */
 static status unknown(const char *name, fault *f)
 {
     char loaded[200] = "";
@@ -402,7 +401,6 @@ void select_meet(const char *expression, const char *text, select_words *words)
             words->met[i] = is_called(text, word);
 }
 
-/* Returns name number i: first the cases, then the formulations. */
 static const char *registered(const void *context, int i)
 {
     int cases = 0;

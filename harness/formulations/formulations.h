@@ -10,9 +10,6 @@
 #include "elements/shared/parameter.h"
 #include "elements/shared/status.h"
 
-/* Completes the interface of a formulation: derivatives by finite differences, strains and
- * stresses from a force or an energy. */
-
 /* Sets *out to the complete interface of the same element, or to `given` if nothing is missing.
  * REFUSED: the type is inconsistent. */
 status adapters_complete(const element_type *given, const double options[], element_type *out,
@@ -28,8 +25,6 @@ double adapters_error(const element_type *given);
 
 /* Returns a list of everything that is computed by finite differences for the type; "": nothing. */
 const char *adapters_words(const element_type *given);
-
-/* Text form NAME=VALUE of all user choices: parameters of a case and options of a formulation. */
 
 /* Consecutive parameter tables, and the words with which error messages refer to them. */
 typedef struct assignment_list {
@@ -54,9 +49,8 @@ enum { ASSIGNMENT_VALUE = 64 };
  * the text and, for an unknown name, the most similar name. */
 status assignment_set(const assignment_list *, const char *text, double value[], int any[],
                       int *index, fault *f);
-/* Sets the parameters of "NAME=VALUE;NAME=VALUE", in which each name may occur once. Other
- * parameters keep their values. "" sets nothing. REFUSED: assignment_set rejects a part, or a name
- * occurs twice. */
+/* Sets the parameters of "NAME=VALUE;NAME=VALUE", in which each name may occur once. REFUSED:
+ * assignment_set rejects a part, or a name occurs twice. */
 status assignment_parse(const assignment_list *, const char *text, double value[], int any[],
                         fault *f);
 /* Writes the parameters in the form that assignment_parse reads. Only values that differ from their
@@ -125,7 +119,7 @@ typedef struct formulation {
     char key[FORMULATION_KEY];
 } formulation;
 
-/* Options that every formulation has. They follow the options of the type. */
+/* Options that every formulation has. */
 extern const parameter_type formulation_common[];
 assignment_list formulation_options(const element_type *);
 /* Returns the form of Newton's method. Instead of the mixed form, types that compute forces with a
@@ -145,15 +139,11 @@ unsigned formulation_bears_on(const formulation *chosen);
  * given twice, an option is invalid, or there are more than `most`. */
 status formulation_list_add(const char *text, int most, formulation list[], int *count, fault *f);
 
-/* All formulations: those of elements/, followed by those loaded at run time. */
-
 enum { FORMULATIONS_MOST_LOADED = 16 };
 
-/* Returns formulation number i; NULL: i is too large. */
 const element_type *formulations_at(int i);
 /* Returns the element type with this name; NULL: none. */
 const element_type *formulations_named(const char *name, size_t length);
-/* Returns 1 if the type was loaded at run time. */
 int formulations_is_loaded(const element_type *t);
 /* Returns 1 for a formulation that the project has not accepted: it was loaded at run time, or
  * formulations_accept has accepted other formulations but not this one. Verdicts on such a
@@ -198,18 +188,16 @@ status parameters_set(const case_type *c, const char *assignment, double value[]
 status parameters_parse(const case_type *c, const char *text, double value[], int any[], fault *f);
 /* Writes the parameters in the form that parameters_parse reads. Default values are omitted. */
 void parameters_text(const case_type *c, const double value[], char *text, int size);
-/* Like parameters_text, but writes only parameters of the original source. Programs that compute
- * reference values are called with these parameters. */
+/* Like parameters_text, but writes only parameters of the original source. */
 void parameters_source_text(const case_type *c, const double value[], char *text, int size);
 /* returns the number of parameters of the original source, which come first in the table */
 int parameters_of_source(const case_type *c);
 /* Returns the FNV-1a hash of "name=%.17g;" for all parameters in the order of the table, except
- * those that the program has added and that are 0. The number of a choice is its index. For
- * parameters marked in `any`, "name=*;" is hashed. */
+ * those that the program has added and that are 0. For parameters marked in `any`, "name=*;" is
+ * hashed. */
 uint64_t parameters_hash(const case_type *c, const double value[], const int any[]);
 
-/* Texts of the parameters of the previous point, which are reused. Between neighbouring rows of a
- * table, most of them do not change. */
+/* Texts of the parameters of the previous point, which are reused. */
 typedef struct parameters_words {
     int known; /* number of known texts; 0: none */
     double value[CASE_MAX_PARAMETERS];
@@ -221,12 +209,7 @@ typedef struct parameters_words {
 uint64_t parameters_hash_next(const case_type *c, const double value[], const int any[],
                               parameters_words *before);
 
-/* External formulations: a shared object with the symbol beamwork_element or the function
- * beamwork_element_type (element.h), or a process (exec:COMMAND). */
-
-/* Loads a formulation, which remains loaded until the program ends. REFUSED: the file is not a
- * shared object, has no such symbol, has another interface version (ABI, size) or an incomplete
- * description, or too many processes are loaded, or the text is not a command. The message is one
+/* Loads a formulation, which remains loaded until the program ends. REFUSED: the message is one
  * line that names the file and the remedy. */
 status plugin_load(const char *path, const element_type **out, fault *f);
 
@@ -237,8 +220,6 @@ extern const case_type *const registry_cases[];
 
 /* Expressions that select runs, for example -k "c_column and not (beamw or beamw_first)". */
 
-/* Limits of an expression: number of words, length of a word, and depth of nested brackets and
- * nots. */
 enum { SELECT_WORDS = 256, SELECT_WORD = 128, SELECT_DEPTH = 64 };
 
 /* Evaluates an expression for a text. The expression consists of words connected by and, or, not
@@ -249,24 +230,23 @@ int select_matches(const char *expression, const char *text);
  * Returns 0 for an expression with `not`. */
 int select_covers(const char *expression, const char *part);
 
-/* Records which words of an expression have matched a name. A misspelt word can then be reported.
- * */
+/* Records which words of an expression have matched a name.
+ *  */
 typedef struct select_words {
     char met[SELECT_WORDS];
 } select_words;
 
-/* Starts the record. expression NULL: selects everything. Names of cases and formulations count as
- * matched, even if no run has them. REFUSED: the expression is malformed. */
+/* Starts the record. expression NULL: selects everything. REFUSED: the expression is malformed. */
 status select_begin(const char *expression, select_words *, fault *);
 void select_meet(const char *expression, const char *text, select_words *);
-/* Finds the first word that matched no name. Returns 0 if all words matched. */
+/* Finds the first word that matched no name. */
 int select_unmet(const char *expression, const select_words *, char word[SELECT_WORD]);
 /* Checks that all words have matched. REFUSED: a word matched no name; the message gives the first
  * such word and the most similar name. */
 status select_all_met(const char *expression, const select_words *, fault *);
 
-/* Central finite differences of sixth order, for functions whose arguments are of the order of one.
- * */
+/* Central finite differences of sixth order, for functions whose arguments are of the order of
+ * one. */
 
 enum { STENCIL_MOST = ELEMENT_MAX_STRAINS * ELEMENT_MAX_COORDINATES };
 
@@ -292,8 +272,8 @@ int stencil_second(stencil_function *f, const void *context, int count, int i, i
 enum { WORDS_MOST = 63 };
 
 /* Splits the command. *words: NULL-terminated; one call of free() releases the list and its words.
- * Blanks separate words. The quotation marks ' and " protect blanks. REFUSED: there is no word,
- * there are too many words, or a quotation mark is not closed. FAULT: out of memory. */
+ * Blanks separate words; the quotation marks ' and " protect blanks. REFUSED: the command is
+ * invalid. FAULT: out of memory. */
 status words_split(const char *command, char ***words, fault *f);
 
 /* Prints a word for a shell, with quotation marks if necessary. */

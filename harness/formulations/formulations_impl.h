@@ -11,8 +11,7 @@
 #include "elements/shared/status.h"
 #include "harness/formulations/formulations.h"
 
-/* A child process whose standard input and output are channels. Its standard error is that of this
- * process. The child ends with the thread that started it. */
+/* A child process whose standard input and output are channels. */
 
 typedef struct child {
     pid_t process; /* 0: no process */
@@ -22,9 +21,9 @@ typedef struct child {
 
 typedef enum child_event {
     CHILD_DONE,
-    CHILD_ENDED, /* the child has closed its output or has terminated */
-    CHILD_LATE,  /* there was no answer within the time limit */
-    CHILD_WROTE  /* the child wrote before it had received the whole request */
+    CHILD_ENDED,
+    CHILD_LATE,
+    CHILD_WROTE /* the child wrote before it had received the whole request */
 } child_event;
 
 /* Description that a process sends of its formulation: the JSON line of the protocol (protocol.md).
@@ -55,8 +54,6 @@ typedef struct handshake {
 status handshake_read(const char *program_name, const char *line, size_t length, handshake *out,
                       fault *f);
 
-/* Requests to the process of a formulation and its answers. protocol.md describes their format. */
-
 enum channel_request {
     CHANNEL_PREPARE = 1,
     CHANNEL_STRAIN,
@@ -80,11 +77,10 @@ typedef struct channel {
     char *program_name; /* start of messages: first "exec:COMMAND", later "formulation NAME" */
     char **words;
     child process;
-    long started; /* number of starts; data that an earlier process prepared are invalid */
-    int limit;    /* [s] time limit of an answer; 0: none */
+    long started;
+    int limit; /* [s] time limit of an answer; 0: none */
     pthread_mutex_t lock;
     channel_bytes out, in;
-    /* Error that broke the channel, stored until it is reported; "": none. */
     char trouble[FAULT_TEXT];
     int reported;
 } channel;
@@ -92,8 +88,7 @@ typedef struct channel {
 /* Makes a channel. REFUSED: words_split rejects the command. FAULT: out of memory. */
 status channel_init(channel *, const char *command, fault *);
 /* Starts the process, after ending an earlier one, and reads its first line into
- * line[HANDSHAKE_MOST + 1], terminated by '\0'. REFUSED: the command does not exist, or the process
- * writes no first line or more than this line. FAULT: the process cannot be created. */
+ * line[HANDSHAKE_MOST + 1], terminated by '\0'. */
 status channel_start(channel *, char line[], fault *);
 /* Returns 1 if this process started the child and the child is running. */
 int channel_runs(const channel *);
@@ -102,23 +97,18 @@ int channel_runs(const channel *);
 void channel_begin(channel *);
 void *channel_add(channel *, size_t count);
 /* Sends the request and waits for the answer. *body: the answer of `least` or `most` bytes
- * (*count), valid until the next request. NOT_CONVERGED, SINGULAR, REFUSED: the process reports
- * this outcome with a message. FAULT: the channel is broken or the process has ended; `trouble`
- * gives the reason. */
+ * (*count), valid until the next request. FAULT: the channel is broken or the process has ended;
+ * `trouble` gives the reason. */
 status channel_ask(channel *, enum channel_request what, int mask, int elements, size_t least,
                    size_t most, const char **body, size_t *count, fault *);
-/* Stores the reason for REFUSED or FAULT until it is reported. Other outcomes are ignored, because
- * smaller steps may succeed. */
+/* Stores the reason for REFUSED or FAULT until it is reported. */
 void channel_note(channel *, status outcome, const fault *why);
-/* Sets the formulation name for later messages. */
 status channel_call(channel *, const char *name, fault *);
 void channel_end(channel *);
 /* Marks the channel as broken, for a reason that the caller gives. Returns FAULT. */
 status channel_break(channel *, const char *why, fault *);
 
-/* Gathers the perturbed states of many elements, so that one call evaluates all of them. A function
- * that computes finite differences is called twice: in the first call, its states are recorded; in
- * the second call, it receives their values. */
+/* Gathers the perturbed states of many elements, so that one call evaluates all of them. */
 
 typedef struct gather {
     int answered;    /* 0: states are gathered; 1: their answers are returned in the same order */
@@ -128,7 +118,7 @@ typedef struct gather {
     const element_data **data; /* [count] data of the type that is completed */
     const double **history;    /* [count] histories of the elements */
     node_state *x;             /* [count x nodes] */
-    double *answer;            /* [count x size] */
+    double *answer;
     /* room: number of states for which there is memory; failed: 1 after an allocation failure */
     int room, failed;
 } gather;
@@ -144,13 +134,9 @@ enum { GATHER_TOGETHER = 4096 }; /* largest number of states in one evaluation *
  * only call for an element. */
 void gather_run(int count, int nodes, size_t size, gather_element *, gather_evaluate *,
                 void *context);
-/* Returns the answer [size] for the state x[nodes]. Returns NULL in the first pass, in which the
- * result of the caller is not used. */
+/* Returns the answer [size] for the state x[nodes]. */
 const double *gather_next(gather *, const element_data *own, const node_state x[],
                           const double *history);
-
-/* Energy, forces and stiffness from the functions of the type, for one state or for many states in
- * one call. */
 
 /* Computes the forces with the functions of the type. together: the gathered answers are returned,
  * or zeros while states are gathered; NULL: the functions are called. */
@@ -165,8 +151,7 @@ void forces_evaluate(const element_data *, gather *, int first, int count);
  * distance, l p, l log(R0^T R_k)) for every other node, l^2 a for
  * all nodes, and l times the additional unknowns [m]. Here d = r_k -
  * r_0, and p = (2 n_y, 2 n_z)/(1 + n_x) for the direction n of d. p is regular unless the chord
- * points backwards. The distance is a separate strain, because otherwise a stiff chord would need
- * more iterations of the mixed equations than a soft chord. */
+ * points backwards. */
 
 enum { PLACES_MOST = ELEMENT_MAX_COORDINATES - 6 };
 

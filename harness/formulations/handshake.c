@@ -53,8 +53,6 @@ typedef struct handshake_reading {
 } handshake_reading;
 static status handshake_options(const handshake_reading *, const parameter_type **out);
 
-/* Allocates the memory of a description with this number of characters. A string is shorter than
- * the characters that describe it; omitted units and summaries of options need a few more. */
 static handshake_memory *memory_alloc(size_t length)
 {
     handshake_memory *memory = calloc(1, sizeof *memory + length + 4 * (size_t)ELEMENT_MAX_OPTIONS);
@@ -155,7 +153,6 @@ static status number_of(const handshake_reading *r, const char *key, int least, 
     return STATUS_OK;
 }
 
-/* Reads the positions of the nodes; the adapters check them. */
 static status places_of(const handshake_reading *r, int nodes, double place[])
 {
     const json_t *list = json_object_get(r->said, "places");
@@ -209,8 +206,6 @@ static status gives_of(const handshake_reading *r, handshake *out)
     return refuse(r, "gives", "give one of e; e,J; e,J,H; energy; force; tangent");
 }
 
-/* Reads the analyses for which the process computes inertia: vibration and rotating frames only, or
- * also transient analysis. */
 static status inertia_of(const handshake_reading *r, handshake *out)
 {
     const json_t *given = json_object_get(r->said, "inertia");
@@ -247,7 +242,6 @@ static status damping_of(const handshake_reading *r, int *out)
                : refuse(r, "damping", "give true or false, or 'only V' for V without C");
 }
 
-/* Reads which optional terms the process computes. */
 static status terms_of(const handshake_reading *r, handshake *out)
 {
     TRY(damping_of(r, &out->damping));
@@ -303,7 +297,6 @@ static status read_all(const handshake_reading *r, handshake *out)
     TRY(words_of(r, "offers", NULL, &t->offers));
     TRY(words_of(r, "limits", limits, &t->limits));
     TRY(words_of(r, "shear_theories", theories, &t->shear_theories));
-    /* a type with a shear theory supports the feature of this theory */
     t->offers |= t->shear_theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0;
     t->offers |= t->shear_theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0;
     TRY(number_of(r, "nodes", 2, ELEMENT_MAX_NODES, 2, &out->constants.nodes));

@@ -8,8 +8,8 @@
 #include "harness/formulations/process_impl.h"
 
 /* Loads the type that the command describes. The type and its process exist until this process
- * ends. Every worker process starts a separate copy of the command's process. REFUSED: the command
- * does not exist, or the first line of its output does not follow the protocol (protocol.md). */
+ * ends. REFUSED: the command does not exist, or the first line of its output does not follow the
+ * protocol (protocol.md). */
 static status process_load(const char *command, const element_type **out, fault *f);
 
 static status refuse(const char *path, const char *why, fault *f)
@@ -36,7 +36,6 @@ static status check(const char *path, const element_type *t, fault *f)
     return why != NULL ? refuse(path, why, f) : STATUS_OK;
 }
 
-/* Copies the type. Members of the interface that are newer than the compiled type are zero. */
 static status copy(const char *path, const element_type *loaded, const element_type **out, fault *f)
 {
     if (loaded->abi != ELEMENT_ABI)
@@ -55,7 +54,6 @@ static status copy(const char *path, const element_type *loaded, const element_t
     if (t == NULL)
         return fault_memory(f, "%.100s", path);
     memcpy(t, loaded, loaded->size);
-    /* a type with a shear theory supports the feature of this theory */
     t->offers |= t->shear_theories & SHEAR_ENGESSER ? FEATURE_ENGESSER : 0;
     t->offers |= t->shear_theories & SHEAR_HARINGX ? FEATURE_HARINGX : 0;
     const status outcome = check(path, t, f);
@@ -128,7 +126,6 @@ static size_t data_size(const element_request *request)
     return sizeof(element_data) + 2 * m * m * sizeof(double);
 }
 
-/* Starts the process again. Its description must be the same as after the first start. */
 static status start_again(process *p, fault *f)
 {
     char *line = malloc(HANDSHAKE_MOST + 1);
@@ -238,7 +235,6 @@ static status prepare(const element_request *request, element_data *out, fault *
     const status outcome = prepare_locked(p, request, out, f);
     p->to.reported |= outcome != STATUS_OK;
     pthread_mutex_unlock(&p->to.lock);
-    /* the same status as after a failed evaluation */
     return outcome == STATUS_FAULT ? STATUS_NOT_CONVERGED : outcome;
 }
 
@@ -251,8 +247,6 @@ static const char *trouble(const element_data *d)
     return c->trouble;
 }
 
-/* Checks the byte order. REFUSED: the byte order of the machine is not supported, because numbers
- * are not converted. */
 static status check_machine(const char *command, fault *f)
 {
     const int64_t one = 1;

@@ -326,8 +326,6 @@ uint64_t parameters_hash_next(const case_type *c, const double value[], const in
     for (; (p = parameter_at(c->parameters, i)) != NULL; i++) {
         write_word(p, i, value[i], any != NULL && any[i], before);
         if (is_shared(p) && value[i] == 0)
-            /* The default adds nothing, so points keep the names that they had before this
-             * parameter existed. */
             continue;
         for (const char *at = before->text[i]; *at != '\0'; at++)
             hash = (hash ^ (unsigned char)*at) * 1099511628211ull;

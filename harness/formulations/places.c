@@ -215,7 +215,6 @@ void places_motion(const element_data *d, const double e[], double B[])
     }
 }
 
-/* Positions of the values in a gathered answer. */
 enum { OUTCOME, ENERGY, FORCES };
 
 status forces_of(const element_data *d, gather *together, const node_state x[], force_output *out)
@@ -252,7 +251,7 @@ void forces_evaluate(const element_data *d, gather *g, int first, int count)
     for (int i = 0; i < count; i++) {
         double *answer = g->answer + (size_t)(first + i) * g->size;
         out[i] = (force_output){.history = g->history[first + i]};
-        if (out[i].history == NULL) /* with a history, the type may have no energy */
+        if (out[i].history == NULL)
             out[i].energy = answer + ENERGY;
         if (!(given->leaves & LEAVES_FORCE))
             out[i].F = answer + FORCES;

@@ -26,15 +26,13 @@ static void close_both(const int ends[2])
     close(ends[TO_WRITE]);
 }
 
-/* Executes the command in the child, or writes the reason for the failure. */
 static void become(char *const words[], int in, int out, int why, pid_t parent)
 {
     sigset_t none;
     sigemptyset(&none);
     sigprocmask(SIG_SETMASK, &none, NULL);
     signal(SIGPIPE, SIG_DFL);
-    setpgid(0, 0); /* a separate process group: Ctrl-C then reaches only beamwork, which ends the
-                    * child */
+    setpgid(0, 0);
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() == parent && dup2(in, STDIN_FILENO) >= 0 && dup2(out, STDOUT_FILENO) >= 0)
         execvp(words[0], words);
@@ -44,8 +42,8 @@ static void become(char *const words[], int in, int out, int why, pid_t parent)
     _exit(127);
 }
 
-/* Opens a pipe whose descriptors are not 0, 1 or 2. Otherwise dup2 could close a descriptor in use.
- * */
+/* Opens a pipe whose descriptors are not 0, 1 or 2.
+ *  */
 static int pipe_above(int ends[2])
 {
     int low[2];
@@ -67,8 +65,6 @@ static status no_process(const char *command, fault *f)
     return fault_set(f, STATUS_FAULT, "cannot start '%.100s': %s", command, strerror(errno));
 }
 
-/* Starts the child. REFUSED: the command does not exist; the message names it. FAULT: the pipe or
- * the process cannot be created. */
 static status child_start(char *const words[], child *out, fault *f)
 {
     int in[2], from[2], why[2], number = 0;
@@ -263,7 +259,6 @@ void channel_note(channel *c, status outcome, const fault *why)
     c->reported = 0;
 }
 
-/* Replaces characters that are not printable by dots, so that the text is one line. */
 static void on_one_line(char text[])
 {
     for (; *text != '\0'; text++)
@@ -290,7 +285,6 @@ status channel_break(channel *c, const char *why, fault *f)
     return fault_set(f, STATUS_FAULT, "%s", c->trouble);
 }
 
-/* Reports an event of the process other than an answer. */
 static status breach(channel *c, child_event what, const char *when, fault *f)
 {
     char why[200], how[100];
@@ -310,7 +304,6 @@ static status breach(channel *c, child_event what, const char *when, fault *f)
     return channel_break(c, why, f);
 }
 
-/* Reads the first line. If it is JSON, no other output may follow. */
 static status first_line(channel *c, char line[], fault *f)
 {
     size_t count = 0;
@@ -350,7 +343,6 @@ int channel_runs(const channel *c)
     return child_runs(&c->process);
 }
 
-/* Enlarges the buffer to at least `count` bytes. Returns 0 if out of memory. */
 static int make_room(channel_bytes *b, size_t count)
 {
     if (count <= b->room)
@@ -382,7 +374,6 @@ static status no_memory(fault *f)
     return fault_memory(f, "a mesh in a request");
 }
 
-/* Reads the line that follows an outcome other than ok. */
 static status refused(channel *c, status outcome, size_t bytes, size_t had, fault *f)
 {
     char text[MESSAGE + 1] = "", *rest = c->in.at + CHANNEL_ANSWER;
@@ -403,7 +394,6 @@ static status refused(channel *c, status outcome, size_t bytes, size_t had, faul
                      text[0] != '\0' ? text : "refused");
 }
 
-/* Reads the rest of an answer after its header and, possibly, after a part of its body. */
 static status rest_of(channel *c, enum channel_request what, size_t least, size_t most, size_t had,
                       size_t *count, fault *f)
 {

@@ -32,8 +32,6 @@ static status known(const frame_question *q, fault *f)
                 : STATUS_OK;
 }
 
-/* frame_put appends `bytes` to a request. frame_take reads `count` doubles of an answer. Both
- * functions advance the pointer. */
 static void frame_put(char **to, const void *from, size_t bytes)
 {
     memcpy(*to, from, bytes);
@@ -93,7 +91,6 @@ static size_t frame_node_bytes(const element_data *d)
     return (size_t)(frame_nodes(d) * (NODE_NUMBERS + d->scalars)) * sizeof(double);
 }
 
-/* Writes the nodes of the elements, x[count x nodes], followed by their additional unknowns. */
 static void frame_put_nodes(char **to, const frame_question *q, const node_state x[])
 {
     const element_data *d = q->data[0];
@@ -133,8 +130,6 @@ static void fill_nan(double to[], size_t count)
         to[i] = NAN;
 }
 
-/* Sets strains to NaN, because strain functions return no status. element_type.trouble gives the
- * reason. */
 static void no_strains(const frame_question *q, strain_output out[], const fault *why)
 {
     const size_t m = (size_t)q->data[0]->strains, c = (size_t)q->data[0]->coordinates;
@@ -234,8 +229,6 @@ static void stress_frames(int count, const element_data *const data[], const dou
     pthread_mutex_unlock(&data[0]->of->to.lock);
 }
 
-/* Computes the stresses of many elements. Stresses of elements with constant stiffness are computed
- * here, without the process. */
 static void stress_many(int count, const element_data *const data[], const double *const e[],
                         const double *const inner[], stress_output out[], status outcome[])
 {
@@ -332,7 +325,6 @@ void frames_serve(process *p)
 
 enum { OUTPUTS = 8, TURNING = 1 << 8, RATE = 1 << 9, ACCELERATION = 1 << 10 };
 
-/* Lists the outputs in the order of the mask. */
 static void outputs_of(const inertia_output *out, double *to[OUTPUTS])
 {
     double *const all[OUTPUTS] = {out->M, out->potential, out->force, out->N,
@@ -414,8 +406,6 @@ void frames_serve_inertia(process *p)
     p->type.inertia = inertia;
 }
 
-/* Histories of a formulation whose process computes them: one request for each element. */
-
 static void history_of(const element_data *d, enum channel_request what, const node_state x[],
                        double history[])
 {
@@ -466,8 +456,6 @@ void frames_serve_damping(process *p)
 {
     p->type.damping = damping;
 }
-
-/* Motion of the sections of one element at many points, with one request. */
 
 static void put_points(char **to, int count, const line_output out[])
 {

@@ -26,17 +26,12 @@ struct element_data {
     double C[];
 };
 
-/* Sets the functions of the type that evaluate elements (process_frames.c). */
 void frames_serve(process *p);
-/* Sets the inertia function of the type if the process computes inertia (process_frames.c). */
 void frames_serve_inertia(process *p);
-/* Sets the functions of the history of the type if it has one (process_frames.c). */
 void frames_serve_history(process *p);
 void frames_serve_damping(process *p);
-/* Sets the function of the type for the motion of sections (process_frames.c). */
 void frames_serve_line(process *p);
 
-/* A request about `count` elements. */
 typedef struct frame_question {
     enum channel_request what;
     int mask, count;

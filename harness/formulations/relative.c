@@ -13,9 +13,8 @@
 typedef struct relative_place {
     const element_data *data;
     const double *e;
-    const double *F;  /* nodal forces, which are constant while the strains change */
-    gather *together; /* gathers forces of all perturbed states; NULL: each state is evaluated when
-                         it is needed */
+    const double *F;
+    gather *together;
 } relative_place;
 
 static void moved(const relative_place *at, int i, double si, int j, double sj, double e[])

@@ -88,7 +88,6 @@ static double across(const double corner[], int at)
     return (corner[at / 2] + corner[(at + 1) / 2]) / 2;
 }
 
-/* Returns 1 if there is a brick at this position of the face. */
 static int is_filled(const face *s, int y, int z)
 {
     for (int i = (y - 1) / 2; i <= y / 2; i++)
@@ -98,8 +97,7 @@ static int is_filled(const face *s, int y, int z)
     return 0;
 }
 
-/* Returns 1 if a lattice position has a node. A position between corners in two directions has no
- * node. */
+/* Returns 1 if a lattice position has a node. */
 static int has_node(const brick *b, const int at[3])
 {
     return at[0] % 2 + at[1] % 2 + at[2] % 2 < 2 && is_filled(&b->face, at[BRICK_Y], at[BRICK_Z]);
@@ -121,7 +119,6 @@ static void write_node(const brick *b, const int at[3], FILE *to)
     fprintf(to, "%d,%.12e,%.12e,%.12e\n", number_of(b, at), p[0], p[1], p[2]);
 }
 
-/* Called for every node of the lattice from `first` to `last` along the member. */
 typedef void visit(const brick *, const int at[3], FILE *to);
 static void each_node(const brick *b, int first, int last, visit *what, FILE *to)
 {
@@ -173,8 +170,6 @@ void brick_write_elements(const brick *b, FILE *to)
 
 enum { SHEET_RATIO = 4, SHEET_ACROSS = 8, ACROSS = 2, MOST_LINES = 2 * SECTION_MAX_WALLS };
 
-/* Coordinates of a section are equal if their difference, relative to the size of the section, is
- * below this value. */
 static const double same = 1e-9;
 
 /* A wall as a rectangle: its smallest and largest y and z in the coordinates of the walls. */
@@ -270,8 +265,6 @@ static int lines_of(const strip strips[], int count, int axis, double line[MOST_
     return lines;
 }
 
-/* Sets corners between the lines with a distance of at most `step`. FACE_MOST is sufficient for
- * them. */
 static void divide(const double line[], int lines, double step, int axis, face *out)
 {
     int n = 0;

@@ -9,7 +9,6 @@
 
 enum { DIMENSIONS = 3 };
 
-/* A unit as a factor times powers of m, kg and s. */
 typedef struct unit_measure {
     double factor;
     int power[DIMENSIONS];
@@ -76,7 +75,7 @@ static void multiply(unit_measure *a, const unit_measure *b, int power)
         a->power[i] += power * b->power[i];
 }
 
-/* Interprets one character of a unit. Returns 0 for a character of a symbol. */
+/* Interprets one character of a unit. */
 static int read_sign(char c, int *side, int *depth)
 {
     if (c == ' ' || c == '*')

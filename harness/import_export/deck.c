@@ -6,7 +6,6 @@
 
 /* Writes the lines after the keyword *NODE for these nodes. */
 static void body_write_nodes(const body_numbers *, const scene *s, FILE *to);
-/* Writes sets of faces, the bodies, and the set BODIES of all their nodes. bricks: [members]. */
 static void body_write(const body_numbers *, const scene *s, const brick bricks[], FILE *to);
 /* Writes the prescribed coordinates at `path` after the keyword *BOUNDARY. */
 static void body_write_state(const body_numbers *, const scene *s, int acting, double path,
@@ -15,12 +14,8 @@ static void body_write_state(const body_numbers *, const scene *s, int acting, d
  * released: free components of `node` (bit i). */
 static void body_write_held(const body_numbers *, const scene *s, int node, unsigned released,
                             FILE *to);
-/* Writes all steps: first linear analyses and compliances of the undeformed structure, then the
- * static path with one unit load about its last state. FAULT: out of memory. */
 static status answers_write(const scene *s, const body_numbers *bodies, FILE *to, fault *f);
 static status path_points_of(const scene *s, int analysis, path_points *out, fault *f);
-/* Returns 1 if a quantity of the path, or of an analysis about the path, needs its value at the
- * point. */
 static int path_points_requested(const scene *s, int analysis, const scene_quantity *q,
                                  double point);
 
@@ -38,7 +33,7 @@ status deck_check(const deck_request *r, fault *f)
     return export_support_requests(r->scene, f);
 }
 
-/* Makes the bricks of all members. The numbers of bodies follow those of the bricks. */
+/* The numbers of bodies follow those of the bricks. */
 static status make_bricks(const deck_request *r, brick out[], body_numbers *bodies, fault *f)
 {
     int node = 1, element = 1;
@@ -60,8 +55,6 @@ static void write_deck_head(const deck_request *r, int elements, FILE *to)
             r->scene->name, r->of, elements);
 }
 
-/* Writes the convention for moments. Decks have moments only about the undeformed structure, for
- * which all conventions agree. */
 static void write_convention(const scene *s, FILE *to)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -96,8 +89,6 @@ static void write_mesh(const scene *s, const brick bricks[], const body_numbers 
     body_write(bodies, s, bricks, to);
 }
 
-/* Writes the difference between the area of each solid and the area of its beam, which is due to
- * walls that overlap. */
 static status write_areas(const scene *s, const brick bricks[], FILE *to, fault *f)
 {
     for (int i = 0; i < s->members; i++) {
@@ -109,7 +100,6 @@ static status write_areas(const scene *s, const brick bricks[], FILE *to, fault 
     return STATUS_OK;
 }
 
-/* Writes the deck. bricks[members]: work space. */
 static status write_with(const deck_request *r, brick bricks[], FILE *to, fault *f)
 {
     const scene *s = r->scene;
@@ -148,7 +138,6 @@ typedef struct answers_writer {
     int steps;
 } answers_writer;
 
-/* Writes the loads on the structure. Loads on the same coordinate are combined into one card. */
 static void write_structure_loads(const answers_writer *w, int acting, double path)
 {
     fputs("*CLOAD,OP=NEW\n", w->to);
@@ -182,8 +171,6 @@ static void write_state(answers_writer *w, int acting, double path, int incremen
     w->steps++;
 }
 
-/* Writes a unit load on a component of the node of the compliance, about the undeformed structure
- * or about the previous state. */
 static void write_unit_load(answers_writer *w, const scene_analysis *a, int component)
 {
     const scene_compliance *c = scene_compliance_of(a);
@@ -343,8 +330,6 @@ static int mover(const scene_node *n, int component)
     return turn == axis ? n->angle[0] : SCENE_HELD;
 }
 
-/* Writes the boundary conditions. path NULL: a small motion, in which prescribed coordinates do not
- * move. */
 static void write_boundary(const body_numbers *b, const scene *s, int acting, const double *path,
                            int node, unsigned released, FILE *to)
 {
@@ -375,8 +360,6 @@ static void body_write_held(const body_numbers *b, const scene *s, int node, uns
     write_boundary(b, s, 0, NULL, node, released, to);
 }
 
-/* Inserts a value in order, unless it is already in the list. Ignores values that are not positive
- * or that exceed `last`, the last station. */
 static void insert(path_points *p, double value, double last)
 {
     int at = p->count;

@@ -90,9 +90,9 @@ static int held_rotations(const scene_node *n)
     return held;
 }
 
-/* Checks the rotations of a node. REFUSED: a deck cannot express them. In CalculiX, a rotation node
- * has a rotation vector. Rotations about fixed axes are equivalent to this vector only if no
- * rotation, all rotations, or all but one are fixed. */
+/* Checks the rotations of a node. In CalculiX, a rotation node has a rotation vector. Rotations
+ * about fixed axes are equivalent to this vector only if no rotation, all rotations, or all but one
+ * are fixed. */
 static status check_node(const scene *s, int node, fault *f)
 {
     const scene_node *n = &s->node[node];
@@ -204,8 +204,6 @@ status export_support_check(const scene *s, fault *f)
         TRY(check_analysis(s, i, f));
     return STATUS_OK;
 }
-
-/* Returns REFUSED with the message that a deck of solids cannot evaluate the quantity. */
 
 static status refuse(const scene_quantity *q, const char *why, fault *f)
 {

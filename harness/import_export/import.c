@@ -30,7 +30,6 @@ void import_block_free_set(import_set *set)
     set->scenes = 0;
 }
 
-/* Finds the case of a scene file next to the imported file; NULL: an error. */
 static const case_type *scene_case(import_block *b, const char *name, int line)
 {
     char path[IMPORT_TEXT + 4096];
@@ -199,7 +198,6 @@ static const scene_quantity *find_quantity(const import_block *b, const imported
     return NULL;
 }
 
-/* Returns 1 if the value depends on the convention for moments on rotating nodes. */
 static int has_moments(const scene_quantity *q)
 {
     return (q->what.kind == SCENE_COMPLIANCE_ENTRY || q->what.kind == SCENE_STIFFNESS_ENTRY) &&
@@ -221,7 +219,6 @@ static void check_row(const import_block *b, const imported_row *row, const scen
                      q->name);
 }
 
-/* Converts a value to the axes and units of beamwork. Returns 0 after an error. */
 static int convert(const import_block *b, const scene_quantity *q, imported_row *row)
 {
     int sign = 1;
@@ -243,7 +240,6 @@ static int convert(const import_block *b, const scene_quantity *q, imported_row 
     return 1;
 }
 
-/* Reports duplicates, which are adjacent because values are in the order of their cells. */
 static void check_again(const import_block *b)
 {
     const imported *all = b->found;
@@ -381,7 +377,6 @@ static int take_row(const scene *s, series *one, const imported_row *row)
     if (s->quantity[index].reduction == SCENE_CURVE)
         return add_to_curve(&q->curve, row);
     q->value = row->value;
-    /* only the uncertainty on the finest mesh is used; rows are in ascending order */
     one->noise[index] = NAN;
     if (isfinite(row->uncertainty)) {
         const double size = fmax(fabs(row->value), s->quantity[index].near_zero);
@@ -425,7 +420,6 @@ static status fill(const scene *s, series *one, fault *f)
     return STATUS_OK;
 }
 
-/* Returns the position after the last series of the point. */
 static int series_end(const sweep *s, int point_index)
 {
     int place = s->seriess;

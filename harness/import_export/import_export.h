@@ -1,4 +1,3 @@
-/* import_export/: results of other programs, and input decks for them. */
 #ifndef BEAMWORK_IMPORT_EXPORT_H
 #define BEAMWORK_IMPORT_EXPORT_H
 
@@ -24,8 +23,6 @@ int axes_parse(const char *text, axes *out);
  * conversion to the axes of beamwork, and the sign of its values; NULL: none. */
 const scene_quantity *axes_quantity(const axes *a, const scene *s, const scene_quantity *q,
                                     int *sign);
-
-/* A scene as data for drivers of other programs (beamwork.peers). */
 
 typedef struct scene_data_request {
     const scene *scene;
@@ -53,12 +50,10 @@ typedef struct deck_request {
 status deck_check(const deck_request *, fault *f);
 status deck_write(const deck_request *, FILE *to, fault *f);
 
-/* Import of values from other programs. The values of one program, case and parameter point form a
- * series. */
+/* The values of one program, case and parameter point form a series. */
 
 enum { IMPORT_SCENES = 32, IMPORT_ROWS = 200000, IMPORT_TEXT = 512 };
 
-/* Points and series of all imported files, and the scene files that they name. */
 typedef struct import_set {
     sweep sweep;
     int scenes;
@@ -68,7 +63,6 @@ typedef struct import_set {
 
 void import_block_free_set(import_set *);
 
-/* The entries of a header, with their line numbers (0: the entry is missing). */
 typedef struct import_header {
     char program[IMPORT_TEXT], of[IMPORT_TEXT], model[IMPORT_TEXT], convention[IMPORT_TEXT],
         version[IMPORT_TEXT];

@@ -11,11 +11,9 @@
 #include "harness/study/study.h"
 
 /* The cross-section of a solid: a lattice of rectangles along the y and z axes of the section, some
- * of which are filled. A straight wall is a strip along its centre line. Where walls meet at right
- * angles, each wall is extended by half of the thickness of the other. An L section then has its
- * whole corner, and the area is that of the walls. Where a wall ends on the side of another wall
- * (I, T), the section counts half of the thickness at this point twice, but the solid counts it
- * once. */
+ * of which are filled. A straight wall is a strip along its centre line. Where a wall ends on the
+ * side of another wall (I, T), the section counts half of the thickness at this point twice, but
+ * the solid counts it once. */
 
 enum {
     FACE_WALLS = 8, /* minimum number of elements along the longer side of a section of walls */
@@ -33,8 +31,6 @@ typedef struct face {
 
 /* Returns the filled area [m^2]. */
 double face_area(const face *);
-
-/* A member as a structured mesh of C3D20R: bricks with 20 nodes and reduced integration. */
 
 enum { BRICK_ALONG, BRICK_Y, BRICK_Z };
 
@@ -108,9 +104,6 @@ status conversion_factor(const char *from, const char *to, double *factor, fault
  * are more meshes than a series can have. */
 status import_cells_add(sweep *s, int point_index, imported *found, fault *f);
 
-/* Reads entries of a map in YAML (strings, numbers), and reports unknown keys and other errors with
- * their positions. */
-
 /* Returns the string of an entry, or `otherwise` if the entry is missing. */
 const char *map_keys_text(mistakes *m, const document_node *map, const char *key,
                           const char *otherwise);
@@ -126,8 +119,6 @@ typedef struct path_points {
 } path_points;
 
 void path_points_free(path_points *);
-
-/* Nodes of a scene that move independently and carry faces of solids. */
 
 /* Returns the node of the body to which a node belongs, or the node if it is not attached to
  * another node. */

@@ -206,7 +206,7 @@ static void read_row(file_reader *r, char *const field[], int count)
         if (r->place[i] >= 0)
             at[r->place[i]] = field[i];
     if (at[QUANTITY] == NULL || at[UNIT] == NULL) {
-        if (count != r->fields) /* otherwise, the message about the missing column suffices */
+        if (count != r->fields)
             mistakes_add(r->m, r->line, 1,
                          "number of fields in the row: %d, number of columns: %d; correct the row",
                          count, r->fields);
@@ -257,7 +257,6 @@ static status read_line(file_reader *r, char *line, fault *f)
     return STATUS_OK;
 }
 
-/* Reads all lines. The caller import_file_read() frees *line, even after a failure. */
 static status read_lines(file_reader *r, FILE *from, char **line, fault *f)
 {
     size_t room = 0;

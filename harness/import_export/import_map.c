@@ -8,7 +8,6 @@
 #include "cases/format/format.h"
 #include "elements/shared/choice.h"
 
-/* Reports every key that is not in the NULL-terminated list. */
 static void map_keys_check(const document_node *map, const char *const known[], mistakes *m);
 /* Returns the whole number of an entry, at least 0, or `otherwise` if the entry is missing. */
 static int map_keys_count(mistakes *m, const document_node *map, const char *key, int otherwise);
@@ -29,7 +28,6 @@ typedef struct map_reader {
     double seconds;
 } map_reader;
 
-/* A requested value, and the last row that matched. */
 typedef struct wanted {
     const document_node *key, *of, *where;
     const char *file, *under;
@@ -222,7 +220,6 @@ static import_header header_of(const map_reader *r)
     return h;
 }
 
-/* Records the data files as the source. The map is not the source. */
 static void name_files(imported *to, const char *const file[], int files)
 {
     size_t used = 0;

@@ -64,7 +64,6 @@ static int point_of(const sweep *s, const char *of, const char *parameters)
     return -1;
 }
 
-/* Returns 1 if the point already has a program with this name. */
 static int is_there(const sweep *s, int place, const char *name)
 {
     for (int i = 0; i < s->seriess; i++)

@@ -53,14 +53,12 @@ def value_of(answer, blocks):
 
 
 def unknowns(lines):
-    """Returns the number of coordinates of the nodes of the solid, including fixed ones."""
     first = next(i for i, line in enumerate(lines) if line.startswith("*NODE,"))
     last = next(i for i in range(first + 1, len(lines)) if lines[i].startswith("*"))
     return 3 * (last - first - 1)
 
 
 def said(lines, card):
-    """Returns the text after `card` in the first line that starts with it."""
     for line in lines:
         if line.startswith(card):
             return line[len(card):].strip()
@@ -75,7 +73,6 @@ def head_of(lines):
 
 
 def rows(deck):
-    """Returns the header and the rows for the import of the values of one deck."""
     lines = deck.read_text(encoding="utf-8").splitlines()
     head = head_of(lines)
     elements, count = said(lines, "**ELEMENTS "), unknowns(lines)
@@ -91,7 +88,6 @@ def rows(deck):
 
 
 def series(decks):
-    """Returns header and rows of several decks of one scene, each with a different mesh."""
     heads, out, meshes = set(), [], set()
     for deck in decks:
         head, found = rows(deck)

@@ -84,7 +84,6 @@ static status add_lines(const scene *s, json_t *root, fault *f)
     return STATUS_OK;
 }
 
-/* Adds the constants of each section, in the order of the file. */
 static status add_sections(const scene *s, json_t *root, fault *f)
 {
     json_t *sections = json_array();

@@ -13,7 +13,6 @@
 #include "harness/records/records.h"
 #include "harness/study/study.h"
 
-/* Settings of the host, and the message of the call. */
 typedef struct call {
     fault fault;
     char *text; /* message that replaces the one of the fault, allocated with malloc; NULL: none */
@@ -28,11 +27,9 @@ typedef struct call {
 void call_begin(call *, char **why);
 bw_status call_end(call *, status outcome);
 
-/* Formulations and number of processes of a call. */
-
 enum { CONTESTANTS_MOST = 64 };
 
-/* The packed reference values. HDF5 allows only one thread at a time to read them. */
+/* The packed reference values. */
 
 /* Reads the reference values of a case and the known deviations; type NULL: only the known
  * deviations. */
@@ -47,8 +44,6 @@ void known_release(void);
 /* Locks HDF5 for all other calls. known_unlock restores the error handling of the host. */
 void known_lock(void);
 void known_unlock(void);
-
-/* Options of a call: a JSON object with the keys of a table. */
 
 typedef enum call_option_kind {
     OPTION_SWITCH, /* true or false, stored in an int */

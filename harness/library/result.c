@@ -63,7 +63,6 @@ static int index_of(const bw_result *r, const char *name)
     return -1;
 }
 
-/* Returns the result of a quantity; NULL: none. */
 static const quantity_result *found_of(const bw_result *r, const char *name)
 {
     const int i = index_of(r, name);

@@ -8,8 +8,6 @@
 #include "cases/format/format.h"
 #include "harness/experiments/experiments.h"
 
-/* Makes a scene with the default values of its parameters. Takes ownership of the file and its
- * name. */
 static status new_scene(const case_type *type, scene_file *file, char *name, bw_scene **out,
                         fault *f)
 {
@@ -52,7 +50,6 @@ static void report(const mistakes *m, call *c)
         text_end(&t, mistakes_json(m, t.to, &f), &c->text, &f);
 }
 
-/* Reads a text of the given size or, if it is NULL, the file with this name. */
 static status read_file(const char *bytes, size_t size, const char *name, scene_file **out,
                         mistakes *m, fault *f)
 {
@@ -184,8 +181,7 @@ static status list_of(const char *name, char **json, fault *f)
     *json = NULL;
     TRY(list_subject_find(name, &what, f));
     TRY(text_begin(&t, f));
-    known_read(NULL, &deviations, NULL); /* not an error: scenes can be used without the file of
-                                          * reference values */
+    known_read(NULL, &deviations, NULL);
     const status outcome = text_end(&t, list_write_list(t.to, &what, &deviations, f), json, f);
     truths_free(&deviations);
     return outcome;
@@ -254,7 +250,6 @@ static int contestants_jobs(void)
     return processors < 1 ? 1 : processors < WORKERS_MOST ? (int)processors : WORKERS_MOST;
 }
 
-/* Returns TIME_LIMIT if the caller stopped the work before all runs were complete. */
 static status contestants_finished(const sweep *s, fault *f)
 {
     return s->unfinished == 0
@@ -264,7 +259,6 @@ static status contestants_finished(const sweep *s, fault *f)
                            s->unfinished);
 }
 
-/* Request and results. The function converge frees them. */
 typedef struct study {
     const bw_scene *scene;
     double level;
@@ -346,7 +340,6 @@ enum {
     PICTURES = 5
 };
 
-/* Request and results. The function verify frees them. */
 typedef struct verify_trial {
     const bw_scene *scene;
     const char *results;

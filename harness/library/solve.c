@@ -13,10 +13,9 @@
 #include "harness/experiments/experiments.h"
 #include "harness/numerics/numerics.h"
 
-static source *source_hold(source *); /* adds a reference to the source */
+static source *source_hold(source *);
 /* Sets *out to the reference values of a case, or only to the known deviations for a scene file.
- * The data are read in the first call. *out is NULL after FAULT. Several threads may call this
- * function. */
+ * The data are read in the first call. *out is NULL after FAULT. */
 static status source_known(source *, const truths **out, fault *f);
 
 enum { STEPS_MOST = 1000000 };
@@ -40,7 +39,6 @@ static status read_options(const char *json, solution_request *out, int *stop, f
     return outcome;
 }
 
-/* Reads the reference values for the result. A case may have none. */
 static status read_truths(bw_result *r, const double parameter[], fault *f)
 {
     const scene_file *file = source_file(r->from);
@@ -52,7 +50,6 @@ static status read_truths(bw_result *r, const double parameter[], fault *f)
     return STATUS_OK;
 }
 
-/* Determines the formulation and the number of elements, which are given or chosen. */
 static status choose(const bw_result *r, const char *name, solution_request *out,
                      solution_choice *why, fault *f)
 {
@@ -73,7 +70,6 @@ static double error_of(const subject *s)
                : NAN;
 }
 
-/* Computes the errors of the quantities from their records. */
 static status compare(bw_result *r, fault *f)
 {
     const gathering g = {&r->sweep, NULL, r->truths};
@@ -181,8 +177,6 @@ static struct {
     locale_t plain;
 } state = {.lock = PTHREAD_MUTEX_INITIALIZER};
 
-/* A forked process has none of the other threads. It must not wait for them, nor count the calls
- * that they had in progress. */
 static void before_fork(void)
 {
     known_hold();
@@ -254,7 +248,6 @@ static int character(const unsigned char *at)
     return 1 + more;
 }
 
-/* Returns the message as one line of valid UTF-8. Invalid characters are replaced by '?'. */
 static char *line_of(const fault *f)
 {
     char *out = strdup(f->text);
@@ -285,7 +278,7 @@ static pthread_mutex_t hdf5 = PTHREAD_MUTEX_INITIALIZER;
 static struct {
     H5E_auto2_t print;
     void *context;
-} host;                      /* error handler of the host for HDF5 */
+} host;
 static char place[PATH_MAX]; /* "": default location */
 
 void known_hold(void)
@@ -298,7 +291,6 @@ void known_release(void)
     pthread_mutex_unlock(&hdf5);
 }
 
-/* Disables the error messages of HDF5 until `restore_library_errors` is called. */
 static void mute_library_errors(void)
 {
     H5Eget_auto2(H5E_DEFAULT, &host.print, &host.context);
@@ -330,7 +322,6 @@ static void place_now(char path[PATH_MAX])
         data_place_truths(path);
 }
 
-/* Like known_read, for a thread that holds the lock. */
 static status known_read_held(const case_type *type, truths *out, fault *f)
 {
     char path[PATH_MAX];
@@ -360,7 +351,6 @@ status known_read_all(truths *out, fault *f)
     return outcome;
 }
 
-/* Sets the location for later calls; NULL: the default. Reads the values as a check. */
 static status known_place(const char *path, fault *f)
 {
     truths t;
@@ -381,7 +371,7 @@ struct source {
     const case_type *type;
     scene_file *file;
     char *name;
-    int is_known; /* 1: the values have been read */
+    int is_known;
     truths known;
 };
 

@@ -1,11 +1,9 @@
-/* section_forces/: forces and moments inside an element, its centre line and its torque. */
 #ifndef BEAMWORK_SECTION_FORCES_H
 #define BEAMWORK_SECTION_FORCES_H
 
 #include "elements/element.h"
 
-/* Grid of Chebyshev points on an element, including its ends, on [0, 1]. It gives integrals,
- * derivatives and interpolated values of functions that are known at these points. */
+/* Grid of Chebyshev points on an element, including its ends, on [0, 1]. */
 
 enum {
     SPAN_GRID_POINTS = 24,
@@ -23,8 +21,7 @@ typedef struct span_grid {
 
 void span_grid_make(span_grid *g);
 
-/* Line of centroids of an element and triads of its sections, between two frames. The line and the
- * triads follow from the strains. */
+/* Line of centroids of an element and triads of its sections, between two frames. */
 
 typedef struct span_curve {
     /* r: centroid; columns of R: axes x (along the line), y and z of the section */
@@ -38,11 +35,7 @@ typedef struct span_frame {
 /* Section forces of an element, from the forces at its ends and the loads between the ends. The end
  * forces of elements are in equilibrium, regardless of the assumptions of a formulation. Between
  * the ends, the line is that of the exact beam between the end frames (Simo-Reissner with warping,
- * the constants of the section, and the active physics). It satisfies F' = -q, m' = -r' x F - mu, N
- * = R^T F, M = R^T m, and the torsion equations of section_forces_impl.h. One solution starts at
- * the first end p with the forces at p. Another starts at the second end q with the forces at q.
- * The two are combined with weights that are linear in x. The only error is that of the end forces:
- * values inside the element converge like the end forces, and agree with them at the ends. */
+ * the constants of the section, and the active physics). */
 
 /* Action of the part towards q on the part towards p, in the principal axes of the rotated section.
  * Moments are about the centroid. */

@@ -14,9 +14,7 @@ typedef int (*fixed_point_map)(void *context, const double x[], double out[]);
  * equations are EIw a' = B, B' = -M_w, M_s = K k + M_w, k = a + F_w M_w + f. M_s is the torque
  * about the shear centre, k the twist rate, a the warping amplitude, B the bimoment, and M_w the
  * torque due to restrained warping. K is the torsional stiffness, F_w the flexibility of warping in
- * shear, and f the contribution of transverse forces. Two of the four end values determine a
- * solution. The solution with (B_p, a_q) is used near p, and the solution with (a_p, B_q) near q,
- * with weights that vary along the element. Both are well posed for any K >= 0. */
+ * shear, and f the contribution of transverse forces. */
 
 typedef struct span_torsion {
     double EIw;                         /* 0: the section does not warp */

@@ -30,7 +30,7 @@ typedef struct span_work {
     span_curve curve;
     span_twist twist;
     double N[SPAN_GRID_POINTS][3], M[SPAN_GRID_POINTS][3];
-    double flexibility[36]; /* flexibility of a section that is given by matrices */
+    double flexibility[36];
 } span_work;
 
 static void begin(span_work *w)
@@ -84,7 +84,6 @@ static void about_origin(const span_end *end, double out[6])
         out[3 + i] += end->moment[i];
 }
 
-/* Computes N and M at the points from the equilibrium of the parts towards p and towards q. */
 static void resultants(span_work *w)
 {
     double load[N][6], gathered[N][6], from[2][6];
@@ -133,7 +132,6 @@ static int twisted(span_work *w, const double strains[])
     return span_twist_solve(w->g, &t, &w->twist);
 }
 
-/* Computes the strains of a section that is given by matrices and has no torque due to warping. */
 static void strained_matrices(span_work *w, double out[])
 {
     for (int j = 0; j < N; j++) {
@@ -219,7 +217,7 @@ status span_recover(const span_grid *g, const span_problem *problem, span_fields
                          "use more elements",
                          problem->request->length);
     } else {
-        again(&w, strains, made); /* evaluates the fields for the best strains */
+        again(&w, strains, made);
     }
     take(&w, made, out);
     return STATUS_OK;
@@ -236,7 +234,6 @@ void span_at(const span_grid *g, const span_fields *fields, double x, double out
     }
 }
 
-/* Adds the gap at the end to all points, in proportion to x. */
 static void close_gap(const span_grid *g, const double end[3], double at[N][3])
 {
     double missing[3];
@@ -362,7 +359,6 @@ static void turn_of(const span_grid *g, int gap, const double kappa[], double h,
         out[i] = -(a[i] + c[i] / 12 + second[i] / 240);
 }
 
-/* Integrates the orientations, and sets the last orientation to that of q. */
 static void turn(const span_grid *g, const span_frame *p, const span_frame *q, const double kappa[],
                  span_curve *out)
 {

@@ -1,5 +1,3 @@
-/* The grid of points along an element at which its fields are computed, and the fixed point of a
- * map by Anderson mixing. */
 #include "harness/section_forces/section_forces_impl.h"
 
 #include <math.h>

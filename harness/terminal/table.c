@@ -74,7 +74,6 @@ static void assumed(FILE *to, const sweep_point *p)
         paragraph_write(to, fprintf(to, "%s: ", assumptions_kind(a.kind)), INDENT, a.text);
 }
 
-/* Prints the members that have more elements than the mesh specifies. */
 static void divided(FILE *to, const sweep_point *p)
 {
     char words[FAULT_TEXT];
@@ -155,7 +154,7 @@ static size_t word_at(const char *text, int command)
 static void write_words(FILE *to, int at, int indent, const char *joint, const char *text)
 {
     const int width = PARAGRAPH_WIDTH - columns_of(joint, strlen(joint));
-    int column = at, begun = 0; /* begun: 1 if the line contains a word */
+    int column = at, begun = 0;
     static const char blank[] = " \n";
     for (text += strspn(text, blank); *text != '\0'; text += strspn(text, blank)) {
         const size_t word = word_at(text, joint[0] != '\0');
@@ -213,7 +212,7 @@ void paragraph_printf(FILE *to, int at, int indent, const char *format, ...)
     if (vasprintf(&text, format, arguments) >= 0) {
         paragraph_write(to, at, indent, text);
         free(text);
-    } else { /* out of memory: the text is written without line breaks */
+    } else {
         fputc(' ', to);
         vfprintf(to, format, again);
         fputc('\n', to);
@@ -234,7 +233,6 @@ static int has_colour(FILE *to)
            (none == NULL || none[0] == '\0');
 }
 
-/* Returns 1 if the locale of the environment is UTF-8, regardless of the locale of the program. */
 static int has_utf8(void)
 {
     const locale_t here = newlocale(LC_CTYPE_MASK, "", (locale_t)0);

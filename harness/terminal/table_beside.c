@@ -12,7 +12,6 @@ enum {
     DIGITS = 9
 };
 
-/* A series that was run, and its reference value. */
 typedef struct beside_column {
     const series *one;
     const truth *row; /* reference value; NULL: none */
@@ -24,7 +23,7 @@ typedef struct beside_column {
 typedef struct block {
     const scene_quantity *q;
     int quantity, count;
-    int known; /* 1: at least one formulation has a reference value */
+    int known;
     beside_column list[COLUMNS];
 } block;
 
@@ -96,8 +95,6 @@ static void write_limit(FILE *to, const block *b, const beside_column *c)
     fprintf(to, "%*s", COLUMN, text);
 }
 
-/* Prints the uncertainty of the limit: in percent of the value to which errors are relative or,
- * without a reference value, in the unit of the quantity. */
 static void write_uncertainty(FILE *to, const block *b, const beside_column *c)
 {
     const double own = c->shown.fit.limit_uncertainty;
@@ -124,8 +121,6 @@ static void write_row(FILE *to, const block *b, const char *head,
     fputc('\n', to);
 }
 
-/* Writes a row for every number of elements that a formulation of the block has, in ascending
- * order. */
 static void write_meshes(FILE *to, const block *b)
 {
     for (int last = 0, next = 0;; last = next) {
@@ -154,16 +149,15 @@ static void describe(const verdict *v, double least_order, char *text, size_t si
     snprintf(text, size, "%s%s%s", named ? "" : word, named ? "" : ": ", sentence);
 }
 
-/* Describes the limits that do not pass. */
 static void write_sentences(FILE *to, const block *b)
 {
     for (int i = 0; i < b->count; i++) {
         char text[2 * FAULT_TEXT + 64];
         const beside_column *c = &b->list[i];
         if (c->shown.kind == VERDICT_PASS || c->shown.kind == VERDICT_OTHER_MODEL)
-            continue; /* other models are listed at the end */
+            continue;
         if (c->shown.kind == VERDICT_NO_TRUTH && (c->row != NULL || !b->known))
-            continue; /* the heading states the common verdict */
+            continue;
         describe(&c->shown, b->q->least_order, text, sizeof text);
         paragraph_write(to, fprintf(to, "  %s: ", c->one->formulation.key), 4, text);
     }
@@ -197,7 +191,6 @@ static void add_truth(char *line, size_t size, const truth *row)
              agreed ? row->source : "");
 }
 
-/* Writes the reason why there is no reference value or agreement. */
 static void write_why(FILE *to, int at, const sweep *s, const truths *t, int quantity)
 {
     paragraph words;
@@ -262,8 +255,6 @@ static void write_quantity(FILE *to, const sweep *s, const truths *t, int quanti
     }
 }
 
-/* Writes the formulations that lack the same features in one line, at the position of the first of
- * them. */
 static void write_missing(FILE *to, const sweep *s)
 {
     for (int i = 0; i < s->seriess; i++) {
@@ -309,7 +300,6 @@ void table_beside(FILE *to, const sweep *s, const truths *t)
 
 enum { CONVERGENCE_DIGITS = 10, VALUE = 20 };
 
-/* Prints the estimate of an analytic model. */
 static void prediction_line(FILE *to, const scene_quantity *q, const truth *row)
 {
     char source[FAULT_TEXT];

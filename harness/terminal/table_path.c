@@ -1,4 +1,3 @@
-/* Steps, events and matrices of a path, and the summary of a motion. */
 #include "harness/terminal/terminal_impl.h"
 
 #include <math.h>
@@ -9,8 +8,6 @@
 
 enum { MOST_STEPS = 40 };
 
-/* Writes the corrections of the iterations of a step. If there are many, they take several lines.
- * */
 static void corrections(FILE *to, int column, const solve_result *r, const step_record *k)
 {
     paragraph words;
@@ -100,7 +97,7 @@ void table_path_matrices(FILE *to, const scene *s, const solve_result *r)
 
 static void row_of_event(FILE *to, const path_event *e)
 {
-    const double least = 5e-10; /* smallest relative error that is assumed */
+    const double least = 5e-10;
     char control[ROUNDING_TEXT], factor[ROUNDING_TEXT];
     rounding_known(e->control, fmax(e->control_error, least * fabs(e->control)), control);
     rounding_known(e->factor, fmax(e->factor_error, least * fabs(e->factor)), factor);
@@ -217,8 +214,6 @@ static void energy_line(FILE *to, const motion_extent *e)
     paragraph_end(&words, at, MOTION_INDENT);
 }
 
-/* Prints the largest energy that the integrator has dissipated, if it is significant relative to
- * the energy of the motion. */
 static void damping_line(FILE *to, const motion_extent *e)
 {
     account so_far = {.largest = 0};
@@ -267,8 +262,6 @@ static void momentum_line(FILE *to, const motion_extent *e)
                      change_of(e, SCENE_LX), e->record[e->first].at.time);
 }
 
-/* Reports each load whose factor at the end of the preceding path differs from its factor at the
- * start of the motion. */
 static void jump_lines(FILE *to, const scene *s, int analysis, double path)
 {
     for (int i = 0; i < s->loads && isfinite(path); i++) {

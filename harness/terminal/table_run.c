@@ -29,8 +29,6 @@ static void failed_series(FILE *to, const sweep *s, int index, int *lines)
                      status_name(last->status), last->reason);
 }
 
-/* Prints the cells without a solution, even if finer meshes have a solution and determine the
- * verdict. */
 static void failed_cells(FILE *to, const sweep *s)
 {
     int lines = 0;
@@ -38,8 +36,6 @@ static void failed_cells(FILE *to, const sweep *s)
         failed_series(to, s, i, &lines);
 }
 
-/* Prints, for each formulation and over all cases, how often its limits agree with exact reference
- * values within their uncertainty. */
 static void coverage_lines(FILE *to, const evaluation *j)
 {
     if (j->coverages > 0)
@@ -65,8 +61,6 @@ static void coverage_lines(FILE *to, const evaluation *j)
     }
 }
 
-/* Prints the published values that are incompatible with limits that agree with the reference
- * value, without repetition. */
 static void contradictions(FILE *to, const sweep *s, const evaluation *j)
 {
     for (int i = 0; i < j->verdicts; i++) {
@@ -109,7 +103,6 @@ void table_run_details(FILE *to, const sweep *s, const evaluation *j)
     coverage_lines(to, j);
 }
 
-/* Prints counts such as "9705 pass; 75 undecided". */
 static void print_kinds(FILE *to, const evaluation *j)
 {
     int parts = 0;
@@ -224,7 +217,6 @@ static int piece_of(const char *name, int limit, int *cut)
     return most < limit - 1 ? most : limit - 1;
 }
 
-/* Divides a name into lines. mark: line above the name, or "". */
 static head head_of(const char *name, int limit, const char *mark)
 {
     head out = {0};
@@ -261,7 +253,6 @@ static int width_with(const overview *o, screen look, overview_block *b, int lim
     return sum;
 }
 
-/* Chooses the widest names that the screen allows, and as many columns as fit, but at least one. */
 static void lay_out(const overview *o, screen look, overview_block *b)
 {
     for (b->to = o->columns; b->to > b->from + 1; b->to--)
@@ -332,8 +323,6 @@ static int width_of_names(const overview *o)
     return width;
 }
 
-/* Lists the cases without a row that have an evaluated run (`evaluated` 1) or no evaluated run (0).
- * what: words after their number. */
 static void print_unshown(FILE *to, const overview *o, int evaluated, const char *what)
 {
     paragraph words;
@@ -350,14 +339,12 @@ static void print_unshown(FILE *to, const overview *o, int evaluated, const char
     paragraph_end(&words, 0, 0);
 }
 
-/* Lists the cases without a row: those that pass in all verdicts, and those without a verdict. */
 static void print_passing(FILE *to, const overview *o)
 {
     print_unshown(to, o, 1, "more pass in all verdicts");
     print_unshown(to, o, 0, "more have no verdict");
 }
 
-/* Appends the text to the line, or to a new line if it does not fit. */
 static void print_entry(FILE *to, int *column, const char *text)
 {
     const int width = paragraph_columns(text);
@@ -369,7 +356,6 @@ static void print_entry(FILE *to, int *column, const char *text)
     *column += width + (*column > 0 ? 3 : 0);
 }
 
-/* Explains the marks that occur, with the worst mark first. */
 static void print_legend(FILE *to, screen look, const overview *o)
 {
     int used[OVERVIEW_MARKS] = {0}, unexpected = 0, column = 0;

@@ -15,7 +15,6 @@ enum { NAME = 28, VALUE = 20, UNIT = 9, DIGITS = 10, INDENT = 2 };
 static const double least_rounding = 1e-11,
                     noise = 1e-4; /* rounding relative to the scale; smaller values count as zero */
 
-/* Prints estimates from analytic models, which are not reference values. */
 static void predictions(FILE *to, const sweep_point *p, const truths *t)
 {
     for (int i = 0; i < p->scene.quantities; i++) {
@@ -34,7 +33,6 @@ static void predictions(FILE *to, const sweep_point *p, const truths *t)
     }
 }
 
-/* Returns 1 if the previous quantity has no value for the same reason. */
 static int is_reported(const solve_result *r, int index)
 {
     return index > 0 && r->quantity[index - 1].status != STATUS_OK &&
@@ -58,7 +56,6 @@ static double uncertainty_of(const scene *s, int index, const solve_result *r)
     return isfinite(of_mesh) ? fmax(of_rounding, of_mesh) : of_rounding;
 }
 
-/* Prints a value with the digits that its uncertainty (uncertainty_of) allows. */
 static void quantity_line(FILE *to, const sweep *s, const truths *t, int index)
 {
     const series *one = &s->series[0];
@@ -99,7 +96,6 @@ static const char *plural(long count)
     return count == 1 ? "" : "s";
 }
 
-/* Writes the number of load steps, and the number of rejected longer steps. */
 static void count_steps(const counters *c, char text[FAULT_TEXT])
 {
     text[0] = '\0';
@@ -122,7 +118,6 @@ static void unfinished_curves(FILE *to, const sweep_point *p, const solve_result
     }
 }
 
-/* Prints bounds of the effect of omitted modes, or of rounding, on curves. */
 static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
 {
     for (int i = 0; i < r->quantities; i++)
@@ -133,7 +128,6 @@ static void bounded_curves(FILE *to, const scene *s, const solve_result *r)
                     r->quantity[i].rounding);
 }
 
-/* Prints that curves of a motion that continues another run lack their first stations. */
 static void continued_curves(FILE *to, const scene *s, const solve_result *r)
 {
     for (int i = 0; i < r->quantities; i++)
@@ -165,7 +159,6 @@ static void combinations(FILE *to, const scene *s)
     paragraph_end(&words, at, INDENT);
 }
 
-/* Prints the initial shapes, and the analyses to which they do not apply. */
 static void imperfections(FILE *to, const scene *s)
 {
     if (s->imperfections == 0)
@@ -208,7 +201,6 @@ static int holding(const scene *s, char words[40])
     return used > 0;
 }
 
-/* Returns 1 if this prescribed motion is the input of a response. */
 static int is_input(const scene *s, int driver)
 {
     for (int i = 0; i < s->quantities; i++)
@@ -256,7 +248,6 @@ static int has_no_inertia(const scene_body *b)
     return none;
 }
 
-/* Returns 1 if the node can rotate and no other node with a body moves with it. */
 static int turns_alone(const scene *s, int node)
 {
     const scene_node *n = &s->node[node];
@@ -353,7 +344,6 @@ void table_solution(FILE *to, const sweep *s, const truths *t)
     table_path_steps(to, &c->solve);
 }
 
-/* Prints the feedback loops that are closed in small vibrations. */
 static void loop_lines(FILE *to, const scene *s)
 {
     for (int i = 0; i < s->loads; i++) {

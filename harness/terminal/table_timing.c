@@ -31,8 +31,7 @@ static double error_on(const sweep *s, const verdict *v, int mesh)
                : NAN;
 }
 
-/* Prints the formulation and the mesh. A long name has a separate line. Returns the width in
- * columns. */
+/* Prints the formulation and the mesh. Returns the width in columns. */
 static int subject(FILE *to, const series *one, int mesh)
 {
     if (fprintf(to, "  %-*s", NAME, one->formulation.key) > 2 + NAME)
@@ -84,7 +83,6 @@ static void mark_shown(const sweep *s, const evaluation *j, int at, int quantity
         done[i] |= s->series[i].point == at && verdict_on(j, i, quantity) != NULL;
 }
 
-/* Prints the errors in a quantity, for all formulations with a reference value for it. */
 static void errors_of(FILE *to, const sweep *s, const evaluation *j, int at, int quantity)
 {
     fprintf(to, "  %-*s%5s %11s   of %s\n", NAME, "formulation", "n", "error",
@@ -128,8 +126,6 @@ static void rows(FILE *to, const sweep *s, const evaluation *j, int at, char don
     }
 }
 
-/* Prints the time per iteration [us] of each part and of the remaining solution, and the time [ms]
- * of the dense reference if it was timed. */
 static void parts_of(FILE *to, const series *one, int mesh)
 {
     const cell_timing *t = &one->timing[mesh];
@@ -149,7 +145,6 @@ static void parts_of(FILE *to, const series *one, int mesh)
                 dense_reference_seconds(&t->dense, iterations) / rounds_least(&t->as_is));
 }
 
-/* Returns 1 if the parts of the iterations were timed separately. */
 static int is_parted(const series *one, int mesh)
 {
     double sum = 0;
@@ -181,7 +176,6 @@ static void parts(FILE *to, const sweep *s, int at)
             parts_of(to, &s->series[i], k);
 }
 
-/* Returns 1 if the point contains a selected cell. */
 static int is_selected(const sweep *s, int at)
 {
     int found = 0;
@@ -229,8 +223,6 @@ static void way(FILE *to, const sweep *s, const reached *r)
         fprintf(to, " (%s: no rank)", reach_unranked(one->formulation.type));
 }
 
-/* Prints the formulations that pass and were faster in every round than the formulation with the
- * lowest counted cost. */
 static void faster_ones(FILE *to, const sweep *s, const reached list[], int count, int ties)
 {
     int reported = 0;
@@ -242,7 +234,6 @@ static void faster_ones(FILE *to, const sweep *s, const reached list[], int coun
         }
 }
 
-/* Prints the formulations that reach the error but do not pass, in groups with the same defect. */
 static void defective_ones(FILE *to, const sweep *s, const reached list[], int count)
 {
     for (int i = 0; i < count; i++) {
@@ -312,7 +303,7 @@ static int has_truth(const sweep *s, const evaluation *j, int at, int quantity)
 }
 
 typedef struct lowest_cost_result {
-    int quantity, reported; /* quantity; 1 if the answer has been printed */
+    int quantity, reported;
     char *text[REACH_LEVELS];
 } lowest_cost_result;
 
@@ -329,8 +320,6 @@ static int same_answer(const lowest_cost_result *a, const lowest_cost_result *b)
     return same;
 }
 
-/* Writes one line for all quantities with the same answers as the first quantity, for example "u_x,
- * F_y within 10, 1 %: collocation, n = 1". Adjacent levels with equal answers are combined. */
 static void write_together(FILE *out, const scene *here, lowest_cost_result a[], int count)
 {
     for (int level = 0, next; level < REACH_LEVELS; level = next) {

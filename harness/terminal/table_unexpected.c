@@ -10,7 +10,6 @@
 
 enum { INDENT = 4 };
 
-/* Prints the options for parameters, such as "--set a=1 --set b=2" for "a=1;b=2". */
 static void print_settings(FILE *to, const char *parameters)
 {
     if (*parameters != '\0')
@@ -22,7 +21,6 @@ static void print_settings(FILE *to, const char *parameters)
             fputc(*parameters, to);
 }
 
-/* Prints the option --element for a formulation that is not built in. */
 static void print_element(FILE *to, const element_type *type)
 {
     const char *element = type != NULL ? formulations_element(type) : NULL;
@@ -32,7 +30,6 @@ static void print_element(FILE *to, const element_type *type)
     words_quote(to, element);
 }
 
-/* Prints the command that shows a series again. quantity: one of its quantities; NULL: all. */
 static void print_command(FILE *to, const sweep_point *p, const series *one, const char *quantity)
 {
     paragraph words;
@@ -69,7 +66,6 @@ static void print_heading(FILE *to, int number, const char *format, ...)
     va_end(arguments);
 }
 
-/* Prints the numbered heading "case (parameters), formulation, more". */
 static void print_subject(FILE *to, int number, const sweep_point *p, const series *one,
                           const char *more)
 {
@@ -158,7 +154,6 @@ static void print_rules(FILE *to, const truths *t, int *number)
     }
 }
 
-/* Prints the reference values whose case, point or quantity does not exist. */
 static void print_unmet(FILE *to, const truths *t, int *number)
 {
     for (int i = 0; i < t->rows; i++) {
@@ -271,7 +266,6 @@ static double without_noise(int points, const double value[], int at)
     return fabs(value[at]) < noise * largest_of(points, value) ? 0 : value[at];
 }
 
-/* Prints a value with the digits that refinement does not change. */
 static void write_value(FILE *to, const quantity_result *r, int at)
 {
     const curve *c = &r->curve;
@@ -285,7 +279,6 @@ static void write_value(FILE *to, const quantity_result *r, int at)
         table_digits(to, COLUMN, value, DIGITS);
 }
 
-/* Prints the curves list[count] over the abscissae of the first curve. */
 static void write_block(FILE *to, const scene *s, const solve_result *r, int count,
                         const int list[])
 {
@@ -330,8 +323,6 @@ void table_curves_values(FILE *to, const scene *s, const solve_result *r)
     }
 }
 
-/* Returns 1 if the curve is the same on all meshes of all formulations, as for a prescribed value.
- * */
 static int is_given(const sweep *s, int quantity, int reference)
 {
     const series *other = &s->series[reference];

@@ -15,7 +15,7 @@ typedef struct verdicts_block {
     int count;
     /* [count] verdicts of the point, which are set to NULL after printing */
     const verdict **verdict;
-    int name; /* width of the column of names; a longer name has a separate line */
+    int name;
     int rules;
     const rule *rule[MOST_RULES]; /* known deviations to which the table refers, with numbers from 1
                                    * */
@@ -32,7 +32,6 @@ static void print_columns(const verdicts_block *b)
             UNCERTAINTY, "+-", ORDER, "order", "error", "verdict");
 }
 
-/* Prints the result of another model for a quantity with a reference value. */
 static void print_other_model(const verdicts_block *b, const truth *other)
 {
     char value[ROUNDING_TEXT];
@@ -40,8 +39,6 @@ static void print_other_model(const verdicts_block *b, const truth *other)
     paragraph_printf(b->to, 0, 4, "another model: %s (%s, %s)", value, other->kind, other->source);
 }
 
-/* Prints a quantity and the reference value that applies to this verdict and to the verdicts below.
- * */
 static void print_quantity(const verdicts_block *b, const scene_quantity *q, const verdict *v)
 {
     const truth *row = v->truth;
@@ -73,7 +70,6 @@ static int number_of_rule(verdicts_block *b, const rule *r)
     return i + 1;
 }
 
-/* Adds the difference of the limit from a reference value that does not determine the verdict. */
 static void add_difference(const verdict *v, char *text, size_t size)
 {
     const truth *other = v->model_truth;
@@ -124,7 +120,6 @@ static void print_verdict(verdicts_block *b, const verdict *v)
         paragraph_printf(b->to, 0, 6, "%s", v->reason);
 }
 
-/* Prints the verdicts on a quantity in groups with the same reference value. */
 static void print_evaluated(verdicts_block *b, int quantity)
 {
     const scene_quantity *q = &b->at->scene.quantity[quantity];
@@ -144,7 +139,6 @@ static void print_evaluated(verdicts_block *b, int quantity)
     }
 }
 
-/* Prints the series without a verdict in groups with the same reason. */
 static void print_skipped(verdicts_block *b)
 {
     for (int i = 0; i < b->count; i++) {
@@ -169,7 +163,6 @@ static void print_skipped(verdicts_block *b)
     }
 }
 
-/* Prints the physics that series omit, in groups of series that omit the same physics. */
 static void print_omissions(const verdicts_block *b)
 {
     const sweep *s = b->s;

@@ -1,4 +1,3 @@
-/* terminal/: tables and lines on a terminal. */
 #ifndef BEAMWORK_TERMINAL_H
 #define BEAMWORK_TERMINAL_H
 
@@ -31,8 +30,6 @@ void paragraph_end(paragraph *, int at, int indent);
  * */
 void paragraph_end_command(paragraph *, int at, int indent);
 
-/* Capabilities of a terminal: colour, and characters beyond ASCII. */
-
 typedef struct screen {
     int colour; /* 1: the terminal supports colours, and NO_COLOR is not set */
     int utf8;   /* 1: the locale has characters outside ASCII */
@@ -55,12 +52,9 @@ void table_theory(FILE *to, const scene *s, const element_type *type);
 /* Prints a line "case (parameters), formulation". */
 void table_series(FILE *to, const sweep *s, int index);
 
-/* Comparison of formulations, with a table for each quantity and a column for each formulation. */
-
 /* Prints the tables for the single point of a sweep. The rows are the meshes, the limit, its
- * uncertainty and its order. Verdicts other than pass follow in words. The cells are errors if
- * there is a reference value, otherwise values. The width is 100 columns; formulations that do not
- * fit follow in further blocks. The last part lists the formulations that did not run. */
+ * uncertainty and its order. Verdicts other than pass follow in words. The width is 100 columns;
+ * formulations that do not fit follow in further blocks. */
 void table_beside(FILE *to, const sweep *s, const truths *t);
 
 /* Prints series over their meshes as text, with their limits. */
@@ -71,9 +65,6 @@ void table_convergence(FILE *to, const sweep *s, const truths *t);
  * crossings and veerings. */
 void table_follow(FILE *to, const char *parameter, const follow_curves *);
 
-/* Overview of a run on one screen: a matrix with a mark for each case and formulation, and the
- * meanings of the marks. */
-
 /* Prints lines of at most PARAGRAPH_WIDTH columns. If there are many cases, passing cases share
  * lines. */
 void table_overview(FILE *to, screen, const overview *);
@@ -83,29 +74,19 @@ void table_overview(FILE *to, screen, const overview *);
 void table_run_details(FILE *to, const sweep *s, const evaluation *j);
 /* Prints the counts. seconds: run time. */
 void table_run(FILE *to, const sweep *s, const evaluation *j, double seconds);
-/* Prints the concluding sentence, or nothing if there is none. */
 void table_run_end(FILE *to, screen, const char *sentence);
 
-/* Prints a run as text: its quantities, matrices and load steps. */
-
 void table_solution(FILE *to, const sweep *s, const truths *t);
-
-/* Times of a benchmark as text: error as a function of run time, and the lowest cost for an
- * error. */
 
 /* Prints the times. every_mesh 1: prints a row for each mesh, and the lowest cost for every
  * quantity; 0: prints only default points and the first quantity. */
 void table_timing(FILE *to, const sweep *s, const evaluation *j, int every_mesh);
-
-/* Unexpected results of a run in full, with commands that show them again. */
 
 /* Prints the formulations that violate the requirements of the interface. They precede all other
  * results. */
 void table_breaches(FILE *to, screen, const evaluation *j);
 /* Prints unexpected results, or nothing if all results are as expected. */
 void table_unexpected(FILE *to, screen, const sweep *s, const evaluation *j, const truths *t);
-
-/* Prints the verdicts of a run as text, with a block for each point. */
 
 void table_verdicts(FILE *to, const sweep *s, const evaluation *j);
 

@@ -17,10 +17,6 @@ void table_digits(FILE *to, int width, double value, int digits);
 /* Prints "case: parameters", with the parameters that differ from their defaults. */
 void table_point(FILE *to, const sweep_point *p);
 
-/* Lowest cost for an error, by counted work, with the times of a benchmark. */
-
-/* Curves as text: values, and differences between meshes and formulations. */
-
 /* Prints curves with a common abscissa in adjacent columns. If there are many points, prints a
  * selection. */
 void table_curves_values(FILE *to, const scene *s, const solve_result *r);
@@ -28,17 +24,12 @@ void table_curves_values(FILE *to, const scene *s, const solve_result *r);
  * the formulation with which the others are compared. */
 void table_curves_errors(FILE *to, const sweep *s);
 
-/* Load steps with their iterations, and matrices of nodes, as text. */
-
-/* Stability of the states of paths, as far as their tangents show it. */
-
 /* Returns the word for a step: "yes", "no", "held" (stable only because of gyroscopic forces), or
  * "?" (unknown). */
 const char *table_stability_word(step_stability);
 /* Prints a line for each path that is not stable everywhere. Returns the number of lines. */
 int table_stability_paths(FILE *to, const scene *s, const solve_result *r);
-/* Prints a paragraph for each formulation with unstable states. The paragraph lists the meshes with
- * such states and the meshes that failed. */
+/* Prints a paragraph for each formulation with unstable states. */
 void table_stability_meshes(FILE *to, const sweep *s);
 
 /* Prints the summaries of motions, or nothing if there are none. Reports loads that jump at the

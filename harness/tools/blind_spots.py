@@ -65,7 +65,6 @@ def planted_values(program, folder, constant):
 
 
 def scale_of(v):
-    """Returns the positive value by which errors are divided."""
     size = abs(v["limit"] if v["truth"] is None else v["truth"])
     return max(size, v["near_zero"] or 0)
 
@@ -152,7 +151,6 @@ class Notice:
 
 
 def notices(v, slopes, rules):
-    """Returns [Notice] of a verdict for both ways and for all constants that change the limit."""
     band, away = band_of(v, rules)
     slack, found = moved_of(v), []
     for constant, slope in slopes.items():
@@ -162,8 +160,7 @@ def notices(v, slopes, rules):
 
 
 def weakest(found, formulations):
-    """Returns the largest of the smallest faults that are detected for each formulation, as a Notice. Returns None if
-    no fault is detected for a formulation."""
+    """Returns the largest of the smallest faults that are detected for each formulation, as a Notice."""
     best = {key: None for key in formulations}
     for one in found:
         key = one.verdict["formulation"]
@@ -175,7 +172,6 @@ def weakest(found, formulations):
 
 
 def digits(size):
-    """Returns a size rounded up to two digits, at least LEAST."""
     if size is None or not math.isfinite(size):
         return ""
     power = math.floor(math.log10(max(size, LEAST))) - 1
@@ -183,7 +179,6 @@ def digits(size):
 
 
 def passes(text):
-    """Returns True if a fault of 0.1 % remains undetected."""
     return not text or float(text) > WANTED
 
 
@@ -216,7 +211,6 @@ def row_of(pair, verdicts, found):
 
 
 def fault_of(formulation, constant, found):
-    """Returns the row of a constant of a formulation, from verdicts only. found: the Notices of the constant."""
     by_verdicts = [one for one in found if one.door == "verdict" and math.isfinite(one.size)]
     best = min(by_verdicts, default=None)
     size, reason = digits(best and best.size), ""
@@ -234,7 +228,6 @@ def fault_of(formulation, constant, found):
 
 
 def tables(verdicts, rules, values):
-    """Returns the rows of the two tables: quantities, and faults."""
     pairs, notes = {}, []
     for v in verdicts:
         pairs.setdefault((v["case"], v["quantity"]), []).append(v)
@@ -262,7 +255,6 @@ def write(path, columns, rows):
 
 
 def read_verdicts(path, results):
-    """Returns the verdicts of a run, each with near_zero of its quantity. results: the HDF5 file of the same run."""
     sizes = {}
     with open(path, encoding="utf-8") as file, h5py.File(results) as stored:
         verdicts = json.load(file)["verdicts"]

@@ -53,7 +53,6 @@ def digits(verdicts):
 
 
 def line(rule, verdicts):
-    """Returns the line of an entry with its verdicts, errors and predictions, and True if its bound is correct."""
     derived, others = (
         max((departure(v) for v in verdicts if v["error"] is not None and (v["predicted"] is None) == free),
             default=None) for free in (False, True)
@@ -85,8 +84,7 @@ def lines(rules, verdicts):
 
 def covered(verdicts):
     """Returns (number of limits whose distance from their prediction is at most three times the uncertainty of the
-    limit plus that of the prediction, number of limits with a prediction) for all verdicts. These numbers justify that
-    agreement is decided by the uncertainties alone."""
+    limit plus that of the prediction, number of limits with a prediction) for all verdicts."""
     told = [v for v in verdicts if v["predicted"] is not None and v["limit"] is not None]
     near = [
         abs(v["limit"] - v["predicted"]) <= SURELY *

@@ -69,13 +69,10 @@ def error_of(limit, exact):
 
 
 class Laboratory:
-    """Runs the program on series of meshes, once for each series."""
-
     def __init__(self, program, deadline):
         self.program, self.deadline, self.kept = program, deadline, {}
 
     def ask(self, case, formulation, parameters, meshes):
-        """Returns ({quantity: record}, '') of a series, or (None, reason)."""
         command = [self.program, "converge", case, "-f", formulation, "-j", "1", "--format", "json"]
         command += ["-n", ",".join(map(str, meshes))] + [w for p in parameters for w in ("-s", p)]
         left = self.deadline - time.monotonic()
@@ -109,7 +106,6 @@ class Laboratory:
         return record["limit"] if sure else math.nan
 
     def exact(self, case, parameters, quantity, record, known):
-        """Returns (value, source) with which a limit is compared. known: reference value of the same scene, or None."""
         if record["truth"] is not None:
             return record["truth"], "truth"
         if known is not None:
@@ -117,7 +113,6 @@ class Laboratory:
         return self.stand_in(case, parameters, quantity), EXACT
 
     def limit(self, case, formulation, parameters, quantity, known):
-        """Returns the limit of a series and its error, or the reason why there is no limit."""
         meshes = OF_MECHANISMS.get(case, MESHES)
         out = {"formulation": formulation, "parameters": ";".join(parameters), "meshes": meshes}
         found, why = self.series(case, formulation, parameters, meshes)
@@ -161,7 +156,6 @@ def rounds(found):
 
 
 def switches(program, case, given):
-    """Returns the features that can be omitted in a case and are not already omitted."""
     listed = subprocess.run([program, "list", case], capture_output=True, text=True, check=False)
     names = re.findall(r"^  (\w+) ", listed.stdout, re.M)
     return [f for f in FEATURES if f in names and all(p.split("=")[0] != f for p in given)]
@@ -187,13 +181,10 @@ def experiments(laboratory, v):
 
 
 def is_gone(error, before):
-    """Returns True if the error has vanished or, if there was no previous value (before: None), if the value is
-    correct."""
     return error is not None and abs(error) <= (RIGHT if before is None else LEFT * abs(before))
 
 
 def study(laboratory, v):
-    """Returns the record of a verdict with its experiments and their remaining errors."""
     done = experiments(laboratory, v)
     before = done[0]["error"] if done[0]["error"] is not None else v["error"]
     for e in done:

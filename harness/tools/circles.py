@@ -68,8 +68,7 @@ FOLDER = re.compile(r"(?:.*/)?((?:elements|cases/format|cases|harness/\w+)/)(?:.
 
 
 def folder(path):
-    """Returns the folder of a source or an object: build/harness/time/step.o belongs to harness/time. The elements
-    count as one folder, and so do the cases, except their format."""
+    """Returns the folder of a source or an object: build/harness/time/step.o belongs to harness/time."""
     found = FOLDER.match(path)
     return found[1] if found else str(pathlib.Path(path).parent)
 
@@ -93,7 +92,6 @@ def between_folders(steps):
 
 
 def tell(what, steps):
-    """Prints the circles formed by the steps {(from, to): reason}. Returns the number of circles."""
     ways = collections.defaultdict(set)
     for one, other in steps:
         ways[one].add(other)

@@ -8,7 +8,6 @@ COMPILED = re.compile(r"\s-c (?P<file>\S+\.c) -o (?P<output>\S+)(\s|$)")
 
 
 def commands(lines, folder):
-    """Returns an entry for each line that compiles a source. The name of a compiler wrapper may precede the compiler."""
     return [{"directory": folder, "command": line.strip(), **found.groupdict()}
             for line in lines if (found := COMPILED.search(line))]
 

@@ -45,7 +45,6 @@ def name_of(key):
 
 
 def measure(program, folder, runs, selection):
-    """Returns the files of `runs` runs of the selection, in which all formulations and variants alternate."""
     variants = [a for v in VARIANTS for a in ("-f", v)]
     for i in range(runs):
         for kind, chosen in (("all", []), ("variants", variants)):
@@ -57,7 +56,6 @@ def measure(program, folder, runs, selection):
 
 
 def read(paths):
-    """Returns the runs with a solution as [{column: value}], each with its shortest time."""
     least = {}
     for path in paths:
         with h5py.File(path) as file:
@@ -165,7 +163,7 @@ def validate(cells, names):
 
 
 def write(path, cells, names, runs):
-    """Writes the table. Its header describes the data of the fit and the accuracy."""
+    """Writes the table."""
     own, generic = validate(cells, names)
     seconds = np.array([c["seconds"] for c in cells])
     cost, time = pairs(cells, own)

@@ -41,7 +41,6 @@ def parameters():
 
 
 def truths(scratch):
-    """Yields the packed reference values of one small case with two known deviations."""
     (scratch / "tables").mkdir()
     for name in ("defaults.csv", "glossary.csv", "accepted.csv", "tables/wagner_torsion.csv",
                  "tables/roll_up.csv"):
@@ -67,7 +66,6 @@ def runs(program, scratch):
 
 
 def scenes():
-    """Yields valid scenes, and scenes with an injected error."""
     for path in sorted((ROOT / "cases/examples").glob("*.yaml")):
         yield path.read_bytes()
     for _, text in bad_scenes():
@@ -86,7 +84,6 @@ def library():
 
 
 def imports():
-    """Yields the number of a form, followed by its text: CSV files of two programs, and the map and columns of others."""
     head = ("# beamwork-import: 1\n# program: other 1.0\n# case: sheet_cantilever; warping=0\n"
             "# axes: x=-y y=x z=z\n# convention: spatial\n")
     rows = ("quantity, unit, elements, unknowns, seconds, x, value, uncertainty\n"

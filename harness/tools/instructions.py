@@ -99,8 +99,7 @@ class Profile:
 
 
 def place(function):
-    """Returns the path of the file of a function relative to the project. Builds in other folders contain the full
-    path."""
+    """Returns the path of the file of a function relative to the project."""
     found = re.search(r"(?:^|/)((?:harness|elements|cases)/.*)", function[0] or "")
     return found[1] if found else ""
 
@@ -149,7 +148,6 @@ def run(program, *arguments):
 
 
 def profiled(program, cell, inside, read=Profile, *more):
-    """Runs the program under callgrind and returns the counts that `read` obtains from the file."""
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "profile")
         run("valgrind", "-q", "--tool=callgrind", f"--callgrind-out-file={path}", *more,

@@ -25,7 +25,6 @@ LEVEL = 1e-4  # error level of the printed lines
 
 
 def motion(program, row, *more):
-    """Returns the record of `beamwork motion` for a row."""
     sets = [word for p in row["parameters"].split(";") if p for word in ("--set", p)]
     command = [program, "motion", row["case"], "-n", row["elements"], *sets, "--format", "json",
                *more]
@@ -46,7 +45,6 @@ def refused(record):
 
 
 def ladder(program, row):
-    """Returns (tables of all integrators, formulations that do not support the motion)."""
     chosen = [word for name in row["formulations"].split() for word in ("-f", name)]
     record = motion(program, row, *chosen, "--time-limit", CELL, "--step", row["steps"],
                     "--tolerance", row["tolerances"])
@@ -57,7 +55,6 @@ def ladder(program, row):
 
 
 def checked(program, row):
-    """Returns the difference between the reference and `explicit` at the same times."""
     found = motion(program, row, "-f", row["check"], "--time-limit", CHECK, "--integrator",
                    "explicit", "--tolerance", EXPLICIT)
     coarse, fine = found["runs"]
@@ -68,7 +65,6 @@ def checked(program, row):
 
 
 def word_of(check):
-    """Returns the outcome of a check in words."""
     if None in check["distances"]:
         return f"not checked: {check['reason']}"
     coarse, fine = check["distances"]

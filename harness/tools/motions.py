@@ -91,7 +91,6 @@ def asked_at(scene, times):
 
 
 def limits(program, case, structure, times, meshes, tolerance):
-    """Returns {name: (value on the finest mesh, limit, uncertainty)}."""
     words = [word for item in structure.split(";") if item for word in ("--set", item)]
     text = _run(program, "scene", case, *words, "--set", f"time={times[-1]}", "--set",
                 f"tolerance={tolerance}")
@@ -139,7 +138,6 @@ def table(program, case, chosen=None):
 
 
 def tables(program, cases, chosen):
-    """Runs several cases at a time. The last cases, which take the longest time, start first."""
     with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as some:
         asked = [some.submit(lambda one: list(table(program, one, chosen)), case)
                  for case in reversed(cases)]

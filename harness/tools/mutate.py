@@ -58,7 +58,6 @@ def tokens(source):
 
 
 def constant(text, index):
-    """Returns another constant, or None if no other constant is useful."""
     value = re.sub(r"[uUlLfF]+$", "", text)
     if value.isdigit():
         other = int(value) - 1 if index and int(value) > 0 else int(value) + 1
@@ -69,8 +68,6 @@ def constant(text, index):
 
 
 class Reader:
-    """Walks through a source and collects edits: (function or table, line, column, old, new)."""
-
     def __init__(self, source):
         self.lines = source.split("\n")
         self.tokens = list(tokens(source))
@@ -103,7 +100,6 @@ class Reader:
         return self.word(at + 1) not in (",", ";", "}", ")")
 
     def declares(self):
-        """Returns True if the statement starts with a type and a name."""
         first = self.statement
         while self.word(first) in ("static", "const", "struct", "unsigned"):
             first += 1
@@ -145,7 +141,6 @@ class Reader:
             text in (")", "]")
 
     def condition(self, at):
-        """Returns the position at which the bracket after an "if" closes on the same line, or None."""
         depth, close = 0, at + 1
         while close < len(self.tokens) and self.tokens[close][2] == self.tokens[at][2]:
             depth += (self.word(close) == "(") - (self.word(close) == ")")
@@ -218,7 +213,6 @@ def listed(*arguments):
 
 
 def sources():
-    """Returns the sources of the library and the program, without tests and tools."""
     every = listed("ls-files", "elements/*.c", "cases/*.c", "harness/*.c")
     return [file for file in every if not re.search("/(test|tools|examples|fuzz)/", file)]
 

@@ -45,7 +45,6 @@ def solve(program, case, parameters, formulation, n, steps):
 
 
 def steps_of(result):
-    """Returns load steps, each with the corrections and residuals of its iterations."""
     out = [{**step, "corrections": [], "residuals": []} for step in result["steps"]]
     for iteration in result["iterations"]:
         out[iteration["step"]]["corrections"].append(iteration["correction"])

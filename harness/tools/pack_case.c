@@ -7,7 +7,6 @@
 
 #include "cases/format/format.h"
 
-/* The nodes of the tree in the order of scene_packed. */
 typedef struct packing {
     const document_node **node;
     int *first;
@@ -22,8 +21,6 @@ static int count_of(const document_node *n)
     return count;
 }
 
-/* Assigns the next positions to the entries of the current node, then to the entries of these
- * entries. */
 static void place(packing *p)
 {
     for (int i = 0; i < p->nodes; i++) {

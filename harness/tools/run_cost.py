@@ -22,7 +22,6 @@ WORK = ("cell", "linear", "buckling", "loaded_buckling", "modal", "load_step", "
         "radau_step", "explicit_step")
 FOLDS = 5
 ROUNDS = 15
-# Relative errors are weighted by cost^0.25. Expensive runs have more weight, but cheap runs also contribute.
 DEAR = 0.75
 LARGE = 0.3  # error of the logarithm above which errors have less weight
 
@@ -86,7 +85,6 @@ def read(path):
 
 
 def columns_of(cells):
-    """Returns times [runs, kinds], elements [runs], names [runs]."""
     return (np.array([c["times"] for c in cells], float),
             np.array([c["elements"] for c in cells], float), np.array([c["name"] for c in cells]))
 
@@ -140,7 +138,6 @@ def validate(cells):
 
 
 def write(path, cells):
-    """Writes the table. Its header states the accuracy."""
     prices, factors = fit(cells)
     cost = np.array([c["cost"] for c in cells])
     said = [(name, *spread(predicted, against)) for name, predicted, against in (

@@ -40,12 +40,10 @@ def commands(body):
 
 
 def fits(line, printed):
-    """Returns True if a printed line matches a line of the page."""
     return re.fullmatch(".*".join(map(re.escape, line.rstrip().split("..."))), printed.rstrip()) is not None
 
 
 def match(expected, printed):
-    """Returns True if the printed lines match those of the page."""
     if not expected:
         return not printed
     if expected[0].strip() == "...":
@@ -54,7 +52,6 @@ def match(expected, printed):
 
 
 def reader_file(page, name):
-    """Returns a file of the reader, as shown on a page."""
     bodies = [body for _, body in BLOCK.findall((DOCS / page).read_text(encoding="utf-8"))]
     body, = (b for b in bodies if CAPTION.match(b) and CAPTION.match(b).group(1) == name)
     return body[CAPTION.match(body).end():]
@@ -91,7 +88,6 @@ def differences(text, program):
 
 
 def differences_in(folder, text):
-    """Returns the differences on a page whose commands run in this folder."""
     wrong = []
     for kind, body in BLOCK.findall(text):
         caption = CAPTION.match(body)
@@ -105,7 +101,6 @@ def differences_in(folder, text):
 
 
 def shown(command, lines):
-    """Returns a command and its output as lines of a console block."""
     return "\n".join(["$ " + command.replace("\n", "\n> "), *lines]) + "\n"
 
 

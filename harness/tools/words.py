@@ -148,7 +148,6 @@ def line_texts(kind):
 
 
 def table_texts(text):
-    """Yields fields of more than one word, except lists of names (a|b)."""
     for number, line in enumerate(text.split("\n"), 1):
         for field in next(csv.reader([line]), ()):
             if "|" not in field:

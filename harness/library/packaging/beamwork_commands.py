@@ -1,4 +1,4 @@
-"""The commands `beamwork` and `beamwork-report` of a wheel. They do not import beamwork, so they start quickly."""
+"""The commands `beamwork` and `beamwork-report` of a wheel."""
 import importlib.util
 import os
 import pathlib

@@ -45,8 +45,6 @@ ENTRY_POINTS = """[console_scripts]
 beamwork = beamwork_commands:main
 beamwork-report = beamwork_commands:report
 """
-# Folders of 'make install' in a wheel. PREFIX and SHAREDIR keep their usual values, because they are compiled into
-# the program.
 PLACES = {"BINDIR": "/beamwork/bin", "LIBDIR": "/beamwork/lib", "INCLUDEDIR": "/beamwork/include", "PYTHONDIR": ""}
 OMITTED = ("lib/libbeamwork.a", "lib/libbeamwork.so", "lib/pkgconfig", "lib/cmake", "bin/beamwork-report",
            "share/bash-completion", "share/zsh", "share/beamwork/installed")
@@ -57,7 +55,6 @@ def metadata():
 
 
 def installed(folder):
-    """Builds the program and the library, and installs them below the folder."""
     make = ["make", "--no-print-directory", "install", f"DESTDIR={folder}", "PREFIX=/usr/local",
             *(f"{name}={place}" for name, place in PLACES.items())]
     clean = {name: value for name, value in os.environ.items() if not name.startswith(("BEAMWORK", "MAKE"))}
@@ -73,7 +70,7 @@ def installed(folder):
 
 
 def packed(files, folder, tag):
-    """Writes a wheel with the files {name: (bytes, True for a program)} into the folder. Returns its name."""
+    """Writes a wheel with the files {name: (bytes, True for a program)} into the folder."""
     info = f"{NAME}.dist-info"
     for name, text in (("METADATA", metadata()), ("entry_points.txt", ENTRY_POINTS),
                        ("licenses/LICENSE", (ROOT / "LICENSE").read_text("utf-8")),
@@ -130,7 +127,6 @@ def build_sdist(sdist_directory, config_settings=None):  # pylint: disable=unuse
 
 
 def main(folder):
-    """Builds both into the folder; auditwheel adds the libraries if it is installed."""
     shutil.rmtree(folder, ignore_errors=True)
     os.makedirs(folder)
     print(os.path.join(folder, build_sdist(folder)))

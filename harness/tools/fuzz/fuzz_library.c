@@ -30,7 +30,6 @@ static int is_json(const char *text)
     return root != NULL;
 }
 
-/* Checks the outcome of a call. made: object that the call should have returned. */
 static void must_report(bw_status got, const void *made, char *why)
 {
     fuzz_must((got == BW_OK) == (why == NULL), "only a failure has a reason");
@@ -55,7 +54,6 @@ static bw_scene *own_scene(void)
     return s;
 }
 
-/* Solves the scene with any formulation and options, because the scene is small and linear. */
 static void try_solve(const char *formulation_name, const char *options)
 {
     char *why = NULL, *json = NULL;
@@ -89,8 +87,6 @@ static void try_set(const char *assignment)
     bw_scene_free(s);
 }
 
-/* Checks that the call is rejected before anything is run, because the selection matches
- * nothing. */
 static void try_converge(const char *formulations, const char *meshes)
 {
     char *why = NULL, *json = NULL;

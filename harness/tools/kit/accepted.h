@@ -1,6 +1,4 @@
-/* Formulations that the project has accepted. Tests compare their results with reference values.
- * Requirements on new formulations are tested for all formulations
- * (harness/model/test/kinds_test.c, harness/analysis/test/invariants_test.c). */
+/* Formulations that the project has accepted. */
 #ifndef BEAMWORK_TEST_ACCEPTED_H
 #define BEAMWORK_TEST_ACCEPTED_H
 

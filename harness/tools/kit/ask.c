@@ -16,8 +16,6 @@ int ask_offered(const scene *s, const element_type *type)
     return !missing_words(s, type, words, sizeof words);
 }
 
-/* Returns the outcome of a question. The declaration of the type decides if the physics is
- * supported. A rejection by the type does not. */
 static ask_outcome outcome_of(const scene *s, const element_type *type, status outcome, int all)
 {
     if (!ask_offered(s, type))
@@ -27,7 +25,6 @@ static ask_outcome outcome_of(const scene *s, const element_type *type, status o
     return outcome == STATUS_OK && all ? ASK_ANSWERED : ASK_FAILED;
 }
 
-/* Copies a curve, unless it belongs to a continuation, which chooses its points. */
 static void copy_curve(const scene *s, const curve *c, answer *out, int i)
 {
     const int continued = s->analysis[s->quantity[i].analysis].kind == SCENE_CONTINUATION;

@@ -1,6 +1,4 @@
-/* Questions to formulations and their outcomes, for tests with all formulations. A question is a
- * case or a scene on a mesh. Its answer states if the formulation supports the physics of the
- * scene. A tally of the answers fails a test that would otherwise have checked nothing. */
+/* Questions to formulations and their outcomes, for tests with all formulations. */
 #ifndef BEAMWORK_TEST_ASK_H
 #define BEAMWORK_TEST_ASK_H
 
@@ -11,13 +9,12 @@
 enum { ASK_QUANTITIES = 256, ASK_POINTS = 16 };
 
 typedef enum ask_outcome {
-    ASK_ANSWERED,    /* the question was solved and the values were found */
-    ASK_NOT_OFFERED, /* the scene requires features that the type does not declare (missing_words)
-                      */
+    ASK_ANSWERED,
+    ASK_NOT_OFFERED,
     /* the edit of the question is not defined for this scene, regardless of the formulation */
     ASK_NOT_POSED,
-    ASK_REFUSED, /* supported according to the declaration, but rejected */
-    ASK_FAILED,  /* supported, but without a value */
+    ASK_REFUSED,
+    ASK_FAILED,
     ASK_OUTCOMES
 } ask_outcome;
 
@@ -51,7 +48,6 @@ typedef struct question {
 /* Returns 1 if the type declares everything that the scene requires. The type must not reject such
  * a scene. */
 int ask_offered(const scene *, const element_type *);
-/* Asks a question with the default options of the formulation, and fills the answer. */
 void ask(const question *, answer *);
 /* Asks a question with a scene of the test and given options (NULL: the defaults). */
 void ask_scene(const scene *, const element_type *, const double option[], int elements, answer *);

@@ -20,8 +20,7 @@ signal.signal(signal.SIGINT, signal.default_int_handler)
 
 
 def run(*arguments, program=PROGRAM, **options):
-    """Returns the finished process with its output as text. options: those of subprocess.run. A nonzero status does not
-    raise an exception."""
+    """Returns the finished process with its output as text. options: those of subprocess.run."""
     return subprocess.run([program, *map(str, arguments)], text=True, check=False,
                           **{"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, **options})
 
@@ -31,14 +30,12 @@ def environment(**changes):
 
 
 def report(results, folder, *options):
-    """Writes the report of results to the folder, in the same way as `make report`."""
     return run("-B", "-m", "reports", results, TRUTHS, *options, "-o", folder,
                program=sys.executable, cwd=ROOT)
 
 
 def drawn(folder, *selection, options=()):
-    """Returns the report of a run of verify, which is written with these options. The results of the run are in
-    folder/results.h5."""
+    """Returns the report of a run of verify, which is written with these options."""
     results, site = folder / "results.h5", folder / "site"
     run("verify", *selection, "-o", results)
     done = report(results, site, *options)
@@ -70,7 +67,6 @@ class ProgramTest(unittest.TestCase):
 
     @classmethod
     def class_folder(cls):
-        """Returns a folder for all tests of the class, for setUpClass."""
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         return pathlib.Path(folder.name)
@@ -84,7 +80,6 @@ class ProgramTest(unittest.TestCase):
         return json.loads(self.answered(*arguments, "--format", "json", **options).stdout)
 
     def values_of(self, scene, *options):
-        """Returns the values of the quantities of a scene, which is given as text."""
         path = self.folder / "scene.yaml"
         path.write_text(scene, encoding="utf-8")
         return values(self.record("solve", "--scene", path, *options))

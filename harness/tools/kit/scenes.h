@@ -1,4 +1,3 @@
-/* Scenes for tests: scene files, and structures to which several tests apply different loads. */
 #ifndef BEAMWORK_TEST_SCENES_H
 #define BEAMWORK_TEST_SCENES_H
 
@@ -23,7 +22,6 @@ void scenes_solve(const char *path, const char *formulation, int elements, cell_
                   const char *values, ...) __attribute__((format(printf, 5, 6)));
 /* Returns the index of the entry with this name in the file. */
 int scenes_find(const scene *, scene_list, const char *name);
-/* Names of the integrators in scene files: "alpha", ... */
 extern const char *const scenes_integrator[SCENE_SCHEMES];
 
 /* A straight section given by its stiffnesses [N, N, N m^2, N m^2] and masses [kg/m, kg m]. */

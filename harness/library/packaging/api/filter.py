@@ -12,7 +12,6 @@ FEATURE = re.compile(r'\{(FEATURE_\w+),\s*"([^"]+)",\s*"([^"]+)"\}')
 
 
 def escaped(text):
-    """Escapes text that doxygen would interpret as commands or tags, except inside `code`."""
     parts = text.split("`")
     parts[::2] = [re.sub(r"([\\<>@#&]|--)", r"\\\1", part) for part in parts[::2]]
     return "`".join(parts)

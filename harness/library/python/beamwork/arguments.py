@@ -11,7 +11,6 @@ from .errors import Refused
 
 
 def utf8(value: Any, what: str) -> bytes | None:
-    """Returns the bytes of a text or path, or None for None."""
     if value is None:
         return None
     if isinstance(value, os.PathLike):
@@ -33,12 +32,10 @@ def required(value: Any, what: str) -> bytes:
 
 
 def names(values: Iterable[Any], what: str) -> bytes | None:
-    """Returns the names of formulations, separated by blanks, or None if there are none."""
     return b" ".join(required(v, what) for v in values) if values else None
 
 
 def whole(value: Any, what: str) -> int:
-    """Returns a whole number. Raises an error if it is less than 1."""
     try:
         number = operator.index(value)
     except TypeError:
@@ -49,7 +46,6 @@ def whole(value: Any, what: str) -> int:
 
 
 def whole_list(values: Any, what: str) -> bytes | None:
-    """Returns whole numbers, separated by commas, or None if the argument is None."""
     if values is None:
         return None
     try:
@@ -62,7 +58,6 @@ def whole_list(values: Any, what: str) -> bytes | None:
 
 
 def options(values: dict[str, Any]) -> bytes | None:
-    """Returns the options as JSON, or None if there are none."""
     try:
         return json.dumps(values, allow_nan=False,
                           default=lambda v: v.item()).encode() if values else None

@@ -14,7 +14,6 @@ def escape(value: object) -> str:
 
 
 def significant(value: float | None, digits: int) -> str:
-    """Returns a number with the given number of digits, or an empty string if it is None or not finite."""
     if value is None or not math.isfinite(value):
         return ""
     return f"{value:.{max(1, digits)}g}"
@@ -70,8 +69,6 @@ def folded(title: str, content: str) -> str:
 
 
 def scene(about: dict[str, Any], text: str) -> str:
-    """Returns the HTML of a scene. Its summary and parameters are visible; its quantities and its file can be
-    unfolded."""
     parameters = [(p["name"], plain(p["value"]), of_unit(p["unit"]), p["summary"])
                   for p in about["parameters"]]
     quantities = [(q["name"], of_unit(q["unit"]), q["meaning"]) for q in about["quantities"]]
@@ -120,7 +117,6 @@ def convergence(shown: Any) -> str:
 
 
 def outcome(shown: Any) -> str:
-    """Returns PASS or FAIL, or states that there are no verdicts, with the counts."""
     counted = ", ".join(f"{n} {word}" for word, n in shown.counts.items() if n)
     word = {"pass": "PASS", "fail": "FAIL"}.get(shown.outcome, shown.outcome)
     return f"{word}: {counted}"

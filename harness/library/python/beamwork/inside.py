@@ -12,7 +12,6 @@ from typing import Any
 
 
 def _element() -> Any:
-    """Returns the module beamwork_element, which is next to this package or in elements/examples of the clone."""
     import importlib  # pylint: disable=import-outside-toplevel
     try:
         return importlib.import_module("beamwork_element")

@@ -16,7 +16,6 @@ FILE = "libbeamwork.so.0"
 
 
 def places() -> list[pathlib.Path]:
-    """Returns the paths at which the library is searched for, in this order."""
     asked = os.environ.get("BEAMWORK_LIBRARY")
     if asked:
         return [pathlib.Path(asked)]
@@ -156,7 +155,7 @@ def stoppable(work: Callable[[dict[str, Any]], _Found], options: dict[str, Any])
     if "stop" in options or threading.current_thread() is not threading.main_thread():
         return work(options)
     outcome: list[tuple[_Found | None, BaseException | None]] = []
-    done = threading.Event()  # Thread.join treats a thread as ended if the wait is interrupted
+    done = threading.Event()
     readable, writable = os.pipe()
 
     def run() -> None:

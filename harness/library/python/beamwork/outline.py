@@ -27,7 +27,6 @@ def _integral(mesh: Any, f: Callable[[Any, Any], Any]) -> float:
 
 
 def _meshed(shape: Any, parts: int) -> Any:
-    """Returns a section of sectionproperties with its mesh. parts: minimum number of triangles."""
     from sectionproperties.analysis import Section  # pylint: disable=import-outside-toplevel
     from sectionproperties.pre import Geometry  # pylint: disable=import-outside-toplevel
     geometry = Geometry(shape)

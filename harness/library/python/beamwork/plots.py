@@ -9,7 +9,6 @@ from .display import of_unit
 
 
 def _panels(count: int, **options: Any) -> tuple[Any, list[Any]]:
-    """Returns a figure with `count` axes, at most three in a row, and these axes."""
     try:
         from matplotlib.figure import Figure  # pylint: disable=import-outside-toplevel
     except ImportError:

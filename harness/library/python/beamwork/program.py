@@ -70,8 +70,7 @@ def _words(name: str, value: Any) -> list[str]:
 
 
 class _Told:
-    """Standard error of the program: progress is passed to the function, and other lines are kept. If a
-    function is given, standard error is a pseudo-terminal, because the program writes its progress only to a terminal."""
+    """Standard error of the program: progress is passed to the function, and other lines are kept."""
 
     def __init__(self, progress: Progress | None) -> None:
         self.progress = progress
@@ -114,7 +113,7 @@ def _failure(code: int, output: str, lines: list[str]) -> Error:
 
 
 def _end(process: subprocess.Popen[str]) -> None:
-    """Ends the program, which first writes the verdicts that are complete. After five seconds, ends it without them."""
+    """Ends the program, which first writes the verdicts that are complete."""
     process.send_signal(signal.SIGINT)
     try:
         process.communicate(timeout=5)
@@ -157,8 +156,7 @@ def run(verb: str, *arguments: object, formulations: Iterable[str] = (),
 
 
 class Given:
-    """A case in the form of program arguments. This is a context manager, because it writes a scene built in Python to
-    a temporary file."""
+    """A case in the form of program arguments."""
 
     def __init__(self, case: Case) -> None:
         self.case = case

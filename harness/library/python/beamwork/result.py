@@ -52,8 +52,6 @@ class _Errors(dict[str, float]):
 
 
 class _Memory:
-    """Memory of a result, for numpy arrays. The result exists as long as an array uses it."""
-
     def __init__(self, owner: Owned, array: Any, *shape: int) -> None:
         self.owner = owner
         size = ctypes.sizeof(array._type_)

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from .program import Progress
 
 
-# Options of verify in the library. With other options or with a progress function, the program computes the verdicts.
+# Options of verify in the library.
 _OF_LIBRARY = {"tolerance", "not_worse_than", "jobs", "time_limit", "refine", "shapes", "stop"}
 
 
@@ -125,7 +125,6 @@ class Scene:
             raise AttributeError(f"a scene has no {key!r}; it has: {', '.join(ENTRIES)}")
 
     def _ready(self) -> Owned:
-        """Returns the library's scene with its current entries and with all values that were set."""
         lines: Sequence[str] = ()
         text = ""
         if self._make is None:

@@ -46,7 +46,6 @@ class Model:
         self.outputs = chosen(outputs, values, "quantity")
 
     def evaluate(self, values: Any, config: dict[str, Any]) -> list[float]:
-        """Returns the outputs for one vector of inputs. Raises Invalid."""
         if not (isinstance(values, list) and len(values) == 1 and isinstance(values[0], list)
                 and len(values[0]) == len(self.inputs)):
             raise Invalid("InvalidInput", f"input: one vector of {len(self.inputs)} numbers is expected: "
@@ -71,7 +70,6 @@ class Model:
         return found
 
     def answer(self, path: str, request: dict[str, Any]) -> dict[str, Any]:
-        """Returns the response to a request. Raises Invalid."""
         if path == "/Info":
             return {"protocolVersion": 1.0, "models": [MODEL]}
         if request.get("name") != MODEL:
@@ -88,7 +86,6 @@ class Model:
 
 
 def chosen(names: list[str] | None, known: list[str], kind: str) -> list[str]:
-    """Returns the names, or all known names if no names are given. Raises ValueError for an unknown name."""
     for name in names or ():
         if name not in known:
             raise ValueError(f"{kind} '{name}' does not exist; the scene has: {', '.join(known) or 'none'}")

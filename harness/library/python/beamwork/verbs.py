@@ -60,7 +60,6 @@ def verified_by_program(case: Case, formulations: tuple[str, ...], **options: An
 
 def converged_by_program(case: Case, formulations: tuple[str, ...], meshes: Any, progress: Progress,
                          options: dict[str, Any]) -> Convergence:
-    """Returns the convergence of the program, which reports its progress."""
     text, _ = _asked("converge", case, formulations or ("all",), elements=meshes, progress=progress,
                      format="json", **options)
     return Convergence(json.loads(text))

@@ -26,7 +26,6 @@ def number(value: float, where: str) -> str:
 
 
 def quoted(text: str, where: str) -> str:
-    """Returns the text as a plain word, or in quotation marks."""
     if not text.isprintable():
         raise Refused(f"{where}: {text[:40]!r} contains a non-printing character; write it in "
                       "one line, without tabs")

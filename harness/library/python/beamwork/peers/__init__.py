@@ -26,7 +26,6 @@ def names() -> list[str]:
 
 
 def load(name: str) -> Any:
-    """Returns the module of a peer."""
     if name not in names():
         raise Refused(f"unknown peer '{name}'; the peers are {', '.join(names())}")
     return importlib.import_module(f"{__name__}.{name}")

@@ -47,7 +47,6 @@ def _list() -> None:
 
 
 def _scene(given: argparse.Namespace) -> tuple[dict[str, Any], list[str], dict[str, Any]]:
-    """Returns the scene as data, and the case as arguments and options of the program."""
     case = [given.case] if given.case else []
     options: dict[str, Any] = {"scene": given.scene} if given.scene else {}
     values: dict[str, Any] = {"set": dict(word.split("=", 1) for word in given.set)} if given.set else {}

@@ -240,18 +240,15 @@ class Scene:
         return held
 
     def load_factor(self, load: Load, path: float) -> float:
-        """Returns the factor of a load at a path parameter."""
         if "factor" in load.raw:
             return interpolated(load.raw["path"], load.raw["factor"], path)
         return path
 
     def motion_value(self, name: str, path: float) -> float:
-        """Returns the value of a prescribed motion at a path parameter."""
         motion = self.motions[name]
         return interpolated(motion["path"], motion["value"], path)
 
     def length(self) -> float:
-        """Returns the length of the longest member."""
         return max(m.length for m in self.members.values())
 
     def mesh(self, n: int, order: int = 1) -> Mesh:
@@ -283,7 +280,6 @@ class Scene:
         return Mesh(tuple(nodes), tuple(elements), numbers)
 
     def _breaks(self, member: Member) -> list[float]:
-        """Returns the ends of the pieces of a member, as fractions of its length."""
         at = {float(load.raw[key]) for load in self.loads if load.member == member.name
               for key in ("where", "from", "to") if key in load.raw}
         out = [0.0]
@@ -321,7 +317,6 @@ def unit(v: Vector) -> list[float]:
 
 
 def rotation(v: Vector) -> list[list[float]]:
-    """Returns the matrix of a rotation vector."""
     angle = math.sqrt(sum(x * x for x in v))
     if angle == 0:
         return [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]]
@@ -349,7 +344,6 @@ def rotation_vector(R: Matrix) -> list[float]:
 
 
 def triad(begin: Vector, end: Vector, frames: Sequence[Matrix]) -> list[list[float]]:
-    """Returns columns x along the chord, and y near the mean of the y axes of the frames."""
     x = unit([b - a for a, b in zip(begin, end)])
     y = [frames[0][i][1] + frames[-1][i][1] for i in range(3)]
     along = sum(a * b for a, b in zip(x, y))

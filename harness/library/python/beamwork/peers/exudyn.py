@@ -44,14 +44,13 @@ class _Steps(Model):
         self.mbs = self.container.AddSystem()
         self.ground = self.add("NodePointGround", referenceCoordinates=[0, 0, 0])
         self.loads: list[tuple[Load, int, list[float]]] = []
-        self.held: dict[str, list[tuple[int, list[int]]]] = {}  # constraints of a node of the scene with their components
+        self.held: dict[str, list[tuple[int, list[int]]]] = {}
         self.driven: list[tuple[str, int]] = []
         self.unknowns = 0
-        self.node_at: dict[int, int] = {}  # a node of Exudyn for each node of the mesh
+        self.node_at: dict[int, int] = {}
         self.base = ""  # the analysis whose last state the model is in
 
     def add(self, kind: str, **values: Any) -> int:
-        """Adds a node, marker, object or load."""
         item = getattr(self.items, kind)(**values)
         for word in ("Node", "Marker", "Load"):
             if kind.startswith(word):
@@ -76,7 +75,6 @@ class _Steps(Model):
                          f"GA = {_RIGID:g} EI/L^2; modes: LAPACK, with the matrices of the static solver")
 
     def constrain(self, name: str, node: int, coordinate: int, component: int, motion: str = "") -> None:
-        """Fixes or drives a coordinate of a node."""
         zero = self.add("MarkerNodeCoordinate", nodeNumber=self.ground, coordinate=0)
         marker = self.add("MarkerNodeCoordinate", nodeNumber=node, coordinate=coordinate)
         fixed = self.add("CoordinateConstraint", markerNumbers=[zero, marker])
@@ -94,7 +92,6 @@ class _Steps(Model):
             self.loads.append((load, number, vector))
 
     def frame_of(self, name: str) -> Matrix:
-        """Returns the axes of a node of the scene before it moves."""
         del name
         return rotation([0, 0, 0])
 
@@ -106,7 +103,6 @@ class _Steps(Model):
             self.mbs.SetObjectParameter(constraint, "offset", self.scene.motion_value(motion, path))
 
     def _step(self, path: float) -> bool:
-        """Solves at the path parameter from the current state. If it fails, restores the state."""
         data, current, initial = self.mbs.systemData, self.exu.ConfigurationType.Current, self.exu.ConfigurationType.Initial
         before = data.GetODE2Coordinates(configuration=current)
         data.SetODE2Coordinates(before, configuration=initial)
@@ -143,7 +139,6 @@ class _Steps(Model):
         return Answer(states, iterations=iterations)
 
     def _return_to(self, analysis: Analysis) -> None:
-        """Makes the state about which the analysis is the initial one."""
         if analysis.about is not None and analysis.about != self.base:
             raise Refused(f"about: {analysis.about} is not the last static analysis before {analysis.name}")
         data, types = self.mbs.systemData, self.exu.ConfigurationType
@@ -154,7 +149,6 @@ class _Steps(Model):
         data.SetODE2Coordinates(state, configuration=types.Initial)
 
     def rotations(self) -> list[Matrix]:
-        """Returns the rotation matrices of the nodes of the scene."""
         raise NotImplementedError
 
     def state(self) -> State:
@@ -162,7 +156,6 @@ class _Steps(Model):
 
 
 def _plane(scene: Scene) -> None:
-    """Checks that everything is in the xy plane."""
     for member in scene.members.values():
         if abs(member.start[2]) > 0 or abs(member.axes[2][0]) > 1e-12 or member.curvature[0] != 0 or min(
                 abs(member.axes[2][k]) for k in (1, 2)) > 1e-12:
@@ -173,7 +166,6 @@ def _plane(scene: Scene) -> None:
 
 
 def between(P: Matrix, Q: Matrix) -> float:
-    """Returns the angle between two rotations."""
     return math.hypot(*rotation_vector(product(transposed(P), Q)))
 
 

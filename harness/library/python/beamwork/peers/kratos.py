@@ -329,8 +329,6 @@ class Frame(Model):
         return out
 
     def _inverse(self, part: Any, node: str) -> Any:
-        """Returns the inverse of the tangent at the node, with the driven components of the node
-        free."""
         import numpy as np
 
         number = self.mesh.node_of[node]

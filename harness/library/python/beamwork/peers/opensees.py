@@ -82,7 +82,6 @@ class Corotational(Model):
         ops.algorithm("Newton")
 
     def _series(self, tag: int, raw: Any, key: str) -> None:
-        """Adds a pattern whose series is the path parameter, or the values of a motion or factors of a load."""
         if key in raw:
             self.ops.timeSeries("Path", tag, "-time", *raw["path"], "-values", *raw[key], "-useLast")
         else:
@@ -228,7 +227,6 @@ class Corotational(Model):
         return Answer(frequencies=found, families=families(self.mesh, found, list(shapes)), iterations=1)
 
     def _add_inertia(self) -> None:
-        """Adds to the nodes the rotary inertia that the elements lack."""
         if self.name == "ElasticTimoshenkoBeam":
             for s in self.scene.sections.values():
                 own = [s.rho_A * EI / s.EA for EI in (s.EIy, s.EIz)]

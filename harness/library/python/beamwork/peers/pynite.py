@@ -28,7 +28,7 @@ def _angle(member: Any, element: MeshElement) -> float:
 
 
 class Frame(Model):
-    """The model. Every load has the factor 1."""
+    """The model."""
     settings = "analyze_linear, sparse solver"
 
     def __init__(self, scene: Scene, mesh: Mesh) -> None:

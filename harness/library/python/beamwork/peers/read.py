@@ -57,7 +57,6 @@ def _quantity(name: str, entry: Mapping[str, Any]) -> Quantity:
 
 
 def scene_of(raw: Mapping[str, Any]) -> Scene:
-    """Returns the scene that `beamwork scene --format json` wrote."""
     file, physics = raw["scene"], frozenset(raw["physics"])
     sections = {name: _section(name, constants, physics) for name, constants in zip(file["sections"], raw["sections"])}
     members = {}

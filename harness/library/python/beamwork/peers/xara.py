@@ -86,7 +86,6 @@ def _unwrapped(vector: Any, last: Any) -> Any:
 
 
 def _rotation_vector(quaternion: Any) -> Any:
-    """Returns the rotation vector of a quaternion (x, y, z, w)."""
     import numpy as np
 
     q = np.array(quaternion)
@@ -134,7 +133,6 @@ class Frame(Model):
         return 1 if self.element == "force" or self._planar() else math.ceil(8 / stations)
 
     def _planar(self) -> bool:
-        """Returns True if the scene lies and moves in one coordinate plane."""
         for i in range(3):
             inside = {"r" + "xyz"[i]} | {"u" + "xyz"[k] for k in range(3) if k != i}
             if (
