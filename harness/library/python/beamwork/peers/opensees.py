@@ -3,6 +3,7 @@ from __future__ import annotations
 
 import importlib.metadata
 import math
+import sys
 from typing import Any
 
 from ._modes import diagonal_inertia, families, require_plain_mass, rigid_motions, spectrum
@@ -11,8 +12,9 @@ from .data import (COMPONENTS, Analysis, Answer, Element, Failed, LoadSteps, Mes
 
 NAME, PROGRAM, LICENCE = "opensees", "OpenSees", "free for research and internal use; no commercial redistribution"
 HOMEPAGE = "https://openseespydoc.readthedocs.io"
-REQUIRES = ("openseespy==3.7.1.2", )
-_ANALYSES, _MASS = frozenset({"linear", "static", "compliance", "modal"}), frozenset({"mass", "rotary inertia"})
+REQUIRES = ('openseespy==3.8.0.0; python_version >= "3.12"', 'openseespy==3.7.1.2; python_version < "3.12"')
+_STATICS, _MASS = frozenset({"linear", "static", "compliance"}), frozenset({"mass", "rotary inertia"})
+_ANALYSES = _STATICS | {"modal"}
 _LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, frozenset({"modal.about", "plane"})
 _SHEAR = _LARGE | {"shear"}
 ELEMENTS = {
@@ -20,13 +22,20 @@ ELEMENTS = {
     "elasticBeamColumn": Element("Euler-Bernoulli, corotational", _LARGE, _ANALYSES, keys=_KEYS),
     "forceBeamColumn": Element("force-based with shear, 3 Lobatto points, corotational; lumped mass", _SHEAR, _ANALYSES,
                                keys=_KEYS),
+    "forceBeamColumnCBDI": Element("force-based with second-order moments inside the element (CBDI), 5 Lobatto points, corotational;"
+                                   " linear analyses by forceBeamColumn", _LARGE, _STATICS, keys=_KEYS),
+    "forceBeamColumnCSBDI": Element("forceBeamColumnCBDI with shear (CSBDI)", _SHEAR, _STATICS, keys=_KEYS),
     "ElasticTimoshenkoBeam": Element("Timoshenko, linear", _MASS | {"shear"}, frozenset({"linear", "modal"}), keys=frozenset({"plane"})),
 }
+_RULES = {"forceBeamColumn": ("Lobatto", 3), "forceBeamColumnCBDI": ("Lobatto", 5), "forceBeamColumnCSBDI": ("Lobatto", 5)}
 _TURNS = 1e-3  # [rad] larger rotations in space are not sums of increments
 
 
 def version() -> str:
-    return importlib.metadata.version("openseespy")
+    """Returns the version of the package with the program, which may be newer than that of the package of its interface."""
+    program = {"win32": "openseespywin", "darwin": "openseespymac"}.get(sys.platform, "openseespylinux")
+    importlib.metadata.version("openseespy")
+    return importlib.metadata.version(program)
 
 
 def _shear_modulus(section: Section) -> float:
@@ -45,10 +54,12 @@ class Corotational(Model):
         self.ops, self.scene, self.name, self.mesh = ops, scene, name, mesh
         self.settings = (f"Newton, NormDispIncr {1e-9 * (1 + scene.length()):.1e}, adaptive load steps; modes: LAPACK, with the "
                          "matrices of GimmeMCK")
-        self._build()
+        self._build({a.kind for a in scene.analyses.values()} == {"linear"})
 
-    def _build(self) -> None:
-        ops, scene, name, mesh = self.ops, self.scene, self.name, self.mesh
+    def _build(self, linear: bool = False) -> None:
+        """linear: with the linear transformation, and with elements without second-order moments."""
+        ops, scene, mesh, self.linear = self.ops, self.scene, self.mesh, linear
+        name = "forceBeamColumn" if linear and self.name.startswith("forceBeamColumn") else self.name
         ops.wipe()
         ops.model("basic", "-ndm", 3, "-ndf", 6)
         for node in mesh.nodes:
@@ -57,13 +68,13 @@ class Corotational(Model):
             E, G = section.raw["E"], section.raw["G"]
             shear = [min(GA / (G * section.EA / E), 1e4) for GA in section.GA]
             ops.section("Elastic", i, E, section.EA / E, section.EIz / E, section.EIy / E, G, section.GIt / G,
-                        *(shear if name == "forceBeamColumn" else ()))
-            rule, points = ("Lobatto", 3) if name == "forceBeamColumn" else ("Legendre", 2)
+                        *(shear if "shear" in ELEMENTS[self.name].offers else ()))
+            rule, points = _RULES.get(name, ("Legendre", 2))
             ops.beamIntegration(rule, i, i, points)
         self.base = ""  # the analysis whose last state the model is in
         tags = {section: i for i, section in enumerate(scene.sections, 1)}
         for i, element in enumerate(mesh.elements, 1):
-            ops.geomTransf("Corotational", i, *transposed(element.R)[2])
+            ops.geomTransf("Linear" if linear else "Corotational", i, *transposed(element.R)[2])
             s = element.member.section
             E, G = s.raw["E"], _shear_modulus(s)
             constants: tuple[Any, ...] = (i, tags[s.name])
@@ -71,7 +82,7 @@ class Corotational(Model):
                 constants = (s.EA / E, E, G, s.GIt / G, s.EIy / E, s.EIz / E, i)
             elif name == "ElasticTimoshenkoBeam":
                 constants = (E, G, s.EA / E, s.GIt / G, s.EIy / E, s.EIz / E, *(min(k / G, 1e4 * s.EA / E) for k in s.GA), i)
-            ops.element(name, i, *element.nodes, *constants, "-mass", s.rho_A, *(["-cMass"] if name != "forceBeamColumn" else []))
+            ops.element(name, i, *element.nodes, *constants, "-mass", s.rho_A, *(["-cMass"] if name not in _RULES else []))
         self._add_supports()
         length = scene.length()
         self.unknowns = 6 * len(mesh.nodes) - self.held
@@ -117,8 +128,8 @@ class Corotational(Model):
             return self._modal(analysis)
         if analysis.kind == "compliance":
             return Answer([State(compliance=self._compliance(analysis))], iterations=1)
-        if self.base:
-            self._build()
+        if self.base or self.linear != (analysis.kind == "linear"):
+            self._build(analysis.kind == "linear")
         if analysis.kind == "linear":
             self.ops.algorithm("Linear")
         stations = analysis.stations or (1.0, )

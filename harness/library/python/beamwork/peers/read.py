@@ -97,11 +97,12 @@ def refusal(scene: Scene, element: Element, q: Quantity) -> str:
     if q.analysis not in scene.analyses:
         return f"{q.kind}: no driver computes this quantity"
     analysis = scene.analyses[q.analysis]
-    if analysis.kind not in element.analyses:
-        return f"{analysis.kind}: the driver has no such analysis"
-    for key in analysis.raw:
-        if key not in _ANALYSIS.get(analysis.kind, set()) and f"{analysis.kind}.{key}" not in element.keys:
-            return f"{key}: the driver does not read this key of {analysis.name}"
+    for one in (analysis, *([scene.analyses[analysis.about]] if analysis.about else [])):
+        if one.kind not in element.analyses:
+            return f"{one.kind}: the driver has no such analysis"
+        for key in one.raw:
+            if key not in _ANALYSIS.get(one.kind, set()) and f"{one.kind}.{key}" not in element.keys:
+                return f"{key}: the driver does not read this key of {one.name}"
     if analysis.about is not None and scene.analyses[analysis.about].kind != "static":
         return f"about: drivers have no {analysis.kind} analysis about a {scene.analyses[analysis.about].kind} one"
     if q.kind not in _QUANTITY or set(q.raw) - _QUANTITY[q.kind] - {"analysis", "take", "at"}:
