@@ -10,7 +10,8 @@ static status prepare(const element_request *request, element_data *out, fault *
 const element_type element_sheet_third = {
     .name = "sheet_third",
     .summary =
-        "third-order sheet-flexure element (Hellinger-Reissner), with the sign of u_y corrected",
+        "third-order sheet-flexure element (Hellinger-Reissner), with one sign in the torsional "
+        "moment corrected",
     .source = "N Eqs. 37, 44-52, 55-65; reference/ERRATA.md, N 49",
     SHEET_THIRD_TYPE,
     .prepare = prepare,

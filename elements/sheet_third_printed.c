@@ -8,9 +8,10 @@ static status prepare(const element_request *request, element_data *out, fault *
 
 const element_type element_sheet_third_printed = {
     .name = "sheet_third_printed",
-    .summary = "third-order sheet-flexure element with the sign of u_y as printed",
+    .summary =
+        "third-order sheet-flexure element as printed, with a wrong sign in the torsional moment",
     .source = "N Eqs. 37, 44-52, 55-65 as printed",
     SHEET_THIRD_TYPE,
     .prepare = prepare,
-    .misprint = "N Eq. 49: the sign of u_y",
+    .misprint = "N Eq. 49: the sign of the term with u_y",
 };

@@ -326,8 +326,9 @@ static void read_walls(const fields *f, section_spec *spec)
     spec->walls = count;
     if (spec->points > SECTION_MAX_POINTS || count > SECTION_MAX_WALLS || count == 0) {
         document_mistake(f->b->mistakes, f->place, 0,
-                         "number of points: %d, number of walls: %d; give 1 to %d of each",
-                         spec->points, count, SECTION_MAX_WALLS);
+                         "number of walls: %d, number of points: %d; give 1 to %d walls and 2 to "
+                         "%d points",
+                         count, spec->points, SECTION_MAX_WALLS, SECTION_MAX_POINTS);
         spec->points = spec->walls = 0;
         return;
     }
@@ -513,10 +514,10 @@ static scene_scheme scheme_of(const fields *f)
     const char *given = fields_text(f, "integrator", "");
     for (int i = 0; i < 2; i++)
         if (strcmp(given, set[i][0]) == 0) {
-            document_mistake(f->b->mistakes, document_find(f->map, "integrator"), 0,
-                             "integrator: %s is alpha with a certain parameter; give 'integrator: "
-                             "alpha' and '%s'",
-                             given, set[i][1]);
+            document_mistake(
+                f->b->mistakes, document_find(f->map, "integrator"), 0,
+                "integrator: %s is a form of alpha; write 'integrator: alpha' and '%s'", given,
+                set[i][1]);
             return SCENE_ALPHA;
         }
     return (scene_scheme)fields_word(f, "integrator", SCENE_SCHEME_CHOICES,

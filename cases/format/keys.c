@@ -48,9 +48,8 @@ const entry_field keys_truth[] = {
     {"at", ENTRY_NUMBER, .summary = "abscissa of a point of a curve",
      .left_out = "none: a single value"},
     {"model", ENTRY_WORD, .words = "plate|solid",
-     .summary =
-         "model, other than beams, to which the value belongs; it is shown but never affects "
-         "the exit status",
+     .summary = "model, other than beams, to which the value belongs; the value is shown but never "
+                "affects the exit status",
      .left_out = "beams"},
     {"convention", ENTRY_TEXT, .summary = "moment convention", .left_out = "that of the analysis"},
     {.name = NULL}};

@@ -238,6 +238,8 @@ static void at_station(FILE *to, const scene *s, const scene_quantity *q, const 
         fprintf(to, " is %.10g m", at);
     } else if (a->kind == SCENE_MOTION) {
         fprintf(to, ", %.10g s after the start of the motion", at);
+    } else if (a->kind == SCENE_HARMONIC) {
+        fprintf(to, ", at %.10g Hz", at);
     } else if (q->reduction != SCENE_AT) {
         fputs(", at the end of the static path", to);
     } else {
@@ -322,7 +324,10 @@ static void acting(FILE *to, const scene *s, const scene_quantity *q)
     if (q->overs == 0)
         fputs(s->combinations > 0 ? "all combinations" : "all load cases", to);
     for (int i = 0; i < q->overs; i++)
-        fprintf(to, "%s%s", i == 0 ? "combinations " : ", ",
+        fprintf(to, "%s%s",
+                i > 0          ? ", "
+                : q->overs > 1 ? "combinations "
+                               : "combination ",
                 scene_name(s, SCENE_COMBINATIONS, q->over[i]).text);
 }
 

@@ -20,10 +20,8 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 {
     (void)s;
     meaning_ordinal(to, q->what.of.load.order);
-    fprintf(
-        to,
-        " %s factor by which the loads are multiplied when the structure buckles (linear buckling)",
-        q->what.of.load.sign > 0 ? "positive" : "negative");
+    fprintf(to, " %s factor of the loads at which the structure buckles",
+            q->what.of.load.sign > 0 ? "positive" : "negative");
 }
 
 static double eigenvalue(const scene_quantity *q, const quantity_eigenvalue *found, double *part)

@@ -26,7 +26,7 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
 {
     const scene_reading *what = &q->what.of.reading;
     const int turn = what->component[COMPONENT] >= SCENE_RX;
-    fprintf(to, "%s relative to its node", turn ? "turn" : "shift");
+    fprintf(to, "%s relative to its node", turn ? "rotation" : "displacement");
     meaning_place(to, what->component[END], 0);
     meaning_member(to, s, what->node[MEMBER]);
     fprintf(to, " %s the member's %c", turn ? "about" : "along",

@@ -17,8 +17,8 @@ static const entry_field fields[] = {
      ENTRY_IN(scene_quantity, what.of.internal.along), .first = SCENE_ALONG_MAX},
     QUANTITY_SIDE(internal.before),
     {"resultant", ENTRY_WORD, .needed = 1, .words = SCENE_RESULTANT_CHOICES,
-     .summary = "resultant on the part of the member towards 'to', along the principal axes of the "
-                "rotated section",
+     .summary = "action of the part towards 'to' on the part towards 'from', along the principal "
+                "axes of the rotated section",
      ENTRY_IN(scene_quantity, what.of.internal.resultant)},
     QUANTITY_ACTING,
     QUANTITY_TAKEN,

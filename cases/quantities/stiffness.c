@@ -20,9 +20,8 @@ static void meaning(FILE *to, const scene *s, const scene_quantity *q)
     const int component = q->what.of.entry.row;
     fputs("stiffness", to);
     meaning_node(to, s, "of", scene_compliance_of(&s->analysis[q->analysis])->node);
-    fprintf(to, ": %s %c per small %s, while all other components are free",
-            meaning_load(component), meaning_axis(component),
-            component < SCENE_RX ? "displacement" : "rotation");
+    fprintf(to, ": %s %c per small %s, with the other components unloaded", meaning_load(component),
+            meaning_axis(component), component < SCENE_RX ? "displacement" : "rotation");
 }
 
 static const char *complete(const scene *s, scene_quantity *q, const char **key)
@@ -48,7 +47,7 @@ static double read(const scene_quantity *q, const quantity_state *state)
 
 const quantity_type quantity_stiffness = {
     .key = "stiffness",
-    .summary = "reciprocal of a compliance: stiffness while the other components are free",
+    .summary = "reciprocal of a compliance: stiffness with the other components unloaded",
     .kind = SCENE_STIFFNESS_ENTRY,
     .field = fields,
     .analyses = 1u << SCENE_COMPLIANCE,

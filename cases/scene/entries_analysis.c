@@ -239,10 +239,11 @@ static const entry_field in_time[] = {
      .left_out = "1/1000 of the last station", ENTRY_IN(scene_analysis, of.motion.step),
      .always = 1},
     {"tolerance", ENTRY_NUMBER,
-     .summary = "tolerance of the time-integration error, relative to the largest displacement so "
-                "far (at most the size of the structure). alpha and conserving: for all steps "
-                "together, distributed in proportion to their lengths; radau: for the error "
-                "estimate of one step, which is far above the actual error. 0: equal steps",
+     .summary =
+         "tolerance of the time-integration error, relative to the largest displacement so "
+         "far (at most the size of the structure). alpha, conserving and explicit: for "
+         "all steps together, distributed in proportion to their lengths; radau: for the error "
+         "estimate of one step, which is far above the actual error. 0: equal steps",
      .left_out = "0 if a step is given; otherwise 1e-5 for radau, and 1e-3 (0.1 % of the "
                  "displacements) for the other integrators",
      ENTRY_IN(scene_analysis, of.motion.tolerance)},

@@ -253,51 +253,51 @@ const entry_field entry_load[] = {
 
 const entry_field entry_constraint[] = {
     {"equal", ENTRY_FORMS, .summary = "[NODE, NODE, ...]: nodes with equal components",
-     .left_out = "components of two nodes have a ratio"},
+     .left_out = "none; required with 'components'"},
     {"components", ENTRY_WORDS, .words = ENTRY_COMPONENTS,
      .summary = "components that are equal, along the nodes' axes; of the rotations, all three, or "
                 "one if the others are fixed",
-     .left_out = "required with 'equal'"},
+     .left_out = "none; required with 'equal'"},
     {"node", ENTRY_NAME, .summary = "node whose component is 'ratio' times that of 'of'",
-     .left_out = "none, with 'equal'"},
+     .left_out = "none; required with 'ratio'"},
     {"component", ENTRY_WORD, .words = ENTRY_COMPONENTS,
      .summary = "component of both nodes, along their axes; a rotation only if the other rotations "
                 "are fixed",
-     .left_out = "none, with 'equal'"},
+     .left_out = "none; required with 'ratio'"},
     {"ratio", ENTRY_NUMBER, .unit = "1", .summary = "nonzero; may be negative",
-     .left_out = "1, with 'equal'"},
-    {"of", ENTRY_NAME, .summary = "the other node", .left_out = "none, with 'equal'"},
+     .left_out = "none; required with 'node'"},
+    {"of", ENTRY_NAME, .summary = "the other node", .left_out = "none; required with 'ratio'"},
     {"diaphragm", ENTRY_FORMS,
      .summary = "[NODE, ...]: nodes that follow 'master' as in a rigid floor: they translate "
                 "perpendicular to 'normal' and rotate about 'normal' with it",
-     .left_out = "none, with 'equal'"},
+     .left_out = "none; required with 'master'"},
     {"master", ENTRY_NAME, .summary = "node that the nodes of the diaphragm follow",
-     .left_out = "none, with 'equal'"},
+     .left_out = "none; required with 'diaphragm'"},
     {"normal", ENTRY_WORD, .words = "x|y|z",
      .summary = "axis normal to the rigid plane of the diaphragm",
-     .left_out = "none, with 'equal'"},
+     .left_out = "none; required with 'diaphragm'"},
     {.name = NULL}};
 
 const entry_field entry_imperfection[] = {
     {"mode_of", ENTRY_NAME,
      .summary = "buckling or modal analysis of the perfect structure, which provides the mode",
-     .left_out = "none, with 'shifts'", ENTRY_IN(scene_imperfection, analysis),
+     .left_out = "none; required without 'shifts'", ENTRY_IN(scene_imperfection, analysis),
      .of = SCENE_ANALYSES},
     {"which", ENTRY_WHOLE,
      .summary = "index of the mode, counted from 0; buckling modes are counted over positive "
                 "critical loads only",
      .usual = "0", ENTRY_IN(scene_imperfection, order), .most = ENTRY_MOST_ORDER},
     {"amplitude", ENTRY_NUMBER, .unit = "m",
-     .summary = "largest displacement of a point of a member, with 'mode_of'",
-     .left_out = "none, with 'shifts'", ENTRY_IN(scene_imperfection, amplitude)},
+     .summary = "largest displacement of a point of a member",
+     .left_out = "none; required with 'mode_of'", ENTRY_IN(scene_imperfection, amplitude)},
     {"direction", ENTRY_DIRECTION, .count = 3,
-     .summary = "direction of the largest displacement; required if two modes have the same load "
-                "or frequency",
+     .summary = "approximate direction of the largest displacement; required if two modes have the "
+                "same load or frequency",
      .left_out = "largest component of the displacement is positive",
      ENTRY_IN(scene_imperfection, direction)},
     {"shifts", ENTRY_FORMS, .unit = "m",
      .summary = "{NODE: [dx, dy, dz], ...}, or {file: CSV} with the columns node, dx, dy, dz",
-     .left_out = "none, with 'mode_of'"},
+     .left_out = "none; required without 'mode_of'"},
     {"factor", ENTRY_NUMBER, .summary = "factor of all shifts", .usual = "1",
      ENTRY_IN(scene_imperfection, factor)},
     {.name = NULL}};

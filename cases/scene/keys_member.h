@@ -13,9 +13,9 @@ ROW("warping", ENTRY_FORMS,
     .summary =
         "warping at the ends: free, fixed or {shared: NAME}; [at from, at to] if they differ",
     .left_out =
-        "fixed if all six components of the node are fixed or driven, or the node is part_of a "
-        "body, and no rotation is released; shared if two members continue in one line; "
-        "otherwise free")
+        "fixed if all six components of the node are fixed or driven, if the node belongs to a "
+        "rigid body, or if the member has an offset there; shared if two members with the same "
+        "section continue in one line; free otherwise, and if a rotation is released")
 /* curvatures about local y and z; interior nodes are on the arc */
 KEY(double, curvature, [3], "curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m",
     .summary = "initial twist and curvatures", .usual = "[0, 0, 0]", .mirrors = "++-")

@@ -177,8 +177,9 @@ static status check_driver(const scene *s, int i, fault *f)
                           s->driver[d->condition_driver].value != NULL;
         if (!known || d->condition_node == SCENE_NONE)
             return fault_set(f, STATUS_REFUSED,
-                             "motion %s: its value is unknown and no condition determines it; name "
-                             "a node and a motion with known values",
+                             "motion %s: it has neither values nor a condition that determines "
+                             "them; give values, or such_that: {node: NODE, component: ux, motion: "
+                             "MOTION} with a motion of known values",
                              d->name);
         if (!is_conditioned(s, d))
             return fault_set(

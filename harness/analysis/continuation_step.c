@@ -271,7 +271,10 @@ static void take_critical(const analysis_context *c, const scene_quantity *q,
             p->undecided_from, p->undecided_to);
         quantity_no_value(r, STATUS_NOT_CONVERGED, reason);
     } else
-        quantity_no_value(r, o->status, "the path has no such point");
+        quantity_no_value(
+            r, o->status,
+            "the path has too few critical points of this kind; follow the path further "
+            "('to'), or request a lower index ('which')");
 }
 
 int continuation_extract(const analysis_context *c, const scene_quantity *q,

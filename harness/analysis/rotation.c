@@ -257,7 +257,7 @@ static void note_unproven(analysis_context *c, const rotation_modes *modes, doub
     if (modes->unproven > 0 && c->result->reason[0] == '\0')
         snprintf(c->result->reason, sizeof c->result->reason,
                  "at path %g, the modes found do not account for %d of the negative eigenvalues of "
-                 "the stiffness matrix; other modes may grow",
+                 "the stiffness matrix; other modes may grow; increase 'wanted'",
                  path, modes->unproven);
 }
 

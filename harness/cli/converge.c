@@ -142,8 +142,8 @@ const verb verb_converge = {
     "Solves one case on several meshes and prints errors, observed order and limit, in one table "
     "for each quantity. With one formulation, or with -v, it prints a table for each formulation, "
     "with values and times. Defaults: all formulations that support the case (-f), and the meshes "
-    "of the case (-n). The last line lists the formulations that achieve an error of 1 % "
-    "(--error), with their numbers of elements.",
+    "of the case (-n). After the tables, it lists the formulations that achieve an error "
+    "of 1 % (--error), with their numbers of elements.",
     "beamwork converge c_column -k buckling_load\n"
     "beamwork converge c_column -f beamw -f beamw_consistent -n 2,4,8,16,32",
     shared,

@@ -172,8 +172,8 @@ static const verb_option own[] = {
      "change",
      IN(refine), .least = 1, .most = 10},
     {"tolerance", 0, "R",
-     "limits within R (1% or 0.01) of the reference value pass, for any order of convergence; "
-     "replaces the tolerances of the cases",
+     "every limit within R (1% or 0.01) of the reference value is as expected, even if the verdict "
+     "is 'biased' or 'low order'; replaces the tolerances of the cases",
      IN(tolerance), .traits = OPTION_VERDICT, .read = option_error},
     {"not-worse-than", 0, "FILE",
      "results of a previous 'verify -o', or their short table from 'compare FILE -o'. The run "

@@ -238,7 +238,7 @@ static status check_last(const scene *s, const scene_quantity *q, fault *f)
         (q->reduction == SCENE_AT && q->at != path->value[path->stations - 1]))
         return refuse(q,
                       "about a loaded state, only the value at the last station can be written; "
-                      "end the path there",
+                      "end the path at the requested station",
                       f);
     for (const scene_quantity *other = s->quantity; other < q; other++)
         if ((other->what.kind == SCENE_COMPLIANCE_ENTRY ||

@@ -249,8 +249,10 @@ status convention_apply(scene_moments of_tangent, scene_moments convention, cons
             symmetrise(motions->count, B);
         memcpy(A, B, sizeof A);
         if (invert(motions->count, A, inverse) != 0)
-            return fault_set(f, STATUS_SINGULAR, "the stiffness with %s moments is singular",
-                             scene_moments_name(convention));
+            return fault_set(
+                f, STATUS_SINGULAR,
+                "the stiffness with %s moments is singular; give another convention ('moments')",
+                scene_moments_name(convention));
         scatter_compliance(motions, inverse, C);
     }
     scatter_stiffness(motions, B, K);

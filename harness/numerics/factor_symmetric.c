@@ -107,9 +107,10 @@ static status analyse(factor_symmetric *fs, factor_counts *counts, fault *f)
         counts->flops += below * (below + 2);
     }
     if (counts->entries > INT_MAX)
-        return fault_set(f, STATUS_FAULT,
-                         "a factor of %ld entries exceeds the range of its indices",
-                         counts->entries);
+        return fault_set(
+            f, STATUS_FAULT,
+            "a factor of %ld entries exceeds the range of its indices; use fewer elements",
+            counts->entries);
     const size_t fill = (size_t)fs->L_column[n] + 1;
     fs->L_row = malloc(fill * sizeof *fs->L_row);
     fs->L_value = malloc(fill * sizeof *fs->L_value);

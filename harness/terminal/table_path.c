@@ -257,7 +257,7 @@ static void momentum_line(FILE *to, const motion_extent *e)
     const int at = fprintf(to, "momenta: ");
     paragraph_printf(to, at, MOTION_INDENT,
                      "at the end %.6g kg m/s, and %.6g kg m^2/s about the origin; largest changes "
-                     "%.2g and %.2g since %g s",
+                     "%.2g kg m/s and %.2g kg m^2/s since %g s",
                      length_at(last, SCENE_PX), length_at(last, SCENE_LX), change_of(e, SCENE_PX),
                      change_of(e, SCENE_LX), e->record[e->first].at.time);
 }

@@ -96,14 +96,15 @@ static const char *plural(long count)
     return count == 1 ? "" : "s";
 }
 
+/* Writes the number of load steps or time steps, and the number of rejected longer steps. */
 static void count_steps(const counters *c, char text[FAULT_TEXT])
 {
     text[0] = '\0';
     if (c->rejected_steps > 0)
-        snprintf(text, FAULT_TEXT, " in %ld load step%s (%ld longer rejected)", c->steps,
+        snprintf(text, FAULT_TEXT, " in %ld step%s (%ld longer rejected)", c->steps,
                  plural(c->steps), c->rejected_steps);
     else if (c->steps > 0)
-        snprintf(text, FAULT_TEXT, " in %ld load step%s", c->steps, plural(c->steps));
+        snprintf(text, FAULT_TEXT, " in %ld step%s", c->steps, plural(c->steps));
 }
 
 static void unfinished_curves(FILE *to, const sweep_point *p, const solve_result *r)

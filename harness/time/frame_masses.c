@@ -353,13 +353,14 @@ status account_check(const account *a, const scene_motion *how, double time,
     const double size = account_size(a), drift = balance[SCENE_DRIFT];
     if (!(drift <= account_most(a, account_gained, rounding)))
         return fault_set(f, STATUS_NOT_CONVERGED,
-                         "at %g s the energy exceeds the work by %.3g J, which is %.2g %% of %.3g "
-                         "J; the limit is %g %%; %s",
+                         "at %g s the energy exceeds the initial energy plus the work by %.3g J, "
+                         "which is %.2g %% of the largest energy or work so far, %.3g J; the "
+                         "limit is %g %%; %s",
                          time, drift, 100 * drift / size, size, 100 * account_gained, remedy(how));
     if (-drift > account_most(a, account_lost, rounding) && !account_loses(how))
         return fault_set(f, STATUS_NOT_CONVERGED,
                          "at %g s the integrator has lost %.3g J of energy, which is %.2g %% of "
-                         "%.3g J; the limit is %g %%; %s",
+                         "the largest energy or work so far, %.3g J; the limit is %g %%; %s",
                          time, -drift, -100 * drift / size, size, 100 * account_lost, remedy(how));
     return STATUS_OK;
 }
