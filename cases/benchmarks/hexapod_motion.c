@@ -1,8 +1,7 @@
 /* Flexure hexapod whose six cranks rotate together, smoothly and in a given time, by the angle that
  * lifts the platform through the stroke of N section 4.3. The platform carries a load. The rods and
- * the bodies inside the joints have masses. Dimensions and masses are synthetic. There is no
- * reference value, so the verdict depends only on the uncertainty of the limit of mesh refinement.
- */
+ * the bodies inside the joints have masses. Dimensions and masses are synthetic.
+ *  */
 #include <stddef.h>
 
 #include "cases/shared/shared.h"

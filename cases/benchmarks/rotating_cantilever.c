@@ -82,7 +82,6 @@ static void add_beam(scene *s, double area, double stiffness_ratio, int *root, i
     *tip = scene_add_node(s, 1, 0, 0);
     scene_add_member(s, *root, *tip, profile, y_axis);
     scene_hold_all(s, *root);
-    /* the theory neglects the trapeze effect and, for an Euler-Bernoulli beam, rotary inertia */
     scene_omit(s, FEATURE_TRAPEZE | FEATURE_ROTARY_INERTIA);
 }
 
@@ -106,8 +105,6 @@ static status build(const double value[], scene *s, fault *f)
     double path[MOST_STATIONS + 1];
     for (int i = 0; i <= intervals; i++)
         path[i] = intervals > 0 ? (double)i / intervals : 1;
-    /* with an inclined axis, the beam has more than one equilibrium, so the angular velocity is
-     * increased in steps */
     const int steps = value[AXIS] > 0 ? 8 : 1;
     const int rotation = scene_add_rotation(
         s, intervals + 1, path, steps, 2 * MODES,

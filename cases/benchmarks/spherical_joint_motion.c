@@ -1,8 +1,7 @@
 /* Spherical flexure joint whose end effector is tilted about the x axis in a given time and then
  * stops. A body with a tenth of the mass of the effector is free between the two sets of sheets.
- * The case is based on N section 4.2, where the motion is quasi-static. The masses are synthetic.
- * There is no reference value, so the verdict depends only on the uncertainty of the limit of mesh
- * refinement. */
+ * The case is based on N section 4.2, where the motion is quasi-static. The masses are
+ * synthetic. */
 #include "cases/shared/shared.h"
 
 #include <stddef.h>

@@ -18,7 +18,6 @@ typedef struct extreme_quantity {
     double power;     /* for EXTREME_SAME: value/x^power is equal for all x */
 } extreme_quantity;
 
-/* Effect of x in addition to the settings of parameters. */
 typedef enum extreme_knob {
     EXTREME_PARAMETERS,
     EXTREME_ELEMENTS, /* x is the number of elements per member */

@@ -1,4 +1,3 @@
-/* Springs and loads of a scene. */
 #include "cases/format/format_impl.h"
 
 #include <string.h>
@@ -23,7 +22,6 @@ static void mistake_at(const fields *f, const char *key, const char *words)
     document_mistake(f->b->mistakes, document_find(f->map, key), 0, "%s", words);
 }
 
-/* Returns 1 if the value of `on` is the word "all" and not the name of an entry. */
 static int is_on_all(const fields *f)
 {
     const document_node *on = document_find(f->map, "on");
@@ -51,8 +49,6 @@ static scene_load at_centre(const scene_load *what)
     return out;
 }
 
-/* Adds gravity for each member with a density and each body with a mass. Reports an error only
- * once, even if it applies to several entries. */
 static void weigh_all(const fields *f, scene_load *what)
 {
     const scene *s = f->b->scene;
@@ -121,7 +117,6 @@ static int spreads(int given)
            given == OF_TEMPERATURE;
 }
 
-/* A force or moment inside a member is of another kind than one at a node. */
 static scene_load_kind kind_of(const fields *f, int given)
 {
     const int within = fields_have(f, "where");
@@ -209,8 +204,6 @@ static int frame_motion_of(const fields *f, const scene_load *what)
     return fields_entry(f, "on", scene_load_along(what) ? SCENE_MEMBERS : SCENE_NODES);
 }
 
-/* Rotates the load from the axes of the instance to those of the scene. A load in the axes of a
- * member does not change, because these axes rotate with the instance. */
 static void turn_load(const fields *f, scene_load *what)
 {
     if (what->axes == SCENE_AXES_MEMBER)
@@ -316,7 +309,6 @@ void builder_springs(builder *b)
     }
 }
 
-/* Reads the nodes of an `equal` constraint or of a diaphragm. */
 static void read_nodes(const fields *f, const char *key, int least, int index)
 {
     const document_node *n = document_find(f->map, key);
@@ -430,7 +422,7 @@ static void add_case(builder *b, const unrolled *entry)
         return;
     *list = arena_grow(b->arena, *list, *count, sizeof **list);
     if (*list == NULL) {
-        *count = 0; /* out of memory; the arena has recorded the error */
+        *count = 0;
         return;
     }
     (*list)[(*count)++] = (unrolled){fields_called(&f, n), n, n, n, b->names, NULL};

@@ -1,4 +1,3 @@
-/* Members and drivers of a scene. */
 #include "cases/format/format_impl.h"
 
 #include <math.h>
@@ -58,7 +57,6 @@ static void read_warping(const fields *f, scene_member *m)
     m->warp_q = warping_of(f, n->kind == DOCUMENT_LIST ? n->item[1] : n);
 }
 
-/* Checks that the two sections of a member differ only in properties that may change along it. */
 static void check_taper(const fields *f, const document_node *n, const int profile[2])
 {
     const scene *s = f->b->scene;
@@ -68,14 +66,13 @@ static void check_taper(const fields *f, const document_node *n, const int profi
     for (int k = 0; k < 2; k++)
         if (profile[k] < 0 || profile[k] >= s->sections ||
             scene_constants(s, profile[k], &c[k], NULL) != STATUS_OK)
-            return; /* the error has already been reported */
+            return;
     if (profile[0] != profile[1] &&
         section_taper_check(&s->section[profile[0]], &s->section[profile[1]], ends, &why) !=
             STATUS_OK)
         document_mistake(f->b->mistakes, n, 0, "%s", why.text);
 }
 
-/* Reads the name of one section, or of two sections: [at from, at to]. */
 static void read_sections(const fields *f, scene_member *m)
 {
     const document_node *n = document_find(f->map, "section");
@@ -202,8 +199,6 @@ void builder_motions(builder *b)
     }
 }
 
-/* Sets the data of an analysis that its key table does not describe. Rejects an analysis that
- * follows a later one. */
 static void complete(const fields *f, int index, scene_analysis *a)
 {
     const fields control = fields_below(f, "continuation"), motion = fields_below(f, "motion"),
@@ -266,8 +261,7 @@ typedef struct written_out {
     size_t used;
 } written_out;
 
-/* Appends text. All its characters have the position `place` in the file. Returns 0 if the text
- * does not fit. */
+/* Appends text. Returns 0 if the text does not fit. */
 static int put(written_out *to, const char *text, size_t length, int place)
 {
     if (to->used + length >= MOST_TEXT)
@@ -281,7 +275,7 @@ static int put(written_out *to, const char *text, size_t length, int place)
 }
 
 /* Copies a name that functions of time define, such as t or sin, or the value of any other name.
- * Moves *at past the name. Returns 0 after an error. */
+ * Returns 0 after an error. */
 static int put_name(const fields *f, const document_node *n, int *at, written_out *to)
 {
     const int from = *at, length = (int)expression_name_length(n->text + from);
@@ -319,7 +313,6 @@ static int write_out(const fields *f, const document_node *n, written_out *to)
     while (n->text[at] != '\0') {
         const int length = (int)expression_name_length(n->text + at);
         const char before = at > 0 ? n->text[at - 1] : ' ';
-        /* the e of 1e-3 is not a name */
         const int named = length > 0 && before != '.' && !(before >= '0' && before <= '9');
         const int taken = length > 0 ? length : 1, errors = f->b->mistakes->count;
         int behind = at;

@@ -1,4 +1,3 @@
-/* Nodes of a scene: supports, rigid bodies, rotations. */
 #include "cases/format/format_impl.h"
 
 #include <math.h>
@@ -65,7 +64,6 @@ static void read_hold(const fields *f, int node, int own)
     }
 }
 
-/* Reads the directions of two of the axes x, y and z. */
 static void read_directions(const fields *axes, scene_node *n)
 {
     double z[3] = {0};
@@ -112,16 +110,13 @@ static void read_member_axes(const fields *axes, int node, scene_node *n)
     }
     scene_chord(s, member, chord);
     if (rotation_triad(chord, m->y_axis, R) != 0)
-        return; /* the error of the member is reported elsewhere */
+        return;
     for (int i = 0; i < 3; i++) {
         n->axes[0][i] = R[3 * i];
         n->axes[1][i] = R[3 * i + 1];
     }
 }
 
-/* Converts the rotations of a node with its own axes. One free or prescribed rotation becomes a
- * sequence of one angle. More than one is rejected, because the order would be undefined, unless
- * all three are free. */
 static void turn_about_axes(const fields *f, scene_node *n)
 {
     double R[9];
@@ -244,7 +239,6 @@ static void read_rotation(const fields *f, scene_node *n)
         n->angle[i] = fields_entry_of(&rotation, vector->item[i], SCENE_DRIVERS);
 }
 
-/* Checks that rotations are defined only once: by components, by a rotation or by a fork. */
 static void check_masters(const fields *f, const scene_node *n)
 {
     const int held =
@@ -377,8 +371,6 @@ static void read_matrices(const fields *f, section_spec *spec)
     fields_matrix(f, "mass", spec->constants.mass);
 }
 
-/* Sections given by matrices have no material and no overrides, and only they have a mass
- * matrix. */
 static void check_material(const fields *f)
 {
     static const struct {
@@ -456,7 +448,6 @@ void builder_sections(builder *b)
  * step is relative to the time of the last station. */
 static const double usual_tolerance = 1e-3, usual_of_radau = 1e-5, usual_step = 1e-3;
 
-/* Reads a parameter of the integrator alpha and checks its range. */
 static double between(const fields *f, const char *key, double otherwise, double least, double most,
                       const char *range)
 {
@@ -493,8 +484,6 @@ static int has_alpha_keys(const fields *f)
     return requests;
 }
 
-/* Rejects parameters of alpha if another integrator is selected. Values that are parameters of the
- * scene are accepted. */
 static void check_parameters(const fields *f, scene_scheme scheme)
 {
     const int chosen = choice_index(SCENE_SCHEME_CHOICES, fields_text(f, "integrator", "")) < 0;
@@ -506,8 +495,6 @@ static void check_parameters(const fields *f, scene_scheme scheme)
                              of_alpha[i]);
 }
 
-/* Returns the integrator. Rejects the names of alpha with certain parameters, which `motion -u`
- * compares. */
 static scene_scheme scheme_of(const fields *f)
 {
     static const char *const set[][2] = {{"hht", "hht: 0.1"}, {"trapezoidal", "trapezoidal: yes"}};

@@ -57,7 +57,6 @@ static void read_unit(const fields *f, scene_quantity *q)
     units_translate(&f->b->units, usual_unit(f->b->scene, q), sizeof own, own);
     if (q->transform == SCENE_PSD)
         make_density(own);
-    /* with a factor, any unit is valid; take_envelopes sets the unit of an envelope */
     if (unit != NULL && !fields_have(f, "factor") && q->what.kind != SCENE_ENVELOPE_OF) {
         if (!f->b->units.given)
             units_check(unit, f->b->mistakes);
@@ -72,7 +71,6 @@ static void read_unit(const fields *f, scene_quantity *q)
     snprintf(q->unit, sizeof q->unit, "%s", unit != NULL ? unit->text : own);
 }
 
-/* Reads an abscissa that is the curve of another quantity. */
 static void read_abscissa_of(const fields *x, scene_quantity *q)
 {
     static const char *const own[] = {"name", "unit", "factor", "offset"};
@@ -86,7 +84,6 @@ static void read_abscissa_of(const fields *x, scene_quantity *q)
     scene_set_curve_over(q, over >= 0 ? x->b->list[SCENE_QUANTITIES].entry[over].name : "", "");
 }
 
-/* Sets the units of abscissae. Requires that all quantities have been read. */
 static void take_abscissa_units(scene *s)
 {
     for (int i = 0; i < s->quantities; i++) {
@@ -96,8 +93,6 @@ static void take_abscissa_units(scene *s)
     }
 }
 
-/* Reads the quantities of an envelope. Requires that the names of all quantities have been read;
- * their units may follow. */
 static void read_members(const fields *what, scene_quantity *q)
 {
     const document_node *n = document_find(what->map, "quantities");
@@ -165,7 +160,6 @@ static void read_abscissa(const fields *f, scene_quantity *q)
                     fields_number(&x, "factor", 1), fields_number(&x, "offset", 0));
 }
 
-/* Reads the stations of the quantity: `at` a value, or a statistic such as last, max or curve. */
 static void read_stations(const fields *entry, const fields *what, scene_quantity *q)
 {
     const int taken = fields_word(what, "take", SCENE_TAKE_CHOICES, 0),
@@ -182,7 +176,6 @@ static void read_stations(const fields *entry, const fields *what, scene_quantit
                          "x: an abscissa requires a curve; add 'take: curve', or remove 'x'");
 }
 
-/* Rejects a time window or a level crossing that the quantity does not use. */
 static void check_when(const fields *f, const scene_quantity *q)
 {
     static const char *const crossing[] = {"direction", "level", "which"};
@@ -201,8 +194,7 @@ static void check_when(const fields *f, const scene_quantity *q)
                          "when: this key gives the window of crossings, means, spectra, maxima and "
                          "minima, but this quantity is none of these; remove it, or change 'take'");
     else
-        for (int i = q->passing.direction == SCENE_RISING; i < 3;
-             i++) /* 'rising' is ignored, because scenes that are written always contain it */
+        for (int i = q->passing.direction == SCENE_RISING; i < 3; i++)
             if (fields_have(&when, crossing[i]) && q->reduction != SCENE_CROSSING &&
                 q->reduction != SCENE_PERIOD && q->reduction != SCENE_PER_SECOND)
                 document_mistake(f->b->mistakes, document_find(when.map, crossing[i]), 0,
@@ -211,8 +203,6 @@ static void check_when(const fields *f, const scene_quantity *q)
                                  crossing[i]);
 }
 
-/* Reads the prediction. Its source points to the text of the file, so it remains valid if the scene
- * is built again. */
 static void read_prediction(const fields *f, const unrolled *entry, scene_quantity *q)
 {
     const fields prediction = fields_below(f, "prediction");
@@ -238,7 +228,6 @@ static int requested_of(const scene *s, int analysis)
     return most;
 }
 
-/* Reports an error if the file gives fewer eigenvalues than the quantities request. */
 static void check_wanted(builder *b)
 {
     for (int i = 0; i < b->list[SCENE_ANALYSES].count; i++) {
@@ -255,7 +244,6 @@ static void check_wanted(builder *b)
     }
 }
 
-/* Reads the combinations of an envelope, one name or a list of names. */
 static void read_overs(const fields *what, scene_quantity *q)
 {
     const document_node *n = document_find(what->map, "combinations");
@@ -313,8 +301,6 @@ void builder_quantities(builder *b)
     check_wanted(b);
 }
 
-/* Adds a path analysis up to the last station of the motions, or a linear analysis if there are no
- * motions. */
 static int add_analysis(builder *b)
 {
     double end = 0;
@@ -337,8 +323,7 @@ static int is_requested(const scene *s, int node)
     return 0;
 }
 
-/* Returns the diagonal [m] of the smallest box that contains all nodes. Displacements that are far
- * smaller are treated as zero. */
+/* Returns the diagonal [m] of the smallest box that contains all nodes. */
 static double size_of(const scene *s)
 {
     double least[3] = {INFINITY, INFINITY, INFINITY}, most[3] = {-INFINITY, -INFINITY, -INFINITY};
@@ -368,9 +353,6 @@ static void add_displacements(builder *b, int analysis, int node, int prefixed)
     }
 }
 
-/* Adds the displacements of all nodes that have a load or a prescribed translation. If there are no
- * such nodes, adds those of all nodes that are not attached to another node. For a linear analysis
- * that solves all load cases and combinations, the value with the largest magnitude is reported. */
 static void add_states(builder *b, int analysis, int prefixed)
 {
     const scene *s = b->scene;
@@ -385,7 +367,6 @@ static void add_states(builder *b, int analysis, int prefixed)
         s->quantity[i].envelope = SCENE_ENVELOPE_LARGEST;
 }
 
-/* Adds a quantity for the energy of a motion, the sum of kinetic and strain energy. */
 static void add_energy(builder *b, int analysis, int prefixed)
 {
     char name[SCENE_NAME + 8];
@@ -424,7 +405,7 @@ static void add_quantities(builder *b)
                 scene_add_quantity(s, name, "N/m", i, scene_stiffness_entry(SCENE_UX + k));
             }
             break;
-        case SCENE_HARMONIC: /* the input of the harmonic analysis is unknown */
+        case SCENE_HARMONIC:
             break;
         case SCENE_CONTINUATION:
             scene_add_quantity(s, b->list[SCENE_ANALYSES].entry[i].name, "1", i, scene_factor_at());
@@ -442,8 +423,6 @@ void builder_defaults(builder *b)
         add_quantities(b);
 }
 
-/* Returns the text that follows an SI unit and its power, or NULL if `at` does not start with an SI
- * unit. */
 static const char *word_end(const char *at)
 {
     static const char *const si[] = {"1", "m", "rad", "s", "kg", "N", "Pa", "J", "W", "Hz", "K"};

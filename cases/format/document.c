@@ -23,7 +23,7 @@ static void *refuse(document_reader *r, yaml_mark_t at, const char *what)
     return NULL;
 }
 
-/* Reports a syntax error. Known errors have a message of beamwork, others that of the parser. */
+/* Reports a syntax error. */
 static void report_syntax(document_reader *r)
 {
     const yaml_parser_t *p = &r->parser;
@@ -229,7 +229,6 @@ static document_node *read_node(document_reader *r, const yaml_event_t *event, i
     }
 }
 
-/* Reads the start of the stream, the tree, and the end of the stream. */
 static document_node *read_stream(document_reader *r)
 {
     yaml_event_t event;
@@ -277,7 +276,6 @@ document_node *document_read(const char *bytes, size_t size, arena *a, mistakes 
         return NULL;
     }
     yaml_parser_set_encoding(&r.parser, YAML_UTF8_ENCODING);
-    /* length of the byte order mark that some editors add */
     const size_t mark = size >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
     yaml_parser_set_input_string(&r.parser, (const unsigned char *)bytes + mark, size - mark);
     document_node *root = read_stream(&r);

@@ -48,7 +48,7 @@ static int constant(const name_context *c, const char *text, int *at, int length
                          rest < 40 ? rest : 40, text + behind, section_names_all);
     else
         *out = known->constants[index];
-    return known != NULL && index >= 0 && !isnan(*out); /* the error has already been reported */
+    return known != NULL && index >= 0 && !isnan(*out);
 }
 
 int names_number(const void *context, const char *text, int *at, double *out,
@@ -69,11 +69,9 @@ int names_number(const void *context, const char *text, int *at, double *out,
                          "{%s: {WORD: NUMBER, ...}}",
                          known->name, known->word, known->name);
     *out = known->number;
-    return known->word == NULL && !isnan(*out); /* the error has already been reported */
+    return known->word == NULL && !isnan(*out);
 }
 
-/* Evaluates `length` bytes of the text, starting at `from`, as expression_number evaluates the
- * whole text. */
 static int expression_part(const document_node *n, int from, int length, const scope *names,
                            mistakes *m, double *out)
 {

@@ -1,4 +1,3 @@
-/* Functions that read values of a map by their keys. */
 #include "cases/format/format_impl.h"
 
 #include <math.h>
@@ -149,7 +148,6 @@ void builder_call(builder *b, scene_list list, int index, int i)
     scene_set_name(b->scene, list, index, b->list[list].entry[i].name);
 }
 
-/* Context of the search for the nearest name. */
 typedef struct named_list {
     const builder *b;
     scene_list list;
