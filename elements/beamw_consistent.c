@@ -1,7 +1,6 @@
 /* Corrected BEAMW. The stiffness is computed with the full matrix D. The strains represent uniform
  * shear of any size (elements/beamw/screw.h). The modified modes are derived from the strains of
- * the Simo-Reissner beam in the full linear solution (elements/beamw/condensed.c). Bending, shear
- * and warping inside the element are internal modes, which are condensed. */
+ * the Simo-Reissner beam in the full linear solution (elements/beamw/condensed.c). */
 #include "elements/beamw/screw.h"
 #include "elements/beamw/variants.h"
 

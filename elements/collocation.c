@@ -1,7 +1,6 @@
 /* The geometrically exact beam with warping, solved inside the element by Gauss collocation, with
  * exact equilibrium of forces (elements/collocation/collocation.h). The variables of the Gauss
- * points are inner unknowns of the element. The mixed Newton iteration of the structure solves for
- * these unknowns together with all others. */
+ * points are inner unknowns of the element. */
 #include <float.h>
 #include <math.h>
 #include <string.h>
@@ -140,7 +139,7 @@ static void geometric(const element_data *data, const double sigma[], double G[]
 {
     double own[OUTER][OUTER * OUTER];
     memset(G, 0, OUTER * OUTER * sizeof *G);
-    if (!data->prestressed) /* the prestress was not requested when the element was prepared */
+    if (!data->prestressed)
         exact_prestress_derivatives(&data->stages, own);
     for (int k = 0; k < OUTER; k++) {
         const double *Q = data->prestressed ? data->prestress[k] : own[k];

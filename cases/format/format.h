@@ -1,4 +1,3 @@
-/* Functions that read and write scene files. */
 #ifndef BEAMWORK_CASES_FORMAT_FORMAT_H
 #define BEAMWORK_CASES_FORMAT_FORMAT_H
 
@@ -150,9 +149,8 @@ int line_number(const char *text, double *value);
 enum { MEANING_ROOM = 512 };
 
 /* Describes a quantity in one line without a full stop. The line contains the kind, the component,
- * the node or member with its position, and the station. It also contains the analysis if another
- * quantity would have the same line. Nodes and members have the names that write_scene writes. Text
- * that does not fit is truncated. */
+ * the node or member with its position, and the station. Nodes and members have the names that
+ * write_scene writes. */
 void meaning_of_quantity(const scene *s, int quantity, char *text, size_t size);
 
 /* A scene file, which is a case: its parameters, its scene and its reference values. */
@@ -195,14 +193,12 @@ int scene_file_states(const scene_file *, const char *key);
 status scene_file_truths(const scene_file *, const double value[], scene_truth_taker *, void *to,
                          fault *f);
 /* Passes the reference values at the defaults and at all parameter points for which the file has
- * reference values. A value may be passed more than once. */
+ * reference values. */
 status scene_file_truths_all(const scene_file *, scene_truth_taker *, void *to, fault *f);
 
 /* Writes the keys of scene files as a JSON Schema, for completion and checks in editors. */
 
 status schema_file_write(FILE *to, fault *f);
-
-/* Keys at the head of a scene file that write_scene writes. */
 
 typedef struct write_head {
     const char *name, *summary, *source;
@@ -211,7 +207,6 @@ typedef struct write_head {
 /* Writes a scene file that gives the same scene, bit for bit. Loops and expressions are replaced by
  * their values. Returns REFUSED if the scene contains data that a file cannot express. */
 status write_scene(FILE *to, const scene *s, const write_head *head, fault *f);
-/* Reports that the scene with this name contains a number that a file cannot express. */
 status write_scene_refused(const char *name, fault *f);
 /* Returns the text that write_scene writes, which the caller frees. Returns "" if s is NULL or a
  * file cannot express the scene, and NULL if out of memory. */

@@ -1,4 +1,3 @@
-/* Declarations for the sources in cases/format. */
 #ifndef BEAMWORK_CASES_FORMAT_FORMAT_IMPL_H
 #define BEAMWORK_CASES_FORMAT_FORMAT_IMPL_H
 
@@ -43,11 +42,10 @@ const char *scope_nearest(const scope *names, const char *name);
  * and returns 0. */
 int scope_accepts(const scope *names, const document_node *key, mistakes *m);
 
-/* Builds a scene from a checked tree and the parameters `names`. The scene is valid if no error was
- * found. The caller frees it in either case. */
+/* Builds a scene from a checked tree and the parameters `names`. The caller frees it in either
+ * case. */
 void build_scene(const document_node *root, const scope *names, arena *a, mistakes *m, scene *out);
 
-/* Reads only the sections and adds their constants to the names of the builder. */
 struct builder;
 void build_sections(struct builder *b);
 
@@ -122,10 +120,8 @@ void units_read(const document_node *n, mistakes *m, unit_system *out);
 /* Converts the name of an SI unit to that of the unit system; for example, "N m" becomes "N mm". */
 void units_translate(const unit_system *, const char *unit, size_t size, char out[]);
 
-/* State of a scene that is built from a checked tree.
- *
- * The form of the tree has been checked. After an invalid value, the error is reported and an
- * arbitrary value is used. */
+/* State of a scene that is built from a checked tree. After an invalid value, the error is reported
+ * and an arbitrary value is used. */
 
 typedef struct builder {
     arena *arena;
@@ -191,14 +187,12 @@ void builder_call(builder *b, scene_list list, int index, int i);
 
 void builder_sections(builder *b);
 void builder_nodes(builder *b);
-/* Reads the axes of node supports, after the members have been read. */
 void builder_axes(builder *b);
 void builder_members(builder *b);
 void builder_springs(builder *b);
 void builder_constraints(builder *b);
 void builder_imperfections(builder *b);
 void builder_motions(builder *b);
-/* Read the names of load cases in loads and motions, then the combinations. */
 void builder_cases(builder *b);
 void builder_combinations(builder *b);
 /* builder_read_cases reports an error for each load case that is not used. */
@@ -206,7 +200,6 @@ void builder_read_cases(builder *b);
 void builder_loads(builder *b);
 void builder_analyses(builder *b);
 void builder_quantities(builder *b);
-/* Reads the settings of a transient analysis that the key table does not contain. */
 void builder_in_time(const fields *f, scene_motion *how);
 /* Adds a piece to the function of time of an entry. */
 typedef void builder_piece(scene *, int index, double until, const char *text);
@@ -219,7 +212,6 @@ void builder_no_quantity(const fields *what, const char *key, const scene_quanti
 /* Reads the stations `path` and the key `values`, with one value per station. Returns the number of
  * stations, or 0 if there are none or after an error. */
 int builder_stations(const fields *f, const char *values, double **path, double **value);
-/* Adds default analyses and quantities if the file has none. */
 void builder_defaults(builder *b);
 
 /* Reads a section given by dimensions (I, T, channel, Z, angle, box) or by the name of a rolled
@@ -234,8 +226,6 @@ int choose_holds(const document_node *conditions, const scope *names, mistakes *
  * if it does not have this form. Returns NULL after an error. */
 const document_node *choose_value(const document_node *n, const scope *names, mistakes *m);
 
-/* Context of the function that finds the values of names in expressions
- * (cases/scene/expression.c). */
 typedef struct name_context {
     const scope *names;
     int in_time; /* 1 if the expression is a function of time */
@@ -251,8 +241,6 @@ int expression_vector(const document_node *n, int count, const scope *names, mis
 /* Replaces the keys `file`, `at` and `value` of all tables below the node by the numbers in the
  * files. Paths are relative to the folder of the scene file, whose path is `beside`, or NULL. */
 void table_files_read(document_node *, const char *beside, arena *a, mistakes *m);
-
-/* Tables of the keys of scene files. */
 
 extern const entry_field keys_let[], keys_refusal[], keys_root[], keys_truth[], keys_parameter[],
     keys_part[], keys_instance[];
@@ -277,8 +265,6 @@ int keys_check(const document_node *root, mistakes *m);
 int range_values(const document_node *n, const scope *names, arena *a, mistakes *m, double **out);
 /* Returns 1 if the node is a range. */
 int range_is(const document_node *n);
-
-/* Data of a scene file, for the sources that read scene files. */
 
 struct scene_file {
     arena arena; /* holds the document and all strings */
@@ -312,8 +298,6 @@ const char *substitute_for_message(const document_node *n, const scope *names, a
 /* Returns 1 if a loop name remains in the string, for which an error has been reported. */
 int substitute_is_left(const char *text);
 
-/* State of a scene file that is written. */
-
 typedef struct writer {
     FILE *to;
     const scene *scene;
@@ -321,7 +305,6 @@ typedef struct writer {
     int begun;      /* 1 if the map already contains a key */
 } writer;
 
-/* A function that writes a value in a special form, including its key. */
 typedef struct write_own {
     const char *key; /* "where" for a key in any map, "stress.where" for a key only in the map of
                         `stress`; NULL ends the list */
@@ -331,7 +314,6 @@ typedef struct write_own {
 /* Writes a map with the keys of an entry whose values differ from the defaults. `own` lists special
  * forms, also for maps inside the entry, or is NULL. */
 void write_entry(writer *w, const entry_field *table, const void *entry, const write_own own[]);
-/* Writes "key: ", preceded by ", " if it is not the first key of its map. */
 void write_values_key(writer *w, const char *key);
 /* Writes a list of words in brackets, one for each bit. */
 void write_values_bits(writer *w, const char *words, unsigned bits);
@@ -349,7 +331,6 @@ void write_values_quoted(writer *w, const char *text);
  * one made from the index. */
 void write_values_name(writer *w, scene_list list, int index);
 void write_values_motion(writer *w, int index);
-/* Writes `before` and the name of an entry. */
 void write_values_named(writer *w, const char *before, scene_list list, int index);
 extern const char *const write_values_component[6];
 

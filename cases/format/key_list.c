@@ -100,7 +100,7 @@ const char *const key_list_head[2] = {
 
 typedef struct key_rows {
     FILE *to;
-    int depth; /* depth of the keys that are being written */
+    int depth;
     key_list_print *print;
 } key_rows;
 
@@ -124,13 +124,11 @@ void key_list_write(FILE *to, key_list_print *print)
 
 static json_t *map_of(const entry_field *table, const entry_field *loop);
 
-/* Returns the schema of a scalar: a number or a text, because every number may be an expression. */
 static json_t *scalar(void)
 {
     return json_pack("{s:[s, s]}", "type", "number", "string");
 }
 
-/* Converts "a|b|c" to a list of examples that editors offer. */
 static json_t *words_of(const char *words)
 {
     json_t *list = json_array();
@@ -189,7 +187,6 @@ static json_t *value_of(const entry_field *k)
     return json_object();
 }
 
-/* Returns the default of a key as JSON: a number, a list of numbers, or a word. */
 static json_t *usual_of(const entry_field *k)
 {
     json_t *value = json_loads(k->usual, JSON_DECODE_ANY, NULL);

@@ -176,7 +176,7 @@ const entry_field keys_root[] = {
     {.name = NULL}};
 
 typedef struct known_keys {
-    const entry_field *table, *loop; /* tables of keys; loop is NULL if entries cannot have loops */
+    const entry_field *table, *loop;
 } known_keys;
 
 static const char *name_at(const void *context, int i)
@@ -348,7 +348,6 @@ static int is_meant(const document_node *map, const known_keys *known, const cha
     return 0;
 }
 
-/* Lists the names of the keys in a group. */
 static void group_words(const entry_field *table, int group, char text[FAULT_TEXT])
 {
     size_t used = 0;
@@ -394,7 +393,6 @@ static void check_missing(const document_node *map, const known_keys *known,
     }
 }
 
-/* Reports that a map is expected, with its keys as in "{mass: ..., stiffness: ...}". */
 static void report_map(const document_node *n, const known_keys *known, const document_node *name,
                        mistakes *m)
 {

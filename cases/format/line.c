@@ -6,8 +6,6 @@
 
 #include "cases/scene/scene.h"
 
-/* Writes the state in which the quantity is evaluated and its analysis, such as ", at the end of
- * the static path". */
 static void meaning_state(FILE *to, const scene *s, const scene_quantity *q);
 
 static int is_blank(char c)
@@ -152,7 +150,6 @@ int line_number(const char *text, double *value)
     return *end == '\0' && isfinite(*value);
 }
 
-/* Writes the description of a quantity without the name of its analysis. */
 static void put_sentence(const scene *s, const scene_quantity *q, char *text, size_t size)
 {
     FILE *to = fmemopen(text, size, "w");
@@ -173,7 +170,6 @@ static void put_sentence(const scene *s, const scene_quantity *q, char *text, si
     text[size - 1] = '\0';
 }
 
-/* Returns 1 if a quantity of the same kind in another analysis has the same description. */
 static int has_twin(const scene *s, const scene_quantity *q, const char *text)
 {
     char other[MEANING_ROOM];
@@ -247,8 +243,6 @@ static void at_station(FILE *to, const scene *s, const scene_quantity *q, const 
     }
 }
 
-/* Writes the statistic of a quantity that is evaluated at all times of a motion, not only at
- * stations. */
 static void passing(FILE *to, const scene_quantity *q)
 {
     static const char *const way[] = {"rises through", "falls through", "passes"};
@@ -308,7 +302,6 @@ static void along_path(FILE *to, const scene *s, const scene_quantity *q, const 
     }
 }
 
-/* Writes the active load case or combination, if the scene has load cases. */
 static void acting(FILE *to, const scene *s, const scene_quantity *q)
 {
     static const char *const of[] = {"", "largest of", "least of",

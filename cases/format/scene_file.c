@@ -5,7 +5,6 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Checks the reference values and their quantities at a parameter point. */
 static void scene_file_truths_check(const scene_file *file, const scene *s, const double value[],
                                     mistakes *m);
 
@@ -78,9 +77,8 @@ static status build_from(const void *context, const double value[], scene *s, fa
     return mistakes_status(&m, f);
 }
 
-/* Reads the tree and the tables in other files, checks the keys, and reads the parameters. Stops
- * after a step with errors. `folder` is the path of a file in the folder to which table files are
- * relative, or NULL. */
+/* Reads the tree and the tables in other files, checks the keys, and reads the parameters. `folder`
+ * is the path of a file in the folder to which table files are relative, or NULL. */
 static void read_form(scene_file *file, const char *bytes, size_t size, const char *folder,
                       mistakes *m)
 {
@@ -150,8 +148,6 @@ status scene_file_read_bytes(const char *bytes, size_t size, const char *path, s
     return read_from(bytes, size, path, NULL, 1, out, m, f);
 }
 
-/* Reads the bytes of a file. One byte more than allowed is read, so that a longer file is
- * detected. */
 static status read_bytes(const char *path, char *bytes, size_t room, size_t *size, fault *f)
 {
     FILE *from = fopen(path, "rb");
@@ -163,7 +159,6 @@ static status read_bytes(const char *path, char *bytes, size_t room, size_t *siz
     return failed ? fault_set(f, STATUS_FAULT, "%.200s cannot be read", path) : STATUS_OK;
 }
 
-/* The caller frees `bytes`, even after a failure. */
 static status read_file(const char *path, char *bytes, size_t room, int built, scene_file **out,
                         mistakes *m, fault *f)
 {
@@ -224,7 +219,6 @@ const char *scene_file_path(const case_type *type)
     return type->build_from == build_from ? ((const scene_file *)type->context)->path : NULL;
 }
 
-/* A reference value in the file. */
 typedef struct file_truth {
     int holds; /* 1 if the reference value applies at the current parameter point */
     scene_truth truth_row;
@@ -331,7 +325,6 @@ static truth_reader open_truths(const scene_file *file, const double value[], ar
     truth_reader r = {.b = {.arena = a, .mistakes = m, .root = file->root}};
     r.b.names = unroll_let(document_find(file->root, "let"),
                            parameter_table_names(file->parameter, value, a), a, m);
-    /* expressions may contain constants of sections */
     scene of_sections;
     scene_init(&of_sections, "");
     r.b.scene = &of_sections;
@@ -358,7 +351,6 @@ static void scene_file_truths_check(const scene_file *file, const scene *s, cons
     arena_free(&a);
 }
 
-/* The caller frees the workspace, even after a failure. */
 static status give_at(const scene_file *file, const double point[], scene *s, arena *a,
                       scene_truth_taker *take, void *to, fault *f)
 {

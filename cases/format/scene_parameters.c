@@ -37,7 +37,6 @@ void mistake_parameter(mistakes *m, const document_node *n, const parameter_type
                      below ? "minimum" : "maximum", below ? p->min : p->max);
 }
 
-/* Reports that the default of a parameter is not one of its choices. */
 static void mistake_choice(mistakes *m, const document_node *value, const char *name,
                            const char *choices)
 {
@@ -100,7 +99,6 @@ static void read_number(parameter_type *p, const document_node *entry, int any_u
                          p->min);
     else if (read && !(p->value >= p->min && p->value <= p->max))
         mistake_parameter(m, at, p, p->value);
-    /* a range from 0 to 1 without a unit would be mistaken for a switch in --set */
     if (p->min == 0 && p->max == 1)
         p->max = nextafter(1, 2);
 }
@@ -156,7 +154,6 @@ static const char *const list_name[SCENE_LISTS] = {
     "sections", "nodes",      "members", "springs",      "motions",     "loads",
     "analyses", "quantities", "",        "combinations", "constraints", "imperfections"};
 
-/* Checks the length of the name of an entry, and that no previous entry has this name. */
 static void check_name(const builder *b, scene_list list, int i)
 {
     const unrolled *entry = &b->list[list].entry[i];
@@ -189,7 +186,6 @@ void build_sections(builder *b)
     builder_sections(b);
 }
 
-/* Lists the entries of the scene except sections, then those of its instances. */
 static void list_entries(builder *b)
 {
     static const scene_list placed[PLACEMENT_LISTS] = {SCENE_NODES, SCENE_MEMBERS, SCENE_SPRINGS,
@@ -216,8 +212,6 @@ static void list_entries(builder *b)
             check_name(b, (scene_list)i, k);
 }
 
-/* Reads the key `needs` of earlier versions, which is replaced by `omit`. Physics that it does not
- * list is omitted. Warping of sections that warp is never omitted. */
 static void read_needs(const fields *f)
 {
     static const char choices[] =
@@ -299,8 +293,7 @@ static void read_plane(builder *b)
 
 static void read_meshes(builder *b)
 {
-    int usual[] = {1, 2, 4, 8},
-        least = 1; /* default meshes, without those too coarse for an initial shape */
+    int usual[] = {1, 2, 4, 8}, least = 1;
     for (int i = 0; i < b->scene->members; i++) {
         const scene_member *m = &b->scene->member[i];
         if ((m->bow[0] != 0 || m->bow[1] != 0) && 2 * m->half_waves > least)
@@ -331,7 +324,6 @@ static void read_meshes(builder *b)
     scene_meshes(b->scene, count < SCENE_MESHES ? count : SCENE_MESHES, mesh);
 }
 
-/* Reports a rejection, such as "node tip: ...", at the position of the entry in the message. */
 static void report_refusal(const builder *b, const char *text)
 {
     static const char *const word[SCENE_LISTS] = {
@@ -354,7 +346,6 @@ static void report_refusal(const builder *b, const char *text)
     document_mistake(b->mistakes, b->root, 0, "%s", text);
 }
 
-/* Reports an error and returns 1 if `refuse` rejects the parameter values. */
 static int refuses(const builder *b)
 {
     const document_node *all = document_find(b->root, "refuse");
@@ -370,7 +361,7 @@ static int refuses(const builder *b)
 }
 
 /* Converts the scene from the units of the file to SI. Quantities are reported in the units of the
- * file. `own` is the number of quantities that the file contains; default quantities follow. */
+ * file. */
 static void to_si(const builder *b, int own)
 {
     fault f = {""};
@@ -390,8 +381,7 @@ static void hold_warping(builder *b)
     scene_warping_by_supports(b->scene);
 }
 
-/* Builds the lists. Each refers only to previous ones. Stops if out of memory. Returns the number
- * of quantities in the file. */
+/* Builds the lists. Returns the number of quantities in the file. */
 static int build_lists(builder *b)
 {
     static void (*const own[])(
@@ -441,7 +431,6 @@ void build_scene(const document_node *root, const scope *names, arena *a, mistak
         report_refusal(&b, f.text);
 }
 
-/* Returns the tree, which the arena owns, or NULL if out of memory. */
 static const document_node *unpack(const scene_packed *p, arena *a)
 {
     const size_t nodes = (size_t)p->nodes;
@@ -472,7 +461,6 @@ status scene_packed_build(const void *context, const double value[], scene *s, f
         build_scene(root, parameter_table_names(p->parameters, value, &a), &a, &m, s);
     m.out_of_memory |= a.failed;
     arena_free(&a);
-    /* users do not have the file of a built-in case, so the message does not contain a position */
     return m.count > 0 && !m.out_of_memory ? fault_set(f, STATUS_REFUSED, "%s", m.list[0].text)
                                            : mistakes_status(&m, f);
 }

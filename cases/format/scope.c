@@ -180,7 +180,6 @@ const char *substitute_for_message(const document_node *n, const scope *names, a
     return substitute_text(n, 1, names, a, m);
 }
 
-/* Returns a copy in which the names are replaced, or the node itself if it contains no names. */
 static document_node *substituted(document_node *n, const scope *names, arena *a, mistakes *m);
 
 static document_node *copy_of(const document_node *n, const scope *names, arena *a, mistakes *m)

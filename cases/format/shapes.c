@@ -23,7 +23,6 @@ static void add_wall(section_spec *spec, int from, int to, double thickness)
     spec->wall[spec->walls++].thickness = thickness;
 }
 
-/* Two flanges along y and a web along z. */
 typedef struct flanged {
     double half, flange, flange_thickness, web_thickness;
 } flanged;
@@ -36,8 +35,6 @@ static flanged flanged_of(const fields *f)
                      .web_thickness = fields_number(f, "web_thickness", 1)};
 }
 
-/* Adds an open line of three walls: the upper flange from y = `upper` to the web, the web, and the
- * lower flange to y = `lower`. */
 static void add_line(section_spec *spec, const flanged *s, double upper, double lower)
 {
     add_point(spec, upper, s->half);
@@ -92,7 +89,7 @@ static void tee(const fields *f, section_spec *spec)
 static void add_box(section_spec *spec, flanged s)
 {
     add_line(spec, &s, s.flange / 2, s.flange / 2);
-    for (int k = 0; k < spec->points; k++) /* web at one side of the box */
+    for (int k = 0; k < spec->points; k++)
         spec->point[k][0] += k == 1 || k == 2 ? -s.flange / 2 : 0;
     add_wall(spec, 3, 0, s.web_thickness);
     spec->cells = 1;
@@ -261,7 +258,6 @@ static const double angle_root[][3] = {
 static const double spandrel_area = 1 - PI / 4, spandrel_at = (10 - 3 * PI) / (12 - 3 * PI),
                     spandrel_moment = 1. / 3 - PI / 16 - 1 / (36 - 9 * PI);
 
-/* Sets the constant unless the file specifies it. */
 static void give(double *to, double value)
 {
     if (isnan(*to))
@@ -468,8 +464,6 @@ static int add_profile(section_spec *spec, const char *name, double mm)
     return 0;
 }
 
-/* Writes the available dimensions of the family of this name, or the form of names if the family is
- * unknown. */
 static void known_profiles(const char *name, char *text, size_t size)
 {
     static const struct {

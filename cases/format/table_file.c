@@ -1,5 +1,3 @@
-/* Tables from CSV files. `table: {file: drive.csv, at: t, value: ux}` is replaced by the equivalent
- * table before other functions read the tree. */
 #include <errno.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -9,16 +7,15 @@
 
 enum { LINE_BYTES = 8192, COLUMNS = 256, NAME_BYTES = 64, COLUMNS_REPORTED = 160 };
 
-/* State of a file that is read for a table. */
 typedef struct table_file {
-    const document_node *place; /* position of the file name, for messages */
+    const document_node *place;
     arena *arena;
     mistakes *mistakes;
-    const char *name;              /* path as written in the scene file */
-    const document_node *of[2];    /* columns of the abscissa and of the value: names or numbers */
+    const char *name;
+    const document_node *of[2];
     int column[2], columns, begun; /* columns to read, starting at 0; number of columns in the first
                                       row; 1 if the columns are known */
-    double last;                   /* last value of the abscissa */
+    double last;
     document_node *list[2];
     int line;
     char text[LINE_BYTES], *field[COLUMNS];
@@ -31,7 +28,6 @@ static int wrong(const table_file *t, const char *what, const char *which, const
     return 0;
 }
 
-/* Checks the number of columns of a row. */
 static int check_columns(const table_file *t, int count)
 {
     if (count > COLUMNS)
@@ -65,7 +61,6 @@ static char *next_line(table_file *t, FILE *from, int *good)
     return NULL;
 }
 
-/* Splits the line at commas or semicolons or, if there are none, at blanks. */
 static int split(table_file *t, char *line)
 {
     if (strchr(line, ',') == NULL)
@@ -262,7 +257,6 @@ static int read_shifts_from(shift_file *s, FILE *from)
                : good;
 }
 
-/* Opens a file. Its path is relative to the folder of the scene file. */
 static FILE *open_beside(const char *beside, const char *name, arena *a)
 {
     const char *slash = strrchr(beside, '/');
@@ -276,7 +270,6 @@ static FILE *open_beside(const char *beside, const char *name, arena *a)
     return line_open(path);
 }
 
-/* Opens the file that a map names. Returns NULL after an error or if the map names no file. */
 static FILE *open_file(table_file *t, const char *beside)
 {
     const document_node *file = t->place;

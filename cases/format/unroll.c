@@ -12,7 +12,7 @@ typedef struct unroller {
     mistakes *mistakes;
     unrolled *list;
     int count, failed;
-    const document_node *key, *value; /* current entry; the key is NULL in a list */
+    const document_node *key, *value;
 } unroller;
 
 static void add(unroller *u, const scope *names)
@@ -111,8 +111,6 @@ int unroll_entries(const document_node *collection, const scope *names, arena *a
     return u.count;
 }
 
-/* Adds a local name, given by an expression or a choice. After an error the name is still defined,
- * so that the error is reported only once. */
 static const scope *add_let(const document_node *key, const document_node *value_node,
                             const scope *names, arena *a, mistakes *m)
 {
@@ -261,7 +259,6 @@ void mistake_axes(mistakes *m, const document_node *axes)
                      "two perpendicular directions");
 }
 
-/* Reads `axes: {x: [3], z: [3]}`, which are orthogonal and of any length. */
 static void read_axes(const document_node *axes, const scope *names, mistakes *m, placement *p)
 {
     double x[3], z[3], y[3];
@@ -276,7 +273,6 @@ static void read_axes(const document_node *axes, const scope *names, mistakes *m
     p->turned = 1;
 }
 
-/* Reads `turn: {z: angle}`, a rotation about one axis of the scene. */
 static void read_turn(const document_node *turn, const scope *names, mistakes *m, placement *p)
 {
     static const char axis[] = "x|y|z";
@@ -302,7 +298,6 @@ static int is_port(const document_node *places, const char *name)
     return 0;
 }
 
-/* Checks that `connect` contains all ports of the part and no other names. */
 static void check_ports(const document_node *part, const unrolled *instance, const placement *p,
                         mistakes *m)
 {

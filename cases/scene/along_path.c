@@ -39,7 +39,7 @@ double along_path_value(const scene_driver *d, double path)
 /* Range of the path in which loads or drivers change, or begin > end if there is no such range. */
 typedef struct changes {
     double begin, end;
-    scene_words last; /* name of the entry that changes last */
+    scene_words last;
 } changes;
 
 static void add_changes(int stations, const double path[], const double value[],
@@ -198,8 +198,6 @@ static int is_fed_back(const scene_load *l)
     return l->feedback.node != SCENE_NONE && acts && scene_load_acts(l);
 }
 
-/* Returns 1 if a load has feedback that the analysis cannot include. Damped modes include feedback,
- * except about an instant of a motion. */
 static int has_feedback(const scene *s, int analysis, char *owner_name, int size)
 {
     const scene_analysis *a = &s->analysis[analysis];
@@ -270,8 +268,6 @@ static int has_unsymmetric_dashpot(const scene *s, int analysis, char *owner_nam
     return 0;
 }
 
-/* Returns 1 if the stiffness of a spring is unsymmetric and the analysis does not compute damped
- * modes. */
 static int has_unsymmetric_spring(const scene *s, int analysis, char *owner_name, int size)
 {
     for (int i = 0; i < s->springs && !s->analysis[analysis].damped; i++)
@@ -324,7 +320,6 @@ static int has_diaphragm(const scene *s, int analysis, char *owner_name, int siz
     return 0;
 }
 
-/* Returns 1 if ends of two members share a warping coordinate. */
 static int has_shared_warping(const scene *s, int analysis, char *owner_name, int size)
 {
     (void)analysis;
@@ -383,8 +378,6 @@ static int has_drive_of_case(const scene *s, int analysis, char *owner_name, int
     return 0;
 }
 
-/* Returns 1 if the analysis, or the analysis that it follows, has a rotating frame. Writes the name
- * of the analysis with the frame to `owner_name`. */
 static int has_spin(const scene *s, int analysis, char *owner_name, int size)
 {
     const int follows = s->analysis[analysis].follows;
@@ -525,7 +518,6 @@ int scene_inputs_flutter(const scene *s, int analysis)
     return 0;
 }
 
-/* Rejects unknown drivers, which linear analyses would treat as zero. */
 static status check_unknown(const scene *s, int analysis, scene_column column, fault *f)
 {
     for (int d = 0; d < s->drivers; d++)

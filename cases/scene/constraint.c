@@ -1,4 +1,3 @@
-/* Constraints: a coordinate of a node is a multiple of another coordinate. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>
@@ -22,8 +21,6 @@ int scene_add_constraint(scene *s, unsigned components, double ratio)
     return i;
 }
 
-/* Replaces the spatial rotation components of a node by a sequence, which begins with the rotation
- * about the normal. */
 static void turn_across(scene_node *n, int normal)
 {
     if (n->rotation != SCENE_ROTATION_SPATIAL)
@@ -128,8 +125,6 @@ static int leaves_plane(const scene *s, int node, int component)
     return component < SCENE_RX ? along : !along;
 }
 
-/* Returns 1 if `motion` is an unknown driver, or if the component is the condition that determines
- * the value of one. */
 static int is_condition(const scene *s, int node, int component, int motion)
 {
     if (motion >= 0 && s->driver[motion].value == NULL && s->driver[motion].function.pieces == 0)
@@ -149,8 +144,6 @@ static status refuse_attached(const scene *s, int constraint, int node, fault *f
                      scene_called(s, SCENE_NODES, node).text, other.text, other.text);
 }
 
-/* Finds the coordinate that represents the component of a node, and the motion that prescribes the
- * coordinate. */
 static status coordinate_of(const scene *s, int constraint, int node, int component,
                             int *coordinate, int *motion, fault *f)
 {
@@ -210,7 +203,6 @@ static int motion_at(const scene *s, scene_tie at)
                                     : n->angle[at.coordinate - SCENE_RX];
 }
 
-/* Returns 1 if the component belongs to a diaphragm. */
 static int is_across(const scene *s, int node, int component)
 {
     for (int i = 0; i < s->constraints; i++)
@@ -221,8 +213,7 @@ static int is_across(const scene *s, int node, int component)
     return 0;
 }
 
-/* Makes the component of node k `ratio` times that of the first node. The relation connects the
- * coordinates at the ends of their chains. */
+/* Makes the component of node k `ratio` times that of the first node. */
 static status join(const scene *s, int constraint, int k, int component, scene_tie tie[], fault *f)
 {
     const scene_constraint *c = &s->constraint[constraint];
@@ -251,7 +242,6 @@ static status join(const scene *s, int constraint, int k, int component, scene_t
     return STATUS_OK;
 }
 
-/* Checks that the node can belong to a diaphragm. */
 static status check_across(const scene *s, int i, int node, fault *f)
 {
     const scene_constraint *c = &s->constraint[i];
@@ -280,8 +270,6 @@ static status check_across(const scene *s, int i, int node, fault *f)
     return STATUS_OK;
 }
 
-/* Relates the in-plane translations and the rotation about the normal of all nodes to those of the
- * leading node. */
 static status join_across(const scene *s, int i, scene_tie tie[], fault *f)
 {
     const scene_constraint *c = &s->constraint[i];

@@ -55,12 +55,10 @@ static void reverse_stress(scene_quantity *q)
                                 !what.before));
 }
 
-/* Reverses a load of a member whose ends are exchanged. */
 static void reverse_load(scene_load *load)
 {
     const double begin = load->range[0];
-    for (int k = 0; k < 2 && load->axes == SCENE_AXES_MEMBER;
-         k++) { /* the axes x and y of the member change direction */
+    for (int k = 0; k < 2 && load->axes == SCENE_AXES_MEMBER; k++) {
         load->vector[k] = -load->vector[k];
         load->last[k] = -load->last[k];
         load->at[k] = -load->at[k];
@@ -96,7 +94,7 @@ static status reverse(scene *s, fault *f)
         m->section_q = section_p;
         m->warp_p = m->warp_q;
         m->warp_q = warp_p;
-        const scene_release released = m->release[0]; /* the axes of a release do not change */
+        const scene_release released = m->release[0];
         m->release[0] = m->release[1];
         m->release[1] = released;
         double beside[3];
@@ -185,7 +183,6 @@ static int section_between(scene *s, const scene_member *m, double fraction)
     return scene_add_section(s, &spec);
 }
 
-/* Restricts a load to the part of its member between two positions, which become 0 and 1. */
 static void cut_load(scene_load *load, double from, double to)
 {
     const scene_load whole = *load;
@@ -201,8 +198,6 @@ static void cut_load(scene_load *load, double from, double to)
     }
 }
 
-/* Splits a load of the first member, which now ends at `fraction`, between the first and the second
- * member. */
 static void split_load(scene *s, int load, double fraction, int second)
 {
     const scene_load whole = *scene_load_at(s, load);

@@ -1,4 +1,3 @@
-/* Analyses and quantities of a scene. */
 #include "cases/scene/scene.h"
 
 #include <math.h>

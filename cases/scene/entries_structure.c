@@ -1,4 +1,3 @@
-/* Keys of a structure, except its sections. */
 #include "cases/scene/scene.h"
 
 #include <math.h>

@@ -157,7 +157,6 @@ static status check_number(const entry_field *k, double value, fault *f)
                                                         k->name, value, entry_range(k, range));
 }
 
-/* Returns REFUSED if the named entry does not exist, or if a required name is missing. */
 static status check_name(const scene *s, const entry_field *k, int index, fault *f)
 {
     const char *what = scene_list_word(k->of);
@@ -169,7 +168,6 @@ static status check_name(const scene *s, const entry_field *k, int index, fault 
                      index, what);
 }
 
-/* Checks that the value belongs to a word or is the default. */
 static status check_word(const entry_field *k, int value, fault *f)
 {
     char word[SCENE_NAME] = "";
@@ -228,7 +226,7 @@ static int base_power(const char *word, size_t size, entry_base base)
 int entry_power(const char *unit, entry_base base)
 {
     static const char letters[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ";
-    int power = 0, side = 1; /* side is -1 after a slash */
+    int power = 0, side = 1;
     while (*unit != '\0') {
         const size_t size = strspn(unit, letters);
         const int times = unit[size] == '^' ? unit[size + 1] - '0' : 1;

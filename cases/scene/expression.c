@@ -11,8 +11,6 @@
 
 #include "elements/math/scalar.h"
 
-/* A value with its first two time derivatives. */
-
 typedef struct jet {
     double v, d, dd;
 } jet;
@@ -110,8 +108,8 @@ static jet of_function(jet_operation what, jet x)
     }
 }
 
-/* Applies the operation to a and, if it has two operands, to b. A value or derivative that does not
- * exist is not finite. The operation must not be JET_NUMBER or JET_TIME. */
+/* Applies the operation to a and, if it has two operands, to b. The operation must not be
+ * JET_NUMBER or JET_TIME. */
 static jet jet_of(jet_operation what, jet a, jet b)
 {
     switch (what) {
@@ -138,8 +136,8 @@ typedef struct expression_function {
     double value;  /* value of a constant */
     double (*of_one)(double);
     double (*of_two)(double, double); /* for two or more arguments: applied repeatedly */
-    int kinked;            /* 1 if the function has discontinuities in its value or slope */
-    jet_operation in_time; /* JET_NUMBER if arguments must not contain t */
+    int kinked;
+    jet_operation in_time;
 } expression_function;
 
 static double sign_of(double x)
@@ -214,7 +212,6 @@ typedef struct instruction {
     double number;
 } instruction;
 
-/* Operations in the order of execution, on a stack. */
 struct formula {
     int count;
     instruction step[MOST];
@@ -222,9 +219,9 @@ struct formula {
 
 typedef struct reader {
     const char *text;
-    int at, end;       /* current position in the text, and end of the expression */
+    int at, end;
     int nested, depth; /* nesting depth of parentheses, signs and powers, and depth of the stack */
-    int in_time;       /* 1 if t is the time */
+    int in_time;
     expression_name *find;
     const void *names;
     formula *to;
@@ -243,7 +240,6 @@ status expression_wrong(expression_mistake *m, int at, const char *of, ...)
 
 #define WRONG(r, place, ...) expression_wrong((r)->mistake, place, __VA_ARGS__)
 
-/* Returns the next character that is not blank, or '\0' at the end of the expression. */
 static char here(reader *r)
 {
     while (r->at < r->end && isspace((unsigned char)r->text[r->at]))
@@ -265,7 +261,6 @@ static status wrong_nested(const reader *r)
                  "the expression is nested too deeply; simplify it, or compute parts with 'let'");
 }
 
-/* Appends an operation, which changes the number of values on the stack by `grows`. */
 static status emit(reader *r, jet_operation what, double number, int grows)
 {
     if (r->to->count == MOST)
@@ -302,8 +297,7 @@ static double of_numbers(jet_operation what, double a, double b)
 }
 
 /* Applies an operation to the last two values, which begin at the operations `left` and `right`.
- * `place` is the position of the operation in the text. Without t, the result is a constant with
- * zero derivatives, even if the function is not differentiable there. */
+ * `place` is the position of the operation in the text. */
 static status operate(reader *r, jet_operation what, int place, int left, int right)
 {
     const double *b = number_from(r, right);
@@ -375,7 +369,6 @@ static status read_literal(reader *r)
 
 static status read_sum(reader *r);
 
-/* Reads the arguments after "(". A function of constants is evaluated. */
 static status read_arguments(reader *r, const expression_function *f, int word, int *count)
 {
     do {
@@ -484,7 +477,6 @@ static status read_power(reader *r)
     return operate(r, JET_POWER, place, left, right);
 }
 
-/* Reads an operand with its signs, which have lower precedence than ^. */
 static status read_signed(reader *r)
 {
     const int minus = takes(r, '-'), first = r->to->count;
@@ -501,7 +493,6 @@ static status read_signed(reader *r)
     return STATUS_OK;
 }
 
-/* Reads terms that are joined by either of two operators. */
 static status read_terms(reader *r, const char sign[2], const jet_operation what[2],
                          status (*term)(reader *))
 {

@@ -1,4 +1,3 @@
-/* Loads, and stress-free lengths and strains of members. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>
@@ -41,7 +40,6 @@ scene_load *scene_load_at(scene *s, int i)
     return i >= 0 && i < s->loads ? &s->load[i] : &s->scrap.load;
 }
 
-/* Returns 1 if the member has a stress-free elongation or curvature. */
 static int scene_member_is_free(const scene_member *m)
 {
     return m->pretension != 0 || m->unstressed_length != 0 || m->free_curvature[0] != 0 ||

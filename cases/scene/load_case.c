@@ -1,4 +1,3 @@
-/* Load cases, combinations of load cases, and the selection of the active loads. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>
@@ -83,8 +82,6 @@ scene_words scene_acting_called(const scene *s, int number)
                                     : scene_called(s, SCENE_COMBINATIONS, number - 1);
 }
 
-/* Checks that every load has a load case if the scene has load cases. Otherwise it would be
- * ambiguous when a load acts. Rejects a load case of an unknown driver. */
 static status check_loads(const scene *s, fault *f)
 {
     for (int i = 0; i < s->loads; i++)
@@ -187,7 +184,7 @@ status scene_validate_acting(const scene *s, int i, fault *f)
 
 status scene_validate_case_of(const scene *s, const scene_quantity *q, fault *f)
 {
-    if (q->what.kind == SCENE_ENVELOPE_OF) /* its quantities select the loads */
+    if (q->what.kind == SCENE_ENVELOPE_OF)
         return STATUS_OK;
     const int all = scene_solves_all(s, q->analysis),
               has_envelope =

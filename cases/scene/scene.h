@@ -1,8 +1,4 @@
-/* Scenes: structure, loads and prescribed coordinates, analyses and quantities.
- *
- * The order of the sections is analysis; expression, formula and function of time; quantity; scene;
- * values along a path; edit; names; entry (keys of scene files); inputs of analyses; lists;
- * descriptions of quantities and omission; quantity type; unit of length; warping of ends. */
+/* Scenes: structure, loads and prescribed coordinates, analyses and quantities. */
 #ifndef BEAMWORK_CASES_SCENE_SCENE_H
 #define BEAMWORK_CASES_SCENE_SCENE_H
 
@@ -13,9 +9,7 @@
 #include "elements/section/section.h"
 #include "elements/shared/status.h"
 
-/* Analyses. An analysis has a kind and the data of this kind. Every scene_add_* returns the index
- * of the new analysis, or -1 if out of memory. For each kind, a function below returns its data; it
- * aborts if the analysis is of another kind. Other sources do not use the union. */
+/* Analyses. Every scene_add_* returns the index of the new analysis, or -1 if out of memory. */
 
 typedef struct scene scene;
 
@@ -39,7 +33,6 @@ typedef enum scene_analysis_kind {
                     */
 } scene_analysis_kind;
 
-/* Convention of a reaction moment on a rotating node (harness/newton/newton.h). */
 typedef enum scene_moments {
     SCENE_MOMENTS_SPATIAL,
     SCENE_MOMENTS_SEMITANGENTIAL,
@@ -106,7 +99,6 @@ typedef enum scene_scheme {
 
 #define SCENE_SCHEME_CHOICES "alpha|conserving|radau|explicit"
 
-/* Distribution of the mass of members. */
 typedef enum scene_mass {
     SCENE_MASS_USUAL, /* consistent if all integrators of the chain of motions and the formulation
                          support it and the scene does not request lumped mass; otherwise lumped */
@@ -116,7 +108,6 @@ typedef enum scene_mass {
 
 #define SCENE_MASS_CHOICES "lumped|consistent"
 
-/* Parameters of the generalized-alpha method. */
 typedef struct scene_alpha {
     double mass, force; /* alpha_m, alpha_f */
 } scene_alpha;
@@ -156,7 +147,6 @@ typedef struct scene_acting {
     int load_case, combination;
 } scene_acting;
 
-/* Axes of small motions about an instant of a motion. */
 typedef enum scene_turning {
     SCENE_TURNING_OWN, /* axes of each node, which rotate with the node */
     SCENE_TURNING_NONE /* axes fixed in space */
@@ -179,11 +169,11 @@ typedef struct scene_analysis {
         scene_path harmonic; /* frequencies [Hz] */
     } of;
     scene_proportional
-        damping;    /* damping of small vibrations, in addition to that of members and dashpots */
-    int damped;     /* 1 if modes include damping */
-    int open_loops; /* 1 if the feedback of loads is omitted */
-    int by_modes;   /* 1 if a harmonic analysis is solved by superposition of modes */
-    int modes;      /* number of modes, or 0 for all modes */
+        damping; /* damping of small vibrations, in addition to that of members and dashpots */
+    int damped;
+    int open_loops;        /* 1 if the feedback of loads is omitted */
+    int by_modes;          /* 1 if a harmonic analysis is solved by superposition of modes */
+    int modes;             /* number of modes, or 0 for all modes */
     char name[SCENE_NAME]; /* "" for no name */
 } scene_analysis;
 
@@ -268,8 +258,6 @@ status expression_value(const char *text, int from, int end, expression_name *fi
 status expression_wrong(expression_mistake *, int at, const char *of, ...)
     __attribute__((format(printf, 3, 4)));
 
-/* A function of time: an expression without names. */
-
 typedef struct formula formula;
 
 /* Parses a function. Returns REFUSED if the text is invalid, or FAULT if out of memory. */
@@ -316,9 +304,8 @@ int function_finite(const scene_function *, double end, int derivatives, double 
  * and sets *time to the discontinuity, and *derivative to 0 for the value or 1 for the velocity. */
 int function_smooth(const scene_function *, double end, double *time, int *derivative);
 
-/* Quantities of an analysis. A quantity has a name, an extracted value (one struct for each kind)
- * and a statistic. For each kind, a function below returns its data; it aborts if the quantity is
- * of another kind. Other sources do not use the union. */
+/* Quantities of an analysis. For each kind, a function below returns its data; it aborts if the
+ * quantity is of another kind. */
 
 typedef enum scene_quantity_kind {
     SCENE_COORDINATE,       /* displacement component or rotation-vector component of a node */
@@ -345,7 +332,6 @@ typedef enum scene_quantity_kind {
     SCENE_READING         /* value that depends only on nodes; the quantity type computes it */
 } scene_quantity_kind;
 
-/* A point of a path at which the tangent stiffness is singular. */
 typedef enum scene_critical { SCENE_LIMIT_POINT, SCENE_BIFURCATION } scene_critical;
 
 typedef enum scene_family {
@@ -363,7 +349,6 @@ typedef enum scene_reduction {
     SCENE_MIN,
     SCENE_AT,
     SCENE_CURVE,
-    /* Statistics over all times of a motion. */
     SCENE_MAX_TIME,   /* time of the largest value [s] */
     SCENE_MIN_TIME,   /* time of the smallest value [s] */
     SCENE_CROSSING,   /* time at which a level is crossed [s] */
@@ -388,7 +373,6 @@ static inline int scene_is_extreme(scene_reduction how)
     return how == SCENE_MAX || how == SCENE_MIN || how == SCENE_MAX_TIME || how == SCENE_MIN_TIME;
 }
 
-/* Direction in which a level is crossed. */
 typedef enum scene_direction { SCENE_RISING, SCENE_FALLING, SCENE_EITHER } scene_direction;
 #define SCENE_DIRECTION_CHOICES "rising|falling|either"
 /* The last two words also select curves. */
@@ -408,7 +392,6 @@ typedef enum scene_transform {
 typedef enum scene_taper { SCENE_TAPER_NONE, SCENE_TAPER_HANN } scene_taper;
 #define SCENE_TAPER_CHOICES "none|hann"
 
-/* Level crossing and time window of a statistic. */
 typedef struct scene_passing {
     double level; /* level of the extracted value, in SI units */
     scene_direction direction;
@@ -448,7 +431,6 @@ typedef enum scene_resultant {
     SCENE_RESULTANTS
 } scene_resultant;
 
-/* The cross-section of a member at which a value is computed. */
 typedef enum scene_along {
     SCENE_ALONG_PLACE,  /* at a position */
     SCENE_ALONG_MAX,    /* at the cross-section with the largest value */
@@ -471,7 +453,6 @@ typedef struct scene_deflection {
     double place; /* position as a fraction of the initial length, 0 at p to 1 at q */
 } scene_deflection;
 
-/* Measures over all stress points of a cross-section (elements/section/stress.h) [Pa]. */
 typedef enum scene_stress_measure {
     SCENE_VON_MISES,
     SCENE_NORMAL_MAX, /* stress along the fibres; tension is positive */
@@ -510,7 +491,6 @@ typedef struct scene_relative {
     int node, component, from;
 } scene_relative;
 
-/* Data of kinds without their own struct, whose key tables list the members that they use. */
 typedef struct scene_reading {
     int node[4], component[4];
     double number[4];
@@ -587,7 +567,7 @@ typedef struct scene_extract {
         scene_relative relative;
         scene_response response;
         scene_reading reading;
-        int envelope; /* scene_envelope */
+        int envelope;
     } of;
 } scene_extract;
 
@@ -641,7 +621,6 @@ typedef struct scene_prediction {
     const char *source; /* NULL without a prediction */
 } scene_prediction;
 
-/* Statistic over load cases or combinations. */
 typedef enum scene_envelope {
     SCENE_ENVELOPE_NONE,
     SCENE_ENVELOPE_MAX,
@@ -688,8 +667,6 @@ void scene_set_curve_over(scene_quantity *q, const char *quantity, const char *u
 int scene_abscissa_of(const scene *s, const scene_quantity *q);
 /* Sets the quantity to its value at one path parameter or control coordinate. */
 void scene_set_at(scene_quantity *q, double at);
-/* Sets the quantity to a statistic over all times of a motion: SCENE_MAX, SCENE_MIN, or
- * SCENE_MAX_TIME to SCENE_RMS. */
 void scene_set_passing(scene_quantity *q, scene_reduction, scene_passing);
 /* Sets *first to the index of the first station of a spectrum and *count to the number of its
  * stations. Returns REFUSED if the stations are not evenly spaced. */
@@ -717,7 +694,6 @@ int scene_reads_forces(const scene_quantity *q);
 /* Returns 1 if the analysis is used: by a quantity, an imperfection or another used analysis.
  * Without quantities, all analyses are used. */
 int scene_reads(const scene *s, int analysis);
-/* Removes all quantities that the scene `of` does not contain, by name. */
 void scene_keep_quantities(scene *s, const scene *of);
 /* Returns the unit of the displacement or rotation per force or moment. Both arguments are SCENE_UX
  * to SCENE_RZ. */
@@ -731,7 +707,6 @@ int scene_gives(scene_analysis_kind analysis, const scene_quantity *q);
  * Every scene_* function that adds an entry returns the index of the entry in its list, or -1 if
  * out of memory (scene_validate reports this once, at the end). */
 
-/* Largest number of meshes of a scene or a command. */
 enum { SCENE_MESHES = 24 };
 
 /* Components of a node: three translations and three rotations about global axes. */
@@ -743,7 +718,6 @@ enum { SCENE_WARP_FREE = -1, SCENE_WARP_FIXED = -2 };
 /* Motion of one coordinate. A value >= 0 is the index of a driver. */
 enum { SCENE_FREE = -1, SCENE_HELD = -2 };
 
-/* Restriction to a plane: nodes and members remain in the plane, and warping is restrained. */
 typedef enum scene_plane {
     SCENE_SPACE,
     SCENE_PLANE_YZ,
@@ -762,7 +736,6 @@ typedef enum scene_rotation {
                            free: see scene_fork */
 } scene_rotation;
 
-/* A rigid body that moves with a node. */
 typedef struct scene_body {
     double mass;       /* [kg] */
     double centre[3];  /* centre of mass relative to the node in the undeformed state [m] */
@@ -790,9 +763,8 @@ typedef struct scene_node {
 /* Released components of a member end, which the end does not transmit to its node. Rotations are
  * in the order of their axes. The components are in the axes of the member at this end (y as in
  * scene_member). With r and R of the node, the end is at r + R_end s, where R_end = R exp(a_1 t_1)
- * exp(a_2 t_2) rotates by the angles t about the axes a, and s are the released translations. Of
- * two rotations, the first axis belongs to the node and the second to the member (a universal
- * joint). Three rotations are a ball joint. */
+ * exp(a_2 t_2) rotates by the angles t about the axes a, and s are the released translations. Three
+ * rotations are a ball joint. */
 enum { SCENE_RELEASED = 5 };
 typedef struct scene_release {
     int count; /* number of released components, or 0 if the end is rigidly joined */
@@ -900,7 +872,6 @@ typedef enum scene_load_kind {
     SCENE_TEMPERATURE    /* temperature change of a member, which expands [K] */
 } scene_load_kind;
 
-/* Axes of a load: global axes, or those of the undeformed member (y as in scene_member). */
 typedef enum scene_load_axes { SCENE_AXES_FIXED, SCENE_AXES_MEMBER } scene_load_axes;
 
 /* Feedback: a load at a node that depends on a measured component. The factor of the load is
@@ -936,12 +907,11 @@ typedef struct scene_load {
     char name[SCENE_NAME];
 } scene_load;
 
-/* A load case. Loads refer to it by its name. */
+/* A load case. */
 typedef struct scene_load_case {
     char name[SCENE_NAME];
 } scene_load_case;
 
-/* A load case of a combination, with its factor. */
 typedef struct scene_term {
     int load_case;
     double factor;
@@ -953,7 +923,6 @@ typedef struct scene_combination {
     char name[SCENE_NAME];
 } scene_combination;
 
-/* Stored constants of a section, with the description from which they were computed. */
 typedef struct scene_computed {
     int known;
     section_spec of;
@@ -961,7 +930,6 @@ typedef struct scene_computed {
     char name[SCENE_NAME];
 } scene_computed;
 
-/* Physics that a scene may omit (FEATURE_* bits). */
 enum {
     SCENE_OMITTABLE = FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_MOMENTS |
                       FEATURE_WAGNER_TORQUE | FEATURE_ROTARY_INERTIA | FEATURE_WARPING
@@ -976,7 +944,6 @@ typedef enum scene_shear {
 /* Shear theories in stability on which a reference value can depend. */
 #define SCENE_SHEAR_THEORIES "engesser|haringx"
 
-/* The name of an entry for use in a message. */
 typedef struct scene_words {
     char text[SCENE_NAME + 16];
 } scene_words;
@@ -1044,7 +1011,6 @@ void scene_chord(const scene *s, int member, double chord[3]);
 /* Returns 1 if this end of the member is offset from its node. */
 int scene_is_beside(const scene_member *m, int end);
 int scene_is_founded(const scene_member *m);
-/* Sets the table of one component. */
 void scene_set_table(scene *s, int spring, int component, int points, const double at[],
                      const double value[]);
 /* Returns the value of a table at x and sets *slope to the slope at x. At a point of the table, the
@@ -1080,7 +1046,6 @@ typedef struct scene_tie {
 } scene_tie;
 /* Fills tie[6 nodes]. Returns REFUSED if constraints contradict each other or the supports. */
 status scene_ties(const scene *, scene_tie tie[], fault *);
-/* Adds a dashpot to the spring. */
 void scene_damp_spring(scene *s, int spring, const double damping[36]);
 int scene_spring_damps(const scene_spring *);
 /* Returns 1 if the stiffness or the damping of the spring is unsymmetric. */
@@ -1118,11 +1083,9 @@ int scene_closes_loop(const scene *s, int analysis, int load);
 int scene_load_acts(const scene_load *load);
 /* Returns 1 if the load can make a tangent unsymmetric. */
 int scene_load_unsymmetric(const scene_load *load);
-/* Sets the factor of the load, which is piecewise linear in the path parameter. */
 void scene_set_factor(scene *s, int load, int stations, const double path[], const double factor[]);
 int scene_add_case(scene *s, const char *name);
 int scene_add_combination(scene *s, const char *name);
-/* Adds a load case to a combination. */
 void scene_add_term(scene *s, int combination, int load_case, double factor);
 /* Returns the number of the load case or combination that acts in the analysis or in the analysis
  * that it follows. Returns 0 if the scene has no load cases, if the analysis solves all load cases
@@ -1190,11 +1153,8 @@ void scene_meshes_doubled(scene *s, int first, int last);
  * changes. Not thread-safe. */
 status scene_constants(const scene *s, int i, section *out, fault *f);
 
-/* Makes ends of pieces and of motions equal if they differ only by rounding. Otherwise a motion
- * would make a step between two such times. */
 void scene_join_instants(scene *s);
-/* Checks the scene. Returns REFUSED with the cause, for example indices out of range, members of
- * zero length, contradictory supports, unused drivers, or names that are not unique. */
+/* Checks the scene. Returns REFUSED with the cause. */
 status scene_validate(const scene *s, fault *f);
 
 /* Returns the factor of the load at a path parameter. The factor is linear between stations, and
@@ -1216,8 +1176,6 @@ along_path_words along_path_end(const scene *, int acting);
  */
 status along_path_proportional(const scene *, int acting, fault *);
 
-/* Changes of a scene that must not change its results. */
-
 typedef enum scene_edit_kind {
     SCENE_EDIT_NONE,
     SCENE_EDIT_REVERSE, /* every member is reversed and runs from q to p */
@@ -1233,8 +1191,6 @@ typedef struct scene_edit {
 
 /* Changes the scene. Returns REFUSED if the change is not possible. */
 status scene_edit_apply(scene *s, const scene_edit *edit, fault *f);
-
-/* Names of entries of a scene, which are given by the user or made from the index. */
 
 typedef enum scene_list {
     SCENE_SECTIONS,
@@ -1261,16 +1217,12 @@ const char *scene_list_word(scene_list list);
 void scene_set_name(scene *s, scene_list list, int index, const char *name);
 /* Returns the name given to the entry, or "" if the entry has no name or does not exist. */
 const char *scene_own_name(const scene *s, scene_list list, int index);
-/* Returns a name such as "node_3" that is unique in the list. */
 scene_words scene_numbered(const scene *s, scene_list list, int index);
-/* Returns the name given to the entry or, if there is none, the result of scene_numbered. */
 scene_words scene_name(const scene *s, scene_list list, int index);
 /* Returns text for messages, such as "node tip", or "node 3" for an entry without a name. */
 scene_words scene_called(const scene *s, scene_list list, int index);
 
-/* Tables of the keys of entries of a scene. The row of a key contains its name in files, the
- * position of its value, its unit and its range. Files are read, checked and written by these
- * tables. */
+/* Tables of the keys of entries of a scene. Files are read, checked and written by these tables. */
 
 typedef enum entry_kind {
     ENTRY_TEXT,      /* any text */
@@ -1301,7 +1253,6 @@ typedef enum entry_turns {
     ENTRY_DIAGONAL   /* in the same way as a component, but without a change of sign */
 } entry_turns;
 
-/* Largest number of an eigenvalue, a critical point or a crossing. */
 enum { ENTRY_MOST_ORDER = 100000 };
 
 struct quantity_type;
@@ -1382,7 +1333,7 @@ void entry_mirror(const entry_field *table, void *entry);
 int entry_same(const entry_field *table, const void *a, const void *b);
 
 /* Columns of the table of inputs, which states which entries of a scene each kind of analysis uses
- * or rejects. `beamwork explain inputs` prints the table. */
+ * or rejects. */
 typedef enum scene_column {
     SCENE_OF_LINEAR,
     SCENE_OF_STATIC,
@@ -1457,8 +1408,6 @@ void meaning_ordinal(FILE *to, int order);
 /* Writes text such as "displacement of node_1 (...) along x" or "rotation of node_1 (...),
  * component x of its rotation vector". */
 void meaning_coordinate(FILE *to, const scene *s, int node, int component);
-
-/* A word of scene files for physics that a scene may omit. */
 
 typedef struct scene_omission {
     unsigned feature; /* a bit of SCENE_OMITTABLE */
@@ -1540,10 +1489,8 @@ typedef struct quantity_type {
 } quantity_type;
 
 const quantity_type *quantity_type_of(const scene_quantity *q);
-/* Initialises a quantity of this type, which the caller completes. */
 void quantity_type_begin(const quantity_type *, scene_quantity *q);
 
-/* Keys that are common to most quantity types. */
 #define QUANTITY_ANALYSIS                                                                          \
     {"analysis",                                                                                   \
      ENTRY_NAME,                                                                                   \
@@ -1593,7 +1540,6 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
      .summary = (text),                                                                            \
      ENTRY_IN(scene_quantity, what.of.member),                                                     \
      .turns = ENTRY_COMPONENT}
-/* Key for a load case or combination of a linear analysis that solves all of them. */
 #define QUANTITY_ACTING                                                                            \
     {"case",                                                                                       \
      ENTRY_NAME,                                                                                   \
@@ -1620,7 +1566,6 @@ void quantity_type_begin(const quantity_type *, scene_quantity *q);
          .first = SCENE_ENVELOPE_MAX},                                                             \
         {"combinations", ENTRY_WORDS, .summary = "of the envelope",                                \
          .left_out = "all; all load cases if there are no combinations"}
-/* Keys for a position on a member and its side. */
 #define QUANTITY_SIDE(member)                                                                      \
     {"side",                                                                                       \
      ENTRY_WORD,                                                                                   \
@@ -1645,15 +1590,12 @@ void scene_change_force(scene *s, double y);
  * Otherwise returns 0. Dimensionless scenes are not checked. */
 int scene_looks_foreign(const scene *s, char words[FAULT_TEXT]);
 
-/* Warping condition of a member end for which the scene specifies none. */
 enum { SCENE_WARP_BY_SUPPORT = -3 };
 
 /* Sets the warping condition of every end that has SCENE_WARP_BY_SUPPORT.
  *
  * Warping is restrained if all six components of the node are fixed or prescribed, or if the node
- * is part of a rigid body to which members or springs are joined at other nodes. Warping is free if
- * a rotation is released at the end, or if the node has a fork support, is free, or has only a
- * mass.
+ * is part of a rigid body to which members or springs are joined at other nodes.
  *
  * If exactly two members meet at a node that has a fork support or no supports, and continue in one
  * line with the same section and axes, both ends share the warping coordinate. This rule does not

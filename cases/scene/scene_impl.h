@@ -1,4 +1,3 @@
-/* Declarations for the sources in cases/scene. */
 #ifndef BEAMWORK_CASES_SCENE_SCENE_IMPL_H
 #define BEAMWORK_CASES_SCENE_SCENE_IMPL_H
 
@@ -16,7 +15,6 @@ int scene_spring_kink(const scene_spring *);
 /* Returns 1 if a constraint contains any of these components of the node. */
 int scene_is_constrained(const scene *, int node, unsigned components);
 
-/* Checks the functions of drivers and loads, even if there is no transient analysis. */
 status scene_validate_functions(const scene *s, fault *f);
 
 /* Checks the position, supports, fork, body and attachment of node i. Returns REFUSED with the
@@ -32,18 +30,15 @@ int scene_is_joined(const scene *s, int node);
 /* Checks that members, springs, supports, motions or constraints carry a load at a node. */
 status scene_validate_carried(const scene *s, int load, fault *f);
 
-/* Checks the released ends of one member. Releases must not separate an end completely or leave the
- * member free to move. */
+/* Checks the released ends of one member. */
 status scene_validate_release(const scene *s, int member, fault *f);
 /* Checks that a member, a support or a spring resists the rotations of a node. */
 status scene_validate_turns(const scene *s, int node, fault *f);
 
-/* Returns REFUSED for invalid constraints, for example if a constraint contains a node twice or if
- * constraints form a loop. */
+/* Returns REFUSED for invalid constraints. */
 status scene_validate_constraints(const scene *s, fault *f);
 
-/* Returns REFUSED if the analysis of a mode has no undamped modes, if shifts are invalid, or if no
- * analysis uses the imperfections. */
+/* Returns REFUSED for invalid imperfections. */
 status scene_validate_imperfections(const scene *s, fault *f);
 
 /* Checks load cases and combinations, and the entries that select them. */

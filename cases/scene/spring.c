@@ -1,4 +1,3 @@
-/* Springs and their force tables. */
 #include "cases/scene/scene_impl.h"
 
 #include <math.h>
@@ -88,7 +87,6 @@ double scene_table_at(const scene_table *t, double x, double *slope)
     const int i = line_of(t, x);
     const double *at = t->at.value + i, *value = t->value.value + i;
     *slope = (value[1] - value[0]) / (at[1] - at[0]);
-    /* interpolates from the nearer point, so that the values at both points are exact */
     return fabs(x - at[0]) <= fabs(x - at[1]) ? value[0] + *slope * (x - at[0])
                                               : value[1] + *slope * (x - at[1]);
 }

@@ -22,7 +22,6 @@ static status check_steps(const scene *s, const scene_motion *m, int i, fault *f
     return STATUS_OK;
 }
 
-/* Checks the integrator, alpha for unconditional stability (Chung & Hulbert 1993), and the mass. */
 static status check_scheme(const scene *s, const scene_motion *m, int i, fault *f)
 {
     if (m->scheme < SCENE_ALPHA || m->scheme >= SCENE_SCHEMES)
@@ -48,7 +47,6 @@ static status check_scheme(const scene *s, const scene_motion *m, int i, fault *
     return STATUS_OK;
 }
 
-/* Checks an analysis that continues a motion. */
 static status check_resumed(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_path *before = scene_path_of(&s->analysis[a->follows]);
@@ -68,7 +66,6 @@ static status check_resumed(const scene *s, const scene_analysis *a, int i, faul
     return STATUS_OK;
 }
 
-/* Returns REFUSED if the structure of a transient analysis has no mass. */
 static status scene_validate_mass(const scene *s, int i, fault *f)
 {
     if (scene_has_mass(s))
@@ -116,7 +113,6 @@ static status refuse_path(scene_words owner_name, const char *what, fault *f)
                      owner_name.text, what);
 }
 
-/* Checks that a driver starts at its current value and velocity. */
 static status check_driver(const scene *s, int d, int i, fault *f)
 {
     const scene_driver *driver = &s->driver[d];
@@ -160,8 +156,6 @@ static status check_driver(const scene *s, int d, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Rejects a temperature that jumps, because strains would jump, and one that changes with the
- * integrator conserving. */
 static status check_temperature(const scene *s, int l, int i, fault *f)
 {
     const scene_load *load = &s->load[l];
@@ -271,7 +265,6 @@ static status check_function(const scene_function *of, int idle, fault *f)
                 : STATUS_OK;
 }
 
-/* Returns 1 if the scene has an analysis of small vibrations in which feedback acts. */
 static int vibrates(const scene *s)
 {
     for (int i = 0; i < s->analyses; i++)
@@ -354,7 +347,6 @@ static status check_compliance(const scene *s, const scene_analysis *a, int i, f
                            scene_called(s, SCENE_NODES, what->node).text);
 }
 
-/* Checks small motions in rotating axes. Undamped modes would omit Coriolis forces. */
 static status check_about_rotation(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_words owner_name = scene_called(s, SCENE_ANALYSES, i),
@@ -373,7 +365,6 @@ static status check_about_rotation(const scene *s, const scene_analysis *a, int 
     return STATUS_OK;
 }
 
-/* Checks the state about which critical loads and frequencies are computed. */
 static status check_about(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_analysis_kind about = s->analysis[a->follows].kind;
@@ -412,8 +403,6 @@ static int is_requested(const scene *s, int analysis)
     return 0;
 }
 
-/* Checks small motions about an instant of a motion. Velocities of the motion cause forces that
- * only damped modes include. */
 static status check_about_motion(const scene *s, const scene_analysis *a, int i, fault *f)
 {
     const scene_words owner_name = scene_called(s, SCENE_ANALYSES, i);
@@ -568,7 +557,6 @@ status scene_spectrum_stations(const scene *s, const scene_quantity *q, int *fir
     return STATUS_OK;
 }
 
-/* Rejects a time window that begins before the motion. */
 static status check_begin(const scene *s, const scene_quantity *q, fault *f)
 {
     const double from = q->passing.from, begin = scene_motion_begin(s, q->analysis);
@@ -608,7 +596,6 @@ static status check_spectrum(const scene *s, const scene_quantity *q, fault *f)
     return scene_spectrum_stations(s, q, &first, &count, f);
 }
 
-/* Rejects a station for an analysis that has only one state. */
 static status refuse_station(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_analysis *a = &s->analysis[q->analysis];
@@ -634,7 +621,6 @@ static status refuse_station(const scene *s, const scene_quantity *q, fault *f)
                      q->name, owner_name.text, scene_name(s, SCENE_ANALYSES, about).text);
 }
 
-/* Checks the stations or the time window of a quantity. */
 static status check_passing(const scene *s, const scene_quantity *q, fault *f)
 {
     const scene_analysis *a = &s->analysis[q->analysis];
@@ -665,7 +651,6 @@ static status check_passing(const scene *s, const scene_quantity *q, fault *f)
     return check_begin(s, q, f);
 }
 
-/* Returns the analysis whose stations are the points of the curve. */
 static int path_of_curve(const scene *s, const scene_quantity *q, int *points)
 {
     const scene_analysis *a = &s->analysis[q->analysis];

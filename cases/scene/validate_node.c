@@ -25,7 +25,6 @@ static int has_member_along(const scene *s, int node, const double direction[3])
     return along || ends == 0;
 }
 
-/* Checks a fork, which must define all rotations and whose axis must be that of a member. */
 static status check_fork(const scene *s, int i, fault *f)
 {
     const scene_node *n = &s->node[i];
@@ -57,7 +56,6 @@ static status check_fork(const scene *s, int i, fault *f)
 static int is_inertia(const double I[6])
 {
     const double half = (I[0] + I[1] + I[2]) / 2;
-    /* int x x^T dm = (trace/2) 1 - I must be positive semidefinite */
     const double A[3] = {half - I[0], half - I[1], half - I[2]}, xy = -I[3], yz = -I[4], zx = -I[5],
                  small = 1e-9 * half;
     const double determinant =
@@ -315,7 +313,6 @@ static status check_load(const scene *s, int i, fault *f)
     return is_across(s, at) ? refuse(s, owner_name, "it acts outside the plane", f) : STATUS_OK;
 }
 
-/* Rejects an oblique rotation axis, which causes forces out of the plane. */
 static status check_frame(const scene *s, int i, fault *f)
 {
     const scene_rotating_frame *r = scene_rotating_frame_of(&s->analysis[i]);
@@ -358,7 +355,6 @@ static status check_driver(const scene *s, int i, fault *f)
     return STATUS_OK;
 }
 
-/* Rejects a compliance or stiffness of a component out of the plane, which is fixed. */
 static status check_quantity(const scene *s, int i, fault *f)
 {
     const scene_quantity *q = &s->quantity[i];

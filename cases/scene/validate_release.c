@@ -173,7 +173,6 @@ static int releases_at(const scene *s, int node)
     return count;
 }
 
-/* Rotations of a node that nothing resists. The axis is used for LOOSE_AXIS. */
 typedef enum loose { LOOSE_NOTHING, LOOSE_AXIS, LOOSE_PLANE, LOOSE_ALL } loose;
 
 static loose loose_at(const scene *s, int node, double axis[3])
@@ -194,8 +193,6 @@ static loose loose_at(const scene *s, int node, double axis[3])
     return vec3_norm(axis) > 0 ? LOOSE_AXIS : largest > 1e-9 ? LOOSE_PLANE : LOOSE_ALL;
 }
 
-/* Returns 1 if the feedback of a load measures an undefined rotation of the node: one about the
- * axis, or any if the axis is zero. */
 static int is_measured(const scene *s, int node, const double axis[3])
 {
     int measured = 0;
@@ -222,7 +219,7 @@ static int turn_matters(const scene *s, int node)
     }
     for (int i = 0; i < s->springs; i++) {
         const scene_spring *spring = &s->spring[i];
-        matters |= spring->p == node; /* the axes of the spring rotate with the node */
+        matters |= spring->p == node;
         for (int k = 3; k < 6; k++)
             matters |= spring->q == node && spring->table[k].at.stations > 0;
         for (int k = 0; k < 36 && spring->q == node; k++)
@@ -232,7 +229,6 @@ static int turn_matters(const scene *s, int node)
     return matters;
 }
 
-/* Returns the free angles of the node as bits. */
 static int free_angles(const scene_node *n)
 {
     int bits = 0;
@@ -255,7 +251,7 @@ int scene_idle_turn(const scene *s, int node, double axis[3])
         return what == LOOSE_AXIS && n->angle[0] == SCENE_FREE ? SCENE_IDLE_AXIS : 0;
     if (what == LOOSE_ALL)
         return free_angles(n) == 7 ? SCENE_IDLE_ALL : 0;
-    for (int k = 0; k < 3; k++) /* in a plane scene, the other angles are fixed */
+    for (int k = 0; k < 3; k++)
         if (free_angles(n) == 1 << k)
             return SCENE_IDLE_AXIS;
     return free_angles(n) == 7 ? SCENE_IDLE_AXIS : 0;
@@ -382,7 +378,7 @@ static int is_symmetric(const scene *s, int profile, const int sign[2])
 }
 
 typedef struct member_end {
-    int member, end; /* member, and its end (0 at p, 1 at q) */
+    int member, end;
 } member_end;
 
 static int *warp_of(scene *s, member_end e)
@@ -390,8 +386,6 @@ static int *warp_of(scene *s, member_end e)
     return e.end == 0 ? &s->member[e.member].warp_p : &s->member[e.member].warp_q;
 }
 
-/* Returns 1 if the second member is the straight continuation of the first member across their
- * node, with the same section. */
 static int runs_on(const scene *s, member_end first, member_end second)
 {
     const member_end both[2] = {first, second};
@@ -409,9 +403,6 @@ static int runs_on(const scene *s, member_end first, member_end second)
            is_symmetric(s, profile[0], sign);
 }
 
-/* Data of a node. ends: number of member ends at the node; sum: sum of their indices (number_of);
- * tied: 1 if the node belongs to a body to which members or springs may be joined at other nodes.
- */
 typedef struct warping_place {
     int ends, tied;
     long sum;

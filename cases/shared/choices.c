@@ -103,8 +103,7 @@ static int add_crank(const double value[], scene *s, double azimuth, int angle)
     const int crank = scene_add_node(s, pivot * cos(azimuth), pivot * sin(azimuth), 0);
     scene_hold(s, crank, SCENE_UX, SCENE_UZ);
     scene_node *n = scene_node_at(s, crank);
-    n->rotation = SCENE_ROTATION_SEQUENCE; /* about the horizontal tangent of the base circle; a
-                                              positive angle lifts the tip */
+    n->rotation = SCENE_ROTATION_SEQUENCE;
     n->axis[0][0] = -sin(azimuth);
     n->axis[0][1] = cos(azimuth);
     n->angle[0] = angle;
@@ -199,7 +198,6 @@ status joint_prepare(const double value[], scene *s, int *profile, fault *f)
     return STATUS_OK;
 }
 
-/* Transforms a point from the axes of the joint to global coordinates. */
 static void to_global(const double centre[3], const double axes[9], const double local[3],
                       double global[3])
 {
@@ -208,8 +206,6 @@ static void to_global(const double centre[3], const double axes[9], const double
                     axes[3 * i + 2] * local[2];
 }
 
-/* Adds a sheet. Results of formulations that are not symmetric in their two nodes depend on the
- * direction of its members. */
 static void add_sheet(const double value[], scene *s, int profile, int body, const double end[3],
                       int fold, const double normal[3], int side)
 {

@@ -1,4 +1,3 @@
-/* Common parts of built-in cases. */
 #ifndef BEAMWORK_CASES_SHARED_SHARED_H
 #define BEAMWORK_CASES_SHARED_SHARED_H
 

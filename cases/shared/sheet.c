@@ -64,7 +64,6 @@ status sheet_build(const double value[], scene *s, int *root, int *tip, fault *f
     scene_omit(s, (value[SHEET_SHEAR] == 0 ? FEATURE_SHEAR : 0) |
                       (value[SHEET_TRAPEZE] == 0 ? FEATURE_TRAPEZE : 0) |
                       (value[SHEET_WAGNER] == 0 ? FEATURE_WAGNER_TORQUE : 0));
-    /* a strongly bent and very wide sheet requires fine meshes */
     const int meshes[] = {1, 2, 3, 4, 8, 16, 32, 64, 128, 256},
               is_narrow = length >= 10 * value[SHEET_WIDTH];
     scene_meshes(s, is_narrow ? 10 : 8, meshes);
@@ -99,7 +98,7 @@ const char sheet_prediction_source[] = "N Eq. 54";
 
 typedef struct plane {
     double EA, EIz, L;
-    double V, gradient[IN_PLANE], hessian[IN_PLANE * IN_PLANE]; /* with respect to (u, zp, zq) */
+    double V, gradient[IN_PLANE], hessian[IN_PLANE * IN_PLANE];
     double F;
 } plane;
 
@@ -113,8 +112,7 @@ static void energy(plane *p, double u, double zp, double zq)
                  dk[3] = {0, flexible * a / 350, flexible * c / 90};
     const double d2g[3] = {0, L / 5, L / 3}, d2k[3] = {0, flexible / 350, flexible / 90},
                  V0[3] = {0, 12 * p->EIz / L, 4 * p->EIz / L};
-    const double T[3][3] = {{1, 0, 0}, {0, 0.5, 0.5}, {0, -0.5, 0.5}},
-                 at[3] = {0, a, c}; /* derivatives of (u, a, c) with respect to (u, zp, zq) */
+    const double T[3][3] = {{1, 0, 0}, {0, 0.5, 0.5}, {0, -0.5, 0.5}}, at[3] = {0, a, c};
     double gradient[3], hessian[3][3];
     p->F = g / k;
     for (int i = 0; i < 3; i++) {
@@ -153,7 +151,7 @@ static void tip(plane *p, double w, double Y, double force[3], double K[9])
             for (int m = 0; m < 3; m++)
                 for (int q = 0; q < 3; q++)
                     K[3 * i + j] += J[m][i] * p->hessian[3 * m + q] * J[q][j];
-            if (i < 2 && j < 2) /* d2l = t t/l, d2alpha = -(n t + t n)/l^2 */
+            if (i < 2 && j < 2)
                 K[3 * i + j] +=
                     p->gradient[0] * t[i] * t[j] / l +
                     (p->gradient[1] + p->gradient[2]) * (n[i] * t[j] + t[i] * n[j]) / (l * l);
@@ -198,9 +196,7 @@ static status local_stiffness(const section *s, const plane *p, double zp, doubl
         const double x = at[point], ds = weight[point] * L;
         const double My[STRESSES] = {0, x - 1, x},
                      phi[2] = {x * x * (3 - 2 * x), -L * x * x * (1 - x)};
-        const double rate[2] = {6 * x * (1 - x) / L,
-                                -x * (2 - 3 * x) -
-                                    hyperbolic(lambda, x)}; /* minus the contribution to kappa_x */
+        const double rate[2] = {6 * x * (1 - x) / L, -x * (2 - 3 * x) - hyperbolic(lambda, x)};
         const double curvature =
             (M * (2 * x - 1) + L * zp * x * (1 - x) * (1 - 2 * x) * p->F) / p->EIz;
         for (int i = 0; i < STRESSES; i++) {
@@ -250,7 +246,6 @@ static double compliance_zz(const section *s, const plane *p, double X, double Y
             for (int m = 0; m < 3; m++)
                 for (int n = 0; n < 3; n++)
                     H[3 * i + j] += T[m][i] * K[LOCAL * m + n] * T[n][j];
-    /* second derivatives of u and zq, and the moment at the tip */
     const double turned = moments == SCENE_MOMENTS_SPATIAL ? force[2] / 2 : 0;
     H[0] += p->gradient[0] / l;
     H[8] += p->gradient[2] * sine / cosine;
@@ -269,7 +264,7 @@ sheet_prediction sheet_prediction_of(const section *c, double length, double def
     double w = 0, force[3], K[9], C[3] = {1, 0, 0};
     int pivot[3];
     sheet_prediction out = {NAN, NAN, NAN, NAN, NAN};
-    for (int i = 0; i < 50; i++) { /* iteration until the force along x is zero */
+    for (int i = 0; i < 50; i++) {
         tip(&p, w, deflection, force, K);
         const double step = force[0] / K[0];
         w -= step;

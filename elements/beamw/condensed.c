@@ -54,8 +54,7 @@ void beamw_modified_printed(const section *c, unsigned features, element_data *d
  * the warping shear. This choice gives the closed form for uniform moment and axial load. gamma
  * rotates with the section, so the stress resultants couple through the rotation of the section
  * (Haringx). The slope w' of the fibre (Engesser, J) appears only if the squares of the shear
- * strains are added to gamma_x, as in the kinematics of J (fibres_at below). Proof and reduction to
- * J Eq. 66: reference/derive/second_order.py. */
+ * strains are added to gamma_x, as in the kinematics of J (fibres_at below). */
 
 enum { N = BEAMW_MODIFIED_VARIABLES, Z = BEAMW_STRAINS };
 
@@ -235,7 +234,6 @@ static void without_warping(beamw_condensed *out, parts *of)
     memset(out->hg + 2 * E, 0, E * sizeof(double));
 }
 
-/* Lists the terms of which exactly `inside` factors (0, 1 or 2) are variables of z. */
 static void list_terms(const parts *of, int inside, beamw_condensed *out)
 {
     static const short from[BEAMW_CONDENSED_ROWS] = {0, 1, 2, 3, EVEN, EVEN + 1};

@@ -1,5 +1,3 @@
-/* The stress function of condensed internal modes (variants.h): evaluation of the modes, their
- * Hessian, and the solution of the equilibrium equations. */
 #ifndef BEAMWORK_BEAMW_EQUILIBRIUM_H
 #define BEAMWORK_BEAMW_EQUILIBRIUM_H
 
@@ -57,8 +55,7 @@ static inline void beamw_internal_add_half(const beamw_condensed *d,
     s->h[2] += d->share * (quadratic[1] / 2);
 }
 
-/* Adds to D the derivatives of the terms that are quadratic in z. These derivatives are linear in
- * z. */
+/* Adds to D the derivatives of the terms that are quadratic in z. */
 static inline void beamw_internal_add_own(const beamw_condensed *d, const real z[BEAMW_INTERNAL_Y],
                                           beamw_internal *s)
 {
@@ -112,7 +109,6 @@ static inline void beamw_internal_evaluate(const beamw_condensed *d, beamw_inter
     beamw_internal_add_half(d, quadratic, s);
 }
 
-/* Updates u, h and D after z has changed by dz. */
 static inline void beamw_internal_move(const beamw_condensed *d, const real dz[3],
                                        beamw_internal *s)
 {
@@ -155,7 +151,7 @@ static inline void beamw_internal_weights(const beamw_condensed *d, const beamw_
 /* The Hessian. After factorisation, H = G^-1, H f and X^-1 with X = G^T + Kzz H f. */
 typedef struct beamw_hessian {
     real Kzz[9], G[9], H[9], Hf[9], inverse[9];
-    real_truth regular; /* 1 if G and X are far from singular, 0 if pivoting is required */
+    real_truth regular;
 } beamw_hessian;
 
 /* Computes dh/dz - 1 and Kzz. */
@@ -253,13 +249,8 @@ static inline int beamw_hessian_pivoted(const beamw_condensed *d, const beamw_he
     return 0;
 }
 
-/* The stress function of condensed internal modes (variants.h) for one element or several in
- * lanes. */
-
 enum { BEAMW_EQUILIBRIUM_MOST = 30 };
 
-/* Computes the step of Newton's method, which the caller subtracts. dz and dq are NaN if the
- * Hessian is singular. */
 static inline void beamw_equilibrium_step(const beamw_condensed *d, const beamw_internal *s,
                                           real dz[3], real dq[3])
 {
@@ -293,12 +284,11 @@ static inline void beamw_equilibrium_step(const beamw_condensed *d, const beamw_
     }
 }
 
-/* Solves for z and q by Newton's method. Returns the lanes that have converged. Values of converged
- * lanes do not change further. */
+/* Solves for z and q by Newton's method. Returns the lanes that have converged. */
 static inline real_truth beamw_equilibrium_solve(const beamw_condensed *d, beamw_internal *s)
 {
     enum { Z = BEAMW_INTERNAL_Z };
-    const double close_enough = 1e-7; /* relative to z; the remaining error is about 1e-14 */
+    const double close_enough = 1e-7;
     real_truth left = real_true(), good = real_true();
     for (int count = 0; count < BEAMW_EQUILIBRIUM_MOST && real_any(left); count++) {
         real change = real_of(0), size = real_of(0), dz[3], dq[3];

@@ -99,7 +99,6 @@ static int panels_of(const beamw_twist *t, double edge[2 * LAYER_PANELS + 2])
             edge[i] = (double)i / panels;
         return panels;
     }
-    /* panels in the boundary layers at the ends, and one panel between them */
     panels = 2 * LAYER_PANELS + 1;
     for (int i = 0; i <= LAYER_PANELS; i++) {
         edge[i] = i * panel_decay / t->lambda;
@@ -171,7 +170,7 @@ static void split(const section *c, double l, beamw_stiffness_shear kind, const 
             A[3 * i + j] = (i == j) + c->F[3 * i + j] * stiffness[j] / (c->shear_modulus * l);
             M[3 * i + j] = i == j;
         }
-    dense_lu(3, A, pivot); /* not singular, because F and Ka are positive semidefinite */
+    dense_lu(3, A, pivot);
     dense_lu_solve(3, 3, A, pivot, M);
 }
 

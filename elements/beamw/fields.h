@@ -1,4 +1,3 @@
-/* Fields between the two nodes of an element: twist, bending and shear, and mass. */
 #ifndef BEAMWORK_BEAMW_FIELDS_H
 #define BEAMWORK_BEAMW_FIELDS_H
 
@@ -76,7 +75,6 @@ enum {
     BEAMW_FIELD_MODES = 8 /* number of modes of J Eq. 7 */
 };
 
-/* Data of a kind of element. */
 typedef struct beamw_spread {
     double l0;                                   /* [m] */
     lumped_mass lumped;                          /* inertia of one half of the element */

@@ -142,7 +142,6 @@ static void set_point(const moving_line *c, int g, double mass, const double a[3
                       line_point *p)
 {
     const double *acceleration = place ? c->out->acceleration : NULL;
-    /* `mass` belongs to half of the element, hence the factor 2 */
     p->mass = 2 * c->d->weight[g] * mass;
     p->part[0] = 1 - c->d->at[g];
     p->part[1] = c->d->at[g];

@@ -24,7 +24,6 @@ typedef struct beamw_inertia_state {
     inertia_output *out;
 } beamw_inertia_state;
 
-/* The functionals at a point: their values and gradients. */
 typedef struct beamw_inertia_values {
     double x, mass;
     const double (*field)[8];
@@ -120,8 +119,6 @@ static void beamw_inertia_place(const beamw_inertia_state *c, const beamw_inerti
         }
     }
 }
-
-/* Functionals of the strains for the consistent mass, as defined below. */
 
 enum { BEAMW_CUBIC_POINTS = 4 };
 

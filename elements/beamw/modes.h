@@ -3,7 +3,7 @@
  * and e6 bending in x-y, and e7 and e8 are l0^2 a. The header also provides their gradient (J Eq.
  * 13, three rows of which are misprinted) and their second derivatives in the exponential chart. n
  * is the unit vector from p to q. Every bending mode is l0 times n . v, where v is a vector fixed
- * to a node. All functions evaluate one element or several in lanes. */
+ * to a node. */
 #ifndef BEAMWORK_BEAMW_MODES_H
 #define BEAMWORK_BEAMW_MODES_H
 
@@ -194,8 +194,6 @@ static inline void beamw_modes_evaluate(double l0, const node_real x[2], strain_
         beamw_modes_place(&b, out->H);
     }
 }
-
-/* Time derivatives of the gradients of the deformation modes. */
 
 /* Computes slope[8 x 14] = H x' of each mode at the rates x'[14]. H is the matrix of second
  * derivatives of the mode in the exponential chart. The slope is the time derivative of the

@@ -38,8 +38,7 @@ element_order beamw_prepare_order(element_analysis analysis, const double option
                : (element_order){2, 4};
 }
 
-/* Completes the data: mass, uniform torsion, and list of nonzero terms. Returns REFUSED if the
- * stiffness overflows. */
+/* Returns REFUSED if the stiffness overflows. */
 static status finish(const element_request *request, const beamw_stiffness_fields *fields,
                      element_data *out, fault *f)
 {

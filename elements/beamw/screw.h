@@ -224,11 +224,9 @@ static inline void beamw_screw_rates_row(const screw_gradient *g, int translatio
 }
 
 /* Second derivatives of a screw with respect to the coordinates of the nodes, in the exponential
- * chart. The second derivatives are symmetric forms in (v, s, delta), first in the mean axes, then
- * in global axes. */
+ * chart. */
 
-/* Blocks of a form. There is no block for v and v. The block for v and s is due to the rotation of
- * g. ss and dd are symmetric. */
+/* Blocks of a form. */
 typedef struct screw_form {
     real vd[9], ss[9], sd[9], dd[9];
 } screw_form;

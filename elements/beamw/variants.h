@@ -1,13 +1,9 @@
-/* The BEAMW variants: data, modified and condensed modes, inertia, preparation, and evaluation of
- * several elements at once. */
 #ifndef BEAMWORK_BEAMW_VARIANTS_H
 #define BEAMWORK_BEAMW_VARIANTS_H
 
 #include "elements/beamw/fields.h"
 #include "elements/element.h"
 #include "elements/shared/lanes.h"
-
-/* Quadratic parts of functions of the strains, as lists of nonzero terms. */
 
 /* A term: d2(row)/dy_i dy_j = c for i <= j. */
 typedef struct beamw_quadratic_term {
@@ -32,7 +28,7 @@ static inline beamw_quadratic_term beamw_quadratic_of(double c, int rows, int n,
 }
 
 /* The stress function common to all BEAMW variants. The energy is 1/2 ebar^T S ebar of modified
- * modes ebar_i = e_i + 1/2 e^T Q_i e (J Eqs. 62-66). A variant only defines S and Q. */
+ * modes ebar_i = e_i + 1/2 e^T Q_i e (J Eqs. 62-66). */
 
 enum {
     BEAMW_STRAINS = 8,
@@ -79,8 +75,6 @@ void beamw_variants_stress_many(int count, const element_data *const data[],
                                 stress_output out[], status outcome[]);
 void beamw_variants_geometric(const element_data *d, const double sigma[], double G[]);
 
-/* Second-order modified modes: the matrices Q_i of a BEAMW variant. */
-
 /* Sets the modes of J Eq. 66 as printed, which are consistent only if Phi = 0 and the shear centre
  * is at the centroid. */
 void beamw_modified_printed(const section *c, unsigned features, element_data *d);
@@ -112,8 +106,7 @@ void beamw_modified_reduce(
 enum {
     BEAMW_CONDENSED_EVEN = 5,
     BEAMW_CONDENSED_ALL = BEAMW_CONDENSED_EVEN + 3,
-    BEAMW_CONDENSED_ROWS = 6, /* number of rows u1 .. u4, h_y and h_z, without u5, which is linear,
-                                 and h_w, which depends only on u2 */
+    BEAMW_CONDENSED_ROWS = 6,
     BEAMW_CONDENSED_TERMS =
         BEAMW_CONDENSED_ROWS * BEAMW_MODIFIED_VARIABLES * (BEAMW_MODIFIED_VARIABLES + 1) / 2
 };
@@ -175,8 +168,8 @@ status beamw_inertia_of(const element_data *d, const node_state x[],
                         const element_rotating_frame *frame, inertia_output *out);
 
 /* Strains and stresses of several BEAMW elements at once, with results bit-for-bit identical to
- * those of single elements. These functions are members of element_type. The second function of
- * each pair is for processors with AVX2 (elements/math/real.h). */
+ * those of single elements. The second function of each pair is for processors with AVX2
+ * (elements/math/real.h). */
 
 typedef void beamw_lanes_strains(int count, const element_data *const data[], const node_state x[],
                                  strain_output out[]);
@@ -190,9 +183,6 @@ beamw_lanes_stresses beamw_lanes_modified_plain, beamw_lanes_modified_avx2;
  * stress. */
 beamw_lanes_stresses beamw_lanes_consistent_plain, beamw_lanes_consistent_avx2;
 
-/* Common preparation of the BEAMW variants, which selects a stiffness, modified modes and a
- * mass. */
-
 typedef enum beamw_prepare_modes {
     BEAMW_PREPARE_FIRST_ORDER, /* ebar = e */
     BEAMW_PREPARE_PRINTED      /* J Eq. 66 */
@@ -203,9 +193,8 @@ typedef enum beamw_prepare_modes {
 status beamw_prepare_variant(const element_request *request, beamw_stiffness_shear shear,
                              beamw_prepare_modes modes, element_data *out, fault *f);
 
-/* Data of an element prepared by beamw_prepare_consistent. `variant` is the first member, so that
- * both have the same address.
- */
+/* Data of an element prepared by beamw_prepare_consistent.
+ *  */
 typedef struct beamw_consistent_data {
     element_data variant;
     int condensed;
@@ -220,7 +209,6 @@ static inline const beamw_consistent_data *beamw_prepare_whole(const element_dat
 status beamw_prepare_consistent(const element_request *request, beamw_consistent_data *out,
                                 fault *f);
 
-/* Options of beamw_prepare_variant, and the additional options of beamw_prepare_consistent. */
 extern const parameter_type beamw_prepare_mass[], beamw_prepare_inside[];
 /* Common to all variants. */
 int beamw_prepare_mass_of_field(const double options[]);
@@ -228,8 +216,6 @@ element_order beamw_prepare_order(element_analysis, const double options[]);
 /* Member element_type.judged of types with either list of options. */
 extern const unsigned beamw_prepare_judged[];
 
-/* Members of element_type that are common to types prepared by beamw_prepare_variant, and the
- * features of these types without the shear theories. */
 #define BEAMW_VARIANT_TYPE                                                                         \
     .family = "beamw", .abi = ELEMENT_ABI, .limits = LIMIT_QUARTER_TURN | LIMIT_EIGHTH_TWIST,      \
     .options = {beamw_prepare_mass}, .judged = beamw_prepare_judged,                               \

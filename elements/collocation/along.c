@@ -9,7 +9,6 @@
 
 enum { POINTS = ELEMENT_ALONG_POINTS, FINE = 20, X = 2 * NODE_COORDINATES, TURN = 3 };
 
-/* Points of the load, their weights, and the denominators of the Lagrange polynomials. */
 typedef struct load_points {
     double x[POINTS], weight[POINTS], scale[POINTS];
 } load_points;
@@ -59,8 +58,7 @@ static void undeformed_axis(const element_request *request, double x, double out
     rotation_apply(q, strained, out);
 }
 
-/* Computes the corrections for a curved line. On a straight line, the stages integrate a linear
- * load exactly. */
+/* Computes the corrections for a curved line. */
 static void missed_of(const element_request *request, const exact_stages *s, const load_points *p,
                       double own[EXACT_STAGES_MAX][POINTS], exact_along *out)
 {
@@ -263,8 +261,6 @@ status exact_along_linear(const exact_stages *s, const exact_along *a, const nod
     exact_collocated_load load;
     memcpy(rest + 3, s->rest_x[1], 3 * (size_t)(s->stages - 1) * sizeof(double));
     exact_along_frame_of(s, a, x, out->force, &at);
-    /* computes the derivatives with respect to the size of the force, then, if stiffnesses are
-     * requested, with respect to the rotation */
     for (int pass = 0; pass < (out->H != NULL ? 2 : 1); pass++) {
         memset(&load, 0, sizeof load);
         for (int k = 0; k < s->stages; k++)
@@ -314,7 +310,7 @@ status exact_along_rate(const exact_stages *s, const exact_along *a, const node_
         e[i] = out->e[i] / l0;
     exact_along_frame_of(s, a, x, out->force, &at);
     exact_along_frame_of(s, a, x, out->rate, &more);
-    for (int pass = 0; pass < 2; pass++) { /* first for two of the rotations, then for the third */
+    for (int pass = 0; pass < 2; pass++) {
         for (int k = 0; k < s->stages; k++) {
             memcpy(load.force[k], at.xi[k], sizeof load.force[k]);
             exact_along_column(at.xi[k], turned);

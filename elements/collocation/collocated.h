@@ -39,9 +39,6 @@ int exact_variables_eliminate(int stages, int columns, double A[][9], double S[]
 void exact_variables_change(const exact_stages *s, int i, const double change[], double x[3],
                             double slope[3]);
 
-/* Stresses of collocation elements: derivatives of the energy for the current values of the
- * unknowns, which are then eliminated. Several elements are evaluated in lanes (real.h). */
-
 /* Blocks before elimination (A) and after it (V, with the pivots d), and the solution columns X for
  * the blocks 2 X, v and (a_p, a_q, 1) and for the rotation of loads along the element. */
 typedef struct exact_collocated {
@@ -171,8 +168,7 @@ static inline void exact_collocated_write(int stages, const exact_stages *s, exa
                          fabs(real_lane(&w->A[exact_blocks_at(i, stages + 2)][3 * r + 2], lane)));
     }
     if (out->memory != NULL)
-        for (int i = 0; i < stages; i++) { /* F is the first variable, but is stored in the last
-                                            * block */
+        for (int i = 0; i < stages; i++) {
             double *rows = &out->memory[(i < stages - 1 ? i + 1 : 0) * 3 * (OUTER + 1)];
             for (int r = 0; r < 3; r++)
                 for (int c = 0; c < 3; c++) {
@@ -226,8 +222,6 @@ static inline void exact_collocated_stress(const exact_stages *s, int run, const
     else
         exact_collocated_run(s->stages, s, run, e, inner, out, outcome);
 }
-
-/* Stresses of collocation elements under loads along them (collocation.h), in lanes (real.h). */
 
 static inline void exact_loaded_write(int stages, const exact_stages *s, const exact_along *a,
                                       const exact_along_frame *at, exact_collocated *w,

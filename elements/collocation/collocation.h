@@ -1,6 +1,3 @@
-/* Collocation elements: data, loads along them, prestress, and evaluation of several elements at
- * once.
- */
 #ifndef BEAMWORK_COLLOCATION_COLLOCATION_H
 #define BEAMWORK_COLLOCATION_COLLOCATION_H
 
@@ -100,8 +97,6 @@ static inline void exact_along_column(const double xi[3], double column[9])
         column[i] = skew[i];
 }
 
-/* Geometric stiffness of an undeformed collocation element due to a prestress. */
-
 /* Computes Q[i], the derivative of the condensed stiffness [8 x 8] with respect to stress i in the
  * undeformed geometry, where the stiffness is linear in the stresses. Q is dimensionless. */
 void exact_prestress_derivatives(
@@ -123,9 +118,6 @@ typedef status exact_alone_loads(const exact_stages *, const exact_along *, cons
 
 exact_alone_stresses exact_alone_stress_plain, exact_alone_stress_avx2;
 exact_alone_loads exact_alone_along_plain, exact_alone_along_avx2;
-
-/* Strains and stresses of several collocation elements at once, as in
- * elements/geometrically_exact/exact.h. */
 
 typedef void exact_lanes_loads(const exact_stages *, const exact_along *, int count,
                                const node_state x[], along_output out[], status outcome[]);

@@ -111,7 +111,7 @@ void exact_variables_matrix(int stages, double A[][9], int n, double matrix[])
     int row, column;
     for (int i = 0; i < n; i++) {
         const int I = exact_variables_block(stages, i, &row);
-        for (int j = 0; j < n; j += 3) { /* columns of one block; the last block has only two */
+        for (int j = 0; j < n; j += 3) {
             const int J = exact_variables_block(stages, j, &column), down = I > J,
                       at = down ? exact_blocks_at(J, I) : exact_blocks_at(I, J);
             for (int k = 0; k < 3 && j + k < n; k++)

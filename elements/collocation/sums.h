@@ -335,8 +335,7 @@ static inline void exact_sums_load(int stages, const exact_stages *s, const exac
 }
 
 /* Fills all blocks and changes t. The blocks of the strains receive only the contributions of the
- * points and of the warping energy. The blocks of v, and the column of 1 for v and the amplitudes,
- * stay zero. */
+ * points and of the warping energy. */
 static inline void exact_sums_gather(int stages, const exact_stages *s, exact_stage_terms t[],
                                      real A[][9])
 {
