@@ -1,4 +1,5 @@
 """Requirements on the modes of every driver of another program. Programs that are not installed are skipped by name."""
+import json
 import math
 
 import numpy as np
@@ -158,3 +159,44 @@ class Modes(PeerTest):
                 self.skipTest(found.missing)
             self.assertNotIn("f_0", found.runs[0].get("values", {}), found.runs[0])
         self.each(check)
+
+
+class Buckling(PeerTest):
+    """Critical loads of linear buckling, which neglects the displacements before buckling."""
+
+    def factor(self, peer, name, case, n, **parameters):
+        data = json.loads(self.answered("scene", case, *(w for k, v in parameters.items() for w in ("--set", f"{k}={v}")),
+                                        "--format", "json").stdout)
+        found = peers.solve(data, peer, name, [n], rounds=1)
+        if found.missing:
+            self.skipTest(found.missing)
+        if "refusal" in found.runs[0]:
+            self.skipTest(found.runs[0]["refusal"])
+        self.assertIn("values", found.runs[0], found.runs[0])
+        return next(iter(found.runs[0]["values"].values()))
+
+    def buckling(self, check):
+        for peer in peers.names():
+            for name, element in peers.load(peer).ELEMENTS.items():
+                if "buckling" in element.analyses:
+                    with self.subTest(peer=peer, element=name):
+                        check(peer, name)
+
+    def test_column(self):
+        """Engesser's load of the pinned column; the column shortens by 3e-4 before it buckles."""
+        def check(peer, name):
+            self.assertAlmostEqual(self.extrapolated(peer, name, "shear_column") / 9202.2121765, 1, delta=1e-4)
+        self.buckling(check)
+
+    def extrapolated(self, peer, name, case, **parameters):
+        """Returns the limit from two meshes, for an order of 2 or more."""
+        coarse, fine = (self.factor(peer, name, case, n, **parameters) for n in (8, 16))
+        return (4 * fine - coarse) / 3
+
+    def test_lateral(self):
+        """Lateral buckling of a cantilever, 4.0126 sqrt(EI GJ)/L^2 for any ratio of the bending stiffnesses, and of a fork-ended
+        beam, 16.936."""
+        def check(peer, name):
+            for want, parameters in ((4.0125993, {}), (4.0125993, {"ratio": 3}), (16.936132, {"load": "mid"})):
+                self.assertAlmostEqual(self.extrapolated(peer, name, "lateral_buckling", **parameters) / want, 1, delta=2e-5)
+        self.buckling(check)

@@ -77,6 +77,15 @@ def critical_factors(K: Any, G: Any) -> list[float]:
     return sorted(1 / float(x.real) for x in mu if x.real > 1e-9 * largest and abs(x.imag) < 1e-6 * abs(x.real))
 
 
+def require_axial_loads(scene: Scene, mesh: Mesh, why: str) -> None:
+    """Raises Refused if a load has a component across a member."""
+    axes = [[float(row[0]) for row in e.R] for e in mesh.elements]
+    for load in scene.loads:
+        size = math.hypot(*load.vector)
+        if load.kind == "moment" or any(abs(sum(a * b for a, b in zip(x, load.vector))) < (1 - 1e-9) * size for x in axes):
+            raise Refused(f"buckling: {why}")
+
+
 def _measures(mesh: Mesh, mode: Any) -> tuple[list[float], list[float]]:
     """Returns the motion of a mode at the nodes of all elements: translations along x, y and z of the member, and its
     twist times the radius of gyration; then rotations about z and y times this radius, for modes that do not translate.

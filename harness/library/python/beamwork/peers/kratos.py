@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import importlib.metadata
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
+from ._kratos_buckling import buckling
 from ._modes import families, require_plain_mass, rigid_motions, spectrum
-from .data import COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, Model, Refused, Scene, State
+from .data import COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, MeshElement, Model, Refused, Scene, State, Vector, cross, unit
 
 NAME, PROGRAM, LICENCE = "kratos", "Kratos", "BSD-4-Clause"
 HOMEPAGE = "https://github.com/KratosMultiphysics/Kratos"
@@ -23,7 +24,7 @@ ELEMENTS = {
         " with shear, Engesser's theory",
         order=1,
         offers=frozenset({"shear", "haringx", "large rotations", "geometric", "mass", "rotary inertia"}),
-        analyses=frozenset({"linear", "static", "compliance", "modal"}),
+        analyses=frozenset({"linear", "static", "compliance", "modal", "buckling"}),
         keys=frozenset({"loads.distributed", "plane", "modal.about"}),
     ),
 }
@@ -73,7 +74,7 @@ class Frame(Model):
             f"SparseLU, Newton, MixedGenericCriteria {_TOLERANCE:.0e}, steps halved where they fail"
         )
         self._import()
-        self.model: Any = self._new("CrBeamElement3D2N")
+        self.model: Any = self.new("CrBeamElement3D2N")
 
     def _import(self) -> None:
         import KratosMultiphysics as km
@@ -111,7 +112,9 @@ class Frame(Model):
                 p.SetValue(variable, 2 * value)
         p.SetValue(km.CONSTITUTIVE_LAW, sm.LinearElastic3DLaw())
 
-    def _new(self, element: str) -> Any:
+    def new(self, element: str, moved: Mapping[int, Vector] | None = None) -> Any:
+        """Makes a model. moved: displacements and rotations of nodes; each element then has its own
+        two nodes, is turned with them, and has neither stresses nor another length."""
         km, sm = self.km, self.sm
         self.owner = km.Model()  # owns the model part
         part = self.owner.CreateModelPart("beams", 2)
@@ -136,14 +139,19 @@ class Frame(Model):
             if section.name not in tags:
                 tags[section.name] = len(tags) + 1
                 self._section(part, tags[section.name], section)
-        for number, node in enumerate(self.mesh.nodes, start=1):
+        for number, node in enumerate(self.mesh.nodes if moved is None else (), start=1):
             part.CreateNewNode(number, *map(float, node.at))
+        for number, e in enumerate(self.mesh.elements, start=1):
+            p, y = part.GetProperties()[tags[e.member.section.name]], [float(row[1]) for row in e.R]
+            own = [n + 1 for n in e.nodes]
+            if moved is not None:
+                own, y = [2 * number - 1, 2 * number], self._turned(part, number, e, moved)
+            made = part.CreateNewElement(element, number, own, p)
+            made.SetValue(km.LOCAL_AXIS_2, y)
         for u, r in zip(self.displacements, self.reactions):
             km.VariableUtils().AddDof(u, r, part)
-        for number, e in enumerate(self.mesh.elements, start=1):
-            p = part.GetProperties()[tags[e.member.section.name]]
-            made = part.CreateNewElement(element, number, [n + 1 for n in e.nodes], p)
-            made.SetValue(km.LOCAL_AXIS_2, [float(row[1]) for row in e.R])
+        if moved is not None:
+            return part
         first = part.GetProperties()[1]
         for number in range(1, len(self.mesh.nodes) + 1):
             part.CreateNewCondition("PointLoadCondition3D1N", 2 * number, [number], first)
@@ -151,6 +159,18 @@ class Frame(Model):
         for number, dof in self.held | set(self.driven):
             part.Nodes[number + 1].Fix(self.displacements[dof])
         return part
+
+    def _turned(self, part: Any, number: int, e: MeshElement, moved: Mapping[int, Vector]) -> list[float]:
+        """Makes the nodes of an element that is turned with the nodes of the mesh, and returns its
+        y axis."""
+        begin, end = (self.mesh.nodes[k].at for k in e.nodes)
+        u, v = (moved[k] for k in e.nodes)
+        along = unit([b + q - a - p for a, b, p, q in zip(begin, end, u, v)])
+        size = math.dist(begin, end)
+        part.CreateNewNode(2 * number - 1, *map(float, begin))
+        part.CreateNewNode(2 * number, *(float(a + size * x) for a, x in zip(begin, along)))
+        y = [row[1] for row in e.R]
+        return [float(a + (b + c) / 2) for a, b, c in zip(y, cross(u[3:], y), cross(v[3:], y))]
 
     def _nodal(self, load: Load) -> dict[int, list[float]]:
         """Returns the forces and moments of a load on nodes. Half of the load on an element acts on
@@ -171,7 +191,7 @@ class Frame(Model):
                         add(number, e.length / 2, 0)
         return out
 
-    def _loads(self, p: float | None) -> dict[int, list[float]]:
+    def loads(self, p: float | None) -> dict[int, list[float]]:
         total: dict[int, list[float]] = {}
         for load in self.scene.loads:
             factor = 1.0 if p is None else float(self.scene.load_factor(load, p))
@@ -181,7 +201,7 @@ class Frame(Model):
                     target[i] += factor * vector[i]
         return total
 
-    def _strategy(self, part: Any, linear: bool) -> Any:
+    def strategy(self, part: Any, linear: bool, most: int = _MOST_ITERATIONS) -> Any:
         km = self.km
         builder = km.ResidualBasedBlockBuilderAndSolver(self.solvers.SparseLUSolver())
         scheme = km.ResidualBasedIncrementalUpdateStaticScheme()
@@ -194,7 +214,7 @@ class Frame(Model):
             criterion = km.MixedGenericCriteria([(km.DISPLACEMENT, t, t), (km.ROTATION, t, t)])
             criterion.SetEchoLevel(0)
             strategy = km.ResidualBasedNewtonRaphsonStrategy(
-                part, scheme, criterion, builder, _MOST_ITERATIONS, True, False, True
+                part, scheme, criterion, builder, most, True, False, True
             )
         strategy.SetEchoLevel(0)
         strategy.Initialize()
@@ -207,7 +227,8 @@ class Frame(Model):
         for (number, dof), value in drives.items():
             part.Nodes[number + 1].SetSolutionStepValue(self.displacements[dof], 0, value)
 
-    def _run(self, part: Any, strategy: Any, loads: Any, drives: Any, check: bool = True) -> bool:
+    def run(self, part: Any, strategy: Any, loads: Any, drives: Any, check: bool = True, few: bool = False) -> bool:
+        """Returns True if the state converged and is balanced. few: it need only be balanced."""
         self._set(part, loads, drives)
         try:
             strategy.InitializeSolutionStep()
@@ -216,7 +237,7 @@ class Frame(Model):
             strategy.FinalizeSolutionStep()
         except RuntimeError:  # the matrix of a diverging iteration is singular
             return False
-        return bool(converged) and (not check or self._balanced(part, loads))
+        return (bool(converged) or few) and (not check or self._balanced(part, loads))
 
     def _balanced(self, part: Any, loads: Any) -> bool:
         """Checks that reactions and loads are in balance: the criterion of increments also
@@ -241,6 +262,8 @@ class Frame(Model):
             return self._linear()
         if analysis.kind == "compliance":
             return self._compliance(analysis)
+        if analysis.kind == "buckling":
+            return buckling(self)
         if analysis.kind == "modal":
             return self._modal(analysis)
         raise Refused(f"{analysis.kind}: this driver has no such analysis")
@@ -250,7 +273,7 @@ class Frame(Model):
         while True:
             part, self.model = self.model, None
             if part is None:
-                part = self._new("CrBeamElement3D2N")
+                part = self.new("CrBeamElement3D2N")
             answer = self._walk(part, analysis, steps)
             if answer is not None:
                 self.kept[analysis.name] = answer.states
@@ -266,14 +289,14 @@ class Frame(Model):
     def _walk(self, part: Any, analysis: Analysis, steps: int) -> Answer | None:
         """Follows the path; None: a step fails. A failed step cannot be repeated from its start,
         because elements keep their rotations."""
-        strategy = self._strategy(part, linear=False)
+        strategy = self.strategy(part, linear=False)
         loads: dict[int, list[float]] = {}
         drives: dict[tuple[int, int], float] = dict.fromkeys(self.driven, 0.0)
         states: list[State] = []
         iterations = 0
         for p in analysis.stations:
             last_loads, last_drives = loads, drives
-            loads = self._loads(p)
+            loads = self.loads(p)
             drives = {at: float(self.scene.motion_value(m, p)) for at, m in self.driven.items()}
             for k in range(1, steps + 1):
                 s = k / steps
@@ -284,7 +307,7 @@ class Frame(Model):
                 }
                 moved = {at: (1 - s) * last_drives[at] + s * drives[at] for at in drives}
                 part.CloneTimeStep(float(len(states)) + s)
-                if not self._run(part, strategy, now, moved):
+                if not self.run(part, strategy, now, moved):
                     return None
                 iterations += int(part.ProcessInfo[self.km.NL_ITERATION_NUMBER])
             states.append(self._state(part))
@@ -310,7 +333,7 @@ class Frame(Model):
             ]
         return State(u=u, reaction=reaction)
 
-    def _matrix(self, part: Any, kind: str) -> Any:
+    def matrix(self, part: Any, kind: str) -> Any:
         """Returns the stiffness or mass matrix of all coordinates, from the matrices of the
         elements."""
         import numpy as np
@@ -334,7 +357,7 @@ class Frame(Model):
         number = self.mesh.node_of[node]
         fixed = self.held | {at for at in self.driven if at[0] != number}
         free = [i for i in range(6 * len(self.mesh.nodes)) if (i // 6, i % 6) not in fixed]
-        inverse = np.linalg.inv(self._matrix(part, "stiffness")[np.ix_(free, free)])
+        inverse = np.linalg.inv(self.matrix(part, "stiffness")[np.ix_(free, free)])
         place = {i: k for k, i in enumerate(free)}
         own = [place.get(6 * number + i) for i in range(6)]
         return [
@@ -342,19 +365,19 @@ class Frame(Model):
             for r in own
         ]
 
-    def _linear_part(self) -> Any:
-        part = self._new("CrLinearBeamElement3D2N")
+    def linear_part(self) -> Any:
+        part = self.new("CrLinearBeamElement3D2N")
         part.CloneTimeStep(1.0)
         return part
 
     def _linear(self) -> Answer:
-        part = self._linear_part()
+        part = self.linear_part()
         if self.driven:
             raise Refused("linear: this driver has no driven nodes in linear analyses")
-        loads, strategy = self._loads(None), self._strategy(part, linear=True)
+        loads, strategy = self.loads(None), self.strategy(part, linear=True)
         strategy.InitializeSolutionStep()
-        stiffness = self._matrix(part, "stiffness")
-        if not self._run(part, strategy, loads, {}, check=False):
+        stiffness = self.matrix(part, "stiffness")
+        if not self.run(part, strategy, loads, {}, check=False):
             raise Failed("the linear equations are not solved")
         return Answer(states=[self._linear_state(part, loads, stiffness)], iterations=1)
 
@@ -378,8 +401,8 @@ class Frame(Model):
     def _compliance(self, analysis: Analysis) -> Answer:
         if analysis.about is not None:
             return Answer(states=self.kept[analysis.about])
-        part = self._linear_part()
-        strategy = self._strategy(part, linear=True)
+        part = self.linear_part()
+        strategy = self.strategy(part, linear=True)
         strategy.InitializeSolutionStep()
         return Answer(states=[State(compliance=self._inverse(part, analysis.raw["node"]))])
 
@@ -401,12 +424,12 @@ class Frame(Model):
                 raise Refused("about: the driver has no modes of a structure under loads that its supports do not hold")
             part = self.states_of[analysis.about]
         else:
-            part = self._linear_part()
-            self._strategy(part, linear=True).InitializeSolutionStep()
+            part = self.linear_part()
+            self.strategy(part, linear=True).InitializeSolutionStep()
         fixed = self.held | set(self.driven)
         free = [i for i in range(6 * len(self.mesh.nodes)) if (i // 6, i % 6) not in fixed]
         at = np.ix_(free, free)
-        found, vectors = spectrum(self._matrix(part, "stiffness")[at], self._matrix(part, "mass")[at], rigid)
+        found, vectors = spectrum(self.matrix(part, "stiffness")[at], self.matrix(part, "mass")[at], rigid)
         shapes = np.zeros((len(found), 6 * len(self.mesh.nodes)))
         shapes[:, free] = vectors[:, : len(found)].T
         own_families = families(self.mesh, found, list(shapes.reshape(len(found), -1, 6)))

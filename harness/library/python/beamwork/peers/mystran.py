@@ -9,7 +9,7 @@ import subprocess
 import sys
 import tempfile
 
-from ._modes import nodal_inertia, require_plain_mass, rigid_motions
+from ._modes import nodal_inertia, require_axial_loads, require_plain_mass, rigid_motions
 from .data import COMPONENTS, Analysis, Answer, Element, Failed, Mesh, Model, Refused, Scene, State
 
 NAME, PROGRAM, LICENCE = "mystran", "MYSTRAN", "MIT"
@@ -163,18 +163,6 @@ class Bars(Model):
         asked = [int(q.raw.get("which", 0)) for q in self.scene.quantities if q.analysis == analysis.name]
         return max(asked, default=0) + 1
 
-    def _require_axial_loads(self) -> None:
-        """Raises Refused if a load is not axial. The geometric stiffness of CBAR contains only the
-        axial force, and without an axial force, the eigenvalues of the program have no meaning."""
-        axes = [[float(row[0]) for row in e.R] for e in self.mesh.elements]
-        for load in self.scene.loads:
-            size = math.hypot(*load.vector)
-            along = all(
-                abs(sum(a * float(b) for a, b in zip(x, load.vector))) > (1 - 1e-9) * size for x in axes
-            )
-            if load.kind == "moment" or not along:
-                raise Refused("buckling: the geometric stiffness of CBAR contains only the axial force")
-
     def solve(self, analysis: Analysis) -> Answer:
         if analysis.about is not None:
             raise Refused(f"{analysis.kind}: only about the undeformed structure")
@@ -185,7 +173,7 @@ class Bars(Model):
             return Answer([self._state(u, forces)], iterations=1)
         lanczos = _card("EIGRL", 20, None, None, self._count(analysis))
         if analysis.kind == "buckling":
-            self._require_axial_loads()
+            require_axial_loads(self.scene, self.mesh, "the geometric stiffness of CBAR contains only the axial force")
             control = "SUBCASE 1\nLOAD = 10\nSUBCASE 2\nMETHOD = 20\n"
             found = self._eigenvalues(self._run(105, control, lanczos), 2)
             return Answer(factors=[f for f in found if f > 0], iterations=2)

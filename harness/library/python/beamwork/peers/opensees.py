@@ -4,17 +4,19 @@ from __future__ import annotations
 import importlib.metadata
 import math
 import sys
+from collections.abc import Mapping
 from typing import Any
 
 from ._modes import diagonal_inertia, families, require_plain_mass, rigid_motions, spectrum
-from .data import (COMPONENTS, Analysis, Answer, Element, Failed, LoadSteps, Mesh, Model, Refused, Scene, Section, State,
-                   transposed)
+from ._opensees_buckling import buckling
+from .data import (COMPONENTS, Analysis, Answer, Element, Failed, LoadSteps, Mesh, Model, Refused, Scene, Section, State, Vector,
+                   cross, transposed)
 
 NAME, PROGRAM, LICENCE = "opensees", "OpenSees", "free for research and internal use; no commercial redistribution"
 HOMEPAGE = "https://openseespydoc.readthedocs.io"
 REQUIRES = ('openseespy==3.8.0.0; python_version >= "3.12"', 'openseespy==3.7.1.2; python_version < "3.12"')
 _STATICS, _MASS = frozenset({"linear", "static", "compliance"}), frozenset({"mass", "rotary inertia"})
-_ANALYSES = _STATICS | {"modal"}
+_ANALYSES = _STATICS | {"modal", "buckling"}
 _LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, frozenset({"modal.about", "plane"})
 _SHEAR = _LARGE | {"shear"}
 ELEMENTS = {
@@ -54,32 +56,34 @@ class Corotational(Model):
         self.ops, self.scene, self.name, self.mesh = ops, scene, name, mesh
         self.settings = (f"Newton, NormDispIncr {1e-9 * (1 + scene.length()):.1e}, adaptive load steps; modes: LAPACK, with the "
                          "matrices of GimmeMCK")
-        self._build({a.kind for a in scene.analyses.values()} == {"linear"})
+        self.build({a.kind for a in scene.analyses.values()} == {"linear"})
 
-    def _build(self, linear: bool = False) -> None:
-        """linear: with the linear transformation, and with elements without second-order moments."""
+    def build(self, linear: bool = False, moved: Mapping[int, Vector] | None = None) -> None:
+        """linear: with the linear transformation, and with elements without second-order moments. moved: displacements and
+        rotations of nodes by which a structure without stresses differs."""
         ops, scene, mesh, self.linear = self.ops, self.scene, self.mesh, linear
         name = "forceBeamColumn" if linear and self.name.startswith("forceBeamColumn") else self.name
         ops.wipe()
         ops.model("basic", "-ndm", 3, "-ndf", 6)
         for node in mesh.nodes:
-            ops.node(node.number, *node.at)
+            ops.node(node.number, *(a + b for a, b in zip(node.at, moved[node.number] if moved else (0, 0, 0))))
         for i, section in enumerate(scene.sections.values(), 1):
-            E, G = section.raw["E"], section.raw["G"]
-            shear = [min(GA / (G * section.EA / E), 1e4) for GA in section.GA]
-            ops.section("Elastic", i, E, section.EA / E, section.EIz / E, section.EIy / E, G, section.GIt / G,
-                        *(shear if "shear" in ELEMENTS[self.name].offers else ()))
-            rule, points = _RULES.get(name, ("Legendre", 2))
-            ops.beamIntegration(rule, i, i, points)
+            self._add_section(i, section, name, 1.0)
         self.base = ""  # the analysis whose last state the model is in
         tags = {section: i for i, section in enumerate(scene.sections, 1)}
         for i, element in enumerate(mesh.elements, 1):
-            ops.geomTransf("Linear" if linear else "Corotational", i, *transposed(element.R)[2])
-            s = element.member.section
-            E, G = s.raw["E"], _shear_modulus(s)
-            constants: tuple[Any, ...] = (i, tags[s.name])
+            s, tag, z, scale = element.member.section, 0, transposed(element.R)[2], 1.0
+            if moved is not None:
+                u, v = (moved[k] for k in element.nodes)
+                z = [a + (b + c) / 2 for a, b, c in zip(z, cross(u[3:], z), cross(v[3:], z))]
+                scale = 1 + sum((b - a) * row[0] for a, b, row in zip(u, v, element.R)) / element.length
+                tag = len(tags) + i
+                self._add_section(tag, s, name, scale)
+            ops.geomTransf("Linear" if linear else "Corotational", i, *z)
+            E, G = scale * s.raw["E"], scale * _shear_modulus(s)
+            constants: tuple[Any, ...] = (i, tag or tags[s.name])
             if name == "elasticBeamColumn":
-                constants = (s.EA / E, E, G, s.GIt / G, s.EIy / E, s.EIz / E, i)
+                constants = (scale * s.EA / E, E, G, scale * s.GIt / G, scale * s.EIy / E, scale * s.EIz / E, i)
             elif name == "ElasticTimoshenkoBeam":
                 constants = (E, G, s.EA / E, s.GIt / G, s.EIy / E, s.EIz / E, *(min(k / G, 1e4 * s.EA / E) for k in s.GA), i)
             ops.element(name, i, *element.nodes, *constants, "-mass", s.rho_A, *(["-cMass"] if name not in _RULES else []))
@@ -91,6 +95,15 @@ class Corotational(Model):
         ops.system("BandGeneral")
         ops.test("NormDispIncr", 1e-9 * (1 + length), 30)
         ops.algorithm("Newton")
+
+    def _add_section(self, tag: int, section: Section, name: str, scale: float) -> None:
+        """Adds a section whose stiffnesses are multiplied by `scale`, with its integration rule. name: of the element."""
+        E, G = scale * section.raw["E"], scale * section.raw["G"]
+        A, Iz, Iy, J = (scale * x for x in (section.EA / E, section.EIz / E, section.EIy / E, section.GIt / G))
+        shear = [min(scale * GA / (G * A), 1e4) for GA in section.GA] if "shear" in ELEMENTS[self.name].offers else []
+        self.ops.section("Elastic", tag, E, A, Iz, Iy, G, J, *shear)
+        rule, points = _RULES.get(name, ("Legendre", 2))
+        self.ops.beamIntegration(rule, tag, tag, points)
 
     def _series(self, tag: int, raw: Any, key: str) -> None:
         if key in raw:
@@ -126,10 +139,12 @@ class Corotational(Model):
     def solve(self, analysis: Analysis) -> Answer:
         if analysis.kind == "modal":
             return self._modal(analysis)
+        if analysis.kind == "buckling":
+            return buckling(self)
         if analysis.kind == "compliance":
             return Answer([State(compliance=self._compliance(analysis))], iterations=1)
         if self.base or self.linear != (analysis.kind == "linear"):
-            self._build(analysis.kind == "linear")
+            self.build(analysis.kind == "linear")
         if analysis.kind == "linear":
             self.ops.algorithm("Linear")
         stations = analysis.stations or (1.0, )
@@ -223,12 +238,12 @@ class Corotational(Model):
         if analysis.about is not None and analysis.about != self.base:
             raise Refused(f"about: {analysis.about} is not the last static analysis before {analysis.name}")
         if analysis.about is None and self.base:
-            self._build()
+            self.build()
         rigid = rigid_motions(self.scene, self.mesh)
         if rigid and analysis.about is not None:
             raise Refused("about: the driver has no modes of a structure under loads that its supports do not hold")
         self._add_inertia()
-        M, K = self._matrices()
+        M, K = self.matrices()
         found, vectors = spectrum(K, M, rigid)
         shapes = numpy.zeros((len(found), len(self.mesh.nodes), 6))
         for node in self.mesh.nodes:
@@ -248,7 +263,7 @@ class Corotational(Model):
         for number, inertia in diagonal_inertia(self.mesh, lambda s: (0.0 if twists else s.rho_I[0], *s.rho_I[1:]), PROGRAM).items():
             self.ops.mass(number, 0.0, 0.0, 0.0, *inertia)
 
-    def _matrices(self) -> tuple[Any, Any]:
+    def matrices(self) -> tuple[Any, Any]:
         """Returns the mass and the tangent stiffness matrix of the current state, of all equations."""
         import numpy  # pylint: disable=import-outside-toplevel
         ops = self.ops

@@ -8,7 +8,7 @@ from typing import Any
 from .data import COMPONENTS, Analysis, Answer, Element, Load, Member, Node, Quantity, Refused, Scene, Section
 
 _KNOWN = {
-    "nodes": {"at", "hold", "drive"},
+    "nodes": {"at", "hold", "drive", "fork"},
     "members": {"from", "to", "section", "y", "warping", "curvature", "divisions"},
     "motions": {"path", "value"},
     "loads": {"force", "moment", "on", "path", "factor"},
@@ -56,6 +56,12 @@ def _quantity(name: str, entry: Mapping[str, Any]) -> Quantity:
                     entry.get("offset", 0.0), raw, entry.get("x", {}))
 
 
+def _forked(entry: Mapping[str, Any]) -> set[str]:
+    """Returns the small rotation that a fork prevents, if its axis is a global one."""
+    axis = entry["fork"]["axis"] if "fork" in entry else (0, 0, 0)
+    return {"r" + "xyz"[i] for i in range(3) if axis[i] != 0 and all(axis[k] == 0 for k in range(3) if k != i)}
+
+
 def scene_of(raw: Mapping[str, Any]) -> Scene:
     file, physics = raw["scene"], frozenset(raw["physics"])
     sections = {name: _section(name, constants, physics) for name, constants in zip(file["sections"], raw["sections"])}
@@ -64,7 +70,7 @@ def scene_of(raw: Mapping[str, Any]) -> Scene:
         first = entry["section"] if isinstance(entry["section"], str) else entry["section"][0]
         members[name] = Member(name, (entry["from"], entry["to"]), sections[first], line["start"], line["axes"],
                                line["length"], line["curvature"], entry)
-    nodes = {name: Node(name, entry["at"], frozenset(entry.get("hold", ())), entry.get("drive", {}), entry)
+    nodes = {name: Node(name, entry["at"], frozenset(entry.get("hold", ())) | _forked(entry), entry.get("drive", {}), entry)
              for name, entry in file["nodes"].items()}
     return Scene(file["name"], raw["of"], physics, file.get("plane"), nodes, sections, members,
                  tuple(_load(name, entry, members) for name, entry in file.get("loads", {}).items()),
@@ -87,6 +93,9 @@ def check(scene: Scene, element: Element, program: str) -> None:
             for key in entry:
                 if key not in known and f"{part}.{key}".lstrip(".") not in element.keys:
                     raise Refused(f"{key}: the driver of {program} does not read this key of {name}")
+    for name, node in scene.nodes.items():
+        if "fork" in node.raw and (not _forked(node.raw) or any(a.kind not in ("linear", "buckling", "modal") for a in scene.analyses.values())):
+            raise Refused(f"fork: {name}; drivers have forks about a global axis, without large rotations")
     for member in scene.members.values():
         if not isinstance(member.raw["section"], str) and "taper" not in element.keys:
             raise Refused(f"section: {member.name} is tapered")
