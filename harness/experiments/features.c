@@ -3,6 +3,7 @@
 #include <math.h>
 #include <string.h>
 
+#include "elements/field/field.h"
 #include "elements/math/dense.h"
 #include "elements/math/rotation.h"
 #include "harness/model/model.h"
@@ -429,6 +430,48 @@ static void moments(const test_element *s, check_result *one)
     test_element_free(&line);
 }
 
+/* Compares the mass matrix of a straight undeformed element with that of the field which is exact
+ * without loads. */
+static void same_as_field(const test_element *s, check_result *one)
+{
+    const int n = s->coordinates;
+    node_state x[ELEMENT_MAX_NODES];
+    double M[MASS_N * MASS_N], exact[MASS_N * MASS_N];
+    char first[TEST_ELEMENT_WORDS], other[TEST_ELEMENT_WORDS];
+    field_mass field;
+    field_mass_prepare(&s->request, s->nodes, &field);
+    test_element_state(s, 0, 1, x);
+    s->type.inertia(s->data, x, NULL, &(inertia_output){.M = M});
+    field_mass_inertia(&field, x, NULL, &(inertia_output){.M = exact});
+    for (int i = 0; i < n; i++)
+        for (int j = 0; j <= i; j++)
+            checks_deviation(one, fabs(M[i * n + j] - exact[i * n + j]) / size_of(exact, n, i, j),
+                             "mass_of_field: entry %d, %d (%s, %s) of M is %.6g, but the field "
+                             "that is exact without loads (field/field.h) gives %.6g; correct M, "
+                             "or return 0%s",
+                             i + 1, j + 1, test_element_coordinate(s, i, first),
+                             test_element_coordinate(s, j, other), M[i * n + j], exact[i * n + j],
+                             s->words);
+}
+
+/* Checks the declaration mass_of_field without warping, because the field of the twist with warping
+ * may be approximate, and without shear that couples two directions, which a type may neglect. */
+static void of_field(const test_element *s, check_result *one)
+{
+    test_element_request what = s->made;
+    test_element uniform;
+    fault f = {""};
+    if (s->type.mass_of_field == NULL || !s->type.mass_of_field(s->options) || s->nodes != 2 ||
+        s->scalars > 0 || s->made.curvature[0] != 0)
+        return;
+    what.features &= ~(unsigned)FEATURE_WARPING;
+    if (s->section.F[1] != 0)
+        what.features &= ~(unsigned)FEATURE_SHEAR;
+    if (test_element_make(&what, &uniform, &f) == STATUS_OK)
+        same_as_field(&uniform, one);
+    test_element_free(&uniform);
+}
+
 static void check(const test_element *s, check_results *c)
 {
     node_state x[ELEMENT_MAX_NODES];
@@ -446,6 +489,7 @@ static void check(const test_element *s, check_results *c)
     total(s, x, M, checks_open(c, "the mass is equal to that of the beam", 1e-12));
     carried(s, x, M, checks_open(c, "M rotates with the element", 1e-11));
     moments(s, checks_open(c, "the moments of inertia are equal to those of the beam", 1e-9));
+    of_field(s, checks_open(c, "the mass is that of the field, if declared", 1e-9));
 }
 
 void checks_mass(const formulation *chosen, check_results *out)

@@ -115,6 +115,21 @@ FAULTS = {
     "order": (
         ("    .leaves = LEAVES_J,", "    .leaves = LEAVES_J,\n    .order = fourth,"),
         "order: the declared order in buckling is at least 4", "is 2.0 (errors", "declare the observed order"),
+    "kind of mass": (
+        ("const element_type beamwork_element = {", """static status lumped(const element_data *d, const node_state x[],
+                     const element_rotating_frame *frame, inertia_output *out)
+{
+    (void)d, (void)x, (void)frame;
+    for (int i = 0; i < 196 && out->M != NULL; i++)
+        out->M[i] = i % 15 == 0 ? 0.5 : 0;
+    return STATUS_OK;
+}
+static int of_field(const double options[])
+{
+    return options != NULL || 1;
+}
+const element_type beamwork_element = {.inertia = lumped, .mass_of_field = of_field,"""),
+        "mass_of_field: entry", "the field that is exact without loads", "or return 0"),
     "status": (
         ("    return STATUS_OK;\n}\n\nstatic int strains",
          "    return energy > 1 ? STATUS_SINGULAR : STATUS_OK;\n}\n\nstatic int strains"),
