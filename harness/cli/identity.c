@@ -5,15 +5,36 @@
 #include <string.h>
 #include <sys/stat.h>
 
+enum { BUILD_DIGITS = 12 };
+
+/* Writes the first digits of the build id, which the linker computes from the contents of the
+ * program, and which is at the beginning of the file. Returns 0 if there is none. */
+static int read_build_id(char out[BUILD_DIGITS + 1])
+{
+    enum { HEAD = 4096 };
+    static const char note[] = "\4\0\0\0\x14\0\0\0\3\0\0\0GNU"; /* lengths, type, owner */
+    char head[HEAD];
+    FILE *from = fopen("/proc/self/exe", "rb");
+    if (from == NULL)
+        return 0;
+    const size_t got = fread(head, 1, HEAD - BUILD_DIGITS, from);
+    fclose(from);
+    const char *at = memmem(head, got, note, sizeof note);
+    for (size_t i = 0; at != NULL && i < BUILD_DIGITS / 2; i++)
+        snprintf(out + 2 * i, 3, "%02x", (unsigned char)at[sizeof note + i]);
+    return at != NULL;
+}
+
 static void name_build(char *out, size_t size)
 {
-    char hash[DIGEST_TEXT];
+    char hash[DIGEST_TEXT] = "unknown";
     const environment e = environment_now(1);
-    digest program = digest_begin();
-    const int known = digest_add_file(&program, "/proc/self/exe") == 0;
-    digest_text(&program, hash);
-    snprintf(out, size, "%.12s of %.40s, commit %.40s", known ? hash : "unknown", e.version,
-             e.commit);
+    if (!read_build_id(hash)) {
+        digest program = digest_begin();
+        if (digest_add_file(&program, "/proc/self/exe") == 0)
+            digest_text(&program, hash);
+    }
+    snprintf(out, size, "%.*s of %.40s, commit %.40s", BUILD_DIGITS, hash, e.version, e.commit);
 }
 
 /* Joins all words with blanks. A text that is too long is cut and ends with its digest. */
