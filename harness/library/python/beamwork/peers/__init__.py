@@ -62,7 +62,7 @@ def solve_all(scene: Mapping[str, Any], peers: Sequence[tuple[str, str]], formul
     beamwork, on several meshes. Their rounds alternate, on one processor. limit: longest time for one mesh [s]. A mesh fails
     if its process crashes or exceeds the limit; in the latter case, finer meshes are not tried."""
     processor = max(os.sched_getaffinity(0))
-    request = {"scene": scene, "processor": processor}
+    request = {"scene": scene, "processor": processor, "limit": limit}
     all_ = [of_formulation(scene, name, processor, limit) for name in formulations]
     all_ += [Compared(Series(peer, element, f"{load(peer).PROGRAM}, {element}"), interpreter(), request, limit)
              for peer, element in peers]

@@ -104,17 +104,19 @@ class Load:
 
 @dataclasses.dataclass(frozen=True)
 class Analysis:
-    """kind: linear, static, compliance, buckling, modal, ... about: the analysis that provides the state."""
+    """kind: linear, static, compliance, buckling, modal, ... about: the analysis that provides the state. step: largest time
+    step of a motion [s]; the driver divides the time up to the last station equally."""
     name: str
     kind: str
     stations: tuple[float, ...]
     about: str | None
     raw: Mapping[str, Any]
+    step: float = 0.0
 
 
 @dataclasses.dataclass(frozen=True)
 class Quantity:
-    """value = factor * what is extracted + offset."""
+    """value = factor * what is extracted + offset. raw_entry: the whole entry of the file; raw: the part named `kind`."""
     name: str
     kind: str
     analysis: str
@@ -123,6 +125,7 @@ class Quantity:
     offset: float
     raw: Mapping[str, Any]
     x: Mapping[str, Any]
+    raw_entry: Mapping[str, Any]
 
 
 @dataclasses.dataclass(frozen=True)
@@ -158,22 +161,26 @@ class Mesh:
 class State:
     """Displacements and rotation vectors, and forces of supports on the structure at fixed and driven components, for each
     node of the scene. None: the program does not compute it. compliance: 6 x 6 matrix of the node of a compliance
-    analysis."""
+    analysis. In motions also rate, the velocities, along fixed axes, and angular velocities, along the axes of the node, and
+    energy, by the names kinetic, strain and energy."""
     u: Mapping[str, Sequence[float | None]] = dataclasses.field(default_factory=dict)
     reaction: Mapping[str, Sequence[float | None]] = dataclasses.field(default_factory=dict)
     compliance: Matrix | None = None
+    rate: Mapping[str, Sequence[float | None]] = dataclasses.field(default_factory=dict)
+    energy: Mapping[str, float] = dataclasses.field(default_factory=dict)
 
 
 @dataclasses.dataclass
 class Answer:
-    """The states at the stations of an analysis (linear: one), critical factors or frequencies [Hz] in ascending order,
-    with a zero for each rigid-body motion. families: of the modes, from _modes.py; may be empty. iterations: number of
-    equation systems solved."""
+    """The states at the stations of an analysis (linear: one) or, in motions, at `times`; critical factors or frequencies
+    [Hz] in ascending order, with a zero for each rigid-body motion. families: of the modes, from _modes.py; may be empty.
+    iterations: number of equation systems solved."""
     states: Sequence[State] = ()
     factors: Sequence[float] = ()
     frequencies: Sequence[float] = ()
     families: Sequence[str] = ()
     iterations: int = 0
+    times: Sequence[float] = ()
 
 
 class Model:
@@ -245,7 +252,10 @@ class Scene:
         return path
 
     def motion_value(self, name: str, path: float) -> float:
+        """Returns the value of a prescribed motion at a path parameter. Functions of time are 0 there (see read.py)."""
         motion = self.motions[name]
+        if "path" not in motion:
+            return 0.0
         return interpolated(motion["path"], motion["value"], path)
 
     def length(self) -> float:

@@ -1,4 +1,4 @@
-"""Exudyn: geometrically exact beams in the plane and in space, and the ANCF beam in space; statics and modes."""
+"""Exudyn: geometrically exact beams in the plane and in space, and the ANCF beam in space; statics, modes and motions."""
 from __future__ import annotations
 
 import importlib
@@ -6,20 +6,23 @@ import importlib.metadata
 import math
 from typing import Any
 
+from . import _exudyn_motion
 from ._exudyn_modes import modal
-from .data import (COMPONENTS, Analysis, Answer, Element, Load, LoadSteps, Matrix, Mesh, Model, Refused, Scene, Section, State, product,
+from .data import (COMPONENTS, Analysis, Answer, Element, Load, LoadSteps, Matrix, Mesh, MeshElement, Model, Node, Refused, Scene, Section, State, product,
                    rotation, rotation_vector, times, transposed)
 
 NAME, PROGRAM, LICENCE = "exudyn", "Exudyn", "BSD-3-Clause"
 HOMEPAGE = "https://github.com/jgerstmayr/EXUDYN"
 REQUIRES = ("exudyn==1.13.6", )
 _ANALYSES, _PHYSICS = frozenset({"static", "modal"}), frozenset({"shear", "large rotations", "geometric", "mass", "rotary inertia"})
-_KEYS = frozenset({"loads.follower", "modal.about"})
+_FEW, _ALL = frozenset({"loads.follower", "modal.about"}), _ANALYSES | {"motion"}
+_KEYS = _FEW | {"loads.gravity", "nodes.mass", "nodes.inertia"}
 ELEMENTS = {
-    "exact_2d": Element("geometrically exact, 2 nodes, xy plane only", _PHYSICS, _ANALYSES, keys=_KEYS | {"plane"}),
-    "exact_2d_3": Element("geometrically exact, 3 nodes, xy plane only", _PHYSICS, _ANALYSES, 2, _KEYS | {"plane"}),
-    "exact_3d": Element("geometrically exact, 2 nodes; marked as under construction by its authors", _PHYSICS, _ANALYSES, keys=_KEYS),
-    "ancf_3d": Element("ANCF beam with cross-section slopes, 2 nodes; marked as under construction", _PHYSICS, _ANALYSES, keys=_KEYS),
+    "exact_2d": Element("geometrically exact, 2 nodes, xy plane only", _PHYSICS, _ALL, keys=_KEYS | {"plane"}),
+    "exact_2d_3": Element("geometrically exact, 3 nodes, xy plane only", _PHYSICS, _ALL, 2, _KEYS | {"plane"}),
+    "exact_3d": Element("geometrically exact, 2 nodes; marked as under construction by its authors", _PHYSICS, _ALL, keys=_KEYS),
+    # The mass matrix of the ANCF beam contains the rate of the sum of both slopes, and depends on the axes of the scene.
+    "ancf_3d": Element("ANCF beam with cross-section slopes, 2 nodes; marked as under construction", _PHYSICS, _ANALYSES, keys=_FEW),
 }
 _RIGID = 1e9  # shear stiffness of sections that are rigid in shear, relative to EI/length^2
 
@@ -46,6 +49,8 @@ class _Steps(Model):
         self.loads: list[tuple[Load, int, list[float]]] = []
         self.held: dict[str, list[tuple[int, list[int]]]] = {}
         self.driven: list[tuple[str, int]] = []
+        self.turned: list[tuple[str, int, int]] = []  # motion, joint, and component of a driven rotation in space
+        self.beams: list[tuple[MeshElement, int]] = []
         self.unknowns = 0
         self.node_at: dict[int, int] = {}
         self.base = ""  # the analysis whose last state the model is in
@@ -73,6 +78,8 @@ class _Steps(Model):
         self.unknowns = count - sum(len(c) for all_ in self.held.values() for _, c in all_)
         self.settings = ("SolveStatic, Newton increments below 1e-8, sparse, adaptive load steps; rigid in shear: "
                          f"GA = {_RIGID:g} EI/L^2; modes: LAPACK, with the matrices of the static solver")
+        if _exudyn_motion.moves(self.scene):
+            self.settings = f"{_exudyn_motion.SETTINGS}; rigid in shear: GA = {_RIGID:g} EI/L^2"
 
     def constrain(self, name: str, node: int, coordinate: int, component: int, motion: str = "") -> None:
         zero = self.add("MarkerNodeCoordinate", nodeNumber=self.ground, coordinate=0)
@@ -84,12 +91,25 @@ class _Steps(Model):
 
     def put_loads(self, marker_of: Any) -> None:
         for load in self.scene.loads:
+            if load.kind == "gravity":
+                self._put_gravity(load, marker_of)
+                continue
             if load.node is None or load.kind not in ("force", "moment"):
                 raise Refused(f"{load.kind}: the driver has forces and moments at nodes only")
             kind = "LoadForceVector" if load.kind == "force" else "LoadTorqueVector"
             vector = times(transposed(self.frame_of(load.node)), load.vector) if load.follower else list(load.vector)
             number = self.add(kind, markerNumber=marker_of(load.node), loadVector=vector, bodyFixed=load.follower)
             self.loads.append((load, number, vector))
+
+    def _put_gravity(self, load: Load, marker_of: Any) -> None:
+        if load.node is not None:
+            weight = [float(self.scene.nodes[load.node].raw.get("mass", 0)) * g for g in load.vector]
+            self.loads.append((load, self.add("LoadForceVector", markerNumber=marker_of(load.node), loadVector=weight), weight))
+        for element, beam in self.beams:
+            if element.member.name == load.member:
+                marker = self.add("MarkerBodyMass", bodyNumber=beam)
+                number = self.add("LoadMassProportional", markerNumber=marker, loadVector=list(load.vector))
+                self.loads.append((load, number, list(load.vector)))
 
     def frame_of(self, name: str) -> Matrix:
         del name
@@ -119,6 +139,8 @@ class _Steps(Model):
         if analysis.kind == "modal":
             self._return_to(analysis)
             return modal(self, analysis)
+        if analysis.kind == "motion":
+            return _exudyn_motion.motion(self, analysis)
         states, path, iterations = [], 0.0, 0
         steps = LoadSteps((self.scene.of, self.name, len(self.mesh.elements), analysis.name), analysis.stations[-1])
         before = self.rotations()
@@ -147,11 +169,33 @@ class _Steps(Model):
             self._set(0.0)
             state = [0.0] * len(state)
         data.SetODE2Coordinates(state, configuration=types.Initial)
+    def get(self, kind: str, item: int, output: str) -> list[float]:
+        """Returns the present output of an item."""
+        which = getattr(self.exu.OutputVariableType, output)
+        value = self.mbs.GetNodeOutput(item, which) if kind == "Node" else self.mbs.GetObjectOutput(item, which)
+        return [float(x) for x in value] if hasattr(value, "__len__") else [float(value)]
+
+    def add_sensors(self) -> None:
+        if _exudyn_motion.moves(self.scene):
+            self.sensors = _exudyn_motion.Sensors(self)
+            self.state(self.sensors.record)
 
     def rotations(self) -> list[Matrix]:
         raise NotImplementedError
 
-    def state(self) -> State:
+    def state(self, get: Any = None) -> State:
+        """Returns the present state, or one with the outputs that `get` returns, for the nodes in quantities of motions."""
+        raise NotImplementedError
+
+    def all_nodes(self) -> list[tuple[str | None, int]]:
+        """Returns the numbers of all nodes of the model, with the names of those of the scene."""
+        raise NotImplementedError
+
+    def coordinate_rates(self, node: int, v: list[float], w: list[float]) -> list[float]:
+        """Returns the rates of the coordinates of a node from its velocity and angular velocity."""
+        raise NotImplementedError
+
+    def strain_energy(self) -> float:
         raise NotImplementedError
 
 
@@ -161,7 +205,7 @@ def _plane(scene: Scene) -> None:
                 abs(member.axes[2][k]) for k in (1, 2)) > 1e-12:
             raise Refused(f"space: {member.name} is not in the xy plane")
     for load in scene.loads:
-        if any(x != 0 for x in (load.vector[2:] if load.kind == "force" else load.vector[:2])):
+        if any(x != 0 for x in (load.vector[:2] if load.kind == "moment" else load.vector[2:])):
             raise Refused(f"space: {load.name} is not in the xy plane")
 
 
@@ -183,18 +227,22 @@ class Plane(_Steps):
             curvature = element.member.curvature[2] * element.R[2][2] if z else element.member.curvature[1] * element.R[2][1]
             if curvature != 0:
                 raise Refused("curvature: straight elements on an arc are not tested with the shared nodes of Exudyn")
-            self.add("ObjectBeamGeometricallyExact2D", nodeNumbers=[self.nodes[k] for k in element.nodes],
-                     length=element.length, bendingStiffness=s.EIz if z else s.EIy, axialStiffness=s.EA,
-                     shearStiffness=shear[0 if z else 1], massPerLength=s.rho_A,
-                     crossSectionInertia=s.rho_I[2 if z else 1], includeReferenceRotations=False)
+            self.beams.append((element, self.add(
+                "ObjectBeamGeometricallyExact2D", nodeNumbers=[self.nodes[k] for k in element.nodes], length=element.length,
+                bendingStiffness=s.EIz if z else s.EIy, axialStiffness=s.EA, shearStiffness=shear[0 if z else 1],
+                massPerLength=s.rho_A, crossSectionInertia=_exudyn_motion.inertia(scene, s)[2 if z else 1], includeReferenceRotations=False)))
         for node in scene.nodes.values():
             number = self.nodes[mesh.node_of[node.name]]
+            mass, inertia = _exudyn_motion.body(node)
+            if mass or any(inertia):
+                self.add("ObjectRigidBody2D", nodeNumber=number, physicsMass=mass, physicsInertia=inertia[2])
             for coordinate, component in enumerate((0, 1, 5)):
                 word = COMPONENTS[component]
                 if word in node.hold or word in node.drive:
                     self.constrain(node.name, number, coordinate, component, node.drive.get(word, ""))
         markers = {node: self.add("MarkerNodeRigid", nodeNumber=self.nodes[mesh.node_of[node]]) for node in scene.nodes}
         self.put_loads(markers.__getitem__)
+        self.add_sensors()
         self.assemble(3 * len(mesh.nodes))
 
     def rotations(self) -> list[Matrix]:
@@ -202,16 +250,38 @@ class Plane(_Steps):
                   for k in self.mesh.node_of.values()]
         return [rotation([0, 0, angle]) for angle in angles]
 
-    def state(self) -> State:
-        u, reaction = {}, {}
-        for name, number in self.mesh.node_of.items():
-            moved = self.mbs.GetNodeOutput(self.nodes[number], self.exu.OutputVariableType.Coordinates)
-            u[name] = [float(moved[0]), float(moved[1]), 0.0, 0.0, 0.0, float(moved[2])]
+    def state(self, get: Any = None) -> State:
+        known, get = _exudyn_motion.asked(self.scene) if get else set(self.mesh.node_of), get or self.get
+        u, rate, reaction = dict[str, Any](), dict[str, Any](), dict[str, Any]()
+        for name in known:
+            number = self.nodes[self.mesh.node_of[name]]
+            x, y, angle = get("Node", number, "Coordinates")[:3]
+            u[name] = [x, y, 0.0, 0.0, 0.0, angle]
+            x, y, angle = get("Node", number, "Coordinates_t")[:3]
+            rate[name] = [x, y, 0.0, 0.0, 0.0, angle]
             reaction[name] = [0.0] * 6
             for fixed, (component, ) in self.held.get(name, []):
-                force = self.mbs.GetObjectOutput(fixed, self.exu.OutputVariableType.Force)
-                reaction[name][component] = float(force)
-        return State(u, reaction)
+                reaction[name][component] = get("Object", fixed, "Force")[0]
+        return State(u, reaction, rate=rate)
+
+    def all_nodes(self) -> list[tuple[str | None, int]]:
+        return [(node.name, self.nodes[node.number]) for node in self.mesh.nodes]
+
+    def coordinate_rates(self, node: int, v: list[float], w: list[float]) -> list[float]:
+        return [v[0], v[1], w[2]]
+
+    def strain_energy(self) -> float:
+        total, types = 0.0, self.exu.OutputVariableType
+        for element, beam in self.beams:
+            s, shear = element.member.section, _shear(element.member.section, self.scene.length())
+            z = abs(element.R[2][2]) > 0.5
+            places = [0.0] if len(element.nodes) == 2 else [-element.length / 12**0.5, element.length / 12**0.5]
+            for x in places:
+                strain, bend = (self.mbs.GetObjectOutputBody(beam, getattr(types, which), [x, 0, 0])
+                                for which in ("StrainLocal", "CurvatureLocal"))
+                total += element.length / len(places) / 2 * (s.EA * strain[0]**2 + shear[0 if z else 1] * strain[1]**2 +
+                                                             (s.EIz if z else s.EIy) * bend[2]**2)
+        return float(total)
 
 
 class Space(_Steps):
@@ -235,22 +305,24 @@ class Space(_Steps):
             s = element.member.section
             data = self.exu.BeamSection()
             data.stiffnessMatrix = self._stiffness(s)
-            x, y, z = s.rho_I
-            data.massPerLength, data.inertia = s.rho_A, [[x, 0, 0], [0, y, 0], [0, 0, z]]
+            data.massPerLength = s.rho_A
+            data.inertia = [[v if i == k else 0.0 for k in range(3)] for i, v in enumerate(_exudyn_motion.inertia(scene, s))]
             extra = {"crossSectionPenaltyFactor": [10.0, 10.0, 10.0]} if self.ancf else {}
-            self.add("ObjectANCFBeam" if self.ancf else "ObjectBeamGeometricallyExact", nodeNumbers=ends,
-                     length=element.length, sectionData=data, **extra)
+            self.beams.append((element, self.add("ObjectANCFBeam" if self.ancf else "ObjectBeamGeometricallyExact",
+                                                 nodeNumbers=ends, length=element.length, sectionData=data, **extra)))
         self.ground_marker = self.add("MarkerNodeRigid", nodeNumber=self.ground)
         markers: dict[str, int] = {}
         joints = 0
         for node in scene.nodes.values():
             first, *others = [self.add("MarkerNodeRigid", nodeNumber=k) for k in self.of[node.name]]
             markers[node.name] = first
+            self._body(node)
             for marker, k in zip(others, self.of[node.name][1:]):
                 joints += 6
                 self._joint(first, marker, self.frame[self.of[node.name][0]], self.frame[k], [1] * 6, node.name)
             self._support(node.name, first)
         self.put_loads(markers.__getitem__)
+        self.add_sensors()
         self.assemble(6 * len(made) - joints if not self.ancf else 9 * len(made) - joints)
 
     def rotations(self) -> list[Matrix]:
@@ -262,6 +334,16 @@ class Space(_Steps):
     def _matrix(self, node: int) -> list[list[float]]:
         matrix = self.mbs.GetNodeOutput(node, self.exu.OutputVariableType.RotationMatrix)
         return [[float(x) for x in matrix[3 * i:3 * i + 3]] for i in range(3)]
+
+    def _body(self, node: Node) -> None:
+        mass, inertia = _exudyn_motion.body(node)
+        if not mass and not any(inertia):
+            return
+        xx, yy, zz, xy, yz, xz = inertia
+        P = self.frame_of(node.name)
+        own = product(transposed(P), product([[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], P))
+        self.add("ObjectRigidBody", nodeNumber=self.of[node.name][0], physicsMass=mass,
+                 physicsInertia=[own[0][0], own[1][1], own[2][2], own[1][2], own[0][2], own[0][1]])
 
     def _stiffness(self, section: Section) -> Any:
         import numpy  # pylint: disable=import-outside-toplevel
@@ -291,8 +373,8 @@ class Space(_Steps):
             if word[0] == "u":
                 k = COMPONENTS.index(word)
                 self.constrain(name, self.of[name][0], k, k, motion)
-            elif any(v != 0 for v in self.scene.motions[motion]["value"]):
-                raise Refused(f"drive: the driver does not drive {word} in space")
+            elif any(v != 0 for v in self.scene.motions[motion].get("value", ())):
+                raise Refused(f"drive: the driver does not drive {word} in space along a path")
         axes = [int(c in node.hold or (c in node.drive and c[0] == "r")) for c in COMPONENTS]
         if sum(axes[3:]) == 1 and any(a.kind != "modal" or a.about for a in self.scene.analyses.values()):
             raise Refused(f"hold: the driver does not hold one rotation of {name}")
@@ -302,28 +384,59 @@ class Space(_Steps):
                 "NodePointGround", referenceCoordinates=list(node.at)))
             joint = self._joint(ground, marker, [[1.0, 0, 0], [0, 1.0, 0], [0, 0, 1.0]], frame, axes, name)
             self.held.setdefault(name, []).append((joint, [k for k in range(6) if axes[k]]))
+            self._turn(name, joint, axes)
 
-    def state(self) -> State:
-        types = self.exu.OutputVariableType
-        u: dict[str, list[float | None]] = {}
-        reaction: dict[str, list[float]] = {}
-        for name in self.mesh.node_of:
+    def _turn(self, name: str, joint: int, axes: list[int]) -> None:
+        driven = [(word, motion) for word, motion in self.scene.nodes[name].drive.items() if word[0] == "r"]
+        if len(driven) > 1 or (driven and sum(axes[3:]) < 3):
+            raise Refused(f"drive: the driver drives one rotation of {name} while the others are fixed")
+        self.turned += [(motion, joint, COMPONENTS.index(word)) for word, motion in driven]
+
+    def state(self, get: Any = None) -> State:
+        known, get = _exudyn_motion.asked(self.scene) if get else set(self.mesh.node_of), get or self.get
+        u, rate, reaction = dict[str, Any](), dict[str, Any](), dict[str, Any]()
+        for name in known:
             node = self.of[name][0]
-            moved = [float(x) for x in self.mbs.GetNodeOutput(node, types.Displacement)]
-            vector = rotation_vector(product(self._matrix(node), transposed(self.frame[node])))
-            known = math.sqrt(sum(x * x for x in vector)) < 3
-            u[name] = [*moved, *((x if known else None) for x in vector)]
+            matrix = get("Node", node, "RotationMatrix")
+            turn = product([matrix[3 * i:3 * i + 3] for i in range(3)], transposed(self.frame[node]))
+            vector = rotation_vector(turn)
+            sure = math.hypot(*vector) < 3 or get != self.get  # a history shows the number of turns
+            u[name] = [*get("Node", node, "Displacement")[:3], *((x if sure else None) for x in vector)]
+            rate[name] = [] if self.ancf else [*get("Node", node, "Velocity")[:3],
+                                                     *times(transposed(turn), get("Node", node, "AngularVelocity")[:3])]
             reaction[name] = [0.0] * 6
             for item, components in self.held.get(name, []):
                 if len(components) == 1 and components[0] < 3 and (item in [d for _, d in self.driven]):
-                    reaction[name][components[0]] = float(self.mbs.GetObjectOutput(item, types.Force))
+                    reaction[name][components[0]] = get("Object", item, "Force")[0]
                     continue
-                force = self.mbs.GetObjectOutput(item, types.ForceLocal)
-                torque = self.mbs.GetObjectOutput(item, types.TorqueLocal)
-                both = [*force, torque[0], -torque[1], -torque[2]]  # signs as measured by the contract tests
+                force = get("Object", item, "ForceLocal")
+                torque = get("Object", item, "TorqueLocal")
+                both = [*force[:3], torque[0], -torque[1], -torque[2]]  # signs as measured by the contract tests
                 for k in components:
-                    reaction[name][k] = float(both[k])
-        return State(u, reaction)
+                    reaction[name][k] = both[k]
+        return State(u, reaction, rate=rate)
+
+    def all_nodes(self) -> list[tuple[str | None, int]]:
+        of = {number: name for name, numbers in self.of.items() for number in numbers}
+        return [(of.get(number), number) for number in self.frame]
+
+    def coordinate_rates(self, node: int, v: list[float], w: list[float]) -> list[float]:
+        c = self.get("Node", node, "Coordinates")
+        return [*v, *_exudyn_motion.quaternion_rate(self.parameters(node, c), w)]
+
+    def parameters(self, node: int, c: list[float]) -> list[float]:
+        """Returns the Euler parameters of a node with the coordinates c, which are changes of the reference coordinates."""
+        reference = self.mbs.GetNode(node)["referenceCoordinates"]
+        return [float(a) + b for a, b in zip(reference[3:], c[3:])]
+
+    def strain_energy(self) -> float:
+        total, types = 0.0, self.exu.OutputVariableType
+        for element, beam in self.beams:
+            stiffness = self._stiffness(element.member.section).diagonal()
+            strain = [float(x) for which in ("StrainLocal", "CurvatureLocal")
+                      for x in self.mbs.GetObjectOutputBody(beam, getattr(types, which), [0, 0, 0])[:3]]
+            total += element.length / 2 * sum(k * e**2 for k, e in zip(stiffness, strain))
+        return float(total)
 
 
 def build(scene: Scene, element: str, mesh: Mesh) -> Model:

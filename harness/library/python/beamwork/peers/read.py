@@ -5,18 +5,20 @@ import math
 from collections.abc import Mapping
 from typing import Any
 
+from . import _motion
 from .data import COMPONENTS, Analysis, Answer, Element, Load, Member, Node, Quantity, Refused, Scene, Section
 
 _KNOWN = {
     "nodes": {"at", "hold", "drive", "fork"},
     "members": {"from", "to", "section", "y", "warping", "curvature", "divisions"},
-    "motions": {"path", "value"},
-    "loads": {"force", "moment", "on", "path", "factor"},
+    "motions": {"path", "value", "pieces", "unit"},
+    "loads": {"force", "moment", "on", "path", "factor", "pieces"},
     "": {"beamwork", "name", "summary", "source", "sections", "nodes", "members", "loads", "motions", "analyses",
          "quantities", "omit", "shear_theory", "meshes"},
 }  # keys that every driver supports; others are in Element.keys
 _ANALYSIS: dict[str, set[str]] = {"linear": set(), "static": {"stations", "steps"}, "buckling": {"wanted"}, "modal": {"wanted"},
-             "compliance": {"about", "node", "moments", "released"}}
+             "compliance": {"about", "node", "moments", "released"},
+             "motion": {"stations", "about", "start"} | _motion.NUMERICS}
 _QUANTITY = {"displacement": {"node", "component"}, "reaction": {"node", "component"},
              "compliance": {"row", "column"}, "stiffness": {"component"}, "critical_factor": {"which"},
              "frequency": {"which", "family"}}
@@ -53,7 +55,7 @@ def _quantity(name: str, entry: Mapping[str, Any]) -> Quantity:
     kind = next(iter(entry))
     raw = entry[kind]
     return Quantity(name, kind, raw.get("analysis", ""), entry["unit"], entry.get("factor", 1.0),
-                    entry.get("offset", 0.0), raw, entry.get("x", {}))
+                    entry.get("offset", 0.0), raw, entry.get("x", {}), entry)
 
 
 def _forked(entry: Mapping[str, Any]) -> set[str]:
@@ -96,6 +98,10 @@ def check(scene: Scene, element: Element, program: str) -> None:
     for name, node in scene.nodes.items():
         if "fork" in node.raw and (not _forked(node.raw) or any(a.kind not in ("linear", "buckling", "modal") for a in scene.analyses.values())):
             raise Refused(f"fork: {name}; drivers have forks about a global axis, without large rotations")
+    for name, motion in scene.motions.items():
+        start = _motion.function_of(motion)
+        if start is not None and start(0.0) != 0 and any(a.kind not in ("motion", "modal") for a in scene.analyses.values()):
+            raise Refused(f"motions: {name} is not 0 at the time 0, and there is an analysis without time")
     for member in scene.members.values():
         if not isinstance(member.raw["section"], str) and "taper" not in element.keys:
             raise Refused(f"section: {member.name} is tapered")
@@ -114,6 +120,8 @@ def refusal(scene: Scene, element: Element, q: Quantity) -> str:
                 return f"{key}: the driver does not read this key of {one.name}"
     if analysis.about is not None and scene.analyses[analysis.about].kind != "static":
         return f"about: drivers have no {analysis.kind} analysis about a {scene.analyses[analysis.about].kind} one"
+    if analysis.kind == "motion":
+        return _motion.refusal(q)
     if q.kind not in _QUANTITY or set(q.raw) - _QUANTITY[q.kind] - {"analysis", "take", "at"}:
         return f"{q.kind}: no driver computes this quantity"
     if q.raw.get("take", "last") not in ("last", "curve", "max", "min") or ("take" in q.raw and "factor" not in q.x and
@@ -154,6 +162,8 @@ def value_of(scene: Scene, q: Quantity, answer: Answer) -> float | list[list[flo
             raise Refused(f"{q.kind}: the driver found only {len(found)} values")
         return float(q.factor * found[which] + q.offset)
     analysis = scene.analyses[q.analysis]
+    if analysis.kind == "motion":
+        return _motion.value_of(scene, q, answer)
     stations = analysis.stations or (scene.analyses[analysis.about].stations if analysis.about else (1.0, ))
     values = [float(q.factor * v + q.offset) for v in _state_values(q, answer)]
     take = q.raw.get("take", "last")
