@@ -14,7 +14,6 @@ section field_section(const element_request *request)
     return c;
 }
 
-/* Computes the positions of the nodes; without a type, the nodes are equally spaced. */
 static void places_of(const element_request *request, int nodes, double place[])
 {
     if (request->type != NULL && nodes > 2)
@@ -56,7 +55,6 @@ void field_prepare(const element_request *request, int nodes, displacement_field
     integrate_whole(out);
 }
 
-/* Computes the functionals of the field of a two-node element. */
 static void functionals_at(const displacement_field *f, double x,
                            double out[FIELD_FUNCTIONALS][FIELD_MODES])
 {
@@ -138,7 +136,6 @@ int field_points(const displacement_field *f, double from, double to, double x[F
     return f->nodes + 1;
 }
 
-/* Index of the warping amplitude, which comes after the other functionals. */
 enum { PSI = FIELD_FUNCTIONALS };
 /* Numbers of points. The first is exact for the square of a cubic. The second integrates hyperbolic
  * twist with an error below 1e-9 for elements up to ten boundary layers long. */

@@ -8,11 +8,10 @@
  *   r = lin(r) + m_y (nu_y . e) + m_z (nu_z . e),
  *   n_x = lin(n_x) + m_y (chi_z . e) - m_z (chi_y . e), and so on.
  * e refers to the straight element. The initial value of e describes the shape of a curved element.
- * The functionals are those of J section 3.2 with the exact twist (beamw/fields.h). The field
- * contains every solution without loads. Therefore any load does the correct work on the nodes of
- * an element that is exact without loads. With more nodes, r and n_k are the polynomials through
- * the n nodes at x_k, and r has an additional term, whose derivative is the part of l n_x of the
- * highest degree: (l/n) prod (x - x_j) sum_k n_x^k/prod_(j != k) (x_k - x_j). */
+ * The functionals are those of J section 3.2 with the exact twist (beamw/fields.h). With more
+ * nodes, r and n_k are the polynomials through the n nodes at x_k, and r has an additional term,
+ * whose derivative is the part of l n_x of the highest degree: (l/n) prod (x - x_j) sum_k
+ * n_x^k/prod_(j != k) (x_k - x_j). */
 #ifndef BEAMWORK_FIELD_FIELD_H
 #define BEAMWORK_FIELD_FIELD_H
 
@@ -29,7 +28,6 @@ typedef struct field_rows {
     double functional[FIELD_FUNCTIONALS][FIELD_MODES];
 } field_rows;
 
-/* Data of a kind of element. */
 typedef struct displacement_field {
     int nodes;
     double place[ELEMENT_MAX_NODES]; /* positions of the nodes, from 0 to 1 */
@@ -75,9 +73,7 @@ void field_add_loads(const displacement_field *, const node_state x[], int count
                      const field_rows rows[], const field_load load[], double forces[], double K[]);
 
 /* Mass of an element that moves with the displacement field. Two-node elements have the consistent
- * mass of the field. Their frequencies converge with order 4 in slender bending. With the
- * correction for the motion inside the element (below), all frequencies of a straight member
- * converge with order 4. Elements with more nodes have lumped mass (lumped_shares), with order 4 or
+ * mass of the field. Elements with more nodes have lumped mass (lumped_shares), with order 4 or
  * more. */
 
 typedef struct field_mass {
@@ -88,10 +84,9 @@ typedef struct field_mass {
 } field_mass;
 
 /* Orders of convergence of frequencies without prestress, for two-node elements whose stiffness is
- * exact without loads. The highest order is that of slender bending. */
+ * exact without loads. */
 #define FIELD_MASS_ORDER ((element_order){4, 8})
 
-/* Prepares the mass of an element with `nodes` nodes. */
 void field_mass_prepare(const element_request *, int nodes, field_mass *);
 status field_mass_inertia(const field_mass *, const node_state x[], const element_rotating_frame *,
                           inertia_output *);

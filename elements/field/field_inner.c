@@ -14,10 +14,9 @@
 
 enum { N = FIELD_INNER };
 enum { NX, QY, QZ, MX, MY, MZ, W, MW, RESULTANTS };
-/* Degree of the polynomials of the resultants without load. */
 enum { DEGREE = 6, ENDS = 6, MOST = ENDS + DEGREE + 1 + 2 };
-enum { POINTS = 8 }; /* number of Gauss points if no resultant is hyperbolic */
-enum { LOADS = 7 };  /* q, mu, b */
+enum { POINTS = 8 };
+enum { LOADS = 7 }; /* q, mu, b */
 
 typedef struct inside {
     const displacement_field *f;
@@ -28,7 +27,6 @@ typedef struct inside {
     int warps, count;              /* count is the number of columns in use, at most MOST */
 } inside;
 
-/* Computes the displacements of the centroid, rotations and warping [7 x N] at a point. */
 static void motion_at(const inside *i, double x, double out[LOADS][N])
 {
     static const int functional[LOADS] = {-1,          FIELD_NU_Y,  FIELD_NU_Z, FIELD_CHI_X,
@@ -118,7 +116,6 @@ static void deform(const inside *i, int columns, const double *s, double *out)
     }
 }
 
-/* Returns 1 if a matrix of the section has a nonzero off-diagonal entry. */
 static int is_coupled(const section *c)
 {
     int coupled = 0;
@@ -181,7 +178,6 @@ static void gather(const inside *i, double x, double weight, double gram[MOST * 
     }
 }
 
-/* Scales the unknowns so that the diagonal of gram is one. */
 static void scale(int count, double gram[], double mixed[])
 {
     double root[MOST];

@@ -1,7 +1,6 @@
 /* Virtual work of loads on the field, and its derivatives. A vector y of the field is
  *   y = sum part_n v_n + sum m_k (functional . e),
- * which is linear in e and in vectors v fixed to the nodes. The first and second derivatives of e
- * and v are exact. */
+ * which is linear in e and in vectors v fixed to the nodes. */
 #include <math.h>
 #include <string.h>
 
@@ -32,7 +31,6 @@ static const field_vector place = {PLACE, {{1, FIELD_NU_Y, 1}, {2, FIELD_NU_Z, 1
                                          {1, {{0, FIELD_CHI_Z, -1}, {2, FIELD_CHI_X, 1}}},
                                          {2, {{0, FIELD_CHI_Y, 1}, {1, FIELD_CHI_X, -1}}}};
 
-/* State of an element, and sums over the points. */
 typedef struct pulled {
     const displacement_field *f;
     int n;                                              /* coordinates */
@@ -68,7 +66,6 @@ static void fixed_of(const pulled *p, const field_rows *at, const field_vector *
     }
 }
 
-/* Computes T[3 x n] = dy/dx. */
 static void gradient_of(const pulled *p, const field_rows *at, const field_vector *y,
                         double fixed[ELEMENT_MAX_NODES][3], double T[3 * MOST])
 {
@@ -102,7 +99,6 @@ static void add_mean_turn(const pulled *p, int k, double scale, const double F[3
     }
 }
 
-/* Adds a force F in global axes at y. */
 static void add_force(pulled *p, const field_rows *at, const field_vector *y,
                       double fixed[ELEMENT_MAX_NODES][3], const double F[3])
 {
@@ -126,7 +122,6 @@ static void add_force(pulled *p, const field_rows *at, const field_vector *y,
     }
 }
 
-/* A unit vector along a director of the field. */
 typedef struct unit {
     const field_vector *of;
     double fixed[ELEMENT_MAX_NODES][3], v[3], length;
@@ -146,7 +141,6 @@ static void unit_of(const pulled *p, const field_rows *at, int k, unit *out)
         out->v[i] /= out->length;
 }
 
-/* Computes T[3 x n], the derivative of the unit vector. */
 static void unit_gradient(const pulled *p, const field_rows *at, unit *u, double T[3 * MOST])
 {
     gradient_of(p, at, u->of, u->fixed, T);
@@ -186,7 +180,6 @@ static void add_force_on_unit(pulled *p, const field_rows *at, unit *u, double s
         }
 }
 
-/* Computes T[3 x n], which maps coordinates to the rotation increment of the section. */
 static void rotation_gradient_of(const pulled *p, const field_rows *at, double T[3 * MOST])
 {
     static const int functional[3] = {FIELD_CHI_X, FIELD_CHI_Y, FIELD_CHI_Z};
@@ -294,7 +287,6 @@ static void add_one(pulled *p, const field_rows *at, const field_load *load)
             add_force_on_unit(p, at, &axis[k], load->arm[k], F);
 }
 
-/* Adds the sums conjugate to e to the forces and to K. */
 static void add_functionals(pulled *p, const node_state x[])
 {
     double H[2 * NODE_COORDINATES * 2 * NODE_COORDINATES];

@@ -16,8 +16,7 @@
  *
  * A rotation of node k by the spatial increment theta changes q_k to exp(theta/2) q_k. The first
  * derivative is 1/2 theta q_k, the second -1/4 |theta|^2 q_k. Therefore (A0, A) = N_k a_k theta and
- * (D0, D) = N'_k a_k theta with a matrix a_k [4 x 3]. The caller chooses the unit of length. The
- * functions evaluate one element or several in lanes (real.h). */
+ * (D0, D) = N'_k a_k theta with a matrix a_k [4 x 3]. */
 #ifndef BEAMWORK_GEOMETRICALLY_EXACT_DEFORMED_H
 #define BEAMWORK_GEOMETRICALLY_EXACT_DEFORMED_H
 
@@ -35,7 +34,6 @@ typedef struct exact_point {
     real v[3];     /* vector y in the axes of the section */
 } exact_point;
 
-/* Effect of the rotation of one node on the values at the point. */
 typedef struct exact_point_turn {
     real c[4];             /* u^-1 q */
     real a[12];            /* matrix a [4 x 3] */
@@ -102,7 +100,7 @@ static inline void exact_point_add_cross(const real b[3], const real a[9], real 
     }
 }
 
-/* Computes the first derivatives with respect to the rotation of a node. Its quaternion is q. */
+/* Computes the first derivatives with respect to the rotation of a node. */
 static inline void exact_point_first(const exact_point *p, const real q[4], double N, double dN,
                                      exact_point_turn *t)
 {
@@ -197,7 +195,6 @@ static inline real exact_point_curved(const exact_point *p, const real n[3], con
 
 enum { EXACT_DEFORMED_PAIRS = EXACT_MAX_NODES * (EXACT_MAX_NODES + 1) / 2 };
 
-/* Values computed from the states of the nodes once per evaluation. */
 typedef struct exact_deformed_nodes {
     real q[EXACT_MAX_NODES][4];
     real r[EXACT_MAX_NODES][3], u[EXACT_MAX_NODES][3]; /* divided by l0 */
@@ -214,7 +211,6 @@ typedef struct exact_deformed {
     real turns[EXACT_DEFORMED_PAIRS][9], moves[EXACT_MAX_NODES][EXACT_MAX_NODES][9];
 } exact_deformed;
 
-/* Computes y = r' and dy = u' at point g. */
 static inline void exact_deformed_observe(int nodes, const exact_strain_line *line,
                                           exact_deformed_nodes *s, int g, exact_point *p, real y[3],
                                           real dy[3])
@@ -340,7 +336,6 @@ exact_deformed_evaluate(int nodes, const exact_strain_line *line, exact_deformed
     }
 }
 
-/* Copies the states of the nodes of one lane. */
 static inline void exact_deformed_read(int nodes, const exact_strain_line *line,
                                        const node_state x[], int lane, exact_deformed_nodes *s)
 {

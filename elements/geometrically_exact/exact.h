@@ -1,5 +1,3 @@
-/* Geometrically exact elements: strains, energy, warping, and evaluation of several elements at
- * once. */
 #ifndef BEAMWORK_GEOMETRICALLY_EXACT_EXACT_H
 #define BEAMWORK_GEOMETRICALLY_EXACT_EXACT_H
 
@@ -101,12 +99,11 @@ void exact_strain_prepare(int nodes, int points, double l0, const double curvatu
  *     represent, kappa_x(s) = P kappa + a - P a, where P is the interpolation through the points.
  *     Without warping shear, kappa_x = a everywhere, without a penalty.
  *   - The part of the bending moment that the polynomial through the points does not represent.
- *     With two nodes it is the linear part (MacNeal's residual bending flexibility). The element is
- *     then exact for end loads in linear problems, even if it is rigid in shear. With three nodes
- *     it is the quadratic part (derived here), only for sections that are rigid in shear, which
- *     would otherwise have no shear flexibility. This part is computed from the difference between
- *     Q and the slope of M in section axes. These also differ by kappa x M. Therefore the order is
- *     four in a plane and two in space. */
+ *     With two nodes it is the linear part (MacNeal's residual bending flexibility). The element
+ *     is then exact for end loads in linear problems, even if it is rigid in shear. With three
+ *     nodes it is the quadratic part (derived here), only for sections that are rigid in shear,
+ *     which would otherwise have no shear flexibility. This part is computed from the difference
+ *     between Q and the slope of M in section axes. */
 
 enum {
     EXACT_STIFFNESS_MAX_STRAINS = 6 * EXACT_STRAIN_MAX_POINTS + EXACT_MAX_NODES,
@@ -134,7 +131,6 @@ typedef struct exact_stiffness {
     double coupling[EXACT_STRAIN_MAX_POINTS][EXACT_STRAIN_MAX_POINTS]; /* products r_g . S r_h */
 } exact_stiffness;
 
-/* First part of the element_data of elements with strains at Gauss points. */
 typedef struct exact_gauss {
     exact_strain_line line;
     exact_stiffness stiffness;
@@ -226,7 +222,6 @@ typedef void exact_lanes_stresses(int count, const element_data *const data[],
                                   const double *const e[], const double *const inner[],
                                   stress_output out[], status outcome[]);
 
-/* Strains and stresses for data that begin with exact_gauss. */
 exact_lanes_strains exact_lanes_gauss_strain_plain, exact_lanes_gauss_strain_avx2;
 exact_lanes_stresses exact_lanes_gauss_stress_plain, exact_lanes_gauss_stress_avx2;
 

@@ -110,7 +110,7 @@ static void twist_fields(exact_fields *f)
  * polynomial through the points, with the slope M', does not represent. */
 static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, double flexibility)
 {
-    double row[EXACT_FIELDS_MAX_ALL] = {0}; /* row that multiplies Q and M of the points */
+    double row[EXACT_FIELDS_MAX_ALL] = {0};
     row[f->free + EXACT_FIELDS_STRESSES * g + Q] = 1;
     if (f->points == 2)
         for (int h = 0; h < 2; h++)
@@ -121,8 +121,7 @@ static void residual_bending(exact_fields *f, int g, int Q, int M, double sign, 
             f->energy[i * f->all + j] -= f->w[g] * flexibility * row[i] * row[j];
 }
 
-/* Adds stress times strain minus the complementary energy at one point. Shear forces act at the
- * shear centre. */
+/* Shear forces act at the shear centre. */
 static void energy_of_point(const beam_constants *c, exact_fields *f, int g)
 {
     const int e = 6 * g, Q = f->free + EXACT_FIELDS_STRESSES * g;
@@ -137,7 +136,7 @@ static void energy_of_point(const beam_constants *c, exact_fields *f, int g)
             if (f->warping_bubbles > 0 || (i < 2 && j < 2))
                 f->energy[(Q + i) * f->all + Q + j] -= w * c->F[3 * i + j];
     if (f->warping_bubbles == 0)
-        f->energy[(Q + 2) * (f->all + 1)] = -1; /* without a bimoment, there is no warping torque */
+        f->energy[(Q + 2) * (f->all + 1)] = -1;
     else
         add_product(f, w, Q + 2, e + 3);
     if (f->warping_bubbles > 0)

@@ -14,7 +14,6 @@ typedef struct exact_stressed {
     real more[EXACT_STIFFNESS_MAX_STRAINS][EXACT_STIFFNESS_MAX_STRAINS];
 } exact_stressed;
 
-/* Returns the index of the strain to which r[i] of point g belongs. */
 static inline int exact_stressed_entry(int g, int i)
 {
     return 6 * g + (i == 0 ? 0 : 3 + i);

@@ -11,7 +11,7 @@ enum {
     POLYNOMIALS = 20, /* sufficient up to lambda_short; the error of the energy is the square of
                          that of the amplitude */
     BUBBLES = POLYNOMIALS,
-    FUNCTIONS = BUBBLES + 2, /* the first functions are 1 - x and x */
+    FUNCTIONS = BUBBLES + 2,
     INTERVALS = 9,
     ORDER = 16,
     POINTS = INTERVALS * ORDER
@@ -24,8 +24,7 @@ typedef struct basis {
     double lambda;
 } basis;
 
-/* Computes the functions and their slopes at x. Both x and `rest`, the distances from the two ends,
- * are given for accuracy near both ends. */
+/* Both x and `rest`, the distances from the two ends, are given for accuracy near both ends. */
 static void functions_at(const basis *b, double x, double rest, double value[], double slope[])
 {
     value[0] = rest;
@@ -136,7 +135,6 @@ void exact_warping_energy(const beam_constants *c, int stages, const double x[],
     dense_lu(size, A, pivot); /* not singular: K is positive definite on the bubble functions, which
                                  outnumber the Gauss points */
     dense_lu_solve(size, m, A, pivot, X);
-    /* the gradient with respect to z is w T at the Gauss points and K a - P^T w T at the ends */
     memset(S, 0, EXACT_WARPING_MAX * EXACT_WARPING_MAX * sizeof *S);
     for (int j = 0; j < m; j++) {
         for (int i = 0; i < stages; i++)

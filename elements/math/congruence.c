@@ -61,7 +61,6 @@ static inline __attribute__((always_inline)) void add_rows(int rows, int count, 
         one_row(count, blocks, c + i * next, stride, B, out + i * blocks);
 }
 
-/* Copy A[rows x n] to rows of whole SIMD vectors, and back. */
 static inline __attribute__((always_inline)) void widen(int rows, int n, int blocks,
                                                         const double *A, part *out)
 {

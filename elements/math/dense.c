@@ -31,7 +31,7 @@ static inline __attribute__((always_inline)) void add_block(int count, int width
 }
 
 /* Returns the width of the next block of `left` remaining columns: the largest compiled width that
- * fits. The compiled widths are those that occur in the elements. */
+ * fits. */
 static inline __attribute__((always_inline)) int width_of(int left)
 {
     static const int widths[] = {14, 8, 7, 3};
@@ -41,7 +41,6 @@ static inline __attribute__((always_inline)) int width_of(int left)
     return 1;
 }
 
-/* Like add_block for a whole row of n columns, in blocks of compiled widths. */
 static inline __attribute__((always_inline)) void add_rows(int count, int n, double times, int skip,
                                                            const double *c, int stride,
                                                            const double *rows, double *out)
@@ -96,7 +95,7 @@ double dense_quadratic(int n, const double A[], const double x[])
     return sum;
 }
 
-/* Computes y(m) = A(m x n) x. It is faster if the caller passes a compile-time constant as n. */
+/* Computes y(m) = A(m x n) x. */
 static inline __attribute__((always_inline)) void mul_rows(int m, int n, const double *A,
                                                            const double *x, double *y)
 {

@@ -1,5 +1,5 @@
 /* Small dense algebra: vectors of 3 and matrices of known small size, row-major. No function
- * allocates memory. Algebra for sizes that depend on a mesh is in harness/numerics/numerics.h. */
+ * allocates memory. */
 #ifndef BEAMWORK_MATH_DENSE_H
 #define BEAMWORK_MATH_DENSE_H
 
@@ -41,9 +41,8 @@ void dense_lu_solve(int n, int m, const double *LU, const int pivot[], double *B
 enum { CONGRUENCE_WIDEST = 24 };
 
 /* Adds J^T S J to K(n x n), with J(m x n) and S(m x m), where m and n are at most
- * CONGRUENCE_WIDEST. The sums along rows stay in registers. Results are bit-for-bit identical to
- * those of plain loops in the same order. The second function is for processors with AVX2
- * (real.h). */
+ * CONGRUENCE_WIDEST. Results are bit-for-bit identical to those of plain loops in the same order.
+ * The second function is for processors with AVX2 (real.h). */
 void congruence_add_plain(int m, int n, const double *J, const double *S, double *K);
 void congruence_add_avx2(int m, int n, const double *J, const double *S, double *K);
 

@@ -131,8 +131,6 @@ static inline void real_zero(int n, real a[])
         a[i] = real_of(0);
 }
 
-/* Functions of libm, called lane by lane, so results are identical to those for a single
- * element. */
 static inline real real_atan2(real y, real x)
 {
     real angle = y;

@@ -166,8 +166,6 @@ void offset_force(const double rho[3], double force[6])
         force[3 + i] += moment[i];
 }
 
-/* Adds the translation columns times -rho~ to the rotation columns, and then the rows in the same
- * way, which gives A^T K A. */
 void offset_matrix(int n, int at, const double rho[3], const double force[3], double K[])
 {
     for (int i = 0; i < n; i++) {

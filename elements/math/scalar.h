@@ -1,4 +1,3 @@
-/* Pi, the larger of two numbers, Gauss-Legendre quadrature and Lagrange polynomials. */
 #ifndef BEAMWORK_MATH_SCALAR_H
 #define BEAMWORK_MATH_SCALAR_H
 
@@ -11,9 +10,6 @@ static inline double larger(double a, double b)
 {
     return a >= b || isnan(a) ? a : b;
 }
-
-/* Gauss-Legendre quadrature with the tables of GSL, which are prepared at the first call in a
- * process. */
 
 enum { QUADRATURE_MAX_POINTS = 64 };
 

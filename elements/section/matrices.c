@@ -62,7 +62,6 @@ void section_matrices_centre(const section *c, double centre[3])
     centre[2] = m > 0 ? M[4] / m : 0;
 }
 
-/* Returns 1 if the moment of inertia about every axis is nonnegative. */
 static int is_semidefinite(const double J[9])
 {
     const double small = 1e-9 * (J[0] + J[4] + J[8]);

@@ -1,4 +1,3 @@
-/* Computes and checks section constants. They are computed from a shape or given. */
 #include "elements/section/section.h"
 
 #include <math.h>
@@ -297,7 +296,6 @@ status section_compute(const section_spec *spec, section *out, fault *f)
     out->shear_modulus = spec->shear_modulus;
     out->density = spec->density;
     out->expansion = spec->expansion;
-    /* computes D from F, or F from D, unless both are zero and the section is rigid in shear */
     TRY(out->F[0] == 0 && out->D[0] != 0 ? invert_on_support(out->D, out->F, "D", f)
                                          : invert_on_support(out->F, out->D, "F", f));
     TRY(apply_given(spec, out, f));

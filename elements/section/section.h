@@ -14,7 +14,6 @@ extern "C" {
 
 enum { SECTION_MAX_POINTS = 32, SECTION_MAX_WALLS = 32 };
 
-/* Constants about the centroid and the principal axes, in SI units. */
 typedef struct section {
     double young;         /* Young's modulus E [Pa] */
     double shear_modulus; /* shear modulus G [Pa] */
@@ -53,7 +52,6 @@ typedef enum section_kind {
     SECTION_MATRICES
 } section_kind;
 
-/* Constants of SECTION_CONSTANTS that the scene sets to zero. */
 typedef enum section_zero {
     SECTION_ZERO_SHEAR = 1 << 0,    /* D or F */
     SECTION_ZERO_WARPING = 1 << 1,  /* Iw */
@@ -71,7 +69,6 @@ typedef enum section_zero {
     X(Iz)                                                                                          \
     X(It) X(Ip) X(Iw) X(ys) X(zs) X(Dy) X(Dz) X(Dw) X(Dyz) X(Dyw) X(Dzw) X(wagner_torque) X(beta)
 
-/* Section of a scene file, which section_compute converts to constants. */
 typedef struct section_spec {
     section_kind kind;
     unsigned zeros;                       /* SECTION_ZERO_... */
@@ -155,15 +152,13 @@ void section_matrices_centre(const section *c, double centre[3]);
 /* Tapered members: the dimensions of the section change linearly from one description to another of
  * the same form.
  *
- * Every cross-section is that of a prismatic member with its centroid on the line of the member.
- * Shear stresses due to the taper are neglected, as is usual in beam theory. */
+ * Every cross-section is that of a prismatic member with its centroid on the line of the member. */
 
 /* Checks that a taper between the two descriptions is possible. `ends` contains the constants of
  * both descriptions. Returns REFUSED if the descriptions have different forms, for example a
  * rectangle and walls, differently connected walls, or D in one description and F in the other.
  * Sections with warping are also rejected if the shear centre moves, walls leave their planes, or
- * closed cells differ. The sectorial coordinate of a fibre would then change along the member and
- * couple warping with torsion, which prismatic elements cannot represent. */
+ * closed cells differ. */
 status section_taper_check(const section_spec *p, const section_spec *q,
                            const section *const ends[2], fault *f);
 

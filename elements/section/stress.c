@@ -56,7 +56,6 @@ static void rectangle_points(const section *c, stress_points *out)
         }
 }
 
-/* Values and first moments of the walls. */
 typedef struct wall_flow {
     const section_spec *spec;
     const section *constants;
@@ -92,7 +91,7 @@ static void wall_points(const wall_flow *of, int k, double x, stress_points *out
         }
         p->across[PER_TWIST][0] = (l->flow[w] / t + side * t) * n.ty;
         p->across[PER_TWIST][1] = (l->flow[w] / t + side * t) * n.tz;
-        p->y += side * t / 2 * n.ny; /* position on the surface, even for constants of mid-lines */
+        p->y += side * t / 2 * n.ny;
         p->z += side * t / 2 * n.nz;
         p->omega -= side * t / 2 * arm;
     }
@@ -114,7 +113,7 @@ static void add_corner(const wall_flow *of, int at, int v, int w, stress_points 
         away[i][1] = z / hypot(y, z);
     }
     const double sine = fabs(away[0][0] * away[1][1] - away[0][1] * away[1][0]);
-    if (sine < 0.1) /* the walls are nearly in line, so the points on their surfaces suffice */
+    if (sine < 0.1)
         return;
     for (int i = 0; i < 2; i++)
         for (int k = 0; k < 2; k++)
@@ -144,9 +143,8 @@ static void add_corners(const wall_flow *of, stress_points *out)
     }
 }
 
-/* Completes the points of an angle section. The shear centre is where the walls meet, even if there
- * are fillets. If the shear centre and the area are given, they determine the centroid of the given
- * constants, to which the stress points refer. */
+/* Completes the points of an angle section. If the shear centre and the area are given, they
+ * determine the centroid of the given constants, to which the stress points refer. */
 static void complete_angle(const wall_flow *of, stress_points *out)
 {
     const section_spec *s = of->spec;
@@ -207,7 +205,6 @@ status stress_points_of(const section_spec *spec, const section *constants, stre
         "dimensions or walls, or request resultants");
 }
 
-/* Stresses at a fibre: normal stress, and shear stresses in y and z. */
 typedef struct stress {
     double along, y, z;
 } stress;
@@ -249,7 +246,6 @@ static double of_point(const section *c, const stress_point *p, const stress_res
     return measured(&s, what);
 }
 
-/* Evaluates the stresses of a tube at the two outermost fibres in the plane of bending. */
 static double of_tube(const section *c, double R, const stress_resultants *r, stress_measure what)
 {
     double largest = -INFINITY;

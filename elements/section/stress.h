@@ -18,7 +18,6 @@
 
 enum { STRESS_MAX_POINTS = 14 * SECTION_MAX_WALLS };
 
-/* Stresses at a point for a unit value of each resultant. */
 typedef struct stress_point {
     double y, z;         /* distance from the centroid along the principal axes [m] */
     double omega;        /* warping function omega [m^2], where u_x = -omega a */

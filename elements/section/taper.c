@@ -3,7 +3,6 @@
 #include <math.h>
 #include <stddef.h>
 
-/* Largest relative difference that is attributed to rounding. */
 static const double same = 1e-9;
 
 static int all_zero(const double v[9])
@@ -14,7 +13,6 @@ static int all_zero(const double v[9])
     return 1;
 }
 
-/* Returns the name of a number that only one of the two descriptions gives, or NULL. */
 static const char *given_once(const section_spec *p, const section_spec *q)
 {
     const struct {
@@ -75,8 +73,6 @@ static double out_of_plane(const section_spec *p, const section_spec *q,
     return most;
 }
 
-/* Returns 1 if two sections with the same numbers of walls and points (check_walls) differ in the
- * thickness of a wall or the position of a point. */
 static int walls_change(const section_spec *p, const section_spec *q)
 {
     int change = 0;
@@ -141,7 +137,7 @@ status section_taper_check(const section_spec *p, const section_spec *q,
 static void blend(int count, double x, const double q[], double p[])
 {
     for (int i = 0; i < count; i++)
-        if (p[i] != q[i]) /* equal numbers and NaN are copied exactly */
+        if (p[i] != q[i])
             p[i] += x * (q[i] - p[i]);
 }
 

@@ -149,8 +149,7 @@ double flow_moment(const section_spec *s, const section_tree *t, const double *v
 }
 
 /* Processes walls from the free ends towards the root, so the moments of all walls beyond a wall
- * are known before those of the wall. Cells are cut at the ends of the walls that close them. A
- * flow across the cuts makes the warping continuous. */
+ * are known before those of the wall. */
 void flow_first_moments(const section_spec *s, const section_tree *t, const double *value[3],
                         flow_moments q[])
 {
@@ -220,7 +219,6 @@ void flow_compliance(const section_spec *s, const section_tree *t, const double 
 
 enum { ROOT = 0 };
 
-/* Returns int f g dA over the mid-lines, for the values of f and g at the points. */
 static double product(const section_spec *s, const double f[], const double g[])
 {
     const flow_rule rule = flow_rule_of_three();

@@ -32,8 +32,7 @@ void tree_flow(const section_spec *s, const section_tree *t, const double jump[]
 
 double tree_wall_length(const section_spec *s, int w); /* [m] */
 
-/* Shear flow of a thin-walled section. Equilibrium, starting at the free ends, determines the flow
- * in open parts. Around cells, compatibility is also needed.
+/* Shear flow of a thin-walled section.
  *
  * For normal stresses that are linear in y, z and omega, q = - sum over i of Q_i S_i/I_i, with the
  * first moments S of y, z and omega (J Eq. 27), Q = (Qy, Qz, Mw) and I = (Iz, Iy, Iw). */
@@ -50,7 +49,6 @@ flow_rule flow_rule_of_three(void);
  * values at the points of the section. */
 double flow_along(const section_spec *s, int w, const double value[], double x);
 
-/* Directions of a wall: t along the wall, and n = (tz, -ty) normal to it. */
 typedef struct flow_frame {
     double length, ty, tz, ny, nz;
 } flow_frame;
@@ -77,7 +75,6 @@ double flow_moment(const section_spec *s, const section_tree *t, const double *v
 void flow_compliance(const section_spec *s, const section_tree *t, const double *value[3],
                      const double pole[2], double sum[9]);
 
-/* Mid-lines of straight thin walls in principal axes about the centroid: values at the points. */
 typedef struct walls_lines {
     section_tree tree;
     double y[SECTION_MAX_POINTS], z[SECTION_MAX_POINTS]; /* [m] */

@@ -24,7 +24,6 @@ typedef struct beam_constants {
 
 status beam_constants_of(const element_request *request, beam_constants *out, fault *f);
 
-/* Members of element_type that are common to geometrically exact beams with warping. */
 #define EXACT_TYPE                                                                                 \
     .family = "reissner", .abi = ELEMENT_ABI, .shear_theories = SHEAR_HARINGX,                     \
     .offers = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_ECCENTRIC | FEATURE_TRAPEZE |              \
@@ -42,10 +41,8 @@ int beam_coupled_inverse(int n, const double A[], double inverse[]);
 
 /* Returns REFUSED unless the length [m] of the element is finite and positive. */
 status beam_length_check(double length, fault *f);
-/* Reports that the stiffness of an element of this length [m] overflows. */
 status beam_overflow(double length, fault *f);
 
-/* Reports that a matrix of an element of this length [m] could not be inverted. */
 status beam_coupled_too_stiff(double length, fault *f);
 
 #endif

@@ -1,4 +1,3 @@
-/* Words and numbers in user input. */
 #ifndef BEAMWORK_SHARED_CHOICE_H
 #define BEAMWORK_SHARED_CHOICE_H
 

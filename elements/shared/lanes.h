@@ -2,9 +2,7 @@
  *
  * A family of elements implements its strains and stresses with node_real, strain_real and
  * stress_real, in headers of static functions. If LANES is 1, these types are those of element.h,
- * and the headers give the functions for a single element. A file lanes.c defines LANES as
- * LANES_TOGETHER before it includes these headers, and implements strain_many and stress_many by
- * the functions below. The Makefile compiles lanes.c twice. */
+ * and the headers give the functions for a single element. */
 #ifndef BEAMWORK_SHARED_LANES_H
 #define BEAMWORK_SHARED_LANES_H
 
@@ -51,7 +49,6 @@ typedef struct lanes_sizes {
                      matters; J and H of one node are then minus those of the other, bit for bit */
 } lanes_sizes;
 
-/* Returns the number of elements of the same kind at the start of data[count], at most LANES. */
 static inline int lanes_run(int count, const element_data *const data[])
 {
     int run = 1;
@@ -82,15 +79,12 @@ typedef void lanes_strain(const element_data *, const node_real x[], strain_real
 typedef real_truth lanes_stress(const element_data *, const real e[], const real inner[],
                                 stress_real *);
 
-/* Sets the output pointers of the lanes of a run. Outputs are written to the arrays `of`; lanes
- * without an element write to `unused`. */
+/* Sets the output pointers of the lanes of a run. */
 #define LANES_TARGETS(to, run, of, unused)                                                         \
     double *to[LANES];                                                                             \
     for (int lane = 0; lane < LANES; lane++)                                                       \
         to[lane] = (run) ? (of) : (unused);
 
-/* Returns the index of the element of the run for a lane, which is the last element for unused
- * lanes. */
 static inline int lanes_of(int lane, int run)
 {
     return lane < run ? lane : run - 1;
@@ -116,7 +110,6 @@ lanes_gather_arrays(int n, int run, const double *const in[], real to[])
     lanes_gather(n, from, to);
 }
 
-/* Evaluates the strains of a run of elements of one kind. */
 static inline __attribute__((always_inline)) void
 lanes_strain_run(lanes_sizes n, lanes_strain *strain, int run, const element_data *data,
                  const node_state x[], strain_output out[])
@@ -223,7 +216,7 @@ lanes_stress_many(lanes_sizes n, lanes_stress *stress, status failure, int count
 }
 
 /* Mixed equations of several elements of one kind at once, computed from strains and stresses in
- * lanes. Sums have the same order as in harness/newton. */
+ * lanes. */
 
 typedef struct lanes_equations {
     real J[LANES_STRAINS * LANES_COORDINATES], SJ[LANES_STRAINS * LANES_COORDINATES],
@@ -233,7 +226,6 @@ typedef struct lanes_equations {
     real inner[LANES_INNER], memory[LANES_MEMORY];
 } lanes_equations;
 
-/* Adds C (D(x) - e) to the stresses sigma for the strains e. */
 static inline __attribute__((always_inline)) void lanes_equations_mix(int strains,
                                                                       lanes_equations *q)
 {

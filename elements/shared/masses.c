@@ -46,7 +46,6 @@ static inline __attribute__((always_inline)) void add_upper(int columns, double 
     }
 }
 
-/* Computes add_upper with compile-time constants for common sizes. */
 static void add_product(int columns, double factor, const double *T, const double *U, int n,
                         double *A)
 {
@@ -58,7 +57,6 @@ static void add_product(int columns, double factor, const double *T, const doubl
         add_upper(columns, factor, T, U, n, A);
 }
 
-/* Computes P t and Omega x t for each column t of T. */
 static void turn_columns(const moving_vector *v, const double omega[3], double P[3 * MOST],
                          double coriolis[3 * MOST])
 {
@@ -108,7 +106,6 @@ void moving_add(const moving_vector *v, const element_rotating_frame *frame, int
         add_in_frame(v, frame, n, out, F);
 }
 
-/* Copies the upper half, multiplied by sign, to the lower half. */
 static void mirror(int n, double sign, double *A)
 {
     for (int i = 0; i < n; i++)

@@ -17,7 +17,6 @@ typedef struct moving_vector {
     const double *T; /* [3 x columns] dy/dx, row-major */
 } moving_vector;
 
-/* Zeroes the requested outputs of an element with n coordinates. */
 void moving_clear(int n, inertia_output *out);
 /* Adds a mass and sets F[3] to its centrifugal force, or zero if the frame does not rotate. The
  * caller must subtract F . d2y/dx2 from moving_stiffness. Only the upper halves of M, N and G are
@@ -78,7 +77,6 @@ void lumped_shares(int nodes, const double place[], double share[]);
 /* Adds zeros for additional unknowns to the outputs of n nodes: [n] -> [wide], [n x n] -> [wide x
  * wide]. */
 void inertia_widen(int n, int wide, inertia_output *out);
-/* Computes the inertia of an element whose mass is lumped at its nodes with the given shares. */
 status lumped_element(const lumped_mass *whole, int nodes, const double share[],
                       const node_state x[], const element_rotating_frame *frame,
                       inertia_output *out);

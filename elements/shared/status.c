@@ -4,8 +4,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Shortens a line that is too long, for example due to a long path, in the middle, because the
- * cause and the remedy are at the ends. */
 static void shorten(const char *line, size_t length, char text[FAULT_TEXT])
 {
     static const char gap[] = " ... ";
@@ -18,7 +16,7 @@ static void shorten(const char *line, size_t length, char text[FAULT_TEXT])
 status fault_set(fault *f, status s, const char *format, ...)
 {
     if (f != NULL) {
-        enum { LONGEST = 8192 }; /* sufficient for two paths and the text */
+        enum { LONGEST = 8192 };
         char line[LONGEST];
         va_list arguments;
         va_start(arguments, format);

@@ -29,7 +29,6 @@ enum { SHEET_RATE_MIXED = 5 };
 static const int sheet_rates_mixed[SHEET_RATE_MIXED] = {
     SHEET_RATE_V + 1, SHEET_RATE_P, SHEET_RATE_P + 2, SHEET_RATE_Q, SHEET_RATE_Q + 2};
 
-/* The nonzero entries of dq/d(rates). */
 typedef struct sheet_rates {
     real inverse, lean;            /* 1/l and tan(yp)/l, which occur in w_F */
     real across[SHEET_RATE_MIXED]; /* cos(yq) w_x - sin(yq) w_z, where w = Q - w_F */
@@ -75,8 +74,6 @@ static inline void sheet_rates_chain(const sheet_rates *r, const real e[SHEET_LO
     a[SHEET_RATE_WQ] = e[SHEET_LOCAL_WQ];
 }
 
-/* Returns 1 if block (i, j) of a form in v, P, Q is used, which is a block on or below the
- * diagonal. */
 static inline int sheet_rates_used(int i, int j)
 {
     return j / 3 <= i / 3;
@@ -203,7 +200,6 @@ static inline void sheet_rates_nodal_row(const sheet_local_state *s, const real 
     row[NODE_COORDINATES + 6] = a[SHEET_RATE_WQ];
 }
 
-/* Sets K(row + i, column + j) = K(column + j, row + i) = B_ij. */
 static inline void sheet_rates_put(int row, int column, int negative, const real B[9],
                                    real K[SHEET_LOCAL_NODAL * SHEET_LOCAL_NODAL])
 {
@@ -219,12 +215,11 @@ static inline void sheet_rates_nodal_form(const sheet_local_state *s,
                                           const real H[SHEET_RATES * SHEET_RATES],
                                           real K[SHEET_LOCAL_NODAL * SHEET_LOCAL_NODAL])
 {
-    static const int place[3] = {
-        7, 3, 10}; /* indices of v, P, Q; the position of p contributes with the opposite sign */
+    static const int place[3] = {7, 3, 10};
     for (int a = 0; a < 3; a++)
         for (int b = 0; b <= a; b++) {
             real block[9], half[9], turned[9];
-            for (int i = 0; i < 3; i++) /* F B F^T is computed as (F (F B)^T)^T */
+            for (int i = 0; i < 3; i++)
                 for (int j = 0; j < 3; j++)
                     block[3 * i + j] = H[SHEET_RATES * (3 * a + i) + 3 * b + j];
             mat3_mul(s->F, block, half);
@@ -276,7 +271,6 @@ static inline void sheet_deformation_gradient(const sheet_strains_table *m,
     }
 }
 
-/* Computes the sum of s_i Q_i. */
 static inline void sheet_deformation_weighted(const sheet_strains_table *m,
                                               const real s[SHEET_STRAINS], real Q[])
 {

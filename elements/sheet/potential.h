@@ -259,7 +259,6 @@ static inline void sheet_inverse_row(const double X[SHEET_STRAINS * SHEET_STRAIN
     }
 }
 
-/* Computes x(e) for strains measured from the undeformed arc. */
 static inline void sheet_inverse_point(const sheet_inverse_data *d, const real e[SHEET_STRAINS],
                                        real x[SHEET_STRAINS],
                                        real row[SHEET_INVERSE_CURVED][SHEET_STRAINS])
@@ -279,7 +278,6 @@ static inline void sheet_inverse_point(const sheet_inverse_data *d, const real e
             x[sheet_inverse_curved[r]] += row[r][angle_strains[k]] * whole[angle_strains[k]] / 2;
 }
 
-/* Replaces a[8] by a (dx/de). */
 static inline void sheet_inverse_multiply(const sheet_inverse_data *d,
                                           real row[SHEET_INVERSE_CURVED][SHEET_STRAINS],
                                           real a[SHEET_STRAINS])

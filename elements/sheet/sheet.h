@@ -1,5 +1,3 @@
-/* Sheet flexures: local coordinates, strains, stiffness, torsion, Wagner torque, and the common
- * base of the second-order and third-order elements. */
 #ifndef BEAMWORK_SHEET_SHEET_H
 #define BEAMWORK_SHEET_SHEET_H
 
@@ -15,10 +13,7 @@
  * F has the columns (n, j, k): n points from p to q, j is normal to n and to the z axis of p, and k
  * = n x j. In F, the triads of the nodes are F^T R^p = Ry(yp) Rz(zp) and F^T R^q = Ry(yq) Rz(zq)
  * Rx(px).
- *
- * Derivatives are taken with respect to eleven rates, for constant velocity and constant spatial
- * angular velocity. The rates are the velocity v of q relative to p and the angular velocities P
- * and Q of the nodes, in axes of F, and the rates of the two warping amplitudes. */
+ */
 
 /* Indices of the local coordinates: u, the elongation [m]; angles [rad] with the names of N, x for
  * twist, y and z for bending; W, the warping amplitudes [rad/m]. */
@@ -193,8 +188,7 @@ typedef struct sheet_wagner_term {
                [SHEET_WAGNER_STRAINS]; /* kx for a unit value of e2, e7, e8 [1/m^2] */
 } sheet_wagner_term;
 
-/* Prepares the term, which is zero without FEATURE_WAGNER_TORQUE. Rejects its combination with
- * initial torsion. */
+/* Rejects its combination with initial torsion. */
 status sheet_wagner_prepare(const element_request *request, sheet_wagner_term *out, fault *f);
 
 /* Adds the Wagner torque to energy[1], sigma[8] and C[8 x 8], each of which may be NULL, for one
@@ -241,9 +235,6 @@ typedef void sheet_lanes_equations(int count, const element_data *const data[],
 sheet_lanes_equations sheet_lanes_second_equations_plain, sheet_lanes_second_equations_avx2;
 sheet_lanes_equations sheet_lanes_third_equations_plain, sheet_lanes_third_equations_avx2;
 
-/* Common base of the sheet-flexure formulations: generalized strains, linear stiffness, Wagner
- * torque and mass. */
-
 typedef enum sheet_base_shear {
     SHEET_BASE_PRINTED,   /* N Eq. 37: strains without shear */
     SHEET_BASE_CONSISTENT /* the integrals of N Eq. 37 for the complete linear solution, including
@@ -257,7 +248,6 @@ typedef struct sheet_base_data {
     sheet_wagner_term wagner;
 } sheet_base_data;
 
-/* Features and restrictions that are common to all sheet elements. */
 enum {
     SHEET_BASE_OFFERS = FEATURE_WARPING | FEATURE_SHEAR | FEATURE_TRAPEZE | FEATURE_WAGNER_TORQUE |
                         FEATURE_GEOMETRIC | FEATURE_LARGE | FEATURE_MASS | FEATURE_ROTARY_INERTIA |
@@ -269,7 +259,6 @@ enum {
 status sheet_base_prepare(const element_request *request, sheet_base_shear shear,
                           sheet_base_data *out, fault *f);
 
-/* Members of element_type for data that begin with sheet_base_data. */
 void sheet_base_strain(const element_data *d, const node_state x[], strain_output *out);
 void sheet_base_strain_many(int count, const element_data *const data[], const node_state x[],
                             strain_output out[]);
@@ -278,8 +267,6 @@ status sheet_base_inertia(const element_data *d, const node_state x[],
 int sheet_base_mass_of_field(const double options[]);
 element_order sheet_base_order(element_analysis, const double options[]);
 
-/* Members of element_type that are common to all sheet elements, and those for strains that do not
- * include shear. */
 #define SHEET_BASE_TYPE                                                                            \
     .family = "sheet", .abi = ELEMENT_ABI, .order = sheet_base_order, .strain = sheet_base_strain, \
     .inertia = sheet_base_inertia, .spreads = 1, .mass_of_field = sheet_base_mass_of_field,        \

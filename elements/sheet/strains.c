@@ -66,7 +66,6 @@ sheet_fields sheet_fields_at(double l0, double x, double Phi_y, double Phi_z, in
 
 enum { N = SHEET_LOCAL_COORDINATES, POINTS = 4 }; /* exact for products of degree 7 or lower */
 
-/* Adds c (a b^T + b a^T), which represents the quadratic term c (a . q)(b . q), to Q. */
 static void add_product(double c, const double a[N], const double b[N], double Q[N * N])
 {
     for (int i = 0; i < N; i++)

@@ -14,12 +14,11 @@ size_t sheet_third_data_size(const element_request *request)
     return sizeof(sheet_inverse_data);
 }
 
-/* Inverts the deformation function to second order (N Eqs. 58-65). */
 static void partial_inverse(double L, int warp, sheet_inverse_data *d)
 {
     static const struct {
-        int row, i, j; /* numbers of strains, from 1 */
-        double c;      /* coefficient, to be multiplied by 1/L for u and by 1/L^2 for the angles */
+        int row, i, j;
+        double c; /* coefficient, to be multiplied by 1/L for u and by 1/L^2 for the angles */
     } term[] = {{0, 5, 5, -2.0 / 30}, {0, 5, 6, -1.0 / 30}, {0, 6, 6, -2.0 / 30},
                 {1, 2, 5, 1.0 / 10},  {1, 2, 6, 2.0 / 10},  {1, 7, 5, 1.0 / 10},
                 {1, 8, 5, -1.0 / 30}, {1, 8, 6, -1.0 / 30}, {2, 2, 5, 2.0 / 10},

@@ -6,9 +6,7 @@
 
 enum { COEFFICIENTS = SHEET_TORSION_DEGREE + 1, POINTS = 16, LOADS = SHEET_TORSION_MODES + 2 };
 
-/* Value of lambda above which the closed form is used. For smaller values, the closed form would
- * lose digits as lambda^-4. For larger values, the kernel has boundary layers that would require
- * many quadrature points. */
+/* Value of lambda above which the closed form is used. */
 static const double closed_from = 6;
 
 /* Coefficients of phi_x' for a unit value of px/L, Wp and Wq (N Eq. 19). Those of `chord` belong to
