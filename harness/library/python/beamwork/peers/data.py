@@ -171,16 +171,29 @@ class State:
 
 
 @dataclasses.dataclass
+class PathPoint:
+    """A point of an equilibrium path. values: coordinates that describe the path, the control coordinate first. limit: the
+    load factor has an extremum here."""
+    factor: float
+    values: Sequence[float]
+    state: State
+    limit: bool = False
+
+
+@dataclasses.dataclass
 class Answer:
     """The states at the stations of an analysis (linear: one) or, in motions, at `times`; critical factors or frequencies
     [Hz] in ascending order, with a zero for each rigid-body motion. families: of the modes, from _modes.py; may be empty.
-    iterations: number of equation systems solved."""
+    iterations: number of equation systems solved. A continuation has its path and, in `stops`, the points at the values
+    of the control coordinate."""
     states: Sequence[State] = ()
     factors: Sequence[float] = ()
     frequencies: Sequence[float] = ()
     families: Sequence[str] = ()
     iterations: int = 0
     times: Sequence[float] = ()
+    path: Sequence[PathPoint] = ()
+    stops: Sequence[PathPoint] = ()
 
 
 class Model:

@@ -8,13 +8,15 @@ from typing import Any
 
 from . import _exudyn_motion
 from ._exudyn_modes import modal
+from ._exudyn_path import add_controls, follow_path
 from .data import (COMPONENTS, Analysis, Answer, Element, Load, LoadSteps, Matrix, Mesh, MeshElement, Model, Node, Refused, Scene, Section, State, product,
                    rotation, rotation_vector, times, transposed)
 
 NAME, PROGRAM, LICENCE = "exudyn", "Exudyn", "BSD-3-Clause"
 HOMEPAGE = "https://github.com/jgerstmayr/EXUDYN"
 REQUIRES = ("exudyn==1.13.6", )
-_ANALYSES, _PHYSICS = frozenset({"static", "modal"}), frozenset({"shear", "large rotations", "geometric", "mass", "rotary inertia"})
+_ANALYSES = frozenset({"static", "modal", "continuation"})
+_PHYSICS = frozenset({"shear", "large rotations", "geometric", "mass", "rotary inertia"})
 _FEW, _ALL = frozenset({"loads.follower", "modal.about"}), _ANALYSES | {"motion"}
 _KEYS = _FEW | {"loads.gravity", "nodes.mass", "nodes.inertia"}
 ELEMENTS = {
@@ -24,20 +26,25 @@ ELEMENTS = {
     # The mass matrix of the ANCF beam contains the rate of the sum of both slopes, and depends on the axes of the scene.
     "ancf_3d": Element("ANCF beam with cross-section slopes, 2 nodes; marked as under construction", _PHYSICS, _ANALYSES, keys=_FEW),
 }
-_RIGID = 1e9  # shear stiffness of sections that are rigid in shear, relative to EI/length^2
+_RIGID, _RIGID_ON_PATHS = 1e9, 1e7  # shear stiffness of sections that are rigid in shear, over EI/length^2; in continuations
 
 
 def version() -> str:
     return importlib.metadata.version("exudyn")
 
 
-def _shear(section: Section, length: float) -> list[float]:
-    most = _RIGID * max(section.EIy, section.EIz) / length**2
+def _rigid(scene: Scene) -> float:
+    return _RIGID_ON_PATHS if any(a.kind == "continuation" for a in scene.analyses.values()) else _RIGID
+
+
+def _shear(section: Section, scene: Scene) -> list[float]:
+    most = _rigid(scene) * max(section.EIy, section.EIz) / scene.length()**2
     return [min(k, most) for k in section.GA]
 
 
 class _Steps(Model):
     """Load steps. Subclasses add nodes, elements, supports and loads, and read states."""
+    most_iterations = 25
 
     def __init__(self, scene: Scene, name: str, mesh: Mesh) -> None:
         self.exu = importlib.import_module("exudyn")
@@ -63,7 +70,9 @@ class _Steps(Model):
         return int(self.mbs.AddObject(item))
 
     def assemble(self, count: int) -> None:
+        self.controls = add_controls(self)
         self.mbs.Assemble()
+        self.undeformed = self.mbs.systemData.GetODE2Coordinates(configuration=self.exu.ConfigurationType.Current)
         s = self.settings_of = self.exu.SimulationSettings()
         s.solutionSettings.writeSolutionToFile = False
         s.solutionSettings.sensorsWriteFileHeader = s.solutionSettings.sensorsWriteFileFooter = False
@@ -71,15 +80,15 @@ class _Steps(Model):
         s.staticSolver.numberOfLoadSteps = 1
         s.staticSolver.useLoadFactor = False
         s.staticSolver.adaptiveStep = False
-        s.staticSolver.newton.maxIterations = 25
+        s.staticSolver.newton.maxIterations = self.most_iterations
         s.staticSolver.newton.residualMode = 1
         s.staticSolver.newton.relativeTolerance = s.staticSolver.newton.absoluteTolerance = 1e-8
         s.linearSolverType = self.exu.LinearSolverType.EigenSparse
         self.unknowns = count - sum(len(c) for all_ in self.held.values() for _, c in all_)
         self.settings = ("SolveStatic, Newton increments below 1e-8, sparse, adaptive load steps; rigid in shear: "
-                         f"GA = {_RIGID:g} EI/L^2; modes: LAPACK, with the matrices of the static solver")
+                         f"GA = {_rigid(self.scene):g} EI/L^2; modes: LAPACK, with the matrices of the static solver")
         if _exudyn_motion.moves(self.scene):
-            self.settings = f"{_exudyn_motion.SETTINGS}; rigid in shear: GA = {_RIGID:g} EI/L^2"
+            self.settings = f"{_exudyn_motion.SETTINGS}; rigid in shear: GA = {_rigid(self.scene):g} EI/L^2"
 
     def constrain(self, name: str, node: int, coordinate: int, component: int, motion: str = "") -> None:
         zero = self.add("MarkerNodeCoordinate", nodeNumber=self.ground, coordinate=0)
@@ -122,7 +131,7 @@ class _Steps(Model):
         for motion, constraint in self.driven:
             self.mbs.SetObjectParameter(constraint, "offset", self.scene.motion_value(motion, path))
 
-    def _step(self, path: float) -> bool:
+    def step(self, path: float) -> bool:
         data, current, initial = self.mbs.systemData, self.exu.ConfigurationType.Current, self.exu.ConfigurationType.Initial
         before = data.GetODE2Coordinates(configuration=current)
         data.SetODE2Coordinates(before, configuration=initial)
@@ -135,23 +144,28 @@ class _Steps(Model):
             data.SetODE2Coordinates(before, configuration=current)
         return bool(done)
 
+    def newton_steps(self) -> int:
+        return int(self.mbs.sys["staticSolver"].it.newtonStepsCount)
+
     def solve(self, analysis: Analysis) -> Answer:
         if analysis.kind == "modal":
             self._return_to(analysis)
             return modal(self, analysis)
         if analysis.kind == "motion":
             return _exudyn_motion.motion(self, analysis)
+        if analysis.kind == "continuation":
+            return follow_path(self, analysis)
         states, path, iterations = [], 0.0, 0
         steps = LoadSteps((self.scene.of, self.name, len(self.mesh.elements), analysis.name), analysis.stations[-1])
         before = self.rotations()
         for station in analysis.stations:
             while path < station * (1 - 1e-12):
                 step = steps.next(station - path)
-                if not self._step(path + step):
-                    iterations += 25
+                if not self.step(path + step):
+                    iterations += self.most_iterations
                     steps.failed(step)
                     continue
-                iterations += int(self.mbs.sys["staticSolver"].it.newtonStepsCount)
+                iterations += self.newton_steps()
                 path += step
                 after = self.rotations()
                 steps.done(step, max(between(a, b) for a, b in zip(before, after)))
@@ -169,6 +183,7 @@ class _Steps(Model):
             self._set(0.0)
             state = [0.0] * len(state)
         data.SetODE2Coordinates(state, configuration=types.Initial)
+
     def get(self, kind: str, item: int, output: str) -> list[float]:
         """Returns the present output of an item."""
         which = getattr(self.exu.OutputVariableType, output)
@@ -179,6 +194,14 @@ class _Steps(Model):
         if _exudyn_motion.moves(self.scene):
             self.sensors = _exudyn_motion.Sensors(self)
             self.state(self.sensors.record)
+
+    def node_of(self, name: str) -> int:
+        """Returns the node of Exudyn at a node of the scene."""
+        raise NotImplementedError
+
+    def moves(self, component: int) -> bool:
+        """Returns True if the nodes have this component."""
+        return component < 3
 
     def rotations(self) -> list[Matrix]:
         raise NotImplementedError
@@ -222,7 +245,7 @@ class Plane(_Steps):
         self.nodes = [self.add("NodeRigidBody2D", referenceCoordinates=[*node.at[:2], 0]) for node in mesh.nodes]
         self.node_at = dict(enumerate(self.nodes))
         for element in mesh.elements:
-            s, shear = element.member.section, _shear(element.member.section, scene.length())
+            s, shear = element.member.section, _shear(element.member.section, scene)
             z = abs(element.R[2][2]) > 0.5
             curvature = element.member.curvature[2] * element.R[2][2] if z else element.member.curvature[1] * element.R[2][1]
             if curvature != 0:
@@ -244,6 +267,12 @@ class Plane(_Steps):
         self.put_loads(markers.__getitem__)
         self.add_sensors()
         self.assemble(3 * len(mesh.nodes))
+
+    def node_of(self, name: str) -> int:
+        return self.nodes[self.mesh.node_of[name]]
+
+    def moves(self, component: int) -> bool:
+        return component < 2
 
     def rotations(self) -> list[Matrix]:
         angles = [float(self.mbs.GetNodeOutput(self.nodes[k], self.exu.OutputVariableType.Coordinates)[2])
@@ -273,7 +302,7 @@ class Plane(_Steps):
     def strain_energy(self) -> float:
         total, types = 0.0, self.exu.OutputVariableType
         for element, beam in self.beams:
-            s, shear = element.member.section, _shear(element.member.section, self.scene.length())
+            s, shear = element.member.section, _shear(element.member.section, self.scene)
             z = abs(element.R[2][2]) > 0.5
             places = [0.0] if len(element.nodes) == 2 else [-element.length / 12**0.5, element.length / 12**0.5]
             for x in places:
@@ -325,6 +354,9 @@ class Space(_Steps):
         self.add_sensors()
         self.assemble(6 * len(made) - joints if not self.ancf else 9 * len(made) - joints)
 
+    def node_of(self, name: str) -> int:
+        return self.of[name][0]
+
     def rotations(self) -> list[Matrix]:
         return [self._matrix(nodes[0]) for nodes in self.of.values()]
 
@@ -347,7 +379,7 @@ class Space(_Steps):
 
     def _stiffness(self, section: Section) -> Any:
         import numpy  # pylint: disable=import-outside-toplevel
-        shear = _shear(section, self.scene.length())
+        shear = _shear(section, self.scene)
         return numpy.diag([section.EA, *shear, section.GIt, section.EIy, section.EIz])
 
     def _node(self, at: Any, frame: Matrix) -> int:

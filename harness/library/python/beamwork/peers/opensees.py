@@ -9,13 +9,16 @@ from typing import Any
 
 from ._modes import diagonal_inertia, families, require_plain_mass, rigid_motions, spectrum
 from ._opensees_buckling import buckling
+from ._opensees_path import PathOfModel
+from ._path import follow
 from .data import (COMPONENTS, Analysis, Answer, Element, Failed, LoadSteps, Mesh, Model, Refused, Scene, Section, State, Vector,
                    cross, transposed)
 
 NAME, PROGRAM, LICENCE = "opensees", "OpenSees", "free for research and internal use; no commercial redistribution"
 HOMEPAGE = "https://openseespydoc.readthedocs.io"
 REQUIRES = ('openseespy==3.8.0.0; python_version >= "3.12"', 'openseespy==3.7.1.2; python_version < "3.12"')
-_STATICS, _MASS = frozenset({"linear", "static", "compliance"}), frozenset({"mass", "rotary inertia"})
+_STATICS = frozenset({"linear", "static", "compliance", "continuation"})
+_MASS = frozenset({"mass", "rotary inertia"})
 _ANALYSES = _STATICS | {"modal", "buckling"}
 _LARGE, _KEYS = _MASS | {"large rotations", "geometric"}, frozenset({"modal.about", "plane"})
 _SHEAR = _LARGE | {"shear"}
@@ -25,8 +28,8 @@ ELEMENTS = {
     "forceBeamColumn": Element("force-based with shear, 3 Lobatto points, corotational; lumped mass", _SHEAR, _ANALYSES,
                                keys=_KEYS),
     "forceBeamColumnCBDI": Element("force-based with second-order moments inside the element (CBDI), 5 Lobatto points, corotational;"
-                                   " linear analyses by forceBeamColumn", _LARGE, _STATICS, keys=_KEYS),
-    "forceBeamColumnCSBDI": Element("forceBeamColumnCBDI with shear (CSBDI)", _SHEAR, _STATICS, keys=_KEYS),
+                                   " linear analyses by forceBeamColumn", _LARGE, _STATICS - {"continuation"}, keys=_KEYS),
+    "forceBeamColumnCSBDI": Element("forceBeamColumnCBDI with shear (CSBDI)", _SHEAR, _STATICS - {"continuation"}, keys=_KEYS),
     "ElasticTimoshenkoBeam": Element("Timoshenko, linear", _MASS | {"shear"}, frozenset({"linear", "modal"}), keys=frozenset({"plane"})),
 }
 _RULES = {"forceBeamColumn": ("Lobatto", 3), "forceBeamColumnCBDI": ("Lobatto", 5), "forceBeamColumnCSBDI": ("Lobatto", 5)}
@@ -50,6 +53,8 @@ def _shear_modulus(section: Section) -> float:
 
 class Corotational(Model):
     """The model, at path parameter 0. Loads and motions are series over the path."""
+
+    most_iterations = 30
 
     def __init__(self, scene: Scene, name: str, mesh: Mesh) -> None:
         import openseespy.opensees as ops  # pylint: disable=import-error,import-outside-toplevel
@@ -93,7 +98,7 @@ class Corotational(Model):
         ops.numberer("RCM")
         ops.constraints("Transformation")
         ops.system("BandGeneral")
-        ops.test("NormDispIncr", 1e-9 * (1 + length), 30)
+        ops.test("NormDispIncr", 1e-9 * (1 + length), self.most_iterations)
         ops.algorithm("Newton")
 
     def _add_section(self, tag: int, section: Section, name: str, scale: float) -> None:
@@ -143,6 +148,10 @@ class Corotational(Model):
             return buckling(self)
         if analysis.kind == "compliance":
             return Answer([State(compliance=self._compliance(analysis))], iterations=1)
+        if analysis.kind == "continuation":
+            answer = follow(PathOfModel(self, analysis), analysis, self.scene)
+            self.base = analysis.name
+            return answer
         if self.base or self.linear != (analysis.kind == "linear"):
             self.build(analysis.kind == "linear")
         if analysis.kind == "linear":
@@ -158,7 +167,7 @@ class Corotational(Model):
                 step = station - path if analysis.kind == "linear" else steps.next(station - path)
                 self.ops.integrator("LoadControl", step)
                 if self.ops.analyze(1) != 0:
-                    iterations += 30
+                    iterations += self.most_iterations
                     steps.failed(step)
                     self.ops.setTime(path)
                     continue
@@ -167,14 +176,14 @@ class Corotational(Model):
                 after = self._turns()
                 steps.done(step, max(math.dist(a, b) for a, b in zip(before, after)))
                 before = after
-            states.append(self._state(analysis.kind == "linear"))
+            states.append(self.state(analysis.kind == "linear"))
         self.base = analysis.name
         return Answer(states, iterations=iterations)
 
     def _turns(self) -> list[list[float]]:
         return [self.ops.nodeDisp(node.number)[3:] for node in self.mesh.nodes]
 
-    def _state(self, linear: bool) -> State:
+    def state(self, linear: bool) -> State:
         self.ops.reactions()
         u: dict[str, list[float | None]] = {}
         reaction: dict[str, list[float | None]] = {}
@@ -211,7 +220,7 @@ class Corotational(Model):
         ops.numberer("Plain")
         ops.constraints("Transformation")
         ops.system("FullGeneral")
-        ops.test("NormDispIncr", 1e-9 * (1 + self.scene.length()), 30)
+        ops.test("NormDispIncr", 1e-9 * (1 + self.scene.length()), self.most_iterations)
         ops.algorithm("Newton")
         ops.integrator("LoadControl", 0.0)
         ops.analysis("Static", "-noWarnings")

@@ -18,10 +18,14 @@ _KNOWN = {
 }  # keys that every driver supports; others are in Element.keys
 _ANALYSIS: dict[str, set[str]] = {"linear": set(), "static": {"stations", "steps"}, "buckling": {"wanted"}, "modal": {"wanted"},
              "compliance": {"about", "node", "moments", "released"},
-             "motion": {"stations", "about", "start"} | _motion.NUMERICS}
-_QUANTITY = {"displacement": {"node", "component"}, "reaction": {"node", "component"},
+             "motion": {"stations", "about", "start"} | _motion.NUMERICS,
+             "continuation": {"control", "by", "to", "step", "step_max", "constant"}}
+_QUANTITY: dict[str, set[str]] = {"displacement": {"node", "component"}, "reaction": {"node", "component"},
              "compliance": {"row", "column"}, "stiffness": {"component"}, "critical_factor": {"which"},
-             "frequency": {"which", "family"}}
+             "frequency": {"which", "family"}, "critical_point": {"kind", "value", "which"}, "factor_at": set()}
+
+_STATICS = {"linear", "static", "continuation", "compliance"}
+_OF_KINDS = frozenset({"mass", "rotary inertia", "geometric"})  # physics without effect on statics
 
 
 def _section(name: str, raw: Mapping[str, Any], physics: frozenset[str]) -> Section:
@@ -82,7 +86,7 @@ def scene_of(raw: Mapping[str, Any]) -> Scene:
 
 def check(scene: Scene, element: Element, program: str) -> None:
     """Raises Refused if the element lacks physics of the scene, or if the driver does not read one of its keys."""
-    lacks = sorted(scene.physics - element.offers - {"haringx", "engesser"})  # the limit shows the theory of shear
+    lacks = sorted(scene.physics - element.offers - {"haringx", "engesser"} - _OF_KINDS)  # the limit shows the theory of shear
     if lacks:
         raise Refused(f"{lacks[0]}: the element of {program} does not model it")
     for name, section in scene.sections.items():
@@ -118,6 +122,9 @@ def refusal(scene: Scene, element: Element, q: Quantity) -> str:
         for key in one.raw:
             if key not in _ANALYSIS.get(one.kind, set()) and f"{one.kind}.{key}" not in element.keys:
                 return f"{key}: the driver does not read this key of {one.name}"
+    lacks = [] if analysis.kind in _STATICS else sorted(scene.physics & _OF_KINDS - element.offers)
+    if lacks:
+        return f"{lacks[0]}: the element does not model it"
     if analysis.about is not None and scene.analyses[analysis.about].kind != "static":
         return f"about: drivers have no {analysis.kind} analysis about a {scene.analyses[analysis.about].kind} one"
     if analysis.kind == "motion":
@@ -127,6 +134,10 @@ def refusal(scene: Scene, element: Element, q: Quantity) -> str:
     if q.raw.get("take", "last") not in ("last", "curve", "max", "min") or ("take" in q.raw and "factor" not in q.x and
                                                                            q.raw["take"] == "curve"):
         return f"take: no driver computes '{q.raw['take']}'"
+    if q.raw.get("kind", "limit") != "limit":
+        return f"kind: drivers find limit points, not a {q.raw['kind']}"
+    if analysis.about is not None and scene.analyses[analysis.about].kind != "static":
+        return f"about: the driver has no {analysis.kind} about a {scene.analyses[analysis.about].kind}"
     if q.kind in ("compliance", "stiffness") and analysis.raw.get("moments", "spatial") != "spatial":
         return "moments: drivers use the spatial convention only"
     return ""
@@ -153,6 +164,27 @@ def _of_family(family: str, answer: Answer) -> list[float]:
     return [f for f, own in zip(answer.frequencies, answer.families) if own == family or (family == "not_axial" and own != "axial")]
 
 
+def _path_value(q: Quantity, analysis: Analysis, answer: Answer) -> float | list[list[float]]:
+    """Returns the value of a quantity of a continuation, or for a curve the list of [x, value]."""
+    if q.kind == "critical_point":
+        limits, which = [p for p in answer.path if p.limit], int(q.raw.get("which", 0))
+        if which >= len(limits):
+            raise Refused(f"critical_point: the driver found only {len(limits)} limit points")
+        found_there = limits[which].values[0] if q.raw.get("value") == "coordinate" else limits[which].factor
+        return float(q.factor * found_there + q.offset)
+    take = q.raw.get("take", "last")
+    points = answer.stops if take == "last" or "at" in q.raw else answer.path
+    found = [p.factor for p in points] if q.kind == "factor_at" else _state_values(q, Answer([p.state for p in points]))
+    values = [float(q.factor * v + q.offset) for v in found]
+    if take == "curve":
+        return [[q.x["factor"] * p.values[0] + q.x.get("offset", 0), v] for p, v in zip(points, values)]
+    if "at" in q.raw:
+        if q.raw["at"] not in analysis.raw["to"]:
+            raise Refused("at: the path does not stop at this value")
+        return values[list(analysis.raw["to"]).index(q.raw["at"])]
+    return max(values) if take == "max" else min(values) if take == "min" else values[-1]
+
+
 def value_of(scene: Scene, q: Quantity, answer: Answer) -> float | list[list[float]]:
     """Returns the value of a quantity, or for a curve the list of [x, value]."""
     if q.kind in ("critical_factor", "frequency"):
@@ -164,6 +196,8 @@ def value_of(scene: Scene, q: Quantity, answer: Answer) -> float | list[list[flo
     analysis = scene.analyses[q.analysis]
     if analysis.kind == "motion":
         return _motion.value_of(scene, q, answer)
+    if analysis.kind == "continuation":
+        return _path_value(q, analysis, answer)
     stations = analysis.stations or (scene.analyses[analysis.about].stations if analysis.about else (1.0, ))
     values = [float(q.factor * v + q.offset) for v in _state_values(q, answer)]
     take = q.raw.get("take", "last")

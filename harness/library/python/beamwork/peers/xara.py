@@ -9,6 +9,8 @@ from collections.abc import Sequence
 from typing import Any
 
 from ._modes import diagonal_inertia, require_plain_mass, rigid_motions
+from ._opensees_path import PathOfFrame
+from ._path import follow
 from .data import COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, Model, Refused, Scene, State
 
 NAME, PROGRAM, LICENCE = "xara", "xara", "BSD-2-Clause"
@@ -48,7 +50,7 @@ ELEMENTS = {
         " Engesser's theory",
         order=1,
         offers=_OFFERS | {"mass", "rotary inertia"},
-        analyses=_STATICS | {"modal"},
+        analyses=_STATICS | {"modal", "continuation"},
         keys=_KEYS,
     ),
 }
@@ -281,18 +283,33 @@ class Frame(Model):
             return self._linear(analysis)
         if analysis.kind == "modal":
             return self._modal(analysis)
+        if analysis.kind == "continuation":
+            return follow(PathOfFrame(self, analysis), analysis, self.scene)
         raise Refused(f"{analysis.kind}: this driver has no such analysis")
 
-    def _static(self, analysis: Analysis) -> Answer:
+    def no_turns(self) -> dict[str, Any]:
         import numpy as np
 
+        return {name: np.zeros(3) for name in self.mesh.node_of}
+
+    def loaded_along_path(self) -> Any:
+        """Returns the structure under loads that are proportional to the time."""
+        model = self._new()
+        for tag, load in enumerate(self.scene.loads, start=1):
+            self._add_pattern(model, tag, ["Linear", tag])
+            for number, vector in self._nodal(load).items():
+                model.load(number, *vector, pattern=tag)
+        self._prepare(model)
+        return model
+
+    def _static(self, analysis: Analysis) -> Answer:
         model, self.model = self.model, None
         if model is None:
             model = self._new()
         self._apply(model, analysis.stations)
         self._prepare(model)
         states: list[State] = []
-        turns = {name: np.zeros(3) for name in self.mesh.node_of}
+        turns = self.no_turns()
         iterations = 0
         key = (self.scene.name, self.element, analysis.name)
         step = 1.0 / _STEPS.get(key, self._least_steps(len(analysis.stations)))
@@ -309,19 +326,19 @@ class Frame(Model):
                     continue
                 time += step
                 iterations += int(model.numIter())
-                self._follow(model, turns)
-            states.append(self._state(model, turns))
+                self.follow_turns(model, turns)
+            states.append(self.state(model, turns))
             if analysis.name in self.wanted:
                 states[-1].compliance = self._compliance_here(model, self.wanted[analysis.name])
         self.kept[analysis.name] = states
         return Answer(states=states, iterations=iterations)
 
-    def _follow(self, model: Any, turns: dict[str, Any]) -> None:
+    def follow_turns(self, model: Any, turns: dict[str, Any]) -> None:
         for name, last in turns.items():
             rotation = _rotation_vector(model.nodeRotation(self.mesh.node_of[name]))
             turns[name] = _unwrapped(rotation, last)
 
-    def _state(self, model: Any, turns: dict[str, Any]) -> State:
+    def state(self, model: Any, turns: dict[str, Any]) -> State:
         model.reactions()
         numbers = self.mesh.node_of
         return State(
