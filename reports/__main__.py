@@ -50,6 +50,8 @@ def main():
                         default=[],
                         help="results of other programs, stored by 'beamwork import'")
     parser.add_argument("--beside", action="append", dest="imported", help=argparse.SUPPRESS)
+    parser.add_argument("--peers", action="append", default=[], metavar="FILE.json",
+                        help="record of `python3 -m beamwork.peers CASE -o FILE.json`, which replaces the recorded one of the case")
     parser.add_argument("--sweep", action="append", default=[],
                         help="results of 'beamwork sweep -o', in addition to those of verify")
     given = parser.parse_args()
@@ -67,7 +69,7 @@ def main():
         from reports import pages
         count = pages.build(given.results, given.truths, given.folder, given.bench, given.imported,
                             given.sweep, {"formats": given.figures, "style": given.style,
-                                          "only": given.case})
+                                          "only": given.case}, given.peers)
     except (data.Unreadable, paper.Impossible, OSError) as why:
         print(f"report: {why}", file=sys.stderr)
         return 4

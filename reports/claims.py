@@ -1,5 +1,4 @@
-"""Claims of the papers compared with computed values and measured times, and results of other programs for one case of
-the papers."""
+"""Claims of the papers compared with computed values and measured times."""
 import csv
 import functools
 import math
@@ -8,30 +7,9 @@ import pathlib
 from reports import answers, data
 from reports.figures import plots
 from reports.answers import LEVELS
-from reports.figures.chart import Chart
 from reports.site import ROOT, number, percent
 from reports.figures.style import plt
 from reports.verdicts import OWN_LIMITS
-
-
-def peers_figure(site, ours, others, name):
-    """Draws errors against unknowns and time for formulations of beamwork, `ours` [(key, meshes)], and for other
-    programs, `others` {program: [data.Mesh]}."""
-    chart = Chart(2, (470, 260))
-    labels = ("unknowns", "time of the solution [ms]; open marks: measured elsewhere")
-    for quantity in ("C_xx", "C_zz"):
-        row = [chart.panel("", labels[0], f"relative error of {quantity}", whole=True)]
-        row.append(chart.panel("", labels[1], like=row[0]))
-        curves_of = [(key, meshes, site.styles.of(key)) for key, meshes in ours]
-        curves_of += [(f"{program} (elsewhere)", meshes, data.style_beside(i))
-                      for i, (program, meshes) in enumerate(others.items())]
-        for label, meshes, look in curves_of:
-            error = [plots.clipped(m.errors[quantity]) for m in meshes]
-            row[0].plot([m.free for m in meshes], error, label=label, **look)
-            row[1].plot([1e3 * m.clock.solve for m in meshes], error, label=label, **look)
-        for one in row:
-            one.level(0.01)
-    return chart.image(site, name)
 
 
 # Figure on the page of the column. The error of the printed form (beamw) levels off at that of its predicted limit.
@@ -89,10 +67,8 @@ def column_section(site, case):
 
 
 NAVIGATION = [("claims.html", "claims"), ("papers.html", "papers")]
-PEERS = "warping=0;trapeze=0;shear_factor=0.8333333333333334"  # parameters of sheet_cantilever for the model of reference/peers.csv
 SECTIONS = ("printed constants", "section_data=printed"), (
     "shear flow", "")  # neither set of section constants reproduces all four entries of J Table 2
-TARGET = 0.01, 2e-4  # bounds on the errors of C_xx and C_zz and on the solution time [s] in the case of other programs
 
 
 class Lookup:
@@ -250,65 +226,18 @@ def headlines(site):
     return [r for r in rows if r], soonest
 
 
-def both(mesh):
-    """Returns the errors of C_xx and C_zz, the quantities for which results of other programs exist."""
-    return [mesh.errors.get(q, math.nan) for q in ("C_xx", "C_zz")]
-
-
-def peers_point(site):
-    """Returns the parameter point with results of other programs, or None."""
-    return Lookup(site.cases).points.get(("sheet_cantilever", canonical(PEERS)))
-
-
-def peers(site):
-    """Returns (rows, figure or None, cheapest answers.Way or None) of the case with results of other programs. The
-    rows are sorted by the number of unknowns."""
-    point = peers_point(site)
-    ours, out = [], []
-    others = {
-        s.key: [m for m in s.meshes if all(map(math.isfinite, both(m)))]
-        for s in point.others
-    } if point else {}
-    for program, meshes in others.items():
-        out += [(program, m.n, m.free, *both(m), m.clock.solve, False) for m in meshes]
-    for series in point.series if point else []:
-        meshes = [m for m in series.meshes if all(map(math.isfinite, both(m)))]
-        ours += [(series.key, meshes)] if meshes else []
-        out += [(series.key, m.n, m.free, *both(m), m.clock.solve, True) for m in meshes]
-    figure = peers_figure(site, ours, others, "peers") if ours else None
-    ways = [answers.way(s, ["C_xx", "C_zz"], TARGET[0]) for s in (point.series if point else [])]
-    best = min((w for w in ways if w and not w.defects), key=answers.by_cost, default=None)
-    return sorted(out, key=lambda row: (row[2], row[0])), figure, best
-
-
 def write(site):
-    rows, figure, best = peers(site)
     compared, soonest = headlines(site)
     site.write("claims.html",
                "claims.html",
                claims=claims(site.cases, site.truths),
                headlines=compared,
                soonest=soonest,
-               peers=rows,
-               errors=figure,
-               best=best,
-               target=TARGET,
                timed=site.bench is not None)
 
 
-def peers_section(site, case):
-    """Returns a section with a link to the results of other programs for the page of the case, or nothing if its
-    parameters differ."""
-    if case.name != "sheet_cantilever" or peers_point(site) is None:
-        return []
-    return [(
-        "Other programs on this case",
-        '<p>Errors of other programs, which were run elsewhere, are compared with those of beamwork on the page of <a href="claims.html#peers">claims</a>.</p>'
-    )]
-
-
 def section(site, case):
-    return peers_section(site, case) + column_section(site, case)
+    return column_section(site, case)
 
 
 def tasks(site):

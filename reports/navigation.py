@@ -9,7 +9,7 @@ GROUPS = (
     ("Sweeps", ()),
     ("Cases", ("cases.html", "pictures.html", "paths.html", "rotation.html", "mechanisms.html")),
     ("Formulations", ("formulations.html", "certificates.html", "newton.html")),
-    ("Profiles", ("profiles.html",)),
+    ("Profiles", ("profiles.html", "peers.html")),
     ("Stability", ("stability.html",)),
     ("Motion", ("motions.html", "integrators.html")),
     ("Papers & errata", ("claims.html", "papers.html", "errata.html")),

@@ -24,6 +24,7 @@ PAGES = (
     "answers_table",
     "profiles",
     "claims",
+    "peers",
     "deviations",
     "case",
     "explorer",
@@ -58,13 +59,13 @@ def present(site):
     return [m for m in modules if not hasattr(m, "present") or m.present(site)]
 
 
-def build(results, truths, folder, bench=None, others=(), sweeps=(), figures=None):
+def build(results, truths, folder, bench=None, others=(), sweeps=(), figures=None, peers=()):
     """Writes the whole site, or nothing after an error. `figures` are the arguments of paper.Paper for figures of papers.
     Returns the number of tasks."""
     folder = pathlib.Path(folder).absolute()
     folder.parent.mkdir(parents=True, exist_ok=True)
     with tempfile.TemporaryDirectory(dir=folder.parent, prefix=f".{folder.name}-") as part:
-        count = _write(Site(results, truths, part, bench, others, sweeps, figures))
+        count = _write(Site(results, truths, part, bench, others, sweeps, figures, peers))
         for file in (f for f in pathlib.Path(part).rglob("*") if f.is_file()):
             to = folder / file.relative_to(part)
             to.parent.mkdir(exist_ok=True)

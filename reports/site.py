@@ -62,7 +62,7 @@ class Site:
     (None: no benchmark). `paper` writes figures for papers. `kinds` are the numbers of reference values by kind.
     `sweeps` are stored.Sweep records. If `results` is a sweep, there are no cases."""
 
-    def __init__(self, results, truths, folder, bench=None, others=(), sweeps=(), figures=None):
+    def __init__(self, results, truths, folder, bench=None, others=(), sweeps=(), figures=None, peers=()):
         self.alone = stored.is_alone(results)
         own = [results] if stored.is_there(results) else []
         self.sweeps = [stored.read(p) for p in own + list(sweeps)]
@@ -74,7 +74,7 @@ class Site:
             data.add_beside(self.cases, path)
         self.bench = data.read_about(bench, data.root_of_bench) if bench else None
         self.kinds = data.read_truth_counts(truths)
-        self.results, self.truths, self.folder = results, truths, folder
+        self.results, self.truths, self.folder, self.peers = results, truths, folder, peers
         self.styles = Styles([s.key for c in self.cases for p in c.points for s in p.series])
         self.marks = {s.key: s.marks for c in self.cases for p in c.points for s in p.series
                       if s.marks}

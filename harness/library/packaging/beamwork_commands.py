@@ -29,7 +29,7 @@ def report():
               file=sys.stderr)
         sys.exit(4)
     truths = os.environ.get("BEAMWORK_TRUTHS", str(data / "truths.h5"))
-    sys.argv[2:2] = [truths, "--imported", str(data / "peers.h5")]
+    sys.argv[2:2] = [truths]
     sys.path.insert(0, str(data))
     sys.dont_write_bytecode = True
     runpy.run_module("reports", run_name="__main__", alter_sys=True)

@@ -15,7 +15,7 @@ $(BUILD)/harness/study/derive.o: $(BUILD)/prefix
 $(BUILD)/harness/study/derive.o: DEFINES := -DBEAMWORK_DATA='"$(DATADIR)"'
 
 .PHONY: install uninstall
-install: all library man $(BUILD)/peers.h5 ## install into DESTDIR= PREFIX=/usr/local; LIBDIR=, BINDIR=, INCLUDEDIR=, SHAREDIR=, PYTHONDIR= where they differ
+install: all library man ## install into DESTDIR= PREFIX=/usr/local; LIBDIR=, BINDIR=, INCLUDEDIR=, SHAREDIR=, PYTHONDIR= where they differ
 	@DESTDIR="$(DESTDIR)" PREFIX="$(PREFIX)" BINDIR="$(BINDIR)" LIBDIR="$(LIBDIR)" INCLUDEDIR="$(INCLUDEDIR)" SHAREDIR="$(SHAREDIR)" PYTHONDIR="$(PYTHONDIR)" \
 		VERSION="$(VERSION)" LIBS="$(DEP_LIBS)" harness/library/packaging/install.sh "$(BUILD)"
 

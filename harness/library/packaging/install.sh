@@ -42,7 +42,6 @@ for file in harness/library/python/beamwork/*.py harness/library/python/beamwork
 put 644 elements/examples/beamwork_element.py "$PYTHONDIR/beamwork_element.py"
 
 put 644 "$build/truths.h5" "$data/truths.h5"
-put 644 "$build/peers.h5" "$data/peers.h5"
 for file in cases/examples/*.yaml; do put 644 "$file" "$data/examples/scenes/${file##*/}"; done
 for file in elements/examples/*.*; do put 644 "$file" "$data/examples/elements/${file##*/}"; done
 

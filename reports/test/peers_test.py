@@ -1,0 +1,97 @@
+"""Comparisons with other programs: recorded files, diagrams, profiles, and the parts of pages."""
+import json
+import math
+import pathlib
+import tempfile
+import unittest
+
+from reports import peers, peers_data
+
+
+def run(n, error, time, **more):
+    return {"elements": n, "unknowns": 6 * n, "systems": 5, "setup": 1.0, "times": {"bent": time, "": 2 * time}, "errors": {"u": error},
+            "values": {"u": 1 + error}, **more}
+
+
+def series(name, runs, ours=False, **more):
+    return {"name": name, "ours": ours, "version": "1", "missing": "", "settings": "", "other_model": "", "refused": {}, "verdicts": {},
+            "runs": runs, **more}
+
+
+def record(case="c", *all_series, parameters="", unit="a"):
+    return {"beamwork_peers": 1, "case": case, "parameters": parameters, "beamwork": "0", "date": "2026-01-01", "rounds": 3,
+            "unit": {"name": unit, "ours": True, "elements": 1}, "series": list(all_series),
+            "quantities": [{"name": "u", "unit": "m", "analysis": "bent", "truth": 1.0, "kind": "exact", "meaning": ""}]}
+
+
+def two():
+    """Returns two comparisons. In the first, a formulation is twice as fast as a peer; in the second, half as fast."""
+    slow = series("P, x", [run(1, 1e-3, 2.0), run(2, 1e-5, 4.0)])
+    fast = series("P, x", [run(1, 1e-3, 0.5), run(2, 1e-5, 1.0)])
+    ours = series("a", [run(1, 1e-3, 1.0), run(2, 1e-5, 2.0)], True)
+    return [record("first", ours, slow), record("second", ours, fast)]
+
+
+class Data(unittest.TestCase):
+
+    def test_diagram(self):
+        found = peers_data.diagram(two()[0], two()[0]["quantities"][0])
+        self.assertEqual(found["curves"], {"a": [(1.0, 1e-3, 1), (2.0, 1e-5, 2)], "P, x": [(2.0, 1e-3, 1), (4.0, 1e-5, 2)]})
+        self.assertEqual(found["front"], [(1.0, 1e-3, "a"), (2.0, 1e-5, "a")])
+
+    def test_profile(self):
+        """Each of two programs is the fastest in one of two cases, and twice as slow in the other."""
+        found = peers_data.factors(two(), 1e-2)
+        self.assertEqual(found["beamwork"], [(1.0, 1.0), (2.0, 1.0)])
+        self.assertEqual(found["P"], [(2.0, 1.0), (1.0, 1.0)])
+        self.assertEqual(found["a"], found["beamwork"])
+
+    def test_not_solved(self):
+        refused = series("Q, y", [{"elements": 1, "refusal": "no"}])
+        found = peers_data.factors([record("c", *two()[0]["series"], refused)], 1e-2)
+        self.assertEqual(found["Q"], [(math.inf, 1.0)])
+        self.assertEqual([why for s, why in peers_data.outcomes(record("c", refused))], ["no"])
+
+    def test_ahead(self):
+        found = peers_data.ahead(two())
+        self.assertEqual({(r["case"], level) for r, _, level, _ in found}, {("second", level) for level in peers_data.LEVELS})
+
+    def test_recorded_and_live(self):
+        """Recorded files give the same diagrams as the live comparison, which also contains absolute times."""
+        live = two()[0]
+        live["unit"]["seconds"] = 1e-4
+        with tempfile.TemporaryDirectory() as folder:
+            stored = json.loads(json.dumps(live))
+            del stored["unit"]["seconds"]
+            pathlib.Path(folder, "first.json").write_text(json.dumps(stored), encoding="utf-8")
+            read, = peers_data.records(folder=folder)
+        q = live["quantities"][0]
+        self.assertEqual(peers_data.diagram(read, q), peers_data.diagram(live, q))
+        self.assertEqual(peers_data.factors([read], 1e-2), peers_data.factors([live], 1e-2))
+
+    def test_merged(self):
+        """Times of a second record of the same case are converted by a run of beamwork that both contain."""
+        first, second = two()[0], record("first", series("a", [run(2, 1e-5, 1.0)], True), series("Q, y", [run(1, 1e-4, 3.0)]))
+        second["unit"] = {"name": "a", "ours": True, "elements": 2}
+        both = peers_data.merged(first, second)
+        self.assertEqual([s["name"] for s in both["series"]], ["a", "P, x", "Q, y"])
+        self.assertEqual(both["series"][-1]["runs"][0]["times"]["bent"], 3.0 * first["series"][0]["runs"][1]["times"][""])
+        second["unit"]["elements"] = 7
+        self.assertEqual(peers_data.merged(first, second)["series"][-1]["runs"][0]["times"], {})
+
+
+class Recorded(unittest.TestCase):
+    """reference/peers: what everybody sees without installing a program."""
+
+    def test_files(self):
+        found = peers_data.records()
+        self.assertTrue(found)
+        for one in found:
+            with self.subTest(one["case"]):
+                self.assertNotIn("seconds", json.dumps(one["unit"]))
+                self.assertTrue(any(s["ours"] for s in one["series"]) and not all(s["ours"] for s in one["series"]))
+                for q in peers_data.known(one):
+                    self.assertTrue(peers_data.diagram(one, q)["curves"], q["name"])
+                    for level, ranked, shown in peers.rows_of(one, q):
+                        self.assertTrue(all(r["error"] is not None and abs(r["error"]) <= level for _, r in shown))
+                        self.assertEqual([p for p, _ in shown], sorted(p for p, _ in shown))
