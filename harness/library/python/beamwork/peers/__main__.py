@@ -10,7 +10,7 @@ from typing import Any
 
 from ..errors import Error, Refused
 from ..program import run
-from . import chosen, load, names, solve_all, table
+from . import _features, chosen, load, names, solve, solve_all, table
 from ._record import formulations_of, make, read, written
 from ._rounds import Series
 from ._tables import WRITERS
@@ -33,6 +33,8 @@ def _arguments() -> argparse.Namespace:
     parser.add_argument("--requirements", action="store_true", help="print the Python packages of the peers for pip")
     parser.add_argument("--format", choices=WRITERS, default="text", help="format of the ranking on standard output")
     parser.add_argument("--recorded", metavar="FILE.json", help="print the ranking of a recorded comparison; nothing is run")
+    parser.add_argument("--features", action="store_true", help="try the features of the peers on small scenes with closed forms; "
+                        "print the tables, and write them to -o FILE.json; with --recorded: only print those of the file")
     parser.add_argument("-o", "--output", action="append", default=[], metavar="FILE", help="may be repeated; .json: record of the "
                         "comparison (reference/peers); results of the peers as an import file (.csv) or stored (.h5)")
     return parser.parse_args()
@@ -112,6 +114,18 @@ def _compare(given: argparse.Namespace) -> int:
     return 0
 
 
+def _try_features(given: argparse.Namespace) -> int:
+    if given.recorded:
+        found = json.loads(pathlib.Path(given.recorded).read_text(encoding="utf-8"))
+    else:
+        found = _features.measure(chosen(given.peers.split(",")), solve, given.limit, _progress)
+        _progress("")
+    for name in given.output:
+        pathlib.Path(name).write_text(_features.as_json(found), encoding="utf-8")
+    print(_features.markdown(found), end="")
+    return 0
+
+
 def main() -> int:
     given = _arguments()
     if given.list:
@@ -122,6 +136,8 @@ def main() -> int:
         print("numpy", *(package for name in wanted for package in load(name).REQUIRES), sep="\n")
         return 0
     try:
+        if given.features:
+            return _try_features(given)
         if given.recorded:
             print(WRITERS[given.format](read(pathlib.Path(given.recorded))), end="")
             return 0

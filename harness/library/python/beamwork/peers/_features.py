@@ -1,0 +1,208 @@
+"""Features of peers, measured: small scenes with closed forms, one for each feature."""
+from __future__ import annotations
+
+import datetime
+import json
+import math
+import pathlib
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+from .. import Scene, version
+from ..program import run as program
+from ._rounds import Series
+
+L, E, G, A, I, IT, RHO = 1.0, 2e11, 8e10, 1e-2, 2e-6, 3e-6, 8000.0
+EA, EI, GIT, GA = E * A, E * I, G * IT, 1e7
+FINE, WORKS = (16, 32), 0.01  # meshes; largest error with which a feature works
+_HALVED = 0.7  # the error on the finer mesh, relative to that on the coarser one, is below this if the values converge
+
+Case = tuple[str, str, Callable[[], Scene], float]
+
+
+def _cantilever(loads: Mapping[str, Any], analysis: Mapping[str, Any], quantity: Mapping[str, Any], omit: Sequence[str] = ("trapeze", "wagner_torque"),
+                section: Mapping[str, Any] | None = None, **tip: Any) -> Scene:
+    """Returns a cantilever along x that is rigid in shear and does not warp, unless the section says otherwise."""
+    made = Scene("feature")
+    constants = {"A": A, "Iy": I, "Iz": I, "It": IT, "Ip": 2 * I}
+    made.sections["bar"] = dict(section or {"constants": constants, "young": E, "shear_modulus": G, "density": RHO})
+    made.nodes["root"], made.nodes["tip"] = {"at": [0, 0, 0], "hold": "all"}, {"at": [L, 0, 0], **tip}
+    made.members["bar"] = {"from_": "root", "to": "tip", "section": "bar", "y": [0, 1, 0]}
+    for name, load in loads.items():
+        made.loads[name] = load
+    made.analyses["a"] = dict(analysis)
+    made.quantities["q"] = {next(iter(quantity)): {"analysis": "a", **next(iter(quantity.values()))}, "unit": "1", "factor": 1}
+    made.omit = list(omit)
+    return made
+
+
+def _tip(component: str) -> dict[str, Any]:
+    return {"displacement": {"node": "tip", "component": component}}
+
+
+def _shear() -> Scene:
+    D = [GA / G, 0, 0, 0, GA / G, 0, 0, 0, 1]
+    constants = {"A": A, "Iy": I, "Iz": I, "It": IT, "Ip": 2 * I, "D": D}
+    section = {"constants": constants, "young": E, "shear_modulus": G}
+    return _cantilever({"F": {"force": [0, 1, 0], "on": "tip"}}, {"linear": {}}, _tip("uy"), section=section)
+
+
+def _coupled() -> Scene:
+    K = [0.0] * 36
+    for i, value in enumerate((EA, GA, GA, GIT, EI, EI)):
+        K[7 * i] = value
+    K[5] = K[30] = 0.5 * math.sqrt(EA * EI)
+    return _cantilever({"F": {"force": [1, 0, 0], "on": "tip"}}, {"linear": {}}, _tip("rz"), section={"stiffness": K})
+
+
+def _coupled_value() -> float:
+    """Returns the rotation of the tip: the compliance between axial force and curvature, times the length."""
+    c = 0.5 * math.sqrt(EA * EI)
+    return -c / (EA * EI - c * c) * L
+
+
+def _arc() -> Scene:
+    """A quarter of a circle of radius 1 from the origin, in the xy plane, under a force at its end along y."""
+    made = _cantilever({"F": {"force": [0, 1, 0], "on": "tip"}}, {"linear": {}}, _tip("uy"))
+    made.nodes["tip"]["at"] = [1, 1, 0]
+    made.members["bar"]["curvature"] = [0, 0, 1]
+    return made
+
+
+def _warping(clamped: bool) -> Scene:
+    constants = {"A": A, "Iy": I, "Iz": I, "It": IT, "Ip": 2 * I, "Iw": GIT * L**2 / 9 / E}  # k L = 3
+    section = {"constants": constants, "young": E, "shear_modulus": G}
+    made = _cantilever({"T": {"moment": [1, 0, 0], "on": "tip"}}, {"linear": {}}, _tip("rx"), section=section)
+    made.members["bar"]["warping"] = ["fixed" if clamped else "free", "free"]
+    return made
+
+
+def _buckling() -> Scene:
+    return _cantilever({"P": {"force": [-1, 0, 0], "on": "tip"}}, {"buckling": {}}, {"critical_factor": {}})
+
+
+def _compliance() -> Scene:
+    made = _cantilever({"F": {"force": [0, 0, 1e-3], "on": "tip"}}, {"static": {"stations": [1]}},
+                       {"compliance": {"row": "uz", "column": "uz"}})
+    made.analyses["c"] = {"compliance": {"about": "a", "node": "tip"}}
+    made.quantities["q"]["compliance"]["analysis"] = "c"
+    return made
+
+
+def _prescribed() -> Scene:
+    made = _cantilever({}, {"static": {"stations": [1]}}, {"reaction": {"node": "tip", "component": "uy"}},
+                       drive={"uy": "m"})
+    made.motions["m"] = {"path": [0, 1], "value": [0, 1e-4]}
+    return made
+
+
+def _flying() -> Scene:
+    """A free rod that a force along it accelerates for 0.1 s."""
+    made = _cantilever({"F": {"force": [RHO * A * L, 0, 0], "on": "tip"}}, {"motion": {"stations": [0.1]}}, _tip("ux"))
+    made.nodes["root"] = {"at": [0, 0, 0], "hold": ["uy", "uz", "rx", "ry", "rz"]}
+    return made
+
+
+_BENT = EI * math.pi / 2 / L  # moment that bends the cantilever to a quarter of a circle
+_ARC = (3 * math.pi / 4 - 2) / EI + math.pi / 4 / EA  # integrals of (1 - sin s)^2/EI and sin(s)^2/EA over the quarter of a circle
+CASES: tuple[Case, ...] = (
+    ("bending", "linear cantilever under a tip force", lambda: _cantilever(
+        {"F": {"force": [0, 0, 1], "on": "tip"}}, {"linear": {}}, _tip("uz")), L**3 / 3 / EI),
+    ("torsion", "linear cantilever under a torque", lambda: _cantilever(
+        {"T": {"moment": [1, 0, 0], "on": "tip"}}, {"linear": {}}, _tip("rx")), L / GIT),
+    ("shear", "linear cantilever, flexible in shear", _shear, L**3 / 3 / EI + L / GA),
+    ("distributed load", "linear cantilever under a uniform load", lambda: _cantilever(
+        {"q": {"distributed": [0, 1, 0], "on": "bar"}}, {"linear": {}}, _tip("uy")), L**4 / 8 / EI),
+    ("prescribed displacement", "reaction at the tip of a cantilever that is displaced there", _prescribed, 1e-4 * 3 * EI / L**3),
+    ("coupled section", "rotation under an axial force, if the section couples axial force and bending", _coupled, _coupled_value()),
+    ("initial curvature", "quarter of a circle under a force at its end", _arc, _ARC),
+    ("warping", "torsion of a cantilever whose root does not warp, k L = 3", lambda: _warping(True), L / GIT * (1 - math.tanh(3) / 3)),
+    ("large displacements, plane", "cantilever bent to a quarter of a circle by a moment about z", lambda: _cantilever(
+        {"M": {"moment": [0, 0, _BENT], "on": "tip"}}, {"static": {"stations": [1]}}, _tip("uy")), 2 * L / math.pi),
+    ("large displacements, space", "the same, about y", lambda: _cantilever(
+        {"M": {"moment": [0, -_BENT, 0], "on": "tip"}}, {"static": {"stations": [1]}}, _tip("uz")), 2 * L / math.pi),
+    ("compliance", "compliance of the tip of a cantilever", _compliance, L**3 / 3 / EI),
+    ("buckling", "Euler's load of a cantilever", _buckling, math.pi**2 * EI / 4 / L**2),
+    ("frequency", "first frequency of a cantilever without rotary inertia", lambda: _cantilever(
+        {}, {"modal": {}}, {"frequency": {}}, ("trapeze", "wagner_torque", "rotary_inertia")),
+     1.8751040687119611**2 / (2 * math.pi * L**2) * math.sqrt(EI / RHO / A)),
+    ("motion", "rod that a force accelerates along its axis for 0.1 s, at the end of this time", _flying, 0.5 * 0.1**2),
+)
+
+
+def _data(made: Scene) -> dict[str, Any]:
+    with tempfile.TemporaryDirectory() as folder:
+        place = pathlib.Path(folder, "scene.yaml")
+        made.write(place)
+        text, _ = program("scene", scene=str(place), format="json")
+    data: dict[str, Any] = json.loads(text)
+    return data
+
+
+def outcome(series: Series, exact: float) -> str:
+    """Returns "works (error)", "converges slowly (error)", "wrong by x %", "refused: reason" or "failed: reason"."""
+    if series.missing:
+        return "not installed"
+    errors = [run["values"]["q"] / exact - 1 for run in series.runs if "q" in run.get("values", {})]
+    if errors:
+        last = abs(errors[-1])
+        if last <= WORKS:
+            return f"works ({100 * last:.1g} %)"
+        slow = len(errors) > 1 and last < _HALVED * abs(errors[0])
+        return f"converges slowly ({100 * errors[-1]:+.2g} %)" if slow else f"wrong by {100 * errors[-1]:+.2g} %"
+    for run in series.runs:
+        if "q" in run.get("refused", {}):
+            return f"refused: {run['refused']['q']}"
+        for word, text in (("refusal", "refused"), ("failure", "failed")):
+            if word in run:
+                return f"{text}: {run[word]}"
+    return "no answer"
+
+
+def measure(peers: Sequence[tuple[str, str]], solve: Callable[..., Series], limit: float,
+            progress: Callable[[str], None]) -> dict[str, Any]:
+    """Tries all features with all elements."""
+    rows: dict[tuple[str, str], dict[str, Any]] = {}
+    for name, _, make, exact in CASES:
+        data = _data(make())
+        for peer, element in peers:
+            progress(f"{name}: {peer}:{element}")
+            series = solve(data, peer, element, FINE, 1, limit)
+            row = rows.setdefault((peer, element), {"name": series.program, "version": "", "outcomes": {}})
+            row["version"] = series.version or row["version"]
+            row["outcomes"][name] = outcome(series, exact)
+    return {"beamwork_peer_features": 1, "beamwork": version, "date": datetime.datetime.now(datetime.timezone.utc).date().isoformat(),
+            "features": [{"name": name, "meaning": meaning} for name, meaning, _, _ in CASES], "rows": list(rows.values())}
+
+
+def _tables(found: Mapping[str, Any]) -> Iterator[str]:
+    programs: dict[str, list[Mapping[str, Any]]] = {}
+    for row in found["rows"]:
+        programs.setdefault(row["name"].split(", ")[0], []).append(row)
+    for name, rows in programs.items():
+        yield f"\n## {name} {rows[0]['version'] or '(not installed)'}\n"
+        elements = [row["name"].split(", ", 1)[1] for row in rows]
+        yield "| feature | " + " | ".join(f"`{element}`" for element in elements) + " |"
+        yield "|---" * (len(rows) + 1) + "|"
+        for feature in found["features"]:
+            cells = (row["outcomes"][feature["name"]].replace("|", "/") for row in rows)
+            yield f"| {feature['name']} | " + " | ".join(cells) + " |"
+
+
+def markdown(found: Mapping[str, Any]) -> str:
+    """Returns the page of the documentation."""
+    lines = ["# Features of other programs, as tried", "",
+             "`python3 -m beamwork.peers --features --recorded reference/peers/features.json` prints this page, and `--features -o FILE.json`",
+             f"measures the features again. Measured on {found['date']} with beamwork {found['beamwork']}. Each feature is a small scene with a",
+             f"closed form, solved with {FINE[0]} and {FINE[1]} elements through the [drivers](../howto/peers.md) of beamwork. The entry is \"works\" with the",
+             "error; \"converges slowly\" if the error is above 1 % but decreases; \"wrong by\" with the error; or the reason why the driver",
+             "refuses the scene, or why the program fails. What a driver refuses may be possible with the program itself.", "",
+             "| feature | scene |", "|---|---|", *(f"| {f['name']} | {f['meaning']} |" for f in found["features"])]
+    return "\n".join([*lines, *_tables(found)]) + "\n"
+
+
+def as_json(found: Mapping[str, Any]) -> str:
+    rows = ",\n".join(f"  {json.dumps(row)}" for row in found["rows"])
+    head = ",\n".join(f" {json.dumps(key)}: {json.dumps(value)}" for key, value in found.items() if key != "rows")
+    return "{\n" + head + ',\n "rows": [\n' + rows + "\n ]\n}\n"

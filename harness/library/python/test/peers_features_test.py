@@ -1,0 +1,42 @@
+"""Features of peers, measured on small scenes: the closed forms, the words, and the page that is made of them."""
+import importlib
+import json
+import unittest
+
+from harness.library.python.test.module import ModuleTest, bw
+from harness.tools.kit.program import ROOT
+
+features = None if bw is None else importlib.import_module("beamwork.peers._features")
+rounds = None if bw is None else importlib.import_module("beamwork.peers._rounds")
+
+
+class Features(ModuleTest):
+
+    def test_closed_forms(self):
+        """Formulations reproduce the closed form of every scene."""
+        for name, _, make, exact in features.CASES:
+            with self.subTest(name):
+                self.assertAlmostEqual(make().solve("geometrically_exact", 32)["q"] / exact, 1, delta=1e-5)
+
+    def outcome(self, *runs, missing=""):
+        return features.outcome(rounds.Series("p", "e", "p, e", missing=missing, runs=list(runs)), 2.0)
+
+    def test_words(self):
+        def value(q):
+            return {"elements": 1, "values": {"q": q}}
+        self.assertEqual(self.outcome(value(2.1), value(2.001)), "works (0.05 %)")
+        self.assertEqual(self.outcome(value(2.2), value(2.1)), "converges slowly (+5 %)")
+        self.assertEqual(self.outcome(value(2.1), value(2.1)), "wrong by +5 %")
+        self.assertEqual(self.outcome({"elements": 1, "refusal": "shear: none"}), "refused: shear: none")
+        self.assertEqual(self.outcome({"elements": 1, "failure": "ended"}), "failed: ended")
+        self.assertEqual(self.outcome({"elements": 1, "values": {}, "refused": {"q": "no"}}), "refused: no")
+        self.assertEqual(self.outcome(missing="x is not installed"), "not installed")
+
+    @unittest.skipUnless((ROOT / "reference" / "peers" / "features.json").is_file(), "no features are recorded")
+    def test_page(self):
+        """The page of the documentation is made of the recorded features."""
+        found = json.loads((ROOT / "reference" / "peers" / "features.json").read_text(encoding="utf-8"))
+        page = (ROOT / "docs" / "reference" / "peer_features.md").read_text(encoding="utf-8")
+        self.assertEqual(page, features.markdown(found))
+        self.assertEqual(features.as_json(found), (ROOT / "reference" / "peers" / "features.json").read_text(encoding="utf-8"))
+        self.assertEqual([f["name"] for f in found["features"]], [name for name, *_ in features.CASES])
