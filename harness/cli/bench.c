@@ -46,9 +46,6 @@ static int answer(const command_line *l, void *request)
     if (r->error != NULL || r->solver.keep_all)
         return message_fail(STATUS_REFUSED,
                             "--error and --all-dofs require --against; add it, or remove them");
-    if (strcmp(r->format, "json") == 0)
-        return message_fail(STATUS_REFUSED,
-                            "--format json requires --against; give text or csv, or add --against");
     if (!is_named(r) && (r->of.set.count > 0 || r->meshes.count > 0))
         return message_fail(STATUS_REFUSED, "--set and -n require a case; name the case");
     const status outcome = measure(r, &b, &f);

@@ -113,6 +113,8 @@ static status write_table(FILE *to, const bench *b, fault *f)
 static status write_form(FILE *to, const char *format, const void *found, fault *f)
 {
     const bench *b = found;
+    if (format[0] == 'j')
+        return json_timing_write(to, &b->sweep, &b->evaluation, &b->made, f);
     if (format[0] != 'c')
         return write_table(to, b, f);
     csv_timing(to, &b->sweep, &b->evaluation);

@@ -324,6 +324,40 @@ void json_record_add(json_t *list, const record_type *type, const subject *s, in
     json_array_append_new(list, json_record(type, s, keys));
 }
 
+/* Returns the times of a mesh, with the quantities that have a reference value. */
+static json_t *timing_of(const gathering *g, int series_index, int mesh)
+{
+    subjects list = {0};
+    subject cell = gather_cell(g, series_index, mesh);
+    json_t *out = json_record(&record_cell, &cell, KEY_AROUND), *quantities = json_array();
+    cell.record = &g->sweep->series[series_index].timing[mesh];
+    json_t *times = json_record(&record_timing, &cell, 0);
+    json_object_update(out, times);
+    json_decref(times);
+    gather_mesh(g, &record_quantity, series_index, mesh, &list);
+    for (int i = 0; i < list.count; i++)
+        if (list.row[i].truth != NULL)
+            json_record_add(quantities, &record_quantity, &list.row[i], KEY);
+    gather_free(&list);
+    json_object_set_new(out, "quantities", quantities);
+    return out;
+}
+
+status json_timing_write(FILE *to, const sweep *s, const evaluation *j, const environment *e,
+                         fault *f)
+{
+    const gathering g = {s, j, NULL};
+    json_t *all = json_array();
+    for (int i = 0; i < s->seriess; i++)
+        for (int k = 0; k < s->series[i].meshes && s->series[i].missing[0] == '\0'; k++)
+            json_array_append_new(all, timing_of(&g, i, k));
+    return json_finish(json_pack("{s:i,s:s,s:s,s:s,s:s,s:s,s:o}", "schema_version", SCHEMA_VERSION,
+                                 "program_version", e->version, "commit", e->commit, "compiler",
+                                 e->compiler, "processor", e->processor, "clock", e->clock,
+                                 record_timing.table, all),
+                       to, f);
+}
+
 static json_t *json_field(const schema_field *which)
 {
     json_t *out = json_pack("{s:s,s:s,s:s,s:s,s:b}", "name", which->name, "kind",

@@ -412,6 +412,9 @@ void json_part_free(json_part *);
 status json_write_verdicts(FILE *to, const sweep *s, const evaluation *j, const environment *e,
                            json_part *part, fault *f);
 
+/* Writes the times of all meshes, with the quantities that have a reference value. */
+status json_timing_write(FILE *to, const sweep *s, const evaluation *j, const environment *e,
+                         fault *f);
 /* Writes every quantity of every series for all meshes, with limit, order and verdict, and the
  * formulations whose error is within the level in every quantity. */
 status json_convergence_write(FILE *to, const sweep *s, const truths *t, double level, fault *f);

@@ -1,6 +1,7 @@
 """Tests of the verb bench: rows, rejected input, and comparison of two programs or formulations."""
 import csv
 import io
+import json
 import re
 import unittest
 
@@ -23,6 +24,14 @@ class Bench(ProgramTest):
             self.assertGreaterEqual(int(r["repeats"]), 5)
             self.assertLessEqual(float(r["seconds_least"]), float(r["seconds_most"]))
             self.assertGreater(int(r["strain_evaluations"]), 0)
+
+    def test_json(self):
+        whole = json.loads(self.answered("bench", "elastica", "-f", "collocation", "-n", "1,2", "--format", "json").stdout)
+        self.assertTrue(whole["processor"])
+        self.assertEqual([one["elements"] for one in whole["timings"]], [1, 2])
+        for one in whole["timings"]:
+            self.assertLessEqual(one["seconds_least"], one["seconds_most"])
+            self.assertEqual({q["quantity"] for q in one["quantities"]}, {"w_over_L", "u_over_L", "theta"})
 
     def test_several_cases(self):
         done = self.answered("bench", "elastica", "warping_torsion", "-f", "collocation", "-n", "1")
