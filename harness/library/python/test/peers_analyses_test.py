@@ -70,15 +70,69 @@ class Several(PeerTest):
                         np.testing.assert_allclose(R[3:], -moment - np.cross([LENGTH, 0, 0], force), rtol=1e-5)
 
 
+class Supports(PeerTest):
+
+    def test_two_rotations_held(self):
+        """Reactions must be those of the beam, for each pair of rotations that a support holds: the moments about the
+        supported end are in balance."""
+        for peer, name in peers.chosen(["exudyn:exact_3d", "opensees:forceBeamColumn", "xara:exact_3"]):
+            for pair in (("rx", "ry"), ("rx", "rz"), ("ry", "rz")):
+                with self.subTest(peer=peer, element=name, held=pair):
+                    made = scene(peers.load(peer).ELEMENTS[name], kind="static")
+                    made.nodes["root"]["hold"] = ["ux", "uy", "uz", *pair]
+                    made.nodes["tip"]["hold"] = ["ux", "uy", "uz", "rx", "ry", "rz"]
+                    made.nodes["middle"] = {"at": [0.6 * LENGTH, 0, 0]}
+                    bar = made.members.pop("bar")
+                    made.members["one"], made.members["two"] = {**bar, "to": "middle"}, {**bar, "from_": "middle"}
+                    made.quantities.clear()
+                    for load in made.loads.values():
+                        load["on"] = "middle"
+                    for node in ("root", "tip"):
+                        for c in made.nodes[node]["hold"]:
+                            made.quantities[node + c] = {"reaction": {"analysis": "all", "node": node, "component": c},
+                                                         "unit": "N" if c[0] == "u" else "N m"}
+                    found = peers.solve(self.data(made), peer, name, [8], rounds=1)
+                    if found.missing:
+                        self.skipTest(found.missing)
+                    got = found.runs[0]["values"]
+                    force, moment = ([got.get("tip" + k + c, 0) for c in "xyz"] for k in "ur")
+                    root = [got.get("rootr" + c, 0) for c in "xyz"]
+                    loads = [np.multiply(v, 1e-4) for v in (FORCE, MOMENT)]
+                    rest = np.add(moment, root) + np.cross([LENGTH, 0, 0], force) + loads[1] + np.cross([0.6 * LENGTH, 0, 0], loads[0])
+                    np.testing.assert_allclose(rest, 0, atol=1e-5 * np.abs(loads[1]).max())
+
+    def test_arc(self):
+        """A quarter of a circle under a tip force in its plane must have the deflection and rotation of Castigliano's
+        theorem; an element that is not free of stress in the curved state must be refused."""
+        made = cantilever({"path": ANALYSES["path"]})
+        made.sections["bar"]["constants"]["A"] = 0.1
+        made.nodes["tip"]["at"] = [2, 2, 0]
+        made.members["bar"].update(curvature=[0, 0, 0.5])
+        made.loads["force"]["force"] = [0, 1, 0]
+        made.quantities["turn"] = {"displacement": {"analysis": "path", "node": "tip", "component": "rz"}, "unit": "rad"}
+        for peer, name in peers.chosen(["exudyn", "opensees", "xara:exact", "xara:force"]):
+            with self.subTest(peer=peer, element=name):
+                found = peers.solve(self.data(made), peer, name, [32], rounds=1)
+                if found.missing:
+                    self.skipTest(found.missing)
+                if name in ("ancf_3d", "ElasticTimoshenkoBeam"):
+                    self.assertIn("refusal", found.runs[0])
+                    continue
+                got = found.runs[0]["values"]
+                self.assertAlmostEqual(got["path"] / (8 / 2e5 * (0.75 * math.pi - 2)), 1, delta=2e-3)
+                if "turn" in got:
+                    self.assertAlmostEqual(got["turn"] / (4 / 2e5 * (math.pi / 2 - 1)), 1, delta=2e-3)
+
+
 class Best(PeerTest):
 
     def test_second_order_moments(self):
-        """Elements of OpenSees with second-order moments inside must converge with order 4 in large bending."""
-        for element in ("forceBeamColumnCBDI", "forceBeamColumnCSBDI"):
+        """The best elements of OpenSees and Exudyn must converge with order 4 in large bending."""
+        for peer, element in peers.chosen(["opensees:forceBeamColumnCBDI", "opensees:forceBeamColumnCSBDI", "exudyn:cable_2d"]):
             values = []
             for n in (2, 4, 16):
                 made = cantilever({"path": ANALYSES["path"]})
-                found = peers.solve(self.data(made), "opensees", element, [n], rounds=1)
+                found = peers.solve(self.data(made), peer, element, [n], rounds=1)
                 if found.missing:
                     self.skipTest(found.missing)
                 values.append(found.runs[0]["values"]["path"])

@@ -1,4 +1,4 @@
-"""Exudyn: geometrically exact beams in the plane and in space, and the ANCF beam in space; statics, modes and motions."""
+"""Exudyn: geometrically exact beams, ANCF cable in the plane, ANCF beam in space; statics, modes and motions."""
 from __future__ import annotations
 
 import importlib
@@ -7,10 +7,11 @@ import math
 from typing import Any
 
 from . import _exudyn_motion
+from ._exudyn_joint import torque_of
 from ._exudyn_modes import modal
 from ._exudyn_path import add_controls, follow_path
-from .data import (COMPONENTS, Analysis, Answer, Element, Load, LoadSteps, Matrix, Mesh, MeshElement, Model, Node, Refused, Scene, Section, State, product,
-                   rotation, rotation_vector, times, transposed)
+from .data import (COMPONENTS, Analysis, Answer, Element, Load, LoadSteps, Matrix, Mesh, MeshElement, Model, Node, Refused, Scene,
+                   Section, State, product, rotation, rotation_vector, times, transposed)
 
 NAME, PROGRAM, LICENCE = "exudyn", "Exudyn", "BSD-3-Clause"
 HOMEPAGE = "https://github.com/jgerstmayr/EXUDYN"
@@ -22,9 +23,11 @@ _KEYS = _FEW | {"loads.gravity", "nodes.mass", "nodes.inertia"}
 ELEMENTS = {
     "exact_2d": Element("geometrically exact, 2 nodes, xy plane only", _PHYSICS, _ALL, keys=_KEYS | {"plane"}),
     "exact_2d_3": Element("geometrically exact, 3 nodes, xy plane only", _PHYSICS, _ALL, 2, _KEYS | {"plane"}),
-    "exact_3d": Element("geometrically exact, 2 nodes; marked as under construction by its authors", _PHYSICS, _ALL, keys=_KEYS),
+    "cable_2d": Element("ANCF cable, Euler-Bernoulli, 2 nodes, Lobatto and Gauss points (useReducedOrderIntegration=2), xy plane only",
+                        frozenset({"large rotations"}), frozenset({"static"}), keys=frozenset({"loads.follower", "plane"})),
+    "exact_3d": Element("geometrically exact, 2 nodes, helical interpolation", _PHYSICS, _ALL, keys=_KEYS),
     # The mass matrix of the ANCF beam contains the rate of the sum of both slopes, and depends on the axes of the scene.
-    "ancf_3d": Element("ANCF beam with cross-section slopes, 2 nodes; marked as under construction", _PHYSICS, _ANALYSES, keys=_FEW),
+    "ancf_3d": Element("ANCF beam with cross-section slopes, 2 nodes; unfinished, according to its authors", _PHYSICS, _ANALYSES, keys=_FEW),
 }
 _RIGID, _RIGID_ON_PATHS = 1e9, 1e7  # shear stiffness of sections that are rigid in shear, over EI/length^2; in continuations
 
@@ -42,7 +45,7 @@ def _shear(section: Section, scene: Scene) -> list[float]:
     return [min(k, most) for k in section.GA]
 
 
-class _Steps(Model):
+class Steps(Model):
     """Load steps. Subclasses add nodes, elements, supports and loads, and read states."""
     most_iterations = 25
 
@@ -222,7 +225,7 @@ class _Steps(Model):
         raise NotImplementedError
 
 
-def _plane(scene: Scene) -> None:
+def check_plane(scene: Scene) -> None:
     for member in scene.members.values():
         if abs(member.start[2]) > 0 or abs(member.axes[2][0]) > 1e-12 or member.curvature[0] != 0 or min(
                 abs(member.axes[2][k]) for k in (1, 2)) > 1e-12:
@@ -236,22 +239,24 @@ def between(P: Matrix, Q: Matrix) -> float:
     return math.hypot(*rotation_vector(product(transposed(P), Q)))
 
 
-class Plane(_Steps):
+class Plane(Steps):
     """Beams in the xy plane. Nodes are shared by members in any directions."""
 
     def __init__(self, scene: Scene, name: str, mesh: Mesh) -> None:
         super().__init__(scene, name, mesh)
-        _plane(scene)
-        self.nodes = [self.add("NodeRigidBody2D", referenceCoordinates=[*node.at[:2], 0]) for node in mesh.nodes]
+        check_plane(scene)
+        at = {node.number: node.at for node in mesh.nodes}
+        for element in mesh.elements:  # inner nodes are on the chord, where the reference state has no strain
+            for k in element.nodes[1:-1]:
+                at[k] = [(a + b) / 2 for a, b in zip(at[element.nodes[0]], at[element.nodes[-1]])]
+        self.nodes = [self.add("NodeRigidBody2D", referenceCoordinates=[*at[node.number][:2], 0]) for node in mesh.nodes]
         self.node_at = dict(enumerate(self.nodes))
         for element in mesh.elements:
             s, shear = element.member.section, _shear(element.member.section, scene)
             z = abs(element.R[2][2]) > 0.5
-            curvature = element.member.curvature[2] * element.R[2][2] if z else element.member.curvature[1] * element.R[2][1]
-            if curvature != 0:
-                raise Refused("curvature: straight elements on an arc are not tested with the shared nodes of Exudyn")
+            chord = math.dist(*(mesh.nodes[element.nodes[k]].at for k in (0, -1)))
             self.beams.append((element, self.add(
-                "ObjectBeamGeometricallyExact2D", nodeNumbers=[self.nodes[k] for k in element.nodes], length=element.length,
+                "ObjectBeamGeometricallyExact2D", nodeNumbers=[self.nodes[k] for k in element.nodes], length=chord,
                 bendingStiffness=s.EIz if z else s.EIy, axialStiffness=s.EA, shearStiffness=shear[0 if z else 1],
                 massPerLength=s.rho_A, crossSectionInertia=_exudyn_motion.inertia(scene, s)[2 if z else 1], includeReferenceRotations=False)))
         for node in scene.nodes.values():
@@ -313,12 +318,14 @@ class Plane(_Steps):
         return float(total)
 
 
-class Space(_Steps):
+class Space(Steps):
     """Beams in space. Each end of a member has a node with the axes of its section; rigid joints connect the ends."""
 
     def __init__(self, scene: Scene, name: str, mesh: Mesh) -> None:
         super().__init__(scene, name, mesh)
         self.ancf = name == "ancf_3d"
+        if self.ancf and any(any(c != 0 for c in member.curvature) for member in scene.members.values()):
+            raise Refused("curvature: the ANCF beam of Exudyn has stresses in a curved reference state")
         self.frame: dict[int, Matrix] = {}
         self.of: dict[str, list[int]] = {node: [] for node in scene.nodes}
         made: dict[tuple[str, int], int] = {}
@@ -441,9 +448,8 @@ class Space(_Steps):
                 if len(components) == 1 and components[0] < 3 and (item in [d for _, d in self.driven]):
                     reaction[name][components[0]] = get("Object", item, "Force")[0]
                     continue
-                force = get("Object", item, "ForceLocal")
-                torque = get("Object", item, "TorqueLocal")
-                both = [*force[:3], torque[0], -torque[1], -torque[2]]  # signs as measured by the contract tests
+                held = [k - 3 for k in components if k > 2]
+                both = [*get("Object", item, "ForceLocal")[:3], *torque_of(get("Object", item, "TorqueLocal"), held, turn)]
                 for k in components:
                     reaction[name][k] = both[k]
         return State(u, reaction, rate=rate)
@@ -472,4 +478,6 @@ class Space(_Steps):
 
 
 def build(scene: Scene, element: str, mesh: Mesh) -> Model:
+    if element == "cable_2d":
+        return importlib.import_module("._exudyn_cable", __package__).Cable(scene, element, mesh)  # type: ignore[no-any-return]
     return (Plane if element.startswith("exact_2d") else Space)(scene, element, mesh)
