@@ -122,8 +122,9 @@ static status measure(const formulation *chosen, softness *out, fault *f)
         if (!(fabs(shift) < rounding && fabs(slope) < rounding))
             return fault_set(f, STATUS_REFUSED,
                              "one element is not exact under a force along %c at its end "
-                             "(errors relative to a beam with its flexibility in pure bending: "
-                             "displacement %.2g, rotation %.2g)",
+                             "(errors relative to a beam with its flexibility in pure bending "
+                             "and the shear flexibility of the section: displacement %.2g, "
+                             "rotation %.2g)",
                              "yz"[k], shift, slope);
     }
     return STATUS_OK;

@@ -142,10 +142,13 @@ static void evaluate_quantity(const sweep *s, truths *t, int index, int quantity
     verdict_reach(s, t, v);
     expect(s, t, v);
     if (s->tolerance > 0 && is_within(v)) {
+        out->tolerated += !v->matches && v->truth != NULL && gates;
         v->expected = v->kind;
         v->matches = 1;
     }
     if (!gates && one->imported != NULL) {
+        out->imported += v->truth != NULL && v->kind != VERDICT_SKIP;
+        out->imported_failed += v->truth != NULL && v->kind != VERDICT_SKIP && !v->matches;
         v->expected = v->kind;
         v->matches = 1;
         return;

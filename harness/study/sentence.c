@@ -235,6 +235,22 @@ static void new_ones(const evaluation *j, char *text, size_t size)
                  j->proposed == 1 ? "is" : "are", j->proposed == 1 ? "it" : "them");
 }
 
+/* Describes the verdicts on imported values that do not affect the exit status. */
+static void imported_ones(const evaluation *j, char *text, size_t size)
+{
+    if (j->imported_failed == 0)
+        snprintf(text, size,
+                 "%d %s on imported values %s not affect the exit status (--imported-must-pass)",
+                 j->imported, j->imported == 1 ? "verdict" : "verdicts",
+                 j->imported == 1 ? "does" : "do");
+    else
+        snprintf(text, size,
+                 "without effect on the exit status: %d of %d %s on imported values %s not as "
+                 "expected (--imported-must-pass lets %s fail the run)",
+                 j->imported_failed, j->imported, j->imported == 1 ? "verdict" : "verdicts",
+                 j->imported_failed == 1 ? "is" : "are", j->imported_failed == 1 ? "it" : "them");
+}
+
 static void expected_deviations(const evaluation *j, char *text, size_t size)
 {
     const known_value k = count_known(j);
@@ -255,8 +271,18 @@ static void expected_deviations(const evaluation *j, char *text, size_t size)
                  derived > 0 ? "more " : "of them ", k.by_rule == 1 ? "is" : "are");
         add_part(text, size, &parts, ", ", part);
     }
+    if (j->tolerated > 0) {
+        snprintf(part, sizeof part,
+                 "%d of them %s no pass, but within the tolerance given by --tolerance",
+                 j->tolerated, j->tolerated == 1 ? "is" : "are");
+        add_part(text, size, &parts, ", ", part);
+    }
     if (j->is_new > 0) {
         new_ones(j, part, sizeof part);
+        add_part(text, size, &parts, "; ", part);
+    }
+    if (j->imported > 0) {
+        imported_ones(j, part, sizeof part);
         add_part(text, size, &parts, "; ", part);
     }
 }
@@ -281,8 +307,9 @@ void sentence_of_run(const sweep *s, const evaluation *j, char *text, size_t siz
         snprintf(text, size, "%s: %s.", word, more);
     else
         snprintf(text, size, "%s: %s%s%s%s.", word, of,
-                 j->proposed > 0 ? "everything that affects the exit status is as expected"
-                                 : "every verdict is as expected",
+                 j->proposed + j->imported_failed > 0
+                     ? "everything that affects the exit status is as expected"
+                     : "every verdict is as expected",
                  more[0] != '\0' ? "; " : "", more);
 }
 

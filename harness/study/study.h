@@ -484,6 +484,11 @@ typedef struct evaluation {
     int unexpected; /* number of verdicts that differ from the expected verdict */
     int is_new;   /* number of verdicts of new formulations, which do not affect the exit status */
     int proposed; /* number of verdicts of new formulations that need a known deviation */
+    /* number of verdicts on imported values that do not affect the exit status, and of those among
+     * them that are not as expected */
+    int imported, imported_failed;
+    int tolerated; /* number of verdicts that are as expected only because of the tolerance of the
+                      request */
     int disagreements;
     int evaluated; /* number of verdicts that have a reference value */
     /* number of rules in the built-in list (complete runs only) and in user tables that no verdict

@@ -195,6 +195,24 @@ static void single_ones(void)
                "affect the exit status; none requires a known deviation.");
 }
 
+static void of_the_request(void)
+{
+    run r;
+    make(&r);
+    add(&r, 0, VERDICT_PASS, 1, 3);
+    r.j.tolerated = 1;
+    output(&r, "PASS: every verdict is as expected; 1 of them is no pass, but within the tolerance "
+               "given by --tolerance.");
+    r.j.tolerated = 0;
+    r.j.imported = 2;
+    output(&r, "PASS: every verdict is as expected; 2 verdicts on imported values do not affect "
+               "the exit status (--imported-must-pass).");
+    r.j.imported_failed = 1;
+    output(&r, "PASS: everything that affects the exit status is as expected; without effect on "
+               "the exit status: 1 of 2 verdicts on imported values is not as expected "
+               "(--imported-must-pass lets it fail the run).");
+}
+
 static void columns(void)
 {
     enum { MANY = 30 };
@@ -251,6 +269,7 @@ static void overview_tests(void)
     the_unexpected();
     sentences();
     single_ones();
+    of_the_request();
     columns();
     new_ones();
 }
