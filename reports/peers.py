@@ -69,7 +69,7 @@ def figure_of(site, record, quantity, name):
             ys += [ys[-1], e]
         panel.plot(xs, [max(y, FINE) for y in ys], back=True, color="currentColor", linewidth=6, alpha=0.16)
     for series, points in telling(all_):
-        rows = [(run["elements"], run["unknowns"], run["systems"], e, t) for t, e, run in points]
+        rows = [(run["elements"], run["unknowns"], ranking.systems_of(run, quantity["analysis"]), e, t) for t, e, run in points]
         told = site.points(series["name"], ("n", "unknowns", "systems", "error", "relative time"), rows, quantity["name"])
         look = {**look_of(site, series, programs), "gid": told["gid"]}
         panel.plot([t for t, _, _ in points], [max(e, FINE) for _, e, _ in points], label=series["name"], **look)

@@ -949,7 +949,8 @@ typedef struct solution_request {
     formulation formulation; /* formulation; type NULL: a default is chosen */
     int elements;            /* number of elements per member; 0: a default is chosen */
     int keep_all, steps, shapes, threads;
-    int keep_ends; /* 1: the final states of motions are stored */
+    int skips_stability; /* 1: flutter is not sought along static paths */
+    int keep_ends;       /* 1: the final states of motions are stored */
     int restarts;
     const outcome_end *restart; /* [restarts] states from which motions continue; NULL: none */
     int systems;                /* as in solve_options */

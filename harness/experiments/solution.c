@@ -105,7 +105,7 @@ status solution_run(const solution_request *r, const solution_choice *why, sweep
     request.solve.reduce = r->reduce;
     request.solve.keep_ends = r->keep_ends;
     request.solve.all_analyses = r->shapes > 0 || r->systems || r->keep_ends;
-    request.solve.checks_flutter = 1;
+    request.solve.checks_flutter = !r->skips_stability;
     request.solve.restarts = r->restarts;
     request.solve.restart = r->restart;
     TRY(cell_run(&request, out, f));

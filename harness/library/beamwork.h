@@ -90,9 +90,9 @@ BW_API void bw_scene_free(bw_scene *scene); /* does nothing for NULL; results re
  * "all_dofs" (true: no degree of freedom is eliminated), "steps" (initial number between stations;
  * the step size adapts), "shapes" (largest number of path states with stored shapes; for a motion,
  * number of times, at least 60 if 5 or fewer are requested), "threads", "error" (default 0.001),
- * "stop" (a file descriptor: when it becomes readable, the iteration ends and the call returns
- * TIME_LIMIT). After NOT_CONVERGED, SINGULAR and NO_VALUE *out is a result with the values that
- * were found. */
+ * "stability" (false: flutter is not sought along static paths, as in bw_converge), "stop" (a file
+ * descriptor: when it becomes readable, the iteration ends and the call returns TIME_LIMIT). After
+ * NOT_CONVERGED, SINGULAR and NO_VALUE *out is a result with the values that were found. */
 BW_API bw_status bw_solve(const bw_scene *scene, const char *formulation, int elements,
                           const char *options, bw_result **out, char **why);
 BW_API void bw_result_free(bw_result *result); /* NULL: nothing */

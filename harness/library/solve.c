@@ -23,7 +23,9 @@ enum { STEPS_MOST = 1000000 };
 /* Reads the options. *stop: the descriptor that ends the solution; 0: none. */
 static status read_options(const char *json, solution_request *out, int *stop, fault *f)
 {
+    int stability = 1;
     const call_option table[] = {
+        {"stability", OPTION_SWITCH, &stability, 0, 1},
         {"all_dofs", OPTION_SWITCH, &out->keep_all, 0, 1},
         {"keep_all", OPTION_SWITCH, &out->keep_all, 0, 1}, /* former name of "all_dofs", which
                                                             * version 0.2 used */
@@ -36,6 +38,7 @@ static status read_options(const char *json, solution_request *out, int *stop, f
     json_t *kept;
     const status outcome = options_read(json, table, &kept, f);
     json_decref(kept);
+    out->skips_stability = !stability;
     return outcome;
 }
 

@@ -202,7 +202,7 @@ class Scene:
         formulation: such as "beamw" or "beamw:mass=lumped"; None: a formulation that supports the physics of the scene.
         elements: number per member; None: the coarsest mesh on which no value changes by more than `error` (0.001) from
         the previous mesh. Raises NotConverged if the values still change on the finest mesh tried.
-        options: error, all_dofs, steps, shapes, threads, stop, ... (see beamwork.h).
+        options: error, all_dofs, steps, shapes, threads, stability, stop, ... (see beamwork.h).
 
         Raises Refused, NotConverged, Singular or Fault; error.result is the partial result, or None. After Ctrl-C,
         raises KeyboardInterrupt when the current iteration or, in a motion, the current step is complete."""

@@ -59,6 +59,21 @@ class Ours(ModuleTest):
         self.assertIn("", run["times"])
         self.assertTrue(all(0 < seconds < 10 for seconds in run["times"].values()))
 
+    def test_systems(self):
+        """Equation systems are counted for each analysis."""
+        run, = peers.solve_all(self.data("sheet_cantilever"), [], ["collocation"], [1], 1)[0].runs
+        path, compliance = run["systems"]["analysis_0"], run["systems"]["analysis_1"]
+        self.assertGreater(path, 0)
+        self.assertGreater(compliance, path)
+
+    def test_stability(self):
+        """Without the search for flutter, the values are the same."""
+        scene = bw.Scene.case("sheet_cantilever")
+        one, other = (scene.solve("collocation", 2, stability=s) for s in (True, False))
+        self.assertEqual(one.values, other.values)
+        with self.assertRaises(bw.Refused):
+            scene.solve("collocation", 2, stability=1)
+
     def test_refused(self):
         """What a formulation refuses has its reason, and the other meshes are tried."""
         found, = peers.solve_all(self.data("bend_45"), [], ["beamw_vlasov:mass=no"], [1, 2], 1)

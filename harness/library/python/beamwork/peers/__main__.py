@@ -118,7 +118,7 @@ def _try_features(given: argparse.Namespace) -> int:
     if given.recorded:
         found = json.loads(pathlib.Path(given.recorded).read_text(encoding="utf-8"))
     else:
-        found = _features.measure(chosen(given.peers.split(",")), solve, given.limit, _progress)
+        found = _features.measure([(peer, element, load(peer).ELEMENTS[element]) for peer, element in chosen(given.peers.split(","))], solve, given.limit, _progress)
         _progress("")
     for name in given.output:
         pathlib.Path(name).write_text(_features.as_json(found), encoding="utf-8")

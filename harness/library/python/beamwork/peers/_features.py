@@ -10,11 +10,13 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from typing import Any
 
 from .. import Scene, version
+from ..errors import Refused
 from ..program import run as program
 from ._rounds import Series
 
 L, E, G, A, I, IT, RHO = 1.0, 2e11, 8e10, 1e-2, 2e-6, 3e-6, 8000.0
 EA, EI, GIT, GA = E * A, E * I, G * IT, 1e7
+F = 1e3  # load of the scenes with small displacements
 FINE, WORKS = (16, 32), 0.01  # meshes; largest error with which a feature works
 _HALVED = 0.7  # the error on the finer mesh, relative to that on the coarser one, is below this if the values converge
 
@@ -41,11 +43,15 @@ def _tip(component: str) -> dict[str, Any]:
     return {"displacement": {"node": "tip", "component": component}}
 
 
+def _linear(load: Mapping[str, Any], component: str, **section: Any) -> Scene:
+    return _cantilever({"load": {"on": "tip", **load}}, {"linear": {}}, _tip(component), **section)
+
+
 def _shear() -> Scene:
     D = [GA / G, 0, 0, 0, GA / G, 0, 0, 0, 1]
     constants = {"A": A, "Iy": I, "Iz": I, "It": IT, "Ip": 2 * I, "D": D}
     section = {"constants": constants, "young": E, "shear_modulus": G}
-    return _cantilever({"F": {"force": [0, 1, 0], "on": "tip"}}, {"linear": {}}, _tip("uy"), section=section)
+    return _linear({"force": [0, F, 0]}, "uy", section=section)
 
 
 def _coupled() -> Scene:
@@ -53,28 +59,28 @@ def _coupled() -> Scene:
     for i, value in enumerate((EA, GA, GA, GIT, EI, EI)):
         K[7 * i] = value
     K[5] = K[30] = 0.5 * math.sqrt(EA * EI)
-    return _cantilever({"F": {"force": [1, 0, 0], "on": "tip"}}, {"linear": {}}, _tip("rz"), section={"stiffness": K})
+    return _linear({"force": [F, 0, 0]}, "rz", section={"stiffness": K})
 
 
 def _coupled_value() -> float:
     """Returns the rotation of the tip: the compliance between axial force and curvature, times the length."""
     c = 0.5 * math.sqrt(EA * EI)
-    return -c / (EA * EI - c * c) * L
+    return -c / (EA * EI - c * c) * F * L
 
 
 def _arc() -> Scene:
     """A quarter of a circle of radius 1 from the origin, in the xy plane, under a force at its end along y."""
-    made = _cantilever({"F": {"force": [0, 1, 0], "on": "tip"}}, {"linear": {}}, _tip("uy"))
+    made = _linear({"force": [0, F, 0]}, "uy")
     made.nodes["tip"]["at"] = [1, 1, 0]
     made.members["bar"]["curvature"] = [0, 0, 1]
     return made
 
 
-def _warping(clamped: bool) -> Scene:
+def _warping() -> Scene:
     constants = {"A": A, "Iy": I, "Iz": I, "It": IT, "Ip": 2 * I, "Iw": GIT * L**2 / 9 / E}  # k L = 3
     section = {"constants": constants, "young": E, "shear_modulus": G}
-    made = _cantilever({"T": {"moment": [1, 0, 0], "on": "tip"}}, {"linear": {}}, _tip("rx"), section=section)
-    made.members["bar"]["warping"] = ["fixed" if clamped else "free", "free"]
+    made = _linear({"moment": [F, 0, 0]}, "rx", section=section)
+    made.members["bar"]["warping"] = ["fixed", "free"]
     return made
 
 
@@ -83,8 +89,8 @@ def _buckling() -> Scene:
 
 
 def _compliance() -> Scene:
-    made = _cantilever({"F": {"force": [0, 0, 1e-3], "on": "tip"}}, {"static": {"stations": [1]}},
-                       {"compliance": {"row": "uz", "column": "uz"}})
+    made = _cantilever({"F": {"force": [0, 1e-3, 0], "on": "tip"}}, {"static": {"stations": [1]}},
+                       {"compliance": {"row": "uy", "column": "uy"}})
     made.analyses["c"] = {"compliance": {"about": "a", "node": "tip"}}
     made.quantities["q"]["compliance"]["analysis"] = "c"
     return made
@@ -107,17 +113,15 @@ def _flying() -> Scene:
 _BENT = EI * math.pi / 2 / L  # moment that bends the cantilever to a quarter of a circle
 _ARC = (3 * math.pi / 4 - 2) / EI + math.pi / 4 / EA  # integrals of (1 - sin s)^2/EI and sin(s)^2/EA over the quarter of a circle
 CASES: tuple[Case, ...] = (
-    ("bending", "linear cantilever under a tip force", lambda: _cantilever(
-        {"F": {"force": [0, 0, 1], "on": "tip"}}, {"linear": {}}, _tip("uz")), L**3 / 3 / EI),
-    ("torsion", "linear cantilever under a torque", lambda: _cantilever(
-        {"T": {"moment": [1, 0, 0], "on": "tip"}}, {"linear": {}}, _tip("rx")), L / GIT),
-    ("shear", "linear cantilever, flexible in shear", _shear, L**3 / 3 / EI + L / GA),
-    ("distributed load", "linear cantilever under a uniform load", lambda: _cantilever(
-        {"q": {"distributed": [0, 1, 0], "on": "bar"}}, {"linear": {}}, _tip("uy")), L**4 / 8 / EI),
+    ("bending", "cantilever under a small tip force", lambda: _linear({"force": [0, F, 0]}, "uy"), F * L**3 / 3 / EI),
+    ("torsion", "cantilever under a small torque", lambda: _linear({"moment": [F, 0, 0]}, "rx"), F * L / GIT),
+    ("shear", "cantilever, flexible in shear, under a small tip force", _shear, F * (L**3 / 3 / EI + L / GA)),
+    ("distributed load", "cantilever under a small uniform load", lambda: _cantilever(
+        {"q": {"distributed": [0, F, 0], "on": "bar"}}, {"linear": {}}, _tip("uy")), F * L**4 / 8 / EI),
     ("prescribed displacement", "reaction at the tip of a cantilever that is displaced there", _prescribed, 1e-4 * 3 * EI / L**3),
     ("coupled section", "rotation under an axial force, if the section couples axial force and bending", _coupled, _coupled_value()),
-    ("initial curvature", "quarter of a circle under a force at its end", _arc, _ARC),
-    ("warping", "torsion of a cantilever whose root does not warp, k L = 3", lambda: _warping(True), L / GIT * (1 - math.tanh(3) / 3)),
+    ("initial curvature", "quarter of a circle under a small force at its end", _arc, F * _ARC),
+    ("warping", "torsion of a cantilever whose root does not warp, k L = 3", _warping, F * L / GIT * (1 - math.tanh(3) / 3)),
     ("large displacements, plane", "cantilever bent to a quarter of a circle by a moment about z", lambda: _cantilever(
         {"M": {"moment": [0, 0, _BENT], "on": "tip"}}, {"static": {"stations": [1]}}, _tip("uy")), 2 * L / math.pi),
     ("large displacements, space", "the same, about y", lambda: _cantilever(
@@ -129,6 +133,21 @@ CASES: tuple[Case, ...] = (
      1.8751040687119611**2 / (2 * math.pi * L**2) * math.sqrt(EI / RHO / A)),
     ("motion", "rod that a force accelerates along its axis for 0.1 s, at the end of this time", _flying, 0.5 * 0.1**2),
 )
+
+
+def adapted(make: Callable[[], Scene], element: Any) -> Scene:
+    """Returns the scene for an element. Without a linear analysis, it is static. It is plane if the element is plane and the
+    scene permits it."""
+    made = make()
+    if made.analyses["a"] == {"linear": {}} and "linear" not in element.analyses:
+        made.analyses["a"] = {"static": {"stations": [1]}}
+    if "plane" in element.summary and "plane" in element.keys:
+        made.plane = "xy"
+        try:
+            made.write()
+        except Refused:  # the loads are not in this plane
+            made.plane = ""
+    return made
 
 
 def _data(made: Scene) -> dict[str, Any]:
@@ -160,15 +179,14 @@ def outcome(series: Series, exact: float) -> str:
     return "no answer"
 
 
-def measure(peers: Sequence[tuple[str, str]], solve: Callable[..., Series], limit: float,
+def measure(peers: Sequence[tuple[str, str, Any]], solve: Callable[..., Series], limit: float,
             progress: Callable[[str], None]) -> dict[str, Any]:
-    """Tries all features with all elements."""
+    """Tries all features with all elements, (peer, name, Element)."""
     rows: dict[tuple[str, str], dict[str, Any]] = {}
     for name, _, make, exact in CASES:
-        data = _data(make())
-        for peer, element in peers:
+        for peer, element, declared in peers:
             progress(f"{name}: {peer}:{element}")
-            series = solve(data, peer, element, FINE, 1, limit)
+            series = solve(_data(adapted(make, declared)), peer, element, FINE, 1, limit)
             row = rows.setdefault((peer, element), {"name": series.program, "version": "", "outcomes": {}})
             row["version"] = series.version or row["version"]
             row["outcomes"][name] = outcome(series, exact)

@@ -56,7 +56,7 @@ def _one(scene: Scene, formulation: str, n: int) -> tuple[float, float, Any]:
     while result is None or time.perf_counter() - begun < ROUND:
         start = clock()
         try:
-            result = scene.solve(formulation, n, threads=1)
+            result = scene.solve(formulation, n, threads=1, stability=False)
         except NoValue as error:  # only some of the quantities have a value
             result = error.result
             if result is None:
@@ -73,11 +73,12 @@ def _one(scene: Scene, formulation: str, n: int) -> tuple[float, float, Any]:
 def solved(_peer: Any, scenes: Mapping[str, Scene], formulation: str, n: int) -> dict[str, Any]:
     """Solves one mesh, as _solved() of run.py does."""
     setup, seconds, result = _one(scenes[""], formulation, n)
-    times = {"": seconds}
+    times, systems = {"": seconds}, {}
     for name, scene in scenes.items():
         if name:
-            times[name] = seconds if scene is scenes[""] else _one(scene, formulation, n)[1]
+            _, times[name], own = (setup, seconds, result) if scene is scenes[""] else _one(scene, formulation, n)
+            systems[name] = own.cell["factorisations"]
     curves = {name: [list(pair) for pair in zip(*(axis.tolist() for axis in result.curve(name)))] for name in result.curves}
     values = {name: value for name, value in {**result.values, **curves}.items() if isinstance(value, list) or math.isfinite(value)}
     return {"setup": setup, "seconds": seconds, "times": times, "unknowns": result.cell["free"], "settings": "defaults",
-            "iterations": result.cell["solutions"], "values": values, "refused": {}}
+            "iterations": result.cell["factorisations"], "systems": systems, "values": values, "refused": {}}

@@ -38,6 +38,14 @@ def time_of(run: Mapping[str, Any], analysis: str) -> float:
     return float(times.get(analysis, times.get("", math.nan)))
 
 
+def systems_of(run: Mapping[str, Any], analysis: str) -> int | None:
+    """Returns the number of equation systems solved for the quantities of an analysis; None: unknown."""
+    systems = run["systems"]
+    if isinstance(systems, Mapping):
+        systems = systems.get(analysis, systems.get(""))
+    return None if systems is None else int(systems)
+
+
 def _why_not(series: Mapping[str, Any], quantity: str, level: float) -> str:
     if series["missing"]:
         return str(series["missing"])
@@ -63,7 +71,8 @@ def _reason(first: Mapping[str, Any], ours: Mapping[str, Any] | None) -> str:
     if ours is None:
         return "no formulation of beamwork reaches this error on these meshes"
     parts = [f"{first[key]} {word} against {ours[key]}" for key, word in
-             (("elements", "elements"), ("unknowns", "unknowns"), ("systems", "systems solved")) if first[key] < ours[key]]
+             (("elements", "elements"), ("unknowns", "unknowns"), ("systems", "systems solved"))
+             if first[key] and ours[key] and first[key] < ours[key]]
     return f"{', '.join(parts) or 'less time for each system of equations'} ({ours['name']})"
 
 
@@ -77,7 +86,7 @@ def rank(record: Mapping[str, Any], quantity: Mapping[str, Any], level: float) -
             others.append([series["name"], _why_not(series, quantity["name"], level)])
             continue
         rows.append({"name": series["name"], "ours": series["ours"], "unranked": series.get("unranked", ""),
-                     "elements": run["elements"], "unknowns": run["unknowns"], "systems": run["systems"],
+                     "elements": run["elements"], "unknowns": run["unknowns"], "systems": systems_of(run, quantity["analysis"]),
                      "error": run["errors"][quantity["name"]], "time": time_of(run, quantity["analysis"])})
     rows.sort(key=lambda row: (bool(row["unranked"]), math.isnan(row["time"]), row["time"],
                                (row["unknowns"] or 0) * (row["systems"] or 0)))

@@ -55,7 +55,8 @@ def _run(run: Mapping[str, Any], unit: float, errors: Mapping[tuple[str, int], f
     n = run["elements"]
     if "values" not in run:
         return {"elements": n, **{word: run[word] for word in ("refusal", "failure") if word in run}}
-    return {"elements": n, "unknowns": run["unknowns"] or None, "systems": run["iterations"] or None,
+    return {"elements": n, "unknowns": run["unknowns"] or None,
+            "systems": {a: count or None for a, count in {**run.get("systems", {}), "": run["iterations"]}.items()},
             "setup": _rounded(run["setup"] / unit), "times": {a: _rounded(t / unit) for a, t in run["times"].items()},
             "errors": {q: _rounded(e) for (q, elements), e in errors.items() if elements == n and e is not None},
             "values": {q: v for q, v in run["values"].items() if not isinstance(v, list)}}

@@ -112,9 +112,10 @@ def _solved(peer: Any, scene: Scene, name: str, n: int, known: _Steps) -> dict[s
         built, one, answers, model = _once(peer, scene, name, mesh, with_steps(groups, steps))
         setup, took = min(setup, built), least(took, one)
     times = {a: took[a] + took.get(about.get(a, ""), 0.0) for a in took if a in asked}
+    solved = {a: sum(answers[b].iterations for b in (a, about.get(a, "")) if b in answers) for a in times}
     return {"setup": setup, "seconds": sum(took.values()), "times": {**times, "": sum(took.values())},
             "unknowns": model.unknowns, "settings": "; ".join(filter(None, (model.settings, note))),
-            "iterations": sum(a.iterations for a in answers.values()), **_values(scene, element, answers)}
+            "iterations": sum(a.iterations for a in answers.values()), "systems": solved, **_values(scene, element, answers)}
 
 
 def _mesh(peer: Any, scene: Any, name: str, n: int, known: _Steps) -> dict[str, Any]:
