@@ -29,8 +29,8 @@ static status check(const scene *s, const scene_quantity *q, fault *f)
     return q->what.of.relative.node != q->what.of.relative.from
                ? STATUS_OK
                : fault_set(f, STATUS_REFUSED,
-                           "quantity %s: the relative coordinate does not exist; name two "
-                           "nodes, and a component from UX to RZ",
+                           "quantity %s: 'node' and 'from' are the same node, whose relative "
+                           "motion is 0; name two nodes",
                            q->name);
 }
 

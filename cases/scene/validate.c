@@ -214,10 +214,11 @@ static status check_range(const scene *s, int i, fault *f)
                          "%s: only a distributed load can vary along its member; remove 'to_value'",
                          scene_called(s, SCENE_LOADS, i).text);
     if (load->lumped && (!scene_load_along(load) || within))
-        return fault_set(f, STATUS_REFUSED,
-                         "%s: the load acts at one position, but only distributed loads can be "
-                         "lumped; remove 'lumped'",
-                         scene_called(s, SCENE_LOADS, i).text);
+        return fault_set(
+            f, STATUS_REFUSED,
+            "%s: the load acts at one position, but only distributed loads, and gravity "
+            "on members, can be lumped; remove 'lumped'",
+            scene_called(s, SCENE_LOADS, i).text);
     if (within)
         return r[0] >= 0 && r[0] <= 1 && r[1] == r[0]
                    ? STATUS_OK

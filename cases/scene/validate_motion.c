@@ -10,7 +10,7 @@ static status check_steps(const scene *s, const scene_motion *m, int i, fault *f
                          scene_called(s, SCENE_ANALYSES, i).text, m->step);
     if (!(m->tolerance >= 0 && m->tolerance < 1))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the tolerance is %g; give a fraction of the size of the structure, "
+                         "%s: the tolerance is %g; give a fraction of the largest displacement, "
                          "such as 1e-4, or 0 for equal steps",
                          scene_called(s, SCENE_ANALYSES, i).text, m->tolerance);
     for (int k = 0; k < m->path.stations; k++)
@@ -84,8 +84,8 @@ static status check_follows(const scene *s, int i, fault *f)
         s->analysis[follows].kind != SCENE_ROTATION && s->analysis[follows].kind != SCENE_MOTION)
         return fault_set(f, STATUS_REFUSED,
                          "%s: a motion starts from the last state of a static path, a "
-                         "continuation, a rotation or a motion, but this motion follows %s; name "
-                         "one of these analyses, or remove 'about'",
+                         "continuation, a rotation or a motion, but 'about' names an analysis of "
+                         "the kind '%s'; name one of these analyses, or remove 'about'",
                          scene_called(s, SCENE_ANALYSES, i).text,
                          scene_analysis_name(s->analysis[follows].kind));
     if (follows != SCENE_NONE && s->analysis[follows].kind == SCENE_MOTION)
@@ -376,17 +376,16 @@ static status check_about(const scene *s, const scene_analysis *a, int i, fault 
     if (a->kind == SCENE_HARMONIC)
         return fault_set(
             f, STATUS_REFUSED,
-            "%s: a harmonic analysis is about the last state of a static path or a rotation, or "
-            "about a linear analysis, but %s is a %s analysis; name one of these, or remove "
-            "'about'",
+            "%s: a harmonic analysis is about a static or linear analysis, a rotation, or an "
+            "instant of a motion, but %s is a %s analysis; name one of these, or remove 'about'",
             scene_called(s, SCENE_ANALYSES, i).text, scene_name(s, SCENE_ANALYSES, a->follows).text,
             scene_analysis_name(about));
     return fault_set(f, STATUS_REFUSED,
-                     "%s: %s require the last state of a static path%s as their base state, but %s "
-                     "is a %s analysis; name a static analysis, or remove 'about'%s",
+                     "%s: %s, but %s is a %s analysis; name a static analysis, or remove 'about'%s",
                      scene_called(s, SCENE_ANALYSES, i).text,
-                     a->kind == SCENE_MODAL ? "frequencies" : "critical loads",
-                     a->kind == SCENE_MODAL ? ", or a linear analysis" : "",
+                     a->kind == SCENE_MODAL
+                         ? "a modal analysis is about a static or linear analysis"
+                         : "a buckling analysis is about a static analysis",
                      scene_name(s, SCENE_ANALYSES, a->follows).text, scene_analysis_name(about),
                      about == SCENE_ROTATION && a->kind == SCENE_MODAL
                          ? ", or request the frequencies of the rotation itself"

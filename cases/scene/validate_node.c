@@ -81,8 +81,8 @@ static status check_body(const scene *s, int i, fault *f)
                          scene_called(s, SCENE_NODES, i).text);
     if (!scene_is_joined(s, i) && !scene_is_constrained(s, i, ~0u))
         return fault_set(f, STATUS_REFUSED,
-                         "%s: the mass is not connected; join a member or a spring to the node, or "
-                         "remove the mass",
+                         "%s: the body is not connected; join a member or a spring to the node, or "
+                         "remove its mass and inertia",
                          scene_called(s, SCENE_NODES, i).text);
     return STATUS_OK;
 }
@@ -193,7 +193,8 @@ static status check_turns(const scene *s, int i, fault *f)
         double axis[3];
         axis_of(n, k, axis);
         if (n->angle[k] >= 0 && is_beside(s, axis))
-            return refuse(s, scene_called(s, SCENE_NODES, i), "it is rotated out of the plane", f);
+            return refuse(s, scene_called(s, SCENE_NODES, i),
+                          "a rotation out of the plane is prescribed", f);
         if (n->angle[k] == SCENE_FREE && is_beside(s, axis) && is_across(s, axis))
             return refuse(s, scene_called(s, SCENE_NODES, i),
                           "it rotates about an axis that is neither in the plane nor normal to it",
@@ -225,7 +226,7 @@ static status check_node(const scene *s, int i, fault *f)
         along = is_across(s, axis) ? k : along;
     }
     if (n->translation[along] >= 0)
-        return refuse(s, owner_name, "it is prescribed out of the plane", f);
+        return refuse(s, owner_name, "a displacement out of the plane is prescribed", f);
     if (scene_has_body(n) && is_across(s, n->body.centre))
         return refuse(s, owner_name, "the centre of its body is outside the plane", f);
     return check_turns(s, i, f);
@@ -284,7 +285,7 @@ static status check_member(const scene *s, int i, fault *f)
     if (is_across(s, strain))
         return refuse(s, owner_name, "its initial strain leaves the plane", f);
     if (is_across(s, m->offset[0]) || is_across(s, m->offset[1]))
-        return refuse(s, owner_name, "one of its ends is outside the plane", f);
+        return refuse(s, owner_name, "an offset of its ends leaves the plane", f);
     return check_release(s, i, R, f);
 }
 
@@ -309,7 +310,9 @@ static status check_load(const scene *s, int i, fault *f)
     for (int k = 0; k < 2; k++)
         if (turns ? is_beside(s, v[k]) : is_across(s, v[k]))
             return refuse(s, owner_name,
-                          turns ? "it rotates out of the plane" : "it acts out of the plane", f);
+                          turns ? "its moment is not about the normal of the plane"
+                                : "it acts out of the plane",
+                          f);
     return is_across(s, at) ? refuse(s, owner_name, "it acts outside the plane", f) : STATUS_OK;
 }
 

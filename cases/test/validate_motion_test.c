@@ -209,7 +209,7 @@ static const refusal refusals[] = {
     {integrator_unknown, "analysis 1: ", "unknown integrator"},
     {starts_nowhere, "analysis 1: ", "spin = nan"},
     {without_mass, "analysis 1: ", "the structure has no mass"},
-    {after_linear, "analysis 2: ", "but this motion follows linear"},
+    {after_linear, "analysis 2: ", "of the kind 'linear'"},
     {modes_of_motion, "analysis 2: ", "at an instant of a motion"},
     {unknown_driver, "motion slide: ", "its value is unknown"},
     {values_over_no_path, "motion push: ", "its values are given over a path"},
@@ -222,7 +222,7 @@ static const refusal refusals[] = {
     {pieces_fall, "load 0: ", "piece 2 ends at 1 s, not after"},
     {load_without_value, "load 0: ", "at 0 s the factor is not finite"},
     {idle_function, "load 0: ", "no analysis is a motion"},
-    {relative_to_itself, "quantity asked: ", "the relative coordinate does not exist"},
+    {relative_to_itself, "quantity asked: ", "are the same node"},
     {orientation_of_nothing, "quantity asked: ", "row: the value 3 is invalid; give one of x|y|z"},
     {rate_of_nothing, "quantity asked: ", "node: node 9 does not exist"},
     {rate_at_rest, "quantity v: ", "does not provide this kind"},
@@ -392,7 +392,7 @@ static const refusal node_refusals[] = {
     {centre_of_nothing, "node 1: ", "a centre is given without a mass"},
     {no_triangle, "node 1: ", "no body has this inertia"},
     {products_too_large, "node 1: ", "no body has this inertia"},
-    {loose_mass, "node 3: ", "the mass is not connected"},
+    {loose_mass, "node 3: ", "the body is not connected"},
 };
 
 static void validate_node_tests(void)

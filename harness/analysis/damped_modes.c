@@ -140,10 +140,10 @@ status harmonic_check_growth(vibration *v, double below, fault *f)
     m = calloc(1, sizeof *m);
     status outcome = m != NULL ? find_damped(v, m, below, &r, f) : no_memory(f);
     if (outcome == STATUS_OK && r.lost > 0)
-        outcome = fault_set(
-            f, STATUS_NOT_CONVERGED,
-            "it is not known whether the feedback loop is stable, because a slow mode is lost in "
-            "round-off; use larger integral gains, no integral gains, or fewer elements");
+        outcome = fault_set(f, STATUS_NOT_CONVERGED,
+                            "it is not known whether vibrations decay, because a slow mode is lost "
+                            "in round-off; use "
+                            "fewer elements or, with feedback, larger integral gains or none");
     for (int i = 0; i < r.count; i++)
         if (grows(v, &r, i) &&
             (v->about == NULL || hypot(r.growth[i], r.frequency[i]) <= 2 * PI * below))

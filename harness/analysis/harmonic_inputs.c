@@ -66,7 +66,7 @@ status harmonic_input(const vibration *v, const scene_response *r, double w, dou
         }
     return moves ? STATUS_OK
                  : fault_set(f, STATUS_REFUSED,
-                             "%s is fixed or driven, so a force along it has no effect; name "
+                             "a force along a fixed or driven component of %s has no effect; name "
                              "another component, or a motion with 'drive'",
                              scene_called(model_scene(m), SCENE_NODES, node).text);
 }

@@ -59,9 +59,13 @@ static void show_numbers(const formulation *chosen)
     printf("  element: %ld nodes, %ld generalized strains", nodes, strains);
     printf(inner > 0 ? ", %ld internal unknowns\n" : "\n", inner);
     for (int i = 0; i < 4; i++) {
-        const long least = declared(chosen, order[i][0], &v);
-        used += snprintf(orders + used, sizeof orders - (size_t)used, "%s%ld to %ld in %s",
-                         i > 0 ? ", " : "", least, declared(chosen, order[i][1], &v), analysis[i]);
+        const long least = declared(chosen, order[i][0], &v),
+                   highest = declared(chosen, order[i][1], &v);
+        used += snprintf(orders + used, sizeof orders - (size_t)used, "%s%ld", i > 0 ? ", " : "",
+                         least);
+        if (highest > least)
+            used += snprintf(orders + used, sizeof orders - (size_t)used, " to %ld", highest);
+        used += snprintf(orders + used, sizeof orders - (size_t)used, " in %s", analysis[i]);
     }
     paragraph_write(stdout, printf("  order of convergence: "), 4, orders);
 }
@@ -162,7 +166,7 @@ static void list_formulation(const formulation *chosen, const rule *rules, int c
     show_declared(chosen, "family", "family");
     show_numbers(chosen);
     show_declared(chosen, "shear in stability", "shear_theory");
-    show_declared(chosen, "restricted to", "limits");
+    show_declared(chosen, "limitations", "limits");
     show_declared(chosen, "does not model", "lacks");
     show_features("supports", t->offers & ~theories);
     show_features("does not support", ~t->offers & (FEATURE_END - 1) & ~theories);

@@ -17,15 +17,19 @@ const char *const results_about[] = {
     "column 'unit'.",
     "curve_x, curve_value: points of all curves of a case, one curve after the other.",
     "shapes/POINT (verify --shapes, solve --shapes; attributes formulation, elements): members "
-    "(nodes p, q, section), first_point, bodies of the nodes (body or -1, fixed components as "
-    "bits), released (components at both ends of members, as bits), sections/I and, for tapered "
-    "members, far_ends/MEMBER (corners of walls, y and z in m). For each state: kind, acting (load "
-    "case or combination), analysis, value and scale; with [states x points] position, orientation "
-    "(quaternion), force, moment and bimoment; with [states x nodes] nodes (positions of the "
+    "(end nodes p and q, section), first_point (index of the first point of each member, then "
+    "the number of points), bodies "
+    "of the nodes (body or -1, fixed components as bits), released (released components at both "
+    "ends of each member, as bits), sections/I and, for tapered members, far_ends/MEMBER (corners "
+    "of walls, y and z in m). For each state: kind, acting (load "
+    "case or combination), analysis, value and scale; with [states x points]: position, "
+    "orientation "
+    "(quaternion), force, moment and bimoment; with [states x nodes]: nodes (positions of the "
     "nodes).",
     "The table 'points' also has a column for each parameter of the case. The keys are point, "
     "formulation and elements.",
-    "/experiments/NAME contains the results of the verb NAME (option -o; all verbs except verify), "
+    "/experiments/NAME contains the results of the verb NAME (option -o of bench, converge, "
+    "element-test, motion, stress and sweep), "
     "with the root attributes of the run. A later run of the same experiment replaces its group; "
     "verify replaces everything outside /experiments. bench and converge: declarations and "
     "cases/CASE, as in the root. The tables of the other verbs also have the fields marked * as "

@@ -291,7 +291,9 @@ static const schema_field fields_of_measure[] = {
      AT(element_measure, highest)},
     {"locks", "", FIELD_FLAG, "true if the errors increase as the structure becomes thinner",
      AT(element_measure, locks)},
-    {"wrong_limit", "", FIELD_FLAG, "true if a linear state has the same error on every mesh",
+    {"wrong_limit", "", FIELD_FLAG,
+     "true if the error of a linear state is above 1e-6 with four elements, and more than half "
+     "of that with one element",
      AT(element_measure, wrong_limit)},
     {"words", "", FIELD_TEXT, "reason for a missing value, or description of the value",
      AT(element_measure, words)},

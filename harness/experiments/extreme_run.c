@@ -320,9 +320,9 @@ static const schema_field fields_of_extreme[] = {
     {"case", "", FIELD_TEXT, "case at the extreme", TEXT_OF(RECORD, extreme, base)},
     {"fixed", "", FIELD_TEXT, "parameters that differ from the defaults",
      TEXT_OF(RECORD, extreme, fixed)},
-    {"x_name", "", FIELD_TEXT, "extreme value", TEXT_OF(RECORD, extreme, x_name)},
+    {"x_name", "", FIELD_TEXT, "name of the varied value", TEXT_OF(RECORD, extreme, x_name)},
     {"x_unit", "", FIELD_TEXT, "unit of the varied value", TEXT_OF(RECORD, extreme, x_unit)},
-    {"judge", "", FIELD_ENUM, "base value: an exact value, or the value at another x",
+    {"judge", "", FIELD_ENUM, "reference of the error: an exact value, or the value at another x",
      AT(extreme, criterion), .word = word_of_criterion, .words = EXTREME_SAME + 1},
     {"tolerance", "1", FIELD_DOUBLE, "relative tolerance of a value", AT(extreme, tolerance)},
     {0}};

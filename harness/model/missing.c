@@ -84,7 +84,8 @@ int lacks_of(const scene *s, const element_type *type, char *words, int size)
         return 0;
     const double phi = phi_along_y(s);
     snprintf(words, (size_t)size,
-             "shear flexibility along y (%s), %.2g of the deflection of a beam guided at both ends",
+             "shear flexibility along y (%s; in a beam guided at both ends, %.2g of the bending "
+             "deflection)",
              type->lacks_by, phi);
     return phi > largest_phi ? 2 : 1;
 }

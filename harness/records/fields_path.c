@@ -350,21 +350,26 @@ static void get_limits(const subject *s, field_value *out)
         unsigned bit;
         const char *words;
     } limit[] = {
-        {LIMIT_DOUBLY_SYMMETRIC, "the shear centre is at the centroid, and shear is not coupled"},
-        {LIMIT_ORDER_DEPENDENT, "exchanging the ends of an element changes the result; the "
-                                "difference vanishes with more elements"},
-        {LIMIT_QUARTER_TURN, "relative rotation of the ends of an element below a quarter turn"},
-        {LIMIT_HALF_TURN, "relative rotation of the ends of an element below half a turn"},
-        {LIMIT_TENSION,
-         "no element is so long that its axial force makes its transverse stiffness indefinite"},
-        {LIMIT_EIGHTH_TWIST, "twist of an element below an eighth of a turn"},
-        {LIMIT_NOT_OBJECTIVE, "rigid rotations of a deformed element change its strains; the error "
-                              "may remain on fine meshes"},
-        {LIMIT_PATH_DEPENDENT, "the strains depend on the path that led to a state; the error "
-                               "may remain on fine meshes"},
-        {LIMIT_WARPING_RIGID, "no shear deformation due to warping"},
-        {LIMIT_FLAT_ARC, "the arc of a curved element rises by less than 2 radii of gyration of "
-                         "its section (of a leaf: 0.58 thicknesses)"},
+        {LIMIT_DOUBLY_SYMMETRIC,
+         "the shear centre must be at the centroid, and shear must not be coupled"},
+        {LIMIT_ORDER_DEPENDENT, "exchanging the ends of an element changes the result by an error "
+                                "that vanishes with more elements"},
+        {LIMIT_QUARTER_TURN,
+         "the relative rotation of the ends of an element must stay below a quarter turn"},
+        {LIMIT_HALF_TURN,
+         "the relative rotation of the ends of an element must stay below half a turn"},
+        {LIMIT_TENSION, "an element must not be so long that its axial force makes its transverse "
+                        "stiffness indefinite"},
+        {LIMIT_EIGHTH_TWIST, "the twist of an element must stay below an eighth of a turn"},
+        {LIMIT_NOT_OBJECTIVE,
+         "rigid rotations of a deformed element change its strains, by an error "
+         "that may remain on fine meshes"},
+        {LIMIT_PATH_DEPENDENT, "the strains depend on the path that led to a state, with an error "
+                               "that may remain on fine meshes"},
+        {LIMIT_WARPING_RIGID, "shear deformation due to warping is omitted"},
+        {LIMIT_FLAT_ARC,
+         "the arc of a curved element must rise by less than 2 radii of gyration of "
+         "its section (of a leaf: 0.58 thicknesses)"},
     };
     size_t used = 0;
     out->room[0] = '\0';
@@ -488,7 +493,7 @@ static const schema_field fields[] = {
      .get = get_process},
     {"is_new", "", FIELD_FLAG,
      "1 if the formulation is not accepted yet; its verdicts then affect the exit status only if "
-     "-f names it",
+     "-f names it or --element loads it",
      .get = get_is_new},
     {"shear_theory", "", FIELD_TEXT, "shear theory in stability", .get = get_theory},
     {"statics_least", "1", FIELD_INT, "order of convergence in statics", .get = get_order},

@@ -563,7 +563,7 @@ quantities:
         held = reading("u", component="uy", force="root", along="uy")
         buckled = "loads: {push: {force: [-2000, 0, 0], on: tip}, aside: {force: [0, 0.1, 0], on: tip}}"
         for text, words in (
-                (BEAM % ("hold: all", "", "", "", held), "root is fixed or driven, so a force along it has no effect"),
+                (BEAM % ("hold: all", "", "", "", held), "a force along a fixed or driven component of node root has no effect"),
                 (BEAM % ("hold: all", "", "", "", "  n: {internal: {analysis: steady, member: m, resultant: Mz, where: 0}}"),
                  "put a stiff spring between two nodes there"),
                 (BEAM % ("hold: all", buckled, "  before: {static: {stations: [1], steps: 4}}", ", about: before", FORCED),
