@@ -135,7 +135,7 @@ def profile_of(site, records, level):
 def winners(record):
     """Returns [(quantity, [(level, first row or None, best row of the other side or None)])]."""
     out = []
-    for q in peers_data.known(record):
+    for q in peers_data.known(record)[:DRAWN]:
         cells = []
         for level in LEVELS:
             rows = [r for r in ranking.rank(record, q, level)["rows"] if math.isfinite(r["time"]) and not r["unranked"]]
@@ -154,7 +154,7 @@ def write(site):
     outcome = {(r["case"], r["parameters"], s["name"]): why for r in records for s, why in peers_data.outcomes(r)}
     site.write("peers.html", "peers.html", records=records, figures=figures, ahead=peers_data.ahead(records), winners=winners,
                everyone=everyone, versions=versions, outcome=outcome, features=peers_data.features(), escape=escape,
-               pages={c.name for c in site.cases})
+               pages={c.name for c in site.cases}, known=peers_data.known, drawn=DRAWN)
 
 
 def tasks(site):
