@@ -288,8 +288,8 @@ static const entry_field harmonic[] = {
                 "and springs",
      .left_out = "none"},
     LOOPS,
-    ABOUT("static or linear analysis, whose last state is the base state; or motion, whose state "
-          "at 'time' is the base state"),
+    ABOUT("static or linear analysis or rotation, whose last state is the base state; or motion, "
+          "whose state at 'time' is the base state"),
     INSTANT,
     {.name = NULL}};
 

@@ -335,10 +335,16 @@ static int account_loses(const scene_motion *how)
 
 static const char *remedy(const scene_motion *how)
 {
-    if (how->tolerance <= 0)
-        return "give a smaller step, a tolerance, or the integrator radau or conserving";
-    return how->scheme == SCENE_CONSERVING
-               ? "give a smaller tolerance, or the integrator radau"
+    const int equal_steps = how->tolerance <= 0;
+    if (how->scheme == SCENE_CONSERVING)
+        return equal_steps ? "give a smaller step, a tolerance, or the integrator radau"
+                           : "give a smaller tolerance, or the integrator radau";
+    if (how->scheme == SCENE_RADAU)
+        return equal_steps ? "give a smaller step, a tolerance, or the integrator conserving"
+                           : "give a smaller tolerance, or the integrator conserving, which "
+                             "conserves energy";
+    return equal_steps
+               ? "give a smaller step, a tolerance, or the integrator radau or conserving"
                : "give a smaller tolerance, or the integrator conserving, which conserves energy";
 }
 

@@ -72,7 +72,8 @@ static const struct {
      "which is 1.1 % of the largest energy or work so far, 10 J"},
     {0.11, 0, 0, 0.5, 1e-4, SCENE_ALPHA, "smaller tolerance"},
     {0.11, 0, 0, 0.9, 0, SCENE_ALPHA, "smaller step"},
-    {0.11, 0, 0, 0.9, 0, SCENE_RADAU, "smaller step"},
+    {0.11, 0, 0, 0.9, 0, SCENE_RADAU, "smaller step, a tolerance, or the integrator conserving"},
+    {0.11, 0, 0, 0.9, 0, SCENE_CONSERVING, "smaller step, a tolerance, or the integrator radau"},
     {0.11, 0, 0, 0.9, 1e-4, SCENE_EXPLICIT, "smaller tolerance"},
     {0.11, 0, 0, 0.9, 1e-4, SCENE_CONSERVING, "radau"},
     {0.11, 20, 0, 0.9, 1e-4, SCENE_ALPHA, NULL},
@@ -111,6 +112,8 @@ static void judged(void)
         gsl_test(row[i].words != NULL && strstr(f.text, row[i].words) == NULL, "row %d: %s", i,
                  f.text);
         gsl_test(row[i].words != NULL && strstr(f.text, "at 0.5 s") == NULL, "row %d: when", i);
+        gsl_test(row[i].by == SCENE_CONSERVING && strstr(f.text, "conserving") != NULL,
+                 "row %d names the integrator in use: %s", i, f.text);
     }
 }
 
