@@ -437,7 +437,7 @@ void builder_sections(builder *b)
         }
         if (spec.kind != SECTION_WALLS && fields_have(&f, "thickness_terms"))
             document_mistake(b->mistakes, document_find(f.map, "thickness_terms"), 0,
-                             "thickness terms apply only to walls; remove them");
+                             "thickness_terms: this key applies only to walls; remove it");
         builder_call(b, SCENE_SECTIONS, scene_add_section(b->scene, &spec), i);
         b->names = section_names_add(b->names, entry->name,
                                      known && !computed.matrices ? &computed : NULL, b->arena);

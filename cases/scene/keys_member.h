@@ -14,7 +14,7 @@ ROW("warping", ENTRY_FORMS,
         "warping at the ends: free, fixed or {shared: NAME}; [at from, at to] if they differ",
     .left_out =
         "fixed if all six components of the node are fixed or driven, if the node belongs to a "
-        "rigid body, or if the member has an offset there; shared if two members with the same "
+        "rigid body, or if a member has an offset at the node; shared if two members with the same "
         "section continue in one line; free otherwise, and if a rotation is released")
 /* curvatures about local y and z; interior nodes are on the arc */
 KEY(double, curvature, [3], "curvature", ENTRY_VECTOR, .count = 3, .unit = "1/m",
