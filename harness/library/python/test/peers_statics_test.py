@@ -3,8 +3,10 @@ skipped by name."""
 import importlib
 import json
 import math
+import os
 import types
 import unittest
+import unittest.mock
 
 import numpy as np
 
@@ -128,6 +130,69 @@ class Continuation(ModuleTest):
                 if found.missing:
                     self.skipTest(found.missing)
                 self.assertIn(word, str(found.runs[0].get("refusal", found.runs[0].get("refused"))))
+
+
+class OnPath(ModuleTest):
+    """A program on PATH: its absence, its version and its failure must be reported. A script stands for the program."""
+
+    def solved(self):
+        scene = json.loads(self.answered("scene", "elastica", "--format", "json").stdout)
+        return peers.solve(scene, "mbdyn", "beam3", [1], rounds=1)
+
+    def test_mbdyn(self):
+        with unittest.mock.patch.dict(os.environ, PATH=str(self.folder)):
+            self.assertIn("no program mbdyn on PATH", self.solved().missing)
+            script = self.folder / "mbdyn"
+            script.write_text('#!/bin/sh\n[ "$1" = --version ] && echo "MBDyn - MultiBody Dynamics 9.8" && exit\n'
+                              'echo "line 3: unknown word"\nexit 1\n', encoding="utf-8")
+            script.chmod(0o755)
+            found = self.solved()
+            self.assertEqual((found.version, found.missing), ("9.8", ""))
+            self.assertIn("line 3: unknown word", found.runs[0]["failure"])
+
+
+class MBDyn(ModuleTest):
+    """Bodies, prescribed rotations and loads along members."""
+
+    def value(self, made, *names):
+        place = self.folder / "scene.yaml"
+        made.write(place)
+        scene = json.loads(self.answered("scene", "--scene", place, "--format", "json").stdout)
+        found = peers.solve(scene, "mbdyn", "beam3", [8], rounds=1)
+        if found.missing:
+            self.skipTest(found.missing)
+        self.assertIn("values", found.runs[0], found.runs[0])
+        return [found.runs[0]["values"][name] for name in names]
+
+    def cantilever(self, name):
+        made = bw.Scene(name)
+        made.sections["bar"] = {"stiffness": [1e4, 1e6, 1e6, 2, 3, 1], "mass": [1] * 6}
+        made.nodes["root"], made.nodes["tip"] = {"at": [0, 0, 0], "hold": "all"}, {"at": [1, 0, 0]}
+        made.members["bar"] = {"from_": "root", "to": "tip", "section": "bar", "y": [0, 1, 0]}
+        made.analyses["path"] = {"static": {"stations": [1]}}
+        made.quantities["uy"] = {"displacement": {"analysis": "path", "node": "tip", "component": "uy"}, "unit": "m"}
+        return made
+
+    def test_distributed(self):
+        """Small loads along a cantilever: q L^4/8 EI and, for a triangle that grows to the tip, 11 q L^4/120 EI."""
+        made = self.cantilever("loads")
+        made.loads["q"] = {"distributed": [0, 1e-4, 0], "on": "bar"}
+        self.assertAlmostEqual(self.value(made, "uy")[0] / 1.25e-5, 1, delta=2e-3)
+        made.loads["q"] = {"distributed": [0, 0, 0], "to_value": [0, 1e-4, 0], "on": "bar"}
+        self.assertAlmostEqual(self.value(made, "uy")[0] / (11e-4 / 120), 1, delta=2e-3)
+
+    def test_body(self):
+        """A bar is clamped at one end; a body at the other end is turned by a prescribed rotation vector. The moment is
+        4 EI/L or GJ/L times the angle."""
+        for axis, stiffness in ((0, 2), (2, 4)):
+            made = self.cantilever("body")
+            made.nodes["hub"] = {"at": [1, 0, 0], "rotation": {"vector": ["m0", "m1", "m2"]}}
+            made.nodes["hub"]["hold"] = ["ux", "uy", "uz"]
+            made.nodes["tip"]["part_of"] = "hub"
+            for k in range(3):
+                made.motions[f"m{k}"] = {"path": [0, 1], "value": [0, 0.002 if k == axis else 0], "unit": "rad"}
+            made.quantities["M"] = {"reaction": {"analysis": "path", "node": "hub", "component": "r" + "xyz"[axis]}, "unit": "N m"}
+            self.assertAlmostEqual(self.value(made, "M")[0] / (stiffness * 0.002), 1, delta=5e-3)
 
 
 if __name__ == "__main__":

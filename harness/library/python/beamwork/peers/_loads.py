@@ -1,0 +1,69 @@
+"""Loads as forces and moments at the nodes of a mesh."""
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+from .data import Load, Mesh, MeshElement, Refused, times
+
+_GAUSS = ((-math.sqrt(0.6), 5 / 9), (0.0, 8 / 9), (math.sqrt(0.6), 5 / 9))
+KEYS = frozenset({"loads.distributed", "loads.distributed_moment", "loads.from", "loads.to", "loads.to_value", "loads.lumped",
+                  "loads.axes", "loads.where"})  # keys that `nodal` reads
+
+
+def _shapes(order: int, x: float) -> list[float]:
+    """Returns the values at x, from 0 to 1, of the polynomials that interpolate between the nodes of an element."""
+    at = [k / order for k in range(order + 1)]
+    return [math.prod((x - b) / (a - b) for b in at if b != a) for a in at]
+
+
+def _acts(load: Load, element: MeshElement) -> bool:
+    begin, end = load.raw.get("from", 0.0), load.raw.get("to", 1.0)
+    return element.member.name == load.member and begin - 1e-3 <= element.begin and element.end <= end + 1e-3
+
+
+def _place(load: Load, mesh: Mesh) -> int:
+    """Returns the node of the mesh at which a load within a member acts."""
+    where = float(load.raw["where"])
+    ends = [(abs(at - where), number) for e in mesh.elements if e.member.name == load.member
+            for at, number in ((e.begin, e.nodes[0]), (e.end, e.nodes[-1]))]
+    return min(ends)[1]
+
+
+def nodal(load: Load, mesh: Mesh) -> Mapping[int, Sequence[float]]:
+    """Returns the forces and moments [6] on nodes of the mesh at the factor 1. Loads along members are distributed with the
+    interpolation of the element, without moments of their own: results converge with order 2 for elements of two nodes."""
+    kind = load.kind
+    if kind not in ("force", "moment", "distributed", "distributed_moment"):
+        raise Refused(f"{kind}: the driver has forces and moments only")
+    first = 3 if kind.endswith("moment") else 0
+    out: dict[int, list[float]] = {}
+
+    def add(number: int, vector: Sequence[float], factor: float) -> None:
+        target = out.setdefault(number, [0.0] * 6)
+        for i in range(3):
+            target[first + i] += factor * vector[i]
+
+    own_axes = load.raw.get("axes") == "member"
+    if not kind.startswith("distributed"):
+        number = mesh.node_of[load.node] if load.node is not None else _place(load, mesh)
+        if own_axes:
+            if load.node is not None:
+                raise Refused(f"axes: {load.name} acts at a node")
+            frame = next(f for e in mesh.elements for n, f in zip(e.nodes, e.frames) if n == number and e.member.name == load.member)
+            add(number, times(frame, load.vector), 1.0)
+        else:
+            add(number, load.vector, 1.0)
+        return out
+    last = load.raw.get("to_value", load.vector)
+    begin, end = load.raw.get("from", 0.0), load.raw.get("to", 1.0)
+    for e in filter(lambda one: _acts(load, one), mesh.elements):
+        for place, weight in _GAUSS:
+            x = (1 + place) / 2
+            s = (e.begin + (e.end - e.begin) * x - begin) / (end - begin)
+            value = [a + (b - a) * s for a, b in zip(load.vector, last)]
+            if own_axes:
+                value = times(e.member.at((e.begin + (e.end - e.begin) * x) * e.member.length)[1], value)
+            for number, shape in zip(e.nodes, _shapes(len(e.nodes) - 1, x)):
+                add(number, value, weight / 2 * e.length * shape)
+    return out

@@ -1,0 +1,277 @@
+"""MBDyn, a program on PATH: geometrically exact beams of two and three nodes; statics. Each analysis is a run of the program
+on an input file, in which the time is the path."""
+from __future__ import annotations
+
+import math
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+from collections.abc import Iterable, Sequence
+
+from ._loads import KEYS, nodal
+from .data import (COMPONENTS, Analysis, Answer, Element, Failed, Load, Mesh, Model, Node, Refused, Scene, State, Vector,
+                   rotation_vector, times)
+
+NAME, PROGRAM, LICENCE = "mbdyn", "MBDyn", "GPL-2.0"
+HOMEPAGE = "https://www.mbdyn.org"
+REQUIRES = ()
+_OFFERS = frozenset({"shear", "large rotations", "coupled section"})
+_KEYS = KEYS | {"loads.follower", "nodes.part_of", "nodes.rotation", "plane"}
+ELEMENTS = {
+    "beam3": Element("geometrically exact, 3 nodes", _OFFERS, frozenset({"static"}), 2, _KEYS),
+    "beam2": Element("geometrically exact, 2 nodes", _OFFERS, frozenset({"static"}), 1, _KEYS),
+}
+_RIGID = 1e6  # shear stiffness of sections that are rigid in shear, over EI/length^2
+_FIRST, _MOST = 24, 1536  # steps of a path
+_TURN = 0.7  # [rad] with a larger rotation of a node in a step, Newton's method may find another equilibrium
+
+
+def _program() -> str:
+    found = shutil.which("mbdyn")
+    if found is None:
+        raise ImportError("there is no program mbdyn on PATH")
+    return found
+
+
+def version() -> str:
+    told = subprocess.run([_program(), "--version"], capture_output=True, text=True, check=False)
+    found = re.search(r"MBDyn - .* (\S+)\n", told.stdout + told.stderr)
+    return found.group(1) if found else "unknown"
+
+
+def _list(values: Iterable[float]) -> str:
+    return ", ".join(f"{v:.17g}" for v in values)
+
+
+def _matrix(R: Sequence[Vector]) -> str:
+    return "matr, " + _list(x for row in R for x in row)
+
+
+class Beams(Model):
+    """The input file. Every node has the axes of the scene, and the beams their axes relative to the nodes."""
+
+    def __init__(self, scene: Scene, name: str, mesh: Mesh) -> None:
+        self.scene, self.name, self.mesh = scene, name, mesh
+        self.length = scene.length()
+        self.force = min(min(s.EIy, s.EIz) for s in scene.sections.values()) / self.length**2
+        self.owner = {number: self._owner(number) for number in range(len(mesh.nodes))}
+        self.labels = sorted(set(self.owner.values()))
+        self.joints, held = dict[str, int](), 0
+        for node in scene.nodes.values():
+            held += self._held(node)
+        self.unknowns = 6 * len(self.labels) - held
+        self.settings = (f"initial value problem with static nodes, residual below 1e-9 of the largest force, at least {_FIRST} steps, "
+                         f"doubled where they fail; rigid in shear: GA = {_RIGID:g} EI/L^2")
+        self.loads = [(load, nodal(load, mesh)) for load in scene.loads]
+        for load in scene.loads:
+            if load.follower and load.kind not in ("force", "moment"):
+                raise Refused(f"follower: {load.name} acts along a member")
+
+    def _owner(self, number: int) -> int:
+        """Returns the node to which a node of the mesh is rigidly connected, or the node itself."""
+        name = self.mesh.nodes[number].name
+        to = self.scene.nodes[name].raw.get("part_of") if name is not None else None
+        return number if to is None else self._owner(self.mesh.node_of[to])
+
+    def _held(self, node: Node) -> int:
+        """Returns the number of components that the joint at a node holds, and checks them."""
+        if not self._components(node):
+            return 0
+        if "part_of" in node.raw:
+            raise Refused(f"part_of: {node.name} is part of a body and has supports of its own")
+        rotations = [c for c in self._components(node) if c[0] == "r"]
+        if len(rotations) == 1 and not self._planar("xyz".index(rotations[0][1])):
+            raise Refused(f"hold: the driver does not hold one rotation of {node.name}")
+        self.joints[node.name] = len(self.joints) + 1
+        return len(self._components(node))
+
+    def _components(self, node: Node) -> set[str]:
+        own = node.hold | set(node.drive) | (set(COMPONENTS[3:]) if "rotation" in node.raw else set())
+        return set(own) | set(self.scene.held_at(self.mesh.nodes[self.mesh.node_of[node.name]]))
+
+    def _planar(self, axis: int) -> bool:
+        """Returns True if the scene lies and moves in the plane normal to an axis."""
+        flat = len({round(node.at[axis] / self.scene.length(), 9) for node in self.mesh.nodes}) == 1
+        normal = all(max(abs(e.R[axis][1]), abs(e.R[axis][2])) > 1 - 1e-9 for e in self.mesh.elements)
+        inside = all(v == 0 or (load.kind.endswith("moment")) == (i == axis) for load in self.scene.loads for i, v in enumerate(load.vector))
+        return flat and normal and inside
+
+    def _law(self, index: int) -> str:
+        s = self.mesh.elements[index].member.section
+        K = s.stiffness(_RIGID * max(s.EIy, s.EIz) / self.length**2)
+        units = [self.force * self.length ** (int(i > 2) + int(k > 2)) for i in range(6) for k in range(6)]
+        return "linear elastic generic, matr, " + _list(v / unit for v, unit in zip((v for row in K for v in row), units))
+
+    def _beam(self, index: int) -> str:
+        e = self.mesh.elements[index]
+        ends = []
+        for number, frame in zip(e.nodes, e.frames):
+            owner = self.owner[number]
+            arm = self._arm(number)
+            ends.append(f"{owner + 1}, position, reference, node, {_list(arm)}, orientation, reference, node, {_matrix(frame)}")
+        law = [self._law(index)] + ["same, same"] * (len(e.nodes) - 2)
+        return f"  {self.name}: {index + 1}, {', '.join(ends)}, from nodes, {', '.join(law)};\n"
+
+    def _joint(self, node: Node, curve: _Curve) -> str:
+        held, zero = self._components(node), [(0.0, 0.0), (1.0, 0.0)]
+        drives = [curve.of_motion(node.drive[c]) if c in node.drive else zero for c in COMPONENTS]
+        if "rotation" in node.raw:
+            drives[3:] = self._rotation(node, curve)
+        drives[:3] = [[(t, v / self.length) for t, v in points] for points in drives[:3]]
+        place = f"reference, global, {_list(x / self.length for x in node.at)}"
+        axes = "position orientation, reference, global, eye, rotation orientation, reference, global, eye"
+
+        def part(word: str, first: int) -> str:
+            active = ", ".join("active" if c in held else "inactive" for c in COMPONENTS[first:first + 3])
+            values = ", ".join(_drive(points) for points in drives[first:first + 3])
+            return f"{word} constraint, {active}, component, {values}"
+
+        return (f"  joint: {self.joints[node.name]}, total pin joint, {self.mesh.node_of[node.name] + 1}, position, null, {axes}, "
+                f"position, {place}, {axes}, {part('position', 0)}, {part('orientation', 3)};\n")
+
+    def _rotation(self, node: Node, curve: _Curve) -> list[list[tuple[float, float]]]:
+        """Returns the components of the rotation vector of a prescribed rotation."""
+        raw = node.raw["rotation"]
+        if "vector" in raw:
+            return [curve.of_motion(name) if isinstance(name, str) else [(0.0, float(name)), (1.0, float(name))] for name in raw["vector"]]
+        if len(raw["sequence"]) != 1:
+            raise Refused(f"rotation: {node.name} rotates by a sequence of angles")
+        one = raw["sequence"][0]
+        points = curve.of_motion(one["angle"])
+        size = math.hypot(*one["axis"])
+        return [[(t, v * a / size) for t, v in points] for a in one["axis"]]
+
+    def _force(self, label: int, load: Load, number: int, vector: Vector, curve: _Curve) -> list[str]:
+        kind, drive, out = "follower" if load.follower else "absolute", _drive(curve.of_load(load)), list[str]()
+        for word, part, unit in (("force", vector[:3], self.force), ("couple", vector[3:], self.force * self.length)):
+            if any(v != 0 for v in part):
+                place = f"position, {_list(self._arm(number))}, " if word == "force" else ""
+                values = _list(v / unit for v in part)
+                out.append(f"  {word}: {label + len(out)}, {kind}, {self.owner[number] + 1}, {place}{values}, {drive};\n")
+        return out
+
+    def _arm(self, number: int) -> list[float]:
+        """Returns the vector from the body to a node of the mesh, in the units of the input file."""
+        return [(a - b) / self.length for a, b in zip(self.mesh.nodes[number].at, self.mesh.nodes[self.owner[number]].at)]
+
+    def _deck(self, steps: int, stations: Sequence[float]) -> str:
+        curve = _Curve(self.scene, stations)
+        forces: list[str] = []
+        for load, at in self.loads:
+            for number, vector in at.items():
+                forces += self._force(len(forces) + 1, load, number, vector, curve)
+        joints = [self._joint(self.scene.nodes[name], curve) for name in self.joints]
+        beams = [self._beam(i) for i in range(len(self.mesh.elements))]
+        nodes = [f"  structural: {k + 1}, static, {_list(x / self.length for x in self.mesh.nodes[k].at)}, eye, null, null;\n" for k in self.labels]
+        return (f"begin: data;\n  problem: initial value;\nend: data;\nbegin: initial value;\n  initial time: 0.;\n"
+                f"  final time: {len(stations)};\n  time step: {1 / steps:.17g};\n  max iterations: 40;\n"
+                f"  tolerance: {self._tolerance():.3g};\n  method: implicit euler;\n  derivatives tolerance: 1e30;\n"
+                "  linear solver: umfpack;\n  output: none;\nend: initial value;\nbegin: control data;\n"
+                "  skip initial joint assembly;\n  default orientation: orientation matrix;\n  output precision: 16;\n"
+                f"  structural nodes: {len(nodes)};\n  beams: {len(beams)};\n  joints: {len(joints)};\n  forces: {len(forces)};\n"
+                f"end: control data;\nbegin: nodes;\n{''.join(nodes)}end: nodes;\nbegin: elements;\n"
+                f"{''.join(joints + beams + forces)}end: elements;\n")
+
+    def _tolerance(self) -> float:
+        """Returns the tolerance of the residual: relative to the loads or, without loads, to the bending stiffness; above the
+        rounding of the axial forces."""
+        sizes = [abs(v * f) / (self.force * (self.length if i > 2 else 1)) for load, at in self.loads for vector in at.values()
+                 for i, v in enumerate(vector) for f in load.raw.get("factor", [1.0])]
+        rounding = 3e-15 * len(self.mesh.elements) * max(s.EA for s in self.scene.sections.values()) / self.force
+        return float(max(1e-9 * max(sizes) if any(sizes) else 1e-9, rounding))
+
+    def solve(self, analysis: Analysis) -> Answer:
+        count = len(analysis.stations)
+        steps = max(1, math.ceil(_FIRST / count))
+        while steps * count <= max(_MOST, count):
+            answer = self._run(steps, analysis.stations)
+            if answer is not None:
+                return answer
+            steps *= 2
+        raise Failed(f"MBDyn does not converge with {steps * count // 2} steps")
+
+    def _run(self, steps: int, stations: Sequence[float]) -> Answer | None:
+        with tempfile.TemporaryDirectory() as folder:
+            deck = pathlib.Path(folder, "deck")
+            deck.write_text(self._deck(steps, stations), encoding="ascii")
+            done = subprocess.run([_program(), "-f", deck.name, "-o", "out"], cwd=folder, capture_output=True, text=True, check=False)
+            told = done.stdout + done.stderr
+            found = re.search(r"total iterations: (\d+)", told)
+            if done.returncode != 0 or found is None:
+                if not any(word in told for word in ("Max iterations", "singular", "Step=")):
+                    raise Failed(f"MBDyn: {told.strip().splitlines()[-1] if told.strip() else 'no output'}")
+                return None
+            moved = _blocks(pathlib.Path(folder, "out.mov"), len(self.labels))
+            forces = _blocks(pathlib.Path(folder, "out.jnt"), len(self.joints))
+        if len(moved) < steps * len(stations):
+            return None
+        first = len(moved) - steps * len(stations)
+        if any(_angle(a[k], b[k]) > _TURN for a, b in zip(moved, moved[1:]) for k in a):
+            return None
+        picked = [first + steps * (k + 1) - 1 for k in range(len(stations))]
+        return Answer([self._state(moved[i], forces[i] if forces else {}) for i in picked], iterations=int(found.group(1)))
+
+    def _state(self, moved: dict[int, list[float]], forces: dict[int, list[float]]) -> State:
+        u: dict[str, list[float | None]] = {}
+        reaction: dict[str, list[float]] = {}
+        for name, number in self.mesh.node_of.items():
+            owner = self.owner[number]
+            row = moved[owner + 1]
+            R = [row[3:6], row[6:9], row[9:12]]
+            at = [self.length * (a + b) for a, b in zip(row[:3], times(R, self._arm(number)))]
+            vector = rotation_vector(R)
+            known = math.hypot(*vector) < 3
+            u[name] = [*(a - b for a, b in zip(at, self.mesh.nodes[number].at)), *((v if known else None) for v in vector)]
+            reaction[name] = [0.0] * 6
+            if name in self.joints:
+                held = self._components(self.scene.nodes[name])
+                units = [self.force] * 3 + [self.force * self.length] * 3
+                values = [-v * unit for v, unit in zip(forces[self.joints[name]][6:12], units)]
+                reaction[name] = [v if c in held else 0.0 for c, v in zip(COMPONENTS, values)]
+        return State(u, reaction)
+
+
+class _Curve:
+    """Values over the time of the program, in which the stations are at 1, 2, 3 and so on."""
+
+    def __init__(self, scene: Scene, stations: Sequence[float]) -> None:
+        self.scene, self.stations = scene, [0.0, *stations]
+
+    def _points(self, inner: Iterable[float]) -> list[tuple[float, float]]:
+        """Returns the times and the path parameters of the stations and of the given path parameters."""
+        out = []
+        for k, (a, b) in enumerate(zip(self.stations, self.stations[1:])):
+            out += [(k + (p - a) / (b - a), p) for p in sorted({a, *(p for p in inner if a < p < b)})]
+        return out + [(len(self.stations) - 1.0, self.stations[-1])]
+
+    def of_load(self, load: Load) -> list[tuple[float, float]]:
+        return [(t, self.scene.load_factor(load, p)) for t, p in self._points(load.raw.get("path", ()))]
+
+    def of_motion(self, name: str) -> list[tuple[float, float]]:
+        return [(t, self.scene.motion_value(name, p)) for t, p in self._points(self.scene.motions[name]["path"])]
+
+
+def _drive(points: Sequence[tuple[float, float]]) -> str:
+    if all(v == 0 for _, v in points):
+        return "const, 0."
+    return f"piecewise linear, {len(points)}, " + ", ".join(f"{t:.17g}, {v:.17g}" for t, v in points)
+
+
+def _angle(a: Sequence[float], b: Sequence[float]) -> float:
+    """Returns the angle between the rotations of two rows of the output."""
+    return math.acos(max(-1.0, min(1.0, (sum(x * y for x, y in zip(a[3:12], b[3:12])) - 1) / 2)))
+
+
+def _blocks(file: pathlib.Path, size: int) -> list[dict[int, list[float]]]:
+    """Returns the rows of an output file by label, for each output."""
+    if size == 0:
+        return []
+    rows = [line.split() for line in file.read_text(encoding="ascii").splitlines()]
+    numbers = [(int(row[0]), [float(x) for x in row[1:]]) for row in rows]
+    return [dict(numbers[i:i + size]) for i in range(0, len(numbers), size)]
+
+
+def build(scene: Scene, element: str, mesh: Mesh) -> Model:
+    return Beams(scene, element, mesh)
