@@ -276,19 +276,12 @@ class Drivers(ModuleTest):
 
 
 class Recorded(PeerTest):
-    def test_import(self):
-        files = sorted((ROOT / "reference" / "peers").glob("*.csv"))
-        self.assertTrue(files)
-        self.answered("import", *files, "-o", self.folder / "all.h5")
+    """A new run must give the recorded values (reference/peers)."""
 
     def test_live(self):
-        lines = (ROOT / "reference" / "peers" / "elastica.csv").read_text(encoding="utf-8").splitlines()
-        recorded, program = {}, ""
-        for line in lines:
-            program = line.partition(": ")[2] if line.startswith("# program: ") else program
-            fields = line.split(",")
-            if len(fields) == 8 and fields[2] == "4":
-                recorded[program, fields[0]] = float(fields[6])
+        record = json.loads((ROOT / "reference" / "peers" / "elastica.json").read_text(encoding="utf-8"))
+        recorded = {(s["name"], name): value for s in record["series"] for run in s["runs"] if run["elements"] == 4
+                    for name, value in run.get("values", {}).items()}
         data = json.loads(self.answered("scene", "elastica", "--format", "json").stdout)
         for peer, element in peers.chosen(["exudyn", "opensees"]):
             with self.subTest(peer=peer, element=element):
